@@ -1,0 +1,29 @@
+within UrdfSync.Records;
+
+record PrismaticJoint "Numbers of a prismatic joint"
+  extends UrdfSync.Records.Joint;
+
+  Modelica.Mechanics.MultiBody.Types.Axis axis = {1, 0, 0}
+    "Axis of motion: a unit vector in the joint frame";
+
+  TranslationalLimits limits
+    "Limits";
+
+  TranslationalDynamics dynamics
+    "Losses";
+
+  TranslationalMimic mimic
+    "How the joint follows another one, if it does";
+
+  TranslationalCalibration calibration
+    "Reference positions";
+
+  TranslationalSafetyController safetyController
+    "Soft limits";
+
+  annotation (Documentation(info="<html>
+<p>
+A prismatic joint slides within limits.
+</p>
+</html>"));
+end PrismaticJoint;

@@ -1,0 +1,17 @@
+within UrdfSync.Records;
+
+record TranslationalCalibration "Reference positions of a sliding joint"
+  extends UrdfSync.Icons.Parameters;
+
+  Modelica.Units.SI.Position rising = Modelica.Constants.inf
+    "Where the rising edge is; infinite if not stated";
+
+  Modelica.Units.SI.Position falling = Modelica.Constants.inf
+    "Where the falling edge is; infinite if not stated";
+
+  annotation (Documentation(info="<html>
+<p>
+The <code>&lt;calibration&gt;</code> element of URDF. Kept for users; no model of this library reads it.
+</p>
+</html>"));
+end TranslationalCalibration;

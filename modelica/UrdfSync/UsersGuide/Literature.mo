@@ -1,0 +1,25 @@
+within UrdfSync.UsersGuide;
+
+class Literature "Where methods and formats come from"
+  extends Modelica.Icons.References;
+
+  annotation (
+    preferredView="info",
+    Documentation(info="<html>
+<dl>
+<dt>A. Pign&egrave;de and C. Oldemeyer:</dt>
+<dd><strong>Automatic Modelica Package and Model Generation from Templates and Data Files with Python, Exemplified with URDF</strong>.
+Modelica Conference, 2025. The method of this library: the package approach, the record approach and the friction law.</dd>
+<dt>M. Otter, H. Elmqvist and S. E. Mattsson:</dt>
+<dd><strong>The New Modelica MultiBody Library</strong>. Modelica Conference, Link&ouml;ping, 2003, pages 311 to 330. The parts that links
+and joints are made of.</dd>
+<dt>R. Featherstone:</dt>
+<dd><strong>Rigid Body Dynamics Algorithms</strong>. Springer, 2008. Tensors and coordinate transformations.</dd>
+<dt>J. J. Craig:</dt>
+<dd><strong>Introduction to Robotics: Mechanics and Control</strong>. Angles about fixed axes: chapter 2.</dd>
+<dt>URDF:</dt>
+<dd><a href=\"https://wiki.ros.org/urdf/XML\">XML specification of URDF</a>. Where it leaves something open, the behaviour of
+<a href=\"https://github.com/ros/urdfdom\">urdfdom</a>, the parser of ROS, counts.</dd>
+</dl>
+</html>"));
+end Literature;

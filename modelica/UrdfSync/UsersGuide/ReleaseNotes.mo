@@ -1,0 +1,14 @@
+within UrdfSync.UsersGuide;
+
+class ReleaseNotes "What changed from version to version"
+  extends Modelica.Icons.ReleaseNotes;
+
+  annotation (
+    preferredView="info",
+    Documentation(info="<html>
+<h4>Version 0.1.0</h4>
+<p>
+First version: records, links, six kinds of joints, friction, mimic couplings, ground contact, shapes, robots and benches, examples.
+</p>
+</html>"));
+end ReleaseNotes;

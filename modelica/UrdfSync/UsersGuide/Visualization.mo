@@ -1,0 +1,34 @@
+within UrdfSync.UsersGuide;
+
+class Visualization "Shapes, meshes, colours"
+  extends Modelica.Icons.Information;
+
+  annotation (
+    preferredView="info",
+    Documentation(info="<html>
+<p>
+The option <code>visualizer</code> in <code>urdfsync.toml</code> says which library draws the shapes of links.
+</p>
+<dl>
+<dt><code>\"standard\"</code></dt>
+<dd>The animation of the Modelica Standard Library, through <a href=\"modelica://UrdfSync.Visualizers\">UrdfSync.Visualizers</a>. This is
+the default. It does not show opacity.</dd>
+<dt><code>\"visualization2\"</code></dt>
+<dd>The shapes of the DLR Visualization 2 library, which you need to have. Models generated with this option have been checked for syntax
+and layout only: the library was not at hand when this was written.</dd>
+</dl>
+<h4>Shapes</h4>
+<p>
+Boxes, cylinders, capsules and spheres are centred at the origin of their element; cylinders and capsules lie along z. Colours are red, green
+and blue from 0 to 255, rounded from the <code>rgba</code> of the URDF; a material that is defined once for the robot is looked up.
+Collision shapes are pink.
+</p>
+<h4>Meshes</h4>
+<p>
+<code>urdfsync</code> imports meshes into <code>Resources/</code> of the robot's package and addresses them by <code>modelica://</code>
+URIs. STL and OBJ files are taken, DAE files are converted; scales and units of length are worked into the file, so that its numbers are
+metres. Which file formats are drawn is up to your tool. A mesh that was not found when the package was built is a warning of the build,
+and its shape is left out of the animation.
+</p>
+</html>"));
+end Visualization;

@@ -1,0 +1,305 @@
+"""`urdfsync.toml` to a frozen `Config`, and where the files are that urdfsync brings along.
+
+All paths in the file count from its own folder. A robot's table may hold the keys of `Keys` and
+the options of its domain; `[defaults]` the same without source, package and class.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import os
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from urdfsync import modelica, registry, tables, tomlfile
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.domain import Domain, Target
+
+FILE_NAME = "urdfsync.toml"
+OWN_KEYS = ("source", "package", "class")
+"""Keys that make no sense as defaults."""
+
+_SAFE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,99}", re.ASCII)
+_DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
+
+
+class Keys(msgspec.Struct, frozen=True):
+    """The keys of a robot's table that every domain shares."""
+
+    source: str
+    package: str
+    class_: str = msgspec.field(name="class", default="")
+    output: str = "modelica"
+    domain: str = "urdf"
+    templates: str = ""
+    package_paths: tuple[str, ...] = ()
+    create_parents: bool = False
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class RobotConfig:
+    """One robot of the configuration; paths are absolute, `options` is an instance of `Domain.options`."""
+
+    name: str
+    source: Path
+    source_text: str
+    """The source's path as it is recorded: relative to the configuration, POSIX."""
+    output: Path
+    target: Target
+    domain: str
+    templates: Path | None
+    package_paths: tuple[Path, ...]
+    create_parents: bool
+    options: Any
+    lines: Mapping[str, int]
+    """Line of every key in the configuration; of the robot's table for `""`."""
+
+    @property
+    def folder(self) -> Path:
+        """The folder of the generated package."""
+        return self.output.joinpath(*self.target.package.split("."))
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Config:
+    """A configuration file and its robots, in the order of the file."""
+
+    file: Path
+    robots: tuple[RobotConfig, ...]
+
+    @property
+    def root(self) -> Path:
+        """The folder of the configuration, which holds `.urdfsync/` as well."""
+        return self.file.parent
+
+    def select(self, names: Sequence[str]) -> tuple[RobotConfig, ...]:
+        """The robots of these names, or all for none. Raises ConfigError for a name that no robot has."""
+        known = [robot.name for robot in self.robots]
+        for name in names:
+            if name not in known:
+                near = difflib.get_close_matches(name, known, n=1)
+                hint = f"did you mean `{near[0]}`?" if near else f"it has {', '.join(known)}"
+                message = f"no robot `{name}` in the configuration"
+                raise ConfigError(Diagnostic(Severity.ERROR, "unknown-robot", message, shown(self.file), hint=hint))
+        return tuple(robot for robot in self.robots if not names or robot.name in names)
+
+
+def find(start: Path) -> Path:
+    """The configuration file of `start` or of the nearest folder above it. Raises ConfigError if there is none."""
+    for folder in (start, *start.parents):
+        if (folder / FILE_NAME).is_file():
+            return folder / FILE_NAME
+    message = f"no {FILE_NAME} in {start} or a folder above it"
+    hint = "write one with `urdfsync init SOURCE`, or name one with --config"
+    raise ConfigError(Diagnostic(Severity.ERROR, "no-config", message, hint=hint))
+
+
+def load(file: Path) -> Config:
+    """Read a configuration file. Raises ConfigError with everything that is wrong in it."""
+    name = shown(file)
+    try:
+        text = file.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        message = "the configuration does not exist"
+        hint = "write one with `urdfsync init SOURCE`"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-config", message, name, hint=hint)) from None
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
+        message = f"the configuration can't be read: {reason}"
+        raise ConfigError(Diagnostic(Severity.ERROR, "unreadable-config", message, name)) from None
+    return parse(text, file.absolute(), name)
+
+
+def parse(text: str, file: Path, name: str, domains: Callable[[str], Domain] = registry.domain) -> Config:
+    """The configuration in `text`, which is (or would be) at the absolute path `file`; errors call it `name`.
+
+    Raises ConfigError with one diagnostic for each thing that is wrong.
+    """
+    document = tomlfile.parse(text, name, ConfigError)
+    reader = _Reader(text, document, name, file.parent, domains)
+    robots = tuple(reader.robots())
+    reader.check_clashes(robots)
+    if reader.problems:
+        raise ConfigError(*sorted(reader.problems, key=lambda problem: problem.line))
+    return Config(file, robots)
+
+
+class _Reader:
+    """One pass over a parsed document; gathers `problems` instead of stopping at the first."""
+
+    def __init__(
+        self, text: str, document: dict[str, Any], file: str, root: Path, domains: Callable[[str], Domain]
+    ) -> None:
+        self.problems: list[Diagnostic] = []
+        self._text, self._document, self._file, self._root = text, document, file, root
+        self._domains = domains
+        self._option_names: set[str] = set()
+
+    def robots(self) -> Iterator[RobotConfig]:
+        """Every robot whose table is right."""
+        top = self._table(self._document, "the configuration")
+        self.problems += tables.unknown(top, ("defaults", "robots"))
+        defaults = self._subtable("defaults")
+        robots = self._subtable("robots")
+        if not robots and not self.problems:
+            hint = "add a table `[robots.NAME]` with `source` and `package`"
+            self.problems.append(top.problem("no-robots", "", "the configuration has no robot", hint))
+        for name, values in robots.items():
+            if not isinstance(values, dict):
+                message = f"`robots.{name}` must be a table"
+                self._report("wrong-value", ("robots", name), message)
+            elif (robot := self._robot(name, values, defaults)) is not None:
+                yield robot
+        self._check_defaults(defaults)
+
+    def _robot(self, name: str, values: dict[str, Any], defaults: dict[str, Any]) -> RobotConfig | None:
+        if not _SAFE_NAME.fullmatch(name) or _DEVICES.fullmatch(name) or name.endswith("."):
+            hint = "use letters, digits, `_`, `-` and `.`, a letter or digit first"
+            message = f"the robot's name {name!r} can't be a file's name"
+            self._report("robot-name", ("robots", name), message, hint)
+            return None
+        table = self._table(values, f"robot `{name}`", "robots", name)
+        domain = self._domain(table, str(values.get("domain", defaults.get("domain", "urdf"))))
+        if domain is None:
+            return None
+        options = {field.encode_name for field in msgspec.structs.fields(domain.options)}
+        self._option_names |= options
+        problems = tables.unknown(table, _KEY_NAMES | options)
+        usable = {key: value for key, value in defaults.items() if key in _DEFAULT_NAMES | options}
+        merged = dataclasses.replace(table, values=usable | values)
+        keys, wrong_keys = tables.read(merged, Keys)
+        chosen, wrong_options = tables.read(merged, domain.options)
+        problems += wrong_keys + wrong_options
+        if keys is not None:
+            problems += _check_names(merged, keys)
+        self.problems += problems
+        return None if problems else self._resolve(name, keys, chosen, merged)
+
+    def _resolve(self, name: str, keys: Keys, options: Any, table: tables.Table) -> RobotConfig:
+        source = Path(keys.source)
+        return RobotConfig(
+            name=name,
+            source=_absolute(self._root / source),
+            source_text=source.name if source.is_absolute() else Path(os.path.normpath(source)).as_posix(),
+            output=_absolute(self._root / keys.output),
+            target=Target(keys.package, keys.class_ or keys.package.rpartition(".")[2]),
+            domain=keys.domain,
+            templates=_absolute(self._root / keys.templates) if keys.templates else None,
+            package_paths=tuple(_absolute(self._root / path) for path in keys.package_paths),
+            create_parents=keys.create_parents,
+            options=options,
+            lines={key: table.line(key) for key in ("", *table.values)},
+        )
+
+    def _domain(self, table: tables.Table, name: str) -> Domain | None:
+        try:
+            return self._domains(name)
+        except ConfigError as error:
+            line = table.line("domain")
+            self.problems += [dataclasses.replace(d, file=self._file, line=line) for d in error.diagnostics]
+            return None
+
+    def _check_defaults(self, defaults: dict[str, Any]) -> None:
+        table = self._table(defaults, "`[defaults]`", "defaults")
+        for key in OWN_KEYS:
+            if key in defaults:
+                message = f"`{key}` can't have a default: every robot has its own"
+                self.problems.append(table.problem("unknown-key", key, message))
+        self.problems += tables.unknown(table, _KEY_NAMES | self._option_names)
+
+    def check_clashes(self, robots: Sequence[RobotConfig]) -> None:
+        """Two robots must not share a manifest or a package's folder, nor may one stand in the other's."""
+        for index, robot in enumerate(robots):
+            for other in robots[:index]:
+                one, two = (_folded(r.folder) for r in (other, robot))
+                if robot.name.casefold() == other.name.casefold():
+                    message = f"robots `{other.name}` and `{robot.name}` differ in case only"
+                elif one == two:
+                    message = f"robots `{other.name}` and `{robot.name}` have the same package"
+                elif one in two.parents or two in one.parents:
+                    message = f"the packages of robots `{other.name}` and `{robot.name}` lie inside each other"
+                else:
+                    continue
+                self._report("clash", ("robots", robot.name, "package"), message)
+
+    def _subtable(self, key: str) -> dict[str, Any]:
+        value = self._document.get(key, {})
+        if isinstance(value, dict):
+            return value
+        self._report("wrong-value", (key,), f"`{key}` must be a table")
+        return {}
+
+    def _table(self, values: Mapping[str, Any], name: str, *path: str) -> tables.Table:
+        def line(key: str) -> int:
+            own = key in self._document.get("robots", {}).get(path[-1], {}) if path[:1] == ("robots",) else True
+            return tomlfile.line_of(self._text, *(path if own or not key else ("defaults",)), *([key] if key else []))
+
+        return tables.Table(values, name, self._file, line)
+
+    def _report(self, code: str, path: tuple[str, ...], message: str, hint: str = "") -> None:
+        line = tomlfile.line_of(self._text, *path)
+        self.problems.append(Diagnostic(Severity.ERROR, code, message, self._file, line, hint=hint))
+
+
+_KEY_NAMES = {field.encode_name for field in msgspec.structs.fields(Keys)}
+_DEFAULT_NAMES = _KEY_NAMES - set(OWN_KEYS)
+
+
+def _check_names(table: tables.Table, keys: Keys) -> list[Diagnostic]:
+    found = []
+    for key, name in [*(("package", part) for part in keys.package.split(".")), ("class", keys.class_)]:
+        if key == "package" and not name:
+            message = f"`package` must be a full class name, not {keys.package!r}"
+        elif not name or modelica.is_identifier(name):
+            continue
+        elif name in modelica.KEYWORDS:
+            message = f"`{key}`: `{name}` is a keyword of Modelica"
+        else:
+            message = f"`{key}`: {name!r} is no Modelica identifier"
+        hint = "use letters, digits and `_`, a letter first"
+        found.append(table.problem("modelica-name", key, message, hint))
+    if not keys.source:
+        found.append(table.problem("wrong-value", "source", "`source` must name a file"))
+    return found
+
+
+def _absolute(path: Path) -> Path:
+    """The path without `..` and `.`, symbolic links kept: what the user wrote is what messages show."""
+    return Path(os.path.normpath(path))
+
+
+def _folded(path: Path) -> Path:
+    return Path(str(path).casefold())
+
+
+def shown(path: Path) -> str:
+    """A path as people see it: relative to the working folder if it is inside it."""
+    current = Path.cwd()
+    return str(path.relative_to(current) if path.is_relative_to(current) else path)
+
+
+def ros_package_path(environment: Mapping[str, str]) -> tuple[Path, ...]:
+    """The folders of the environment variable ROS_PACKAGE_PATH."""
+    folders = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
+    return tuple(Path(folder).absolute() for folder in folders if folder)
+
+
+def library_folder() -> Path:
+    """The folder to put on MODELICAPATH: it holds the library `UrdfSync`."""
+    return _data_folder("modelica")
+
+
+def templates_folder(domain: Domain) -> Path:
+    """The folder of a domain's own templates."""
+    return domain.templates or _data_folder("templates") / domain.name
+
+
+def _data_folder(name: str) -> Path:
+    package = Path(__file__).parent
+    installed = package / "_data" / name
+    return installed if installed.is_dir() else package.parent / name

@@ -1,0 +1,145 @@
+"""Looks at what is on disk and plans: the shell around `plan` and `order`."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from urdfsync import order
+from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.domain import Role
+from urdfsync.files import Tree, digest, text_digest
+from urdfsync.manifest import Manifest
+from urdfsync.parents import Parents
+from urdfsync.plan import CONFLICTS, Action, FileRecord, Found, Kind, Wanted, after, hold, numbers_only, plan
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Decision:
+    """All actions of one robot, and what to record of files and orders when they are done."""
+
+    actions: tuple[Action, ...]
+    texts: Mapping[str, str]
+    """New text of every `package.order`, and of parent packages that have to be made."""
+    files: Mapping[str, FileRecord]
+    orders: Mapping[str, tuple[str, ...]]
+
+
+class Disk:
+    """The files of one robot's package, addressed by their path from the configuration's folder."""
+
+    def __init__(self, config: Config, robot: RobotConfig) -> None:
+        self._root = config.root
+        self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
+
+    def key(self, path: Path) -> str:
+        """How a file is called in manifest and plan."""
+        return Path(os.path.relpath(path, self._root)).as_posix()
+
+    def path(self, key: str) -> Path:
+        """The file of this name."""
+        return Path(os.path.normpath(self._root / key))
+
+    def reaches(self, key: str) -> bool:
+        """Whether the file is one that urdfsync may touch: below the output folder, or the configuration's."""
+        return self._tree(self.path(key)) is not None
+
+    def read(self, key: str) -> bytes | None:
+        """The file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
+        path = self.path(key)
+        tree = self._tree(path)
+        return tree.read(path) if tree else None
+
+    def found(self, key: str, role: Role) -> Found:
+        """What is there in the place of a file."""
+        content = self.read(key)
+        if content is not None:
+            return Found(digest(content) if role is Role.IMPORT else text_digest(content))
+        path = self.path(key)
+        is_class = path.suffix == ".mo" and path.name != "package.mo"
+        return Found(as_folder=is_class and (path.with_suffix("") / "package.mo").is_file())
+
+    def text(self, key: str) -> str | None:
+        """The file as text; bytes that are not UTF-8 survive, see `encode`."""
+        content = self.read(key)
+        return None if content is None else content.decode(errors="surrogateescape")
+
+    def _tree(self, path: Path) -> Tree | None:
+        return next((tree for tree in self._trees if tree.root in path.parents), None)
+
+
+def encode(text: str) -> bytes:
+    """The bytes of a text that `Disk.text` gave, or of a changed one."""
+    return text.encode(errors="surrogateescape")
+
+
+def decide(
+    disk: Disk,
+    manifest: Manifest | None,
+    wanted: Mapping[str, Wanted],
+    orders: Mapping[str, tuple[str, ...]],
+    texts: Mapping[str, bytes],
+    parents: Parents,
+) -> Decision:
+    """Plan every file of a robot.
+
+    `wanted` and `orders` are what the package should have, `texts` the content of the wanted text
+    files as far as it is known (it decides whether a record may be renewed while models wait).
+    """
+    recorded = {key: r for key, r in manifest.files.items() if disk.reaches(key)} if manifest else {}
+    owned = {key: n for key, n in manifest.orders.items() if disk.reaches(key)} if manifest else {}
+    roles = {key: record.role for key, record in recorded.items()} | {key: w.role for key, w in wanted.items()}
+    actions = plan(recorded, wanted, {key: disk.found(key, role) for key, role in roles.items()})
+    order_actions, order_texts = _plan_orders(disk, owned, orders)
+    extra, extra_texts = _plan_parents(disk, parents)
+    everything = (*actions, *order_actions, *extra)
+    held = hold(everything, _renewable(disk, everything, texts))
+    waits = {action.path for action in held if action.held}
+    names = {key: owned.get(key, ()) if key in waits else orders.get(key, ()) for key in owned.keys() | orders.keys()}
+    return Decision(
+        actions=tuple(sorted(held, key=lambda action: action.path)),
+        texts=order_texts | extra_texts,
+        files=after(held[: len(actions)]),
+        orders={key: entry for key, entry in names.items() if entry},
+    )
+
+
+def _plan_orders(
+    disk: Disk, owned: Mapping[str, tuple[str, ...]], wanted: Mapping[str, tuple[str, ...]]
+) -> tuple[list[Action], dict[str, str]]:
+    actions, texts = [], {}
+    for key in owned.keys() | wanted.keys():
+        old = disk.text(key)
+        new = order.merge(old, wanted.get(key, ()), owned.get(key, ()))
+        if old is None:
+            kind = Kind.FORGET if not new else Kind.RESTORE if key in owned else Kind.CREATE
+        else:
+            kind = Kind.UNCHANGED if new == old else Kind.UPDATE if new else Kind.DELETE
+        actions.append(Action(key, kind, Role.ORDER, "package"))
+        texts[key] = new
+    return actions, texts
+
+
+def _plan_parents(disk: Disk, parents: Parents) -> tuple[list[Action], dict[str, str]]:
+    actions, texts = [], {}
+    for path, content in parents.created.items():
+        actions.append(Action(disk.key(path), Kind.CREATE, Role.PACKAGE, "parent package"))
+        texts[disk.key(path)] = content.decode()
+    for path, name in parents.entered.items():
+        old = disk.text(disk.key(path))
+        new = order.merge(old, [name])
+        if new != old:
+            kind = Kind.CREATE if old is None else Kind.UPDATE
+            actions.append(Action(disk.key(path), kind, Role.ORDER, "parent package"))
+            texts[disk.key(path)] = new
+    return actions, texts
+
+
+def _renewable(disk: Disk, actions: tuple[Action, ...], texts: Mapping[str, bytes]) -> set[str]:
+    """The records of which only numbers change; looked for only if something conflicts."""
+    if not any(action.kind in CONFLICTS for action in actions):
+        return set()
+    updates = [a.path for a in actions if a.kind is Kind.UPDATE and a.role is Role.RECORD and a.path in texts]
+    return {path for path in updates if numbers_only(disk.text(path) or "", texts[path].decode())}

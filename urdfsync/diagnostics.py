@@ -1,0 +1,63 @@
+"""What urdfsync tells people about their input: severity, code, message, file and line."""
+
+from __future__ import annotations
+
+import dataclasses
+import enum
+
+
+class Severity(enum.StrEnum):
+    """How much a diagnostic matters: an error stops the build of its robot, a warning does not."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    NOTE = "note"
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding about one place of the user's input.
+
+    `code` is a stable, lower-case slug such as `duplicate-link`; `message` is one sentence without
+    a full stop that names the culprit; `hint` says what to do. `file` is shown as it is given;
+    `line` and `column` count from 1, and 0 stands for unknown.
+    """
+
+    severity: Severity
+    code: str
+    message: str
+    file: str = ""
+    line: int = 0
+    column: int = 0
+    hint: str = ""
+
+    def __str__(self) -> str:
+        """The finding as one line: `file:line:column: severity: message; hint [code]`."""
+        numbers = [str(number) for number in (self.line, self.column) if number]
+        place = ":".join([self.file, *numbers]) + ": " if self.file else ""
+        hint = f"; {self.hint}" if self.hint else ""
+        return " ".join(f"{place}{self.severity}: {self.message}{hint} [{self.code}]".split())
+
+
+class UrdfsyncError(Exception):
+    """Base of all errors that a user can cause; carries the diagnostics that explain it."""
+
+    def __init__(self, *diagnostics: Diagnostic) -> None:
+        super().__init__("\n".join(map(str, diagnostics)))
+        self.diagnostics = diagnostics
+
+
+class ConfigError(UrdfsyncError):
+    """The configuration can't be used."""
+
+
+class SourceError(UrdfsyncError):
+    """A source can't be read as a model."""
+
+
+class StateError(UrdfsyncError):
+    """The recorded state of an earlier build can't be used."""
+
+
+class OutputError(UrdfsyncError):
+    """The outputs can't be written where the configuration wants them."""

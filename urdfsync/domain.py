@@ -1,0 +1,182 @@
+"""What a domain (URDF, or another data format) implements, and the neutral values it trades in.
+
+The core reads bytes and asks the domain for a *snapshot* of the model, which is plain data. It
+imports the files that the model depends on, asks for the *artifacts* that follow from snapshot,
+imports and options, and renders, plans and writes them. Nothing in here knows a domain, and
+nothing in here does IO.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import enum
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Protocol, TypeAlias
+
+from urdfsync.diagnostics import Diagnostic
+
+Snapshot: TypeAlias = Mapping[str, Any]
+"""A model as plain data: mappings with string keys, lists, strings, numbers, booleans, None.
+
+It survives a round trip through JSON, is keyed by element name, does not depend on the order of
+elements in the source, and holds all that artifacts are made from.
+"""
+
+
+class Role(enum.StrEnum):
+    """What a generated file is, as far as deciding about it goes."""
+
+    RECORD = "record"
+    """Numbers and strings only: may be renewed while models wait for a conflict to be resolved."""
+    MODEL = "model"
+    PACKAGE = "package"
+    ORDER = "order"
+    """A `package.order` file; a domain describes it as an `Order`."""
+    IMPORT = "import"
+    """An imported file: bytes, not text; a domain describes it as a `Dependency`."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Artifact:
+    """One text file of the package: `path` (POSIX, below the package folder) is `template` rendered with `data`."""
+
+    path: str
+    role: Role
+    template: str
+    data: Mapping[str, Any]
+    owner: str
+    """The element that it belongs to, in the domain's words: `link base_link`, `joint elbow`, `robot`."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Order:
+    """One `package.order` file: urdfsync owns the lines in `names`, the user all others."""
+
+    path: str
+    names: tuple[str, ...]
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Dependency:
+    """A file that a source refers to and that is imported into the package."""
+
+    key: str
+    """Identity within the model: what the source says of it (its URI, and how it is converted)."""
+    uri: str
+    candidates: tuple[Path, ...]
+    """Where it may be, best first."""
+    target: str
+    """Where it goes: a POSIX path below the package folder that no other dependency has."""
+    line: int = 0
+    """Line of the source that first refers to it; 0 if unknown."""
+    noun: str = "mesh"
+    """What it is, in one lower-case word, for messages and the codes of diagnostics."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Conversion:
+    """A dependency's content as the package needs it, and `facts` (plain data) that artifacts need of it."""
+
+    content: bytes
+    facts: Mapping[str, Any]
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Import:
+    """A dependency that is in the package, now or from an earlier build on a machine that had its source."""
+
+    target: str
+    source_hash: str
+    """SHA-256 (hex) of the dependency's bytes."""
+    target_hash: str
+    """SHA-256 (hex) of the imported bytes."""
+    converter: int
+    """`Domain.converter` at the time of the import."""
+    facts: Mapping[str, Any]
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Reading:
+    """What reading a source gave: the snapshot, unless a diagnostic is an error, and what there is to say."""
+
+    snapshot: Snapshot | None
+    diagnostics: tuple[Diagnostic, ...]
+    lines: Mapping[str, int] = dataclasses.field(default_factory=dict)
+    """Line of each element, keyed as the domain likes; passed back to `Domain.dependencies`."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Lookup:
+    """Where to look for the files that a source refers to."""
+
+    source: Path
+    """The source file, absolute."""
+    package_paths: tuple[Path, ...] = ()
+    """Folders whose children are packages, from the configuration and the environment, best first."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Target:
+    """Where the generated package stands in Modelica's namespace."""
+
+    package: str
+    """Full name, for example `Plant.Robots.Arm`."""
+    name: str
+    """Class name of the main model, for example `Arm`."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Proposal:
+    """What `init` writes for one option, and why."""
+
+    option: str
+    value: Any
+    reason: str
+
+
+class Domain(Protocol):
+    """A data format and the Modelica package that follows from it; registered as entry point `urdfsync.domains`."""
+
+    name: str
+    """As in the configuration; also the folder below `templates/`, unless `templates` says otherwise."""
+    templates: Path | None
+    """Folder with the domain's templates; None for the folder of its name in urdfsync's own."""
+    revision: int
+    """Raised whenever the same snapshot, options and templates give other text."""
+    converter: int
+    """Raised whenever `convert` gives other bytes for the same input."""
+    options: type[Any]
+    """A frozen msgspec.Struct with the domain's options and their defaults; unknown keys are refused by the core."""
+
+    def read(self, content: bytes, file: str, options: Any) -> Reading:
+        """Read a source; `file` is how diagnostics name it. Raises nothing for bad input: see `Reading`."""
+        ...
+
+    def dependencies(
+        self, snapshot: Snapshot, lookup: Lookup, options: Any, lines: Mapping[str, int]
+    ) -> Sequence[Dependency]:
+        """The files that the model refers to, each once. Pure: nothing is looked for yet."""
+        ...
+
+    def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
+        """Bring a dependency found at `file` into the package's form. Raises SourceError if it can't be read."""
+        ...
+
+    def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
+        """Per kind of element: name in the source → identifier in Modelica."""
+        ...
+
+    def artifacts(
+        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
+    ) -> Sequence[Artifact | Order]:
+        """Every file of the package but the imported ones. Pure."""
+        ...
+
+    def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
+        """Option values that suit this model better than the defaults."""
+        ...
+
+    def drawing(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> str | None:
+        """The main model's diagram as SVG text, or None if the domain draws none. Pure."""
+        ...

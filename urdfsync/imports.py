@@ -1,0 +1,150 @@
+"""Files that a source refers to: found, converted if need be, and kept where they can't be found."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
+from urdfsync.domain import Dependency, Domain, Import
+from urdfsync.files import digest
+from urdfsync.manifest import DependencyRecord, Facts
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Recorded:
+    """What is known of the imports of the last build, and how their copies in the package are read."""
+
+    records: Mapping[str, DependencyRecord]
+    facts: Mapping[str, Facts]
+    copy: Callable[[str], bytes | None]
+    """Content of an imported file, by its target."""
+    base: Callable[[str], str | None]
+    """Hash of what was written last, by target."""
+
+
+@dataclasses.dataclass(slots=True)
+class Imported:
+    """What is in the package now: imports, the bytes that are at hand (by target), and what there is to say."""
+
+    imports: dict[str, Import] = dataclasses.field(default_factory=dict)
+    contents: dict[str, bytes] = dataclasses.field(default_factory=dict)
+    records: dict[str, DependencyRecord] = dataclasses.field(default_factory=dict)
+    diagnostics: list[Diagnostic] = dataclasses.field(default_factory=list)
+
+
+def unchanged(dependencies: Sequence[Dependency], records: Mapping[str, DependencyRecord], converter: int) -> bool:
+    """Whether every dependency is as it was, as far as it can be found on this machine."""
+    if {dependency.key for dependency in dependencies} != records.keys():
+        return False
+    for dependency in dependencies:
+        record = records[dependency.key]
+        if (record.uri, record.target) != (dependency.uri, dependency.target):
+            return False
+        found = _find(dependency)
+        if found and (record.source_hash, record.converter) != (digest(found[1]), converter):
+            return False
+    return True
+
+
+def bring_in(
+    domain: Domain,
+    dependencies: Sequence[Dependency],
+    recorded: Recorded,
+    source: str,
+    again: bool,
+    progress: Callable[[int, int], None],
+) -> Imported:
+    """Import every dependency; `source` is how diagnostics name the file that refers to them.
+
+    A conversion of the last build serves again if it has the same input, unless `again`. Raises
+    StateError if a copy must serve of which the recorded facts are lost.
+    """
+    result = Imported()
+    for count, dependency in enumerate(dependencies):
+        progress(count, len(dependencies))
+        found = _find(dependency)
+        if found is None:
+            _keep(dependency, recorded, source, result, "not-found", "not found")
+        elif again or not _serve(domain, dependency, digest(found[1]), recorded, result):
+            _convert(domain, dependency, found, recorded, source, result)
+    return result
+
+
+def _find(dependency: Dependency) -> tuple[Path, bytes] | None:
+    """The first candidate that is a file and can be read, with its content."""
+    for path in dependency.candidates:
+        if os.path.isfile(path):  # noqa: PTH113 - Path.is_file raises where a folder above can't be entered
+            try:
+                return path, path.read_bytes()
+            except OSError:
+                continue
+    return None
+
+
+def _serve(domain: Domain, dependency: Dependency, source: str, recorded: Recorded, result: Imported) -> bool:
+    """Use the conversion of an earlier build, if it has the same input and its copy is untouched."""
+    record, facts = recorded.records.get(dependency.key), recorded.facts.get(dependency.key)
+    if record is None or facts is None or record.target != dependency.target:
+        return False
+    if {(record.source_hash, record.converter), (facts.source_hash, facts.converter)} != {(source, domain.converter)}:
+        return False
+    copy = recorded.copy(record.target)
+    if copy is None or digest(copy) != record.target_hash:
+        return False
+    _add(dependency, Import(record.target, source, digest(copy), domain.converter, facts.facts), result)
+    return True
+
+
+def _convert(
+    domain: Domain,
+    dependency: Dependency,
+    found: tuple[Path, bytes],
+    recorded: Recorded,
+    source: str,
+    result: Imported,
+) -> None:
+    path, content = found
+    try:
+        conversion = domain.convert(dependency, path, content)
+    except SourceError as error:
+        result.diagnostics += [dataclasses.replace(d, severity=Severity.WARNING) for d in error.diagnostics]
+        _keep(dependency, recorded, source, result, "unreadable", "can't be used")
+        return
+    result.contents[dependency.target] = conversion.content
+    hashes = digest(content), digest(conversion.content)
+    _add(dependency, Import(dependency.target, *hashes, domain.converter, conversion.facts), result)
+
+
+def _keep(dependency: Dependency, recorded: Recorded, source: str, result: Imported, code: str, trouble: str) -> None:
+    """Without the source, the copy that an earlier build made serves; without a copy there is nothing."""
+    record = recorded.records.get(dependency.key)
+    copy = recorded.copy(record.target) if record and record.target_hash else None
+    if record is None or copy is None:
+        result.records[dependency.key] = DependencyRecord(dependency.uri, dependency.target)
+        message, code = f"{dependency.noun} `{dependency.uri}` {trouble}; it is left out", f"{dependency.noun}-{code}"
+        result.diagnostics.append(Diagnostic(Severity.WARNING, code, message, source, dependency.line))
+        return
+    facts = recorded.facts.get(dependency.key)
+    if facts is None or facts.source_hash != record.source_hash or record.source_hash is None:
+        message = f"{dependency.noun} `{dependency.uri}` {trouble}, and what is recorded of its imported copy is lost"
+        hint = "restore `.urdfsync/robots` from version control, or the file itself"
+        raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, source, dependency.line, hint=hint))
+    copied = digest(copy)
+    written = copied if copied == recorded.base(record.target) else record.target_hash or copied
+    if record.target != dependency.target:
+        result.contents[dependency.target], written = copy, copied
+    entry = Import(dependency.target, record.source_hash, written, facts.converter, facts.facts)
+    _add(dependency, entry, result)
+    message = f"{dependency.noun} `{dependency.uri}` {trouble}; the imported copy is kept"
+    code = f"{dependency.noun}-{code}-kept"
+    result.diagnostics.append(Diagnostic(Severity.WARNING, code, message, source, dependency.line))
+
+
+def _add(dependency: Dependency, entry: Import, result: Imported) -> None:
+    result.imports[dependency.key] = entry
+    result.records[dependency.key] = DependencyRecord(
+        dependency.uri, entry.target, entry.source_hash, entry.target_hash, entry.converter
+    )

@@ -1,0 +1,58 @@
+"""Values as Modelica source: literals that read back as the same value, and text that can't end a string."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+INFINITY = "Modelica.Constants.inf"
+
+_ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t"}
+
+
+def real(value: float | None, absent: str = INFINITY) -> str:
+    """The shortest Modelica Real literal that reads back as the same number; `absent` for None.
+
+    Raises ValueError for numbers that have no literal.
+    """
+    if value is None:
+        return absent
+    if not math.isfinite(value):
+        raise ValueError(f"{value} has no Modelica literal")
+    if value == 0:
+        return "0"
+    if value == int(value) and abs(value) < 1e15:
+        return str(int(value))
+    return repr(float(value))
+
+
+def vector(values: Iterable[float]) -> str:
+    """A Modelica array constructor; must not be empty, since `{}` is not Modelica."""
+    items = [real(value) for value in values]
+    if not items:
+        raise ValueError("an empty array has no Modelica literal")
+    return "{" + ", ".join(items) + "}"
+
+
+def matrix(rows: Sequence[Sequence[float]], columns: int) -> str:
+    """A Modelica matrix `[a, b; c, d]`, or an empty one with `columns` columns."""
+    if not rows:
+        return f"fill(0, 0, {columns})"
+    return "[" + "; ".join(", ".join(map(real, row)) for row in rows) + "]"
+
+
+def string(value: str) -> str:
+    """A Modelica string literal, quotes included; control characters become spaces."""
+    escaped = "".join(_ESCAPES.get(char) or (char if char.isprintable() else " ") for char in value)
+    return f'"{escaped}"'
+
+
+def html(value: str) -> str:
+    """Text for the inside of an HTML documentation string."""
+    replaced = value.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace('"', "&quot;")
+    return string(replaced)[1:-1]
+
+
+def capitalize_first(value: str) -> str:
+    """The text with its first letter as a capital."""
+    return value[:1].upper() + value[1:]

@@ -1,0 +1,172 @@
+"""The recorded state of one robot, text ↔ value.
+
+Two files in `.urdfsync/robots/`, both committed: `<robot>.toml`, which people review, and
+`<robot>.json` with the snapshot and what imports found out, so that everything can be rendered
+again. Neither holds absolute paths, times or host names.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import posixpath
+import re
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import msgspec
+import tomli_w
+
+from urdfsync import tomlfile
+from urdfsync.diagnostics import Diagnostic, Severity, StateError
+from urdfsync.domain import Import, Snapshot
+from urdfsync.plan import FileRecord
+
+FORMAT = 1
+"""Raised when an older urdfsync could misread what a newer one records."""
+
+_HEADER = """\
+# What urdfsync last built for this robot. Written by urdfsync: commit it, don't edit it.
+# base is the hash of the text that a file last took into account, line endings normalised.
+
+"""
+_REPAIR = "restore it from version control (in a merge: take one side), then build again"
+
+
+class Generator(msgspec.Struct, frozen=True):
+    """What turned the model into files."""
+
+    domain: str
+    revision: int
+    fingerprint: str
+    """Hash of templates, options and revision."""
+
+
+class Source(msgspec.Struct, frozen=True):
+    """What was read, and the hash of the JSON file that holds it as a snapshot."""
+
+    path: str
+    hash: str
+    snapshot: str
+
+
+class DependencyRecord(msgspec.Struct, frozen=True, omit_defaults=True):
+    """One file that the source refers to; the hashes are None if it was never found."""
+
+    uri: str
+    target: str
+    source_hash: str | None = None
+    target_hash: str | None = None
+    converter: int | None = None
+
+
+class Manifest(msgspec.Struct, frozen=True, kw_only=True):
+    """The state of one robot after a build.
+
+    The keys of `files` and `orders` are POSIX paths relative to the configuration's folder, like
+    `folder`, the package's own; in the text they are relative to `folder`. `orders` has the names
+    that urdfsync owns in each `package.order` file.
+    """
+
+    format: int = FORMAT
+    package: str
+    class_: str = msgspec.field(name="class")
+    folder: str
+    source: Source
+    generator: Generator
+    names: Mapping[str, Mapping[str, str]] = {}
+    dependencies: Mapping[str, DependencyRecord] = {}
+    orders: Mapping[str, tuple[str, ...]] = {}
+    files: Mapping[str, FileRecord] = {}
+
+
+class Facts(msgspec.Struct, frozen=True):
+    """What a conversion found out, and of which bytes."""
+
+    source_hash: str
+    converter: int
+    facts: dict[str, Any]
+
+
+class Model(msgspec.Struct, frozen=True):
+    """The JSON file: the model, and the facts of every import."""
+
+    snapshot: dict[str, Any]
+    imports: dict[str, Facts]
+    format: int = FORMAT
+
+
+def dumps(manifest: Manifest) -> str:
+    """The manifest as text: the same value gives the same text everywhere."""
+    document: dict[str, Any] = msgspec.to_builtins(manifest)
+    document["names"] = {kind: dict(sorted(names.items())) for kind, names in sorted(manifest.names.items()) if names}
+    document["dependencies"] = dict(sorted(document["dependencies"].items()))
+    for key in ("orders", "files"):
+        document[key] = _rekeyed(document[key], lambda path: posixpath.relpath(path, manifest.folder))
+    return _HEADER + tomli_w.dumps({key: value for key, value in document.items() if value != {}})
+
+
+def loads(text: str, file: str) -> Manifest:
+    """The manifest in `text`, which errors call `file`.
+
+    Raises StateError with file and line for text that is no manifest or that a newer urdfsync wrote.
+    """
+    data = tomlfile.parse(text, file, StateError, _REPAIR)
+    _check_format(data.get("format"), file, tomlfile.line_of(text, "format"))
+    try:
+        manifest = msgspec.convert(data, Manifest)
+    except msgspec.ValidationError as error:
+        raise StateError(_broken(str(error), text, file)) from None
+
+    def from_root(path: str) -> str:
+        return posixpath.normpath(posixpath.join(manifest.folder, path))
+
+    files, orders = _rekeyed(manifest.files, from_root), _rekeyed(manifest.orders, from_root)
+    return msgspec.structs.replace(manifest, files=files, orders=orders)
+
+
+def dump_model(snapshot: Snapshot, imports: Mapping[str, Import]) -> str:
+    """The JSON file's text."""
+    facts = {key: Facts(i.source_hash, i.converter, dict(i.facts)) for key, i in imports.items()}
+    encoded = msgspec.json.encode(Model(dict(snapshot), facts), order="sorted")
+    return msgspec.json.format(encoded, indent=1).decode() + "\n"
+
+
+def load_model(text: str, file: str) -> Model:
+    """The model in the JSON file's text. Raises StateError if it is none, or a newer urdfsync wrote it."""
+    try:
+        model = msgspec.json.decode(text, type=Model)
+    except msgspec.DecodeError as error:
+        line = tomlfile.marker_line(text)
+        message = "unresolved merge markers" if line else f"this is no state of urdfsync: {error}"
+        raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_REPAIR)) from None
+    _check_format(model.format, file, 0)
+    return model
+
+
+def plain(snapshot: Snapshot) -> Snapshot:
+    """The snapshot as it comes back from a JSON file, so that what is rendered now can be rendered again later."""
+    data: dict[str, Any] = msgspec.json.decode(msgspec.json.encode(snapshot, order="sorted"))
+    return data
+
+
+def text_hash(text: str) -> str:
+    """SHA-256 (hex) of a text with its line endings normalised."""
+    return hashlib.sha256(text.replace("\r\n", "\n").encode()).hexdigest()
+
+
+def _check_format(value: object, file: str, line: int) -> None:
+    if isinstance(value, int) and value > FORMAT:
+        message = f"a newer urdfsync wrote this state (format {value}; this one knows {FORMAT})"
+        raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, line, hint="update urdfsync"))
+
+
+def _broken(error: str, text: str, file: str) -> Diagnostic:
+    message, _, place = error.partition(" - at `$")
+    line = tomlfile.line_of(text, *re.findall(r"\w+", place))
+    message = f"this is no state of urdfsync: {message[0].lower()}{message[1:]}"
+    return Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_REPAIR)
+
+
+def _rekeyed(entries: Mapping[str, Any], rename: Callable[[str], str]) -> dict[str, Any]:
+    renamed = {rename(path): entry for path, entry in entries.items()}
+    return dict(sorted(renamed.items()))

@@ -1,0 +1,64 @@
+"""What a command did, for `report` to show and for the exit code."""
+
+from __future__ import annotations
+
+import dataclasses
+import enum
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.plan import CONFLICTS, Action, Kind
+
+
+class Exit(enum.IntEnum):
+    """Exit codes of every command."""
+
+    IN_STEP = 0
+    OUT_OF_STEP = 1
+    ERROR = 2
+    CONFLICT = 3
+    INTERRUPTED = 130
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Result:
+    """What a build did with one robot, or would do."""
+
+    robot: str
+    package: str
+    folder: Path
+    """The package's folder, absolute; the paths of `actions` count from `root`."""
+    root: Path
+    actions: tuple[Action, ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+    failed: bool = False
+    dry: bool = False
+    """Nothing was written, whatever the actions say."""
+    drawing: Path | None = None
+
+    @property
+    def conflicts(self) -> list[Action]:
+        """The files that were left alone although they should be otherwise."""
+        return [action for action in self.actions if action.kind in CONFLICTS]
+
+    @property
+    def in_step(self) -> bool:
+        """Whether every file is what it should be, edits apart."""
+        fine = {Kind.UNCHANGED, Kind.KEEP, Kind.ORPHAN, Kind.FORGET}
+        return not self.failed and all(action.kind in fine for action in self.actions)
+
+
+def exit_code(results: Iterable[Result], check: bool = False) -> Exit:
+    """The worst of all: an error before a conflict before being out of step, which counts only if `check`."""
+    results = list(results)
+    if any(result.failed for result in results):
+        return Exit.ERROR
+    if any(result.conflicts for result in results):
+        return Exit.CONFLICT
+    return Exit.OUT_OF_STEP if check and not all(result.in_step for result in results) else Exit.IN_STEP
+
+
+def count(actions: Sequence[Action], *kinds: Kind) -> int:
+    """How many actions are of these kinds and not held."""
+    return sum(action.kind in kinds and not action.held for action in actions)

@@ -1,0 +1,77 @@
+"""The packages around a generated one: they must exist, or be made if the configuration says so."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from pathlib import Path
+
+from urdfsync import modelica
+from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Parents:
+    """What of the packages above a robot's has to be written."""
+
+    created: Mapping[Path, bytes]
+    """`package.mo` of every parent that does not exist yet."""
+    entered: Mapping[Path, str]
+    """`package.order` files above the parent's, and the created package that each has to name."""
+
+
+def check(config: Config, robot: RobotConfig) -> Parents:
+    """Look at the output folder and at all parents of the robot's package.
+
+    Raises OutputError, at the line of the configuration that says so, if the package can't be there.
+    """
+    file = shown(config.file)
+    _check_output(config, robot, file)
+    created: dict[Path, bytes] = {}
+    entered: dict[Path, str] = {}
+    parts = robot.target.package.split(".")
+    for depth in range(1, len(parts) + 1):
+        folder, name = robot.output.joinpath(*parts[:depth]), ".".join(parts[:depth])
+        single = folder.with_name(f"{folder.name}.mo")
+        if single.is_file():
+            message = f"package `{name}` is the single file {shown(single)}; it has to be a folder with a package.mo"
+            raise OutputError(_problem("package-is-file", message, "package", robot, file, "convert it, or move it"))
+        if depth == len(parts) or (folder / "package.mo").is_file():
+            continue
+        if not robot.create_parents:
+            message = f"the parent package `{name}` does not exist in {shown(robot.output)}"
+            hint = "create it, or set `create_parents = true`"
+            raise OutputError(_problem("no-parent", message, "package", robot, file, hint))
+        created[folder / "package.mo"] = _package(name)
+        if depth > 1:
+            entered[folder.parent / "package.order"] = parts[depth - 1]
+    return Parents(created, entered)
+
+
+def _check_output(config: Config, robot: RobotConfig, file: str) -> None:
+    output = robot.output
+    if output.is_dir():
+        if (output / "package.mo").is_file():
+            message = f"the output folder {shown(output)} is a Modelica package itself"
+            hint = "name the folder above it as output, and the package with its full name"
+            raise OutputError(_problem("output-is-package", message, "output", robot, file, hint))
+        return
+    existing = next(folder for folder in (output, *output.parents) if folder.exists() or folder.is_symlink())
+    if not existing.is_dir():
+        message = f"the output folder {shown(output)} can't be made: {shown(existing)} is no folder"
+        raise OutputError(_problem("output-is-file", message, "output", robot, file, "name another folder"))
+    if config.root not in output.parents:
+        message = f"the output folder {shown(output)} does not exist"
+        hint = "create it: urdfsync makes folders only beside or below its configuration"
+        raise OutputError(_problem("no-output", message, "output", robot, file, hint))
+
+
+def _package(name: str) -> bytes:
+    last = name.rpartition(".")[2]
+    return f'{modelica.within(name)}\npackage {last} "{last}"\nend {last};\n'.encode()
+
+
+def _problem(code: str, message: str, key: str, robot: RobotConfig, file: str, hint: str) -> Diagnostic:
+    line = robot.lines.get(key, robot.lines[""])
+    return Diagnostic(Severity.ERROR, code, f"robot `{robot.name}`: {message}", file, line, hint=hint)

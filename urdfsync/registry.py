@@ -1,0 +1,42 @@
+"""The domains that are installed, by name."""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+from typing import cast
+
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.domain import Domain
+
+GROUP = "urdfsync.domains"
+"""The entry point group; an entry's name is the domain's, its value `module:object`."""
+
+_OWN = {"urdf": "urdfsync.urdf.domain:DOMAIN"}
+"""Ours, also an entry point: looking entry points up would cost every build 20 ms of imports."""
+
+
+def domain(name: str) -> Domain:
+    """The domain of this name. Raises ConfigError, without file and line, if there is none or it can't be loaded."""
+    place = _OWN.get(name) or _installed().get(name)
+    if place is None:
+        near = difflib.get_close_matches(name, names(), n=1)
+        hint = f'did you mean "{near[0]}"?' if near else f"installed are {', '.join(names())}"
+        raise ConfigError(Diagnostic(Severity.ERROR, "unknown-domain", f"there is no domain `{name}`", hint=hint))
+    module, _, attribute = place.partition(":")
+    try:
+        return cast("Domain", getattr(importlib.import_module(module), attribute))
+    except (ImportError, AttributeError) as problem:
+        message = f"the domain `{name}` can't be loaded: {problem}"
+        raise ConfigError(Diagnostic(Severity.ERROR, "broken-domain", message, hint="install it again")) from problem
+
+
+def names() -> list[str]:
+    """The names of all domains that are installed, sorted."""
+    return sorted(_OWN.keys() | _installed().keys())
+
+
+def _installed() -> dict[str, str]:
+    import importlib.metadata
+
+    return {entry.name: entry.value for entry in importlib.metadata.entry_points(group=GROUP)}

@@ -1,0 +1,1 @@
+"""The URDF domain: robots described in the Unified Robot Description Format."""

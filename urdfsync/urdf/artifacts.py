@@ -1,0 +1,127 @@
+"""A robot to the files of its Modelica package: paths, templates and the data they are rendered with."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from urdfsync.domain import Artifact, Import, Order, Role, Target
+from urdfsync.urdf import notes, robot_model, shapes
+from urdfsync.urdf.numbers import joint_numbers
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Joint, Link, Robot
+from urdfsync.urdf.skeleton import Skeleton
+
+LIBRARY_VERSION = "0.1.0"
+"""Version of the UrdfSync Modelica library that generated packages are written for."""
+
+USES = (("Modelica", "4.0.0"), ("UrdfSync", LIBRARY_VERSION))
+"""Libraries that a package of its own names in its `uses` annotation."""
+
+
+def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
+    """Every file of the robot's package but the imported meshes."""
+    skeleton = Skeleton.of(robot, taken=(target.name,))
+    context = _Context(skeleton, imports, target, options)
+    files: list[Artifact | Order] = [*_package(context)]
+    for link in skeleton.links:
+        files += _link(context, link)
+    for joint in skeleton.joints:
+        files += _joint(context, joint)
+    files += _robot(context, robot.name)
+    return files
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class _Context:
+    skeleton: Skeleton
+    imports: Mapping[str, Import]
+    target: Target
+    options: Options
+
+
+def _package(context: _Context) -> Iterator[Artifact | Order]:
+    package, name = context.target.package, context.target.name
+    parent, _, last = package.rpartition(".")
+    yield _package_file(
+        "package.mo",
+        within=parent,
+        name=last,
+        title=f"Robot {name}: links, joints, robot and benches",
+        uses=() if parent else USES,
+        note="Made by urdfsync from a URDF. Every file can be edited: urdfsync keeps what you changed, brings everything "
+        "else up to date, and reports where both changed.",
+    )
+    # "MyRobot" comes first: it is what people look for
+    models = (name, f"{name}Run", f"{name}Test", f"{name}Parameters")
+    yield Order("package.order", (*models, "Links", *(("Joints",) if context.skeleton.joints else ())))
+    yield from _subpackage(context, "Links", [context.skeleton.link(link.name) for link in context.skeleton.links])
+    if context.skeleton.joints:
+        yield from _subpackage(context, "Joints", [context.skeleton.joint(j.name) for j in context.skeleton.joints])
+
+
+def _subpackage(context: _Context, name: str, identifiers: list[Any]) -> Iterator[Artifact | Order]:
+    title = f"{name} of robot {context.target.name}"
+    note = f"One model and one record of numbers per {name[:-1].lower()}."
+    yield _package_file(
+        f"{name}/package.mo", within=context.target.package, name=name, title=title, uses=(), note=note
+    )
+    yield Order(f"{name}/package.order", tuple(n for i in identifiers for n in (i.type, i.record)))
+
+
+def _package_file(path: str, **data: Any) -> Artifact:
+    return Artifact(path, Role.PACKAGE, "package/package.mo.jinja", data, "robot")
+
+
+def _link(context: _Context, link: Link) -> Iterator[Artifact]:
+    identifier = context.skeleton.link(link.name)
+    visuals, collisions = shapes.link_shapes(link, context.imports, context.target, context.options)
+    data = {
+        "within": f"{context.target.package}.Links",
+        "type": identifier.type,
+        "record": identifier.record,
+        "replaceable": False,
+        "name": link.name,
+        "title": f'link "{link.name}"',
+        "note": notes.link_note(link),
+        "inertial": link.inertial,
+        "visuals": visuals,
+        "collisions": collisions,
+        "contacts": shapes.contacts(collisions) if context.options.base == "floating" else [],
+        "visualizer": context.options.visualizer,
+        "top": max([100, *(shape["y"] + 20 for shape in visuals)]),
+        "bottom": min([-100, *(shape["y"] - 20 for shape in collisions)]),
+    }
+    owner = f"link {link.name}"
+    yield Artifact(f"Links/{identifier.record}.mo", Role.RECORD, "link/record.mo.jinja", data, owner)
+    yield Artifact(f"Links/{identifier.type}.mo", Role.MODEL, "link/model.mo.jinja", data, owner)
+
+
+def _joint(context: _Context, joint: Joint) -> Iterator[Artifact]:
+    identifier = context.skeleton.joint(joint.name)
+    data = {
+        "within": f"{context.target.package}.Joints",
+        "type": identifier.type,
+        "record": identifier.record,
+        "kind": joint.type.capitalize(),
+        "replaceable": False,
+        "title": notes.joint_title(joint),
+        "note": notes.joint_note(joint),
+        "dynamics": joint.dynamics is not None,
+        "assertion_level": "warning",
+        "joint": joint_numbers(joint),
+    }
+    owner = f"joint {joint.name}"
+    yield Artifact(f"Joints/{identifier.record}.mo", Role.RECORD, "joint/record.mo.jinja", data, owner)
+    yield Artifact(f"Joints/{identifier.type}.mo", Role.MODEL, f"joint/{joint.type}.mo.jinja", data, owner)
+
+
+def _robot(context: _Context, urdf_name: str) -> Iterator[Artifact]:
+    name = context.target.name
+    data = robot_model.robot_data(context.skeleton, context.target, context.options)
+    record = robot_model.record_data(context.skeleton, context.imports, context.target, context.options, urdf_name)
+    yield Artifact(f"{name}.mo", Role.MODEL, "robot/robot.mo.jinja", data, "robot")
+    yield Artifact(f"{name}Run.mo", Role.MODEL, "robot/run.mo.jinja", data, "robot")
+    yield Artifact(f"{name}Test.mo", Role.MODEL, "robot/test.mo.jinja", data, "robot")
+    yield Artifact(f"{name}Parameters.mo", Role.RECORD, "robot/record.mo.jinja", record, "robot")

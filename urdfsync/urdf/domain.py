@@ -1,0 +1,85 @@
+"""The URDF domain as the core sees it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from urdfsync.domain import Artifact, Conversion, Dependency, Import, Lookup, Order, Proposal, Reading, Snapshot, Target
+from urdfsync.urdf import naming
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
+
+
+class UrdfDomain:
+    """URDF files to Modelica packages of multibody models. Heavy parts are imported where they are used."""
+
+    name = "urdf"
+    templates: Path | None = None
+    revision = 1
+    converter = 1
+    options = Options
+
+    def read(self, content: bytes, file: str, options: Options) -> Reading:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf.source import read_robot
+
+        reading = read_robot(content, file, cross_check=options.cross_check)
+        snapshot = None if reading.robot is None else to_snapshot(reading.robot)
+        return Reading(snapshot, reading.diagnostics, reading.lines)
+
+    def dependencies(
+        self, snapshot: Snapshot, lookup: Lookup, options: Options, lines: Mapping[str, int]
+    ) -> Sequence[Dependency]:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf.mesh_lookup import dependencies
+
+        return dependencies(_shown(snapshot, options), lookup, lines) if options.meshes == "import" else ()
+
+    def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf.mesh_convert import convert
+
+        return convert(dependency, file, content)
+
+    def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
+        """See `urdfsync.domain.Domain`."""
+        names: dict[str, dict[str, str]] = {"links": {}, "joints": {}}
+        keys = [("link", name) for name in snapshot["links"]] + [("joint", name) for name in snapshot["joints"]]
+        for (kind, name), identifier in naming.identify(keys, taken=(target.name,)).items():
+            names[f"{kind}s"][name] = identifier.component
+        return names
+
+    def artifacts(
+        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
+    ) -> Sequence[Artifact | Order]:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf.artifacts import artifacts
+
+        return artifacts(from_snapshot(snapshot), imports, target, options)
+
+    def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf.proposal import propose_base
+
+        return (propose_base(from_snapshot(snapshot)),)
+
+    def drawing(
+        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
+    ) -> str | None:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf.robot_drawing import draw
+
+        return draw(from_snapshot(snapshot), target)
+
+
+def _shown(snapshot: Snapshot, options: Options) -> Robot:
+    """The robot without the collisions, if they are not wanted."""
+    links = snapshot["links"]
+    if not options.collisions:
+        links = {name: {**link, "collisions": []} for name, link in links.items()}
+    return from_snapshot({**snapshot, "links": links})
+
+
+DOMAIN = UrdfDomain()

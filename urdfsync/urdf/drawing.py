@@ -1,0 +1,302 @@
+"""The robot model's diagram as a picture: SVG text, self-contained, the same text for the same diagram."""
+
+from __future__ import annotations
+
+import bisect
+import html
+import itertools
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Literal, NamedTuple, TypeAlias
+
+from urdfsync.urdf.layout import VECTORS, Diagram, JointKind, LineKind
+from urdfsync.urdf.routing import Path, Placement, Point
+
+Kind: TypeAlias = Literal["link", "coupling"] | JointKind
+
+_PIXELS = 3  # nominal size of one unit of the diagram
+_MARGIN = 10
+_HEADER = 24  # room for the title and the names of the connectors at the top
+_FOOTER = 18  # room for the legend
+_FONT, _SMALLEST = 3.6, 2.6
+_ADVANCE = 0.56  # mean width of a character, by font size
+_BEND = 2.0  # radius of the bends of flange lines: joining a bus looks unlike crossing it
+
+
+class Label(NamedTuple):
+    """How a component is drawn: its kind, its name, and what its icon says inside (mass, axis number, ratio)."""
+
+    kind: Kind
+    name: str
+    detail: str = ""
+
+
+class _Look(NamedTuple):
+    fill: str
+    stroke: str
+    rounding: float
+    glyph: str
+    detail: float
+    """How far below its middle the icon has its detail."""
+    legend: str
+
+
+_LOOKS: Mapping[Kind, _Look] = {
+    "link": _Look(
+        "#e4e7eb", "#7d848f", 3, "M-3 -3.2a3 3 0 1 0 6 0a3 3 0 1 0 -6 0M-3 -3.2H3M0 -6.2V-0.2", 5.2, "link, mass"
+    ),
+    "fixed": _Look("#f8f9fa", "#9aa0a9", 3, "M-7 0H7M-2.2 -2.2L2.2 2.2M-2.2 2.2L2.2 -2.2", 7, "fixed joint"),
+    "rotational": _Look(
+        "#fdebc8",
+        "#a86800",
+        5,
+        "M-5.4 3.6A6.5 6.5 0 1 1 5.4 3.6M7.9 2.5L5.4 3.6L5.3 0.9",
+        0.3,
+        "rotational joint, axis number",
+    ),
+    "translational": _Look(
+        "#dbf0dd",
+        "#1f7a33",
+        2,
+        "M-7 5.5H7M-5 3.7L-7 5.5L-5 7.3M5 3.7L7 5.5L5 7.3",
+        -1.6,
+        "translational joint, axis number",
+    ),
+    "free": _Look(
+        "#ebe4f7",
+        "#6b46b8",
+        5,
+        "M-1 1V-7M-2.8 -5L-1 -7L0.8 -5M-1 1H7M5 -0.8L7 1L5 2.8M-1 1L-6 6M-6 3.4V6H-3.4",
+        7,
+        "planar or floating joint",
+    ),
+    "coupling": _Look(
+        "#dceafa",
+        "#2766a3",
+        2,
+        "M-6.6 -3a3.3 3.3 0 1 0 6.6 0a3.3 3.3 0 1 0 -6.6 0M0 -3a2.4 2.4 0 1 0 4.8 0a2.4 2.4 0 1 0 -4.8 0",
+        5.2,
+        "mimic coupling, ratio",
+    ),
+}
+
+_LINE_LOOKS = ("frame", "translational support", "rotational support", "translational", "rotational")
+
+_STYLE = """
+text { font-family: Helvetica, Arial, "Liberation Sans", sans-serif; fill: #2b2f36; }
+.title { font-weight: bold; }
+.middle { text-anchor: middle; }
+.port, .legend { fill: #666c76; }
+.line { fill: none; stroke-width: 0.6; stroke-linejoin: round; }
+.frame { stroke: #5f5f5f; stroke-width: 1.1; }
+.rotational { stroke: #000000; }
+.rotational.support { stroke: #999999; }
+.translational { stroke: #007f00; }
+.translational.support { stroke: #8cc78c; }
+.dot-frame { fill: #5f5f5f; }
+.dot-rotational { fill: #000000; }
+.dot-translational { fill: #007f00; }
+.halo { stroke: #ffffff; stroke-width: 1.4; stroke-linejoin: round; }
+.glyph { fill: none; stroke-width: 0.7; stroke-linecap: round; stroke-linejoin: round; }
+""".strip()
+
+
+def svg(diagram: Diagram, labels: Mapping[str, Label], title: str = "") -> str:
+    """Draw a layout; `labels` has an entry for every placed component but the model's own connectors.
+
+    Raises KeyError for a component without label.
+    """
+    x1, y1, x2, y2 = diagram.extent
+    left, top = x1 - _MARGIN, -y2 - _HEADER
+    width, height = x2 - x1 + 2 * _MARGIN, y2 - y1 + _HEADER + _FOOTER
+    counts = Counter(end.partition("[")[0] for ends in diagram.lines for end in ends if "[" in end)
+    body = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width * _PIXELS}" height="{height * _PIXELS}" '
+        f'viewBox="{left} {top} {width} {height}">',
+        f"<title>{_escaped(title)}</title>",
+        f"<style>\n{_STYLE}\n</style>",
+        f'<rect x="{left}" y="{top}" width="{width}" height="{height}" fill="#f4f5f7"/>',
+        f'<rect x="{x1}" y="{-y2}" width="{x2 - x1}" height="{y2 - y1}" fill="#ffffff" stroke="#d5d8dd" '
+        'stroke-width="0.5"/>',
+        _text((x1, -y2 - 13), title, "title", 7, x2 - x1),
+        *_lines(diagram),
+        *(f'<circle class="dot-{kind}" cx="{x}" cy="{-y}" r="1.2"/>' for kind, (x, y) in _junctions(diagram)),
+    ]
+    for name, placement in diagram.placements.items():
+        if name in ("frame_a", "frame_b"):
+            body += _frame(name, placement, counts[name])
+        elif name in VECTORS:
+            body += _flange(name, placement, counts[name])
+        else:
+            body += _component(labels[name], placement)
+    kinds = {label.kind for name, label in labels.items() if name in diagram.placements}
+    body += _legend([kind for kind in _LOOKS if kind in kinds], (x1, -y1 + _FOOTER / 2), x2 - x1)
+    return "\n".join([*body, "</svg>", ""])
+
+
+def _component(label: Label, placement: Placement) -> Iterator[str]:
+    x, y = placement.centre
+    yield "<g>"
+    yield f"<title>{_escaped(label.name)}</title>"
+    yield from _icon(label.kind, (x, -y), 1.0, glyph=label.kind != "link" or bool(label.detail))
+    yield _text((x, -y + _LOOKS[label.kind].detail + 1.3), label.detail, "middle", _FONT, 17)
+    if label.kind == "link":
+        yield _text((placement.x1, -placement.y1 + 4), label.name, "", _FONT, 40)
+    elif label.kind in ("rotational", "translational"):
+        yield from _haloed((x + 1.5, -placement.y2 - 1.8), label.name, 34)
+    else:
+        yield from _haloed((placement.x1, -placement.y2 - 1.8), label.name, 42)
+    yield "</g>"
+
+
+def _haloed(at: tuple[float, float], text: str, room: float) -> Iterator[str]:
+    """A name where lines may pass: they stop short of its letters."""
+    yield _text(at, text, "halo", _FONT, room)
+    yield _text(at, text, "", _FONT, room)
+
+
+def _icon(kind: Kind, centre: tuple[float, float], scale: float, glyph: bool = True) -> Iterator[str]:
+    look = _LOOKS[kind]
+    zoom = "" if scale == 1 else f" scale({scale:g})"
+    yield f'<g transform="translate({centre[0]:g} {centre[1]:g}){zoom}" stroke="{look.stroke}">'
+    yield f'<rect x="-10" y="-10" width="20" height="20" rx="{look.rounding:g}" fill="{look.fill}" stroke-width="0.6"/>'
+    if glyph:
+        yield f'<path class="glyph" d="{look.glyph}"/>'
+    yield "</g>"
+
+
+def _frame(name: str, placement: Placement, count: int) -> Iterator[str]:
+    x, y = placement.centre
+    half = (placement.y2 - placement.y1) // 2
+    yield f'<rect x="{x - 5}" y="{-y - half}" width="10" height="{2 * half}" fill="#ffffff" stroke="#5f5f5f"/>'
+    yield f'<rect x="{x - 1.5}" y="{-y - 1.5}" width="3" height="3" fill="#5f5f5f"/>'
+    yield _text((x, -placement.y1 + 4.5), _sized(name, count), "port middle", _FONT, 40)
+
+
+def _flange(name: str, placement: Placement, count: int) -> Iterator[str]:
+    x, y = placement.centre
+    colour = "#000000" if name.startswith("rotational") else "#007f00"
+    fill = "#ffffff" if name.endswith("Support") else colour
+    rounding = 6 if name.startswith("rotational") else 0
+    yield f'<rect x="{x - 6}" y="{-y - 6}" width="12" height="12" rx="{rounding}" fill="{fill}" stroke="{colour}"/>'
+    yield _text((x, -placement.y2 - 2), _sized(name, count), "port middle", _FONT, 46)
+
+
+def _sized(name: str, count: int) -> str:
+    return f"{name}[{count}]" if count else name
+
+
+def _lines(diagram: Diagram) -> Iterator[str]:
+    """One path per look, so that lines that share a trunk are painted once."""
+    looks: dict[str, list[str]] = {look: [] for look in _LINE_LOOKS}
+    for ends, points in diagram.lines.items():
+        look = diagram.kinds[ends] + (" support" if ends[0].endswith(".support") else "")
+        looks[look].append(_curved(points, 0 if look == "frame" else _BEND))
+    for look, paths in looks.items():
+        if paths:
+            yield f'<path class="line {look}" d="{" ".join(paths)}"/>'
+
+
+def _curved(points: Path, radius: float) -> str:
+    """Path data of a polyline, each bend rounded as far as its shorter side allows."""
+    if not points:
+        return ""
+    data = [f"M{points[0][0]} {-points[0][1]}"]
+    for before, bend, after in zip(points, points[1:], points[2:], strict=False):
+        reach = min(radius, _distance(before, bend) / 2, _distance(bend, after) / 2)
+        (x1, y1), (x2, y2) = _towards(bend, before, reach), _towards(bend, after, reach)
+        data.append(f"L{x1:g} {-y1:g}" + (f"Q{bend[0]} {-bend[1]} {x2:g} {-y2:g}" if reach else ""))
+    data.append(f"L{points[-1][0]} {-points[-1][1]}")
+    return "".join(data)
+
+
+def _distance(a: Point, b: Point) -> int:
+    return abs(a[0] - b[0]) + abs(a[1] - b[1])
+
+
+def _sign(value: int) -> int:
+    return (value > 0) - (value < 0)
+
+
+def _towards(a: Point, b: Point, distance: float) -> tuple[float, float]:
+    return a[0] + distance * _sign(b[0] - a[0]), a[1] + distance * _sign(b[1] - a[1])
+
+
+def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
+    """Where a net branches: three or more of its segments meet. A net's lines are of one kind and share one end."""
+    uses = Counter(end for ends in diagram.lines for end in ends)
+    nets: defaultdict[tuple[LineKind, str], list[Path]] = defaultdict(list)
+    for ends, points in diagram.lines.items():
+        nets[diagram.kinds[ends], max(ends, key=uses.__getitem__)].append(points)
+    return sorted({(kind, point) for (kind, _), net in nets.items() for point in _branchings(net)})
+
+
+def _branchings(net: Iterable[Path]) -> Iterator[Point]:
+    sides: defaultdict[Point, set[Point]] = defaultdict(set)
+    across: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
+    upright: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
+    for points in net:
+        for a, b in itertools.pairwise(points):
+            sides[a].add((_sign(b[0] - a[0]), _sign(b[1] - a[1])))
+            sides[b].add((_sign(a[0] - b[0]), _sign(a[1] - b[1])))
+            if a[1] == b[1]:
+                across[a[1]].append((min(a[0], b[0]), max(a[0], b[0])))
+            else:
+                upright[a[0]].append((min(a[1], b[1]), max(a[1], b[1])))
+    runs = {y: _united(intervals) for y, intervals in across.items()}
+    falls = {x: _united(intervals) for x, intervals in upright.items()}
+    for (x, y), found in sides.items():
+        if _inside(x, runs.get(y, [])):
+            found |= {(-1, 0), (1, 0)}
+        if _inside(y, falls.get(x, [])):
+            found |= {(0, -1), (0, 1)}
+        if len(found) > 2:
+            yield x, y
+
+
+def _united(intervals: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
+    united: list[tuple[int, int]] = []
+    for start, end in sorted(intervals):
+        if united and start <= united[-1][1]:
+            united[-1] = united[-1][0], max(end, united[-1][1])
+        else:
+            united.append((start, end))
+    return united
+
+
+def _inside(value: int, intervals: list[tuple[int, int]]) -> bool:
+    index = bisect.bisect_left(intervals, (value, value)) - 1
+    return index >= 0 and value < intervals[index][1]
+
+
+def _legend(kinds: list[Kind], start: tuple[float, float], width: float) -> Iterator[str]:
+    """The kinds of components that the drawing has, side by side as far as there is room."""
+    x, y = start
+    for kind in kinds:
+        needed = 9 + _width(_LOOKS[kind].legend, _FONT) + 6
+        if x + needed > start[0] + width + 6:
+            return
+        yield from _icon(kind, (x + 4, y), 0.35)
+        yield _text((x + 9, y + 1.3), _LOOKS[kind].legend, "legend", _FONT, needed)
+        x += needed
+
+
+def _text(at: tuple[float, float], text: str, style: str, size: float, room: float) -> str:
+    """Text in smaller letters, and then shortened in the middle, if it needs more than `room`."""
+    if not text:
+        return ""
+    fitting = max(min(size, size * room / _width(text, size)), min(size, _SMALLEST))
+    most = max(3, int(room / _width("x", fitting) + 1e-9))
+    if len(text) > most:
+        text = f"{text[: most // 2]}…{text[len(text) - (most - 1) // 2 :]}"
+    style = f' class="{style}"' if style else ""
+    return f'<text{style} x="{at[0]:g}" y="{at[1]:g}" font-size="{fitting:.3g}">{_escaped(text)}</text>'
+
+
+def _width(text: str, size: float) -> float:
+    return size * _ADVANCE * len(text)
+
+
+def _escaped(text: str) -> str:
+    """Text for XML; characters that can't be printed become spaces."""
+    return html.escape("".join(char if char.isprintable() else " " for char in text))

@@ -1,0 +1,203 @@
+"""Typed access to the attributes and children of URDF elements; every fault becomes a finding with its line.
+
+Numbers are decimals as ROS's urdfdom takes them: no `nan`, `inf`, hexadecimals, underscores or decimal commas.
+Defaults are given by the caller. A value that can't be read is an error, and its default stands in, so that
+reading goes on and finds the next fault.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+from collections.abc import Collection, Iterator
+from typing import TypeVar
+
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.urdf.checks import nearest
+from urdfsync.urdf.robot import Extension, Vector
+from urdfsync.urdf.xml import Node
+
+Missing = TypeVar("Missing", float, None)
+
+_DECIMAL = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
+_BLANKS = re.compile(r"[ \t\r\n\f\v]+")
+_ELEMENTS = {
+    "link",
+    "joint",
+    "material",
+    "inertial",
+    "inertia",
+    "visual",
+    "collision",
+    "origin",
+    "geometry",
+    "mass",
+    "axis",
+}
+"""Elements of URDF that a stray place does not make misspelt ones."""
+_GROUPED = 3
+_LINES_SHOWN = 8
+_RUN_XACRO = "expand the file with xacro first"
+
+
+class Findings:
+    """Collects what there is to say about one file, and the line of each element by its path."""
+
+    def __init__(self, file: str, diagnostics: Collection[Diagnostic] = ()) -> None:
+        self.file = file
+        self.lines: dict[str, int] = {}
+        self._diagnostics = list(diagnostics)
+
+    @property
+    def failed(self) -> bool:
+        """Whether an error was found."""
+        return any(diagnostic.severity is Severity.ERROR for diagnostic in self._diagnostics)
+
+    def add(self, severity: Severity, code: str, line: int, message: str, hint: str) -> None:
+        """Add a finding about a line of the file."""
+        self._diagnostics.append(Diagnostic(severity, code, message, self.file, line, hint=hint))
+
+    def warn(self, code: str, line: int, message: str, hint: str) -> None:
+        """Add a warning about a line of the file."""
+        self.add(Severity.WARNING, code, line, message, hint)
+
+    def line(self, path: str) -> int:
+        """Line of the element, or of the nearest one that contains it; 0 if unknown."""
+        while path not in self.lines:
+            path, separator, _ = path.rpartition(" / ")
+            if not separator:
+                return self.lines.get("robot", 0)
+        return self.lines[path]
+
+    def result(self) -> tuple[Diagnostic, ...]:
+        """All findings by line; more than three warnings of one code are told as one."""
+        by_code: dict[tuple[Severity, str], list[Diagnostic]] = {}
+        for diagnostic in sorted(self._diagnostics, key=lambda diagnostic: (diagnostic.line, diagnostic.column)):
+            by_code.setdefault((diagnostic.severity, diagnostic.code), []).append(diagnostic)
+        told: list[Diagnostic] = []
+        for (severity, _), group in by_code.items():
+            told += group if severity is Severity.ERROR or len(group) <= _GROUPED else [_as_one(group)]
+        return tuple(sorted(told, key=lambda diagnostic: (diagnostic.line, diagnostic.column)))
+
+
+def _as_one(group: list[Diagnostic]) -> Diagnostic:
+    """The first of the findings, with the lines of the others in its message."""
+    lines = list(dict.fromkeys(str(diagnostic.line) for diagnostic in group[1:]))
+    shown = ", ".join(lines[:_LINES_SHOWN]) + (", …" if len(lines) > _LINES_SHOWN else "")
+    message = f"{group[0].message} (and {len(group) - 1} more like it: line{'s' * (len(lines) > 1)} {shown})"
+    return dataclasses.replace(group[0], message=message)
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Element:
+    """An element of the URDF with its place in the robot, for example `joint elbow / limit`."""
+
+    node: Node
+    path: str
+    findings: Findings
+
+    def __post_init__(self) -> None:
+        self.findings.lines.setdefault(self.path, self.node.line)
+
+    def error(self, code: str, message: str, hint: str) -> None:
+        """Add an error about this element."""
+        self.findings.add(Severity.ERROR, code, self.node.line, message, hint)
+
+    def warn(self, code: str, message: str, hint: str) -> None:
+        """Add a warning about this element."""
+        self.findings.warn(code, self.node.line, message, hint)
+
+    def child(self, tag: str, *attributes: str) -> Element | None:
+        """The first child with this tag; `attributes` are those that URDF knows, to find misspelt ones."""
+        found = [node for node in self.node.children if node.tag == tag]
+        if not found:
+            return None
+        element = Element(found[0], f"{self.path} / {tag}", self.findings)
+        if len(found) > 1:
+            message = f"{self.path} has {len(found)} <{tag}> elements, of which the first counts"
+            extra = Element(found[1], f"{element.path} #2", self.findings)
+            extra.warn("duplicate-element", message, "remove the others")
+        element.expect(attributes)
+        return element
+
+    def expect(self, attributes: Collection[str]) -> None:
+        """Warn about attributes that look like misspelt ones of `attributes`."""
+        absent = [name for name in attributes if name not in self.node.attributes]
+        for name in self.node.attributes:
+            if absent and name not in attributes and (meant := nearest(name, absent)):
+                message = f"{self.path}: the attribute {name!r} is unknown, and has no effect"
+                self.warn("unknown-attribute", message, f"perhaps {meant!r} is meant")
+
+    def extensions(self, owner: str, tags: Collection[str]) -> Iterator[Extension]:
+        """The children that have none of `tags`; warns about those that look like a misspelt one."""
+        for node in self.node.children:
+            if node.tag in tags:
+                continue
+            if node.tag not in _ELEMENTS and ":" not in node.tag and (meant := nearest(node.tag, tags, 0.8)):
+                message = f"{self.path}: the element <{node.tag}> is unknown, and has no effect"
+                hint = f"perhaps <{meant}> is meant"
+                self.findings.warn("unknown-element", node.line, message, hint)
+            yield Extension(owner, node.tag, node.canonical())
+
+    def text(self, name: str) -> str:
+        """A text that must be there; an empty one, after an error, if it is not."""
+        self._require(name)
+        value = self.node.attributes.get(name, "")
+        if name in self.node.attributes and not value.strip():
+            self.error("empty-attribute", f"{self.path}: the attribute {name!r} is empty", "fill it in")
+        return value if value.strip() else ""
+
+    def number(self, name: str, missing: Missing) -> float | Missing:
+        """A decimal number, or `missing` if the attribute is absent."""
+        values = self._numbers(name, 1)
+        return missing if values is None else values[0]
+
+    def required(self, name: str) -> float:
+        """A decimal number that must be there; 0, after an error, if it is not."""
+        self._require(name)
+        return self.number(name, 0.0)
+
+    def required_vector(self, name: str) -> Vector:
+        """Three decimal numbers that must be there; zeros, after an error, if they are not."""
+        self._require(name)
+        return self.vector(name, (0.0, 0.0, 0.0))
+
+    def vector(self, name: str, missing: Vector) -> Vector:
+        """Three decimal numbers, or `missing` if the attribute is absent."""
+        values = self._numbers(name, 3)
+        return missing if values is None else (values[0], values[1], values[2])
+
+    def _require(self, name: str) -> None:
+        """Add an error if the attribute is absent."""
+        if name not in self.node.attributes:
+            self.error("missing-attribute", f"{self.path} has no attribute {name!r}", f"add {name}=…")
+
+    def _numbers(self, name: str, count: int) -> tuple[float, ...] | None:
+        """The numbers of an attribute; None if it is absent, or after an error."""
+        if name not in self.node.attributes:
+            return None
+        try:
+            return parse_numbers(self.node.attributes[name], count)
+        except ValueError as error:
+            code = "empty-attribute" if not self.node.attributes[name].strip() else "bad-number"
+            hint = _RUN_XACRO if "${" in self.node.attributes[name] else "write decimal numbers such as -0.5 or 1e-3"
+            self.error(code, f"{self.path}: {name}={self.node.attributes[name]!r} {error}", hint)
+            return None
+
+
+def parse_numbers(text: str, count: int) -> tuple[float, ...]:
+    """Exactly `count` decimal numbers between blanks; raises ValueError that says what is wrong.
+
+    Negative zero becomes zero, so that it makes no difference between two exports.
+    """
+    words = [word for word in _BLANKS.split(text) if word]
+    if len(words) != count and all(map(_DECIMAL.fullmatch, words)):
+        raise ValueError(f"has {len(words)} numbers instead of {count}")
+    for word in words:
+        if not _DECIMAL.fullmatch(word):
+            raise ValueError(f"is not a decimal number: {word!r}" if len(words) > 1 else "is not a decimal number")
+    values = tuple(float(word) + 0.0 for word in words)
+    if not all(map(math.isfinite, values)):
+        raise ValueError("is too large for a floating-point number")
+    return values

@@ -1,0 +1,113 @@
+"""Poses of links, in plain Python: rotation matrices as rows, vectors in metres."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+
+from urdfsync.urdf.robot import Box, Capsule, Cylinder, Geometry, Joint, Origin, Sphere, Vector
+from urdfsync.urdf.skeleton import MOTIONS, Skeleton
+
+Matrix = tuple[Vector, Vector, Vector]
+Pose = tuple[Matrix, Vector]
+"""Rotation R and translation p: v_world = R·v + p."""
+
+IDENTITY: Pose = (((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0, 0.0, 0.0))
+
+
+def pose(origin: Origin) -> Pose:
+    """Pose of an origin: Rz(yaw)·Ry(pitch)·Rx(roll), as URDF defines it."""
+    (sr, sp, sy), (cr, cp, cy) = map(math.sin, origin.rpy), map(math.cos, origin.rpy)
+    rotation = (
+        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
+        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
+        (-sp, cp * sr, cp * cr),
+    )
+    return rotation, origin.xyz
+
+
+def compose(outer: Pose, inner: Pose) -> Pose:
+    """The pose of `inner`, which is given in `outer`, in the frame that `outer` is given in."""
+    (rotation, translation), columns = outer, tuple(zip(*inner[0], strict=True))
+    turned = tuple(tuple(_dot(row, column) for column in columns) for row in rotation)
+    moved = tuple(p + _dot(row, inner[1]) for p, row in zip(translation, rotation, strict=True))
+    return turned, moved  # type: ignore[return-value]
+
+
+def motion(joint: Joint, position: float) -> Pose:
+    """Pose of the child link in the joint frame; a turn about the axis by Rodrigues' formula, or a shift along it."""
+    if MOTIONS.get(joint.type) == "translational":
+        return IDENTITY[0], tuple(position * a for a in joint.axis)  # type: ignore[return-value]
+    if MOTIONS.get(joint.type) != "rotational":
+        return IDENTITY
+    (x, y, z), s, c = joint.axis, math.sin(position), math.cos(position)
+    v = 1 - c
+    rotation = (
+        (c + x * x * v, x * y * v - z * s, x * z * v + y * s),
+        (y * x * v + z * s, c + y * y * v, y * z * v - x * s),
+        (z * x * v - y * s, z * y * v + x * s, c + z * z * v),
+    )
+    return rotation, (0.0, 0.0, 0.0)
+
+
+def link_poses(skeleton: Skeleton, positions: Mapping[str, float]) -> Mapping[str, Pose]:
+    """Poses of all links in the root frame at the given joint positions (0 if not given)."""
+    poses = {skeleton.links[0].name: IDENTITY}
+    for joint in skeleton.joints:
+        moved = compose(pose(joint.origin), motion(joint, positions.get(joint.name, 0.0)))
+        poses[joint.child] = compose(poses[joint.parent], moved)
+    return poses
+
+
+def start_positions(skeleton: Skeleton) -> Mapping[str, float]:
+    """Where each joint is at the beginning: as close to zero as its limits and those of its followers allow."""
+    ranges = _ranges(skeleton)
+    positions: dict[str, float] = {}
+    for joint in skeleton.leaders_first():
+        if joint.mimic is not None and joint.type in MOTIONS:
+            positions[joint.name] = joint.mimic.multiplier * positions[joint.mimic.joint] + joint.mimic.offset
+        else:
+            lower, upper = ranges[joint.name]
+            positions[joint.name] = min(max(0.0, lower), upper)
+    return positions
+
+
+def lowest_point(geometry: Geometry, at: Pose, hull: Iterable[Vector] = ()) -> float | None:
+    """Smallest z of a shape at a pose; of a mesh that of its `hull`, None if that is empty."""
+    up, height = at[0][2], at[1][2]
+    match geometry:
+        case Box(size=size):
+            return height - sum(abs(a) * edge / 2 for a, edge in zip(up, size, strict=True))
+        case Sphere(radius=radius):
+            return height - radius
+        case Capsule(radius=radius, length=length):
+            return height - abs(up[2]) * length / 2 - radius
+        case Cylinder(radius=radius, length=length):
+            return height - abs(up[2]) * length / 2 - radius * math.hypot(up[0], up[1])
+        case _:
+            return min((height + _dot(up, point) for point in hull), default=None)
+
+
+def _ranges(skeleton: Skeleton) -> Mapping[str, tuple[float, float]]:
+    ranges = {joint.name: own_range(joint) for joint in skeleton.joints}
+    followers = skeleton.followers_by_leader()
+    for joint in reversed(skeleton.leaders_first()):
+        for follower, mimic in followers.get(joint.name, ()):
+            if mimic.multiplier:
+                ends = sorted((end - mimic.offset) / mimic.multiplier for end in ranges[follower.name])
+                lower, upper = ranges[joint.name]
+                ranges[joint.name] = max(lower, ends[0]), min(upper, ends[1])
+    return ranges
+
+
+def own_range(joint: Joint) -> tuple[float, float]:
+    """Smallest and largest position of one joint by itself."""
+    if joint.type not in MOTIONS:
+        return 0.0, 0.0
+    if joint.type == "continuous" or joint.limit is None:
+        return -math.inf, math.inf
+    return joint.limit.lower, joint.limit.upper
+
+
+def _dot(a: Sequence[float], b: Sequence[float]) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -1,0 +1,124 @@
+"""The triangles of a COLLADA file (.dae), placed by its scene, in metres.
+
+Of the metadata, `<unit>` is applied and `<up_axis>` is not. That is how RViz, MoveIt and Gazebo classic
+show the meshes of a URDF, and so what exporters count on; files say `Y_UP` and mean it, or don't
+(ros-visualization/rviz issue 1045, moveit/geometric_shapes pull request 52, gazebosim/gazebo-classic
+issue 1305). The transformations of the scene's nodes are applied.
+
+pycollada does the reading. It drops a geometry whose material, image or neighbour it doesn't understand;
+hence all that has no influence on the shape is taken out before, and every fault it then notes counts.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from lxml import etree
+
+from urdfsync.urdf.mesh_geometry import Array, MeshError, placed
+
+_NO_SHAPE = (
+    "library_animations",
+    "library_animation_clips",
+    "library_cameras",
+    "library_effects",
+    "library_images",
+    "library_lights",
+    "library_materials",
+    "asset",
+    "bind_material",
+    "extra",
+    "instance_camera",
+    "instance_light",
+    "linestrips",
+)
+_NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes"}
+
+
+def read_collada(content: bytes) -> Array:
+    """Corners of all triangles (n × 3 × 3, metres). Raises MeshError, or what pycollada raises for broken files."""
+    import collada
+
+    root = _parse(content)
+    unit = _unit(root)
+    for tag, name in _NOT_READ.items():
+        if root.find(f".//{{*}}{tag}") is not None:
+            raise MeshError(f"it has {name}, which urdfsync doesn't read")
+    etree.strip_elements(root, *(f"{{*}}{tag}" for tag in _NO_SHAPE), with_tail=False)
+    document = collada.Collada(io.BytesIO(etree.tostring(root)), ignore=[collada.DaeError])  # ignored: noted as errors
+    faults = [fault for fault in document.errors if not isinstance(fault, collada.DaeUnsupportedError)]
+    if faults:
+        raise MeshError(str(document.errors[0]))
+    if document.scene is None:
+        raise MeshError("it has no scene")
+    parts = [part for node in document.scene.nodes for part in _triangles(node, np.identity(4))]
+    return unit * np.concatenate([np.empty((0, 3, 3)), *parts])
+
+
+def _parse(content: bytes) -> etree._Element:
+    """The document without comments. A document type is refused: entities could make it grow without end."""
+    if b"<!DOCTYPE" in content:
+        raise MeshError("it has a document type declaration, which COLLADA files don't have")
+    parser = etree.XMLParser(
+        resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True, huge_tree=True
+    )
+    try:
+        return etree.fromstring(content, parser)
+    except etree.XMLSyntaxError as error:
+        raise MeshError(f"it isn't well-formed XML: {error.msg}") from error
+
+
+def _unit(root: etree._Element) -> float:
+    """Metres per unit of length, 1 unless the file says otherwise."""
+    node = root.find("{*}asset/{*}unit")
+    text = "1" if node is None else node.get("meter", "1")
+    try:
+        unit = float(text)
+    except ValueError:
+        unit = math.nan
+    if not (math.isfinite(unit) and unit > 0):
+        raise MeshError(f"its unit of length is {text!r} metres")
+    return unit
+
+
+def _triangles(node: Any, pose: Array) -> Iterator[Array]:
+    """Corners of the triangles at and below a node of pycollada's scene; `pose` (4 × 4) is that of the parent."""
+    from collada import controller, scene
+
+    if isinstance(node, scene.NodeNode):
+        yield from _triangles(node.node, pose)
+    elif isinstance(node, scene.Node):
+        for transformation in node.transforms:
+            pose = _product(pose, transformation.matrix)
+        for child in node.children:
+            yield from _triangles(child, pose)
+    elif isinstance(node, scene.GeometryNode):
+        yield from (placed(corners, pose) for corners in _primitives(node.geometry))
+    elif isinstance(node, scene.ControllerNode) and isinstance(node.controller, controller.Skin):
+        skin = node.controller
+        pose = _product(pose, skin.bind_shape_matrix)
+        yield from (placed(corners, pose) for corners in _primitives(skin.geometry))
+    elif isinstance(node, scene.ControllerNode):
+        yield from (placed(corners, pose) for corners in _primitives(node.controller.source_geometry))
+
+
+def _primitives(geometry: Any) -> Iterator[Array]:
+    """Corners of the triangles of one geometry, as they stand in the file; lines are left out."""
+    from collada import polylist, triangleset
+
+    for primitive in geometry.primitives:
+        faces = primitive.triangleset() if isinstance(primitive, polylist.Polylist) else primitive
+        if isinstance(faces, triangleset.TriangleSet) and faces.vertex is not None:
+            if faces.vertex_index.min() < 0:
+                raise MeshError("it has a negative index")
+            yield faces.vertex[faces.vertex_index].astype(np.float64)
+
+
+def _product(first: Array, second: Array) -> Array:
+    """Matrix product (4 × 4) in double precision and a fixed order of operations, the same on every machine."""
+    product: Array = (first[:, :, np.newaxis] * second.astype(np.float64)[np.newaxis]).sum(axis=1)
+    return product

@@ -1,0 +1,111 @@
+"""Triangles as arrays: moved, measured, and the few points on which such a body stands or rolls."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+Array: TypeAlias = npt.NDArray[np.float64]
+
+_STEPS = 36  # directions on each great circle
+_TIE = 1e-9  # of the size: what is meant to be equal differs by rounding
+_MARGIN = 1e-5  # of the size: far above the error of single precision
+_CHUNK = 1 << 14  # points whose products with all directions stay in the cache
+_DIGITS = 6
+
+
+class MeshError(Exception):
+    """A mesh can't be used; the text is the second half of `the mesh … can't be read: it …`."""
+
+
+def placed(corners: Array, pose: Array) -> Array:
+    """Triangles (n × 3 × 3) moved by an affine transformation (4 × 4); one that mirrors keeps their outer sides."""
+    x, y, z = (corners[..., axis, np.newaxis] for axis in range(3))
+    moved: Array = x * pose[:3, 0] + y * pose[:3, 1] + z * pose[:3, 2] + pose[:3, 3]
+    return moved[:, ::-1] if np.linalg.det(pose[:3, :3]) < 0 else moved
+
+
+def bounds(points: Array) -> list[list[float]]:
+    """Least and greatest coordinates of `points` (n × 3): `[[x, y, z], [x, y, z]]`."""
+    return [_plain(points.min(axis=0)), _plain(points.max(axis=0))]
+
+
+def support_points(points: Array) -> list[list[float]]:
+    """Some points of the convex hull of `points` (n × 3, metres): rounded to 1e-6 m, sorted, each once.
+
+    They are the extreme points along 122 fixed directions: three great circles normal to the
+    coordinate axes in steps of 10°, and the faces, edges and corners of a cube. Where a whole edge or
+    face is extreme, its own extreme points count, so that a wheel keeps the rims of both sides.
+    """
+    size = float(np.ptp(points, axis=0).max())
+    chosen = []
+    for direction, near in zip(_DIRECTIONS, _nearly_extreme(points, _DIRECTIONS, size), strict=True):
+        heights = _products(near, direction[np.newaxis])[:, 0]
+        chosen.append(_corners(near[heights >= heights.max() - _TIE * size], direction, size))
+    rounded = np.round(np.concatenate(chosen), _DIGITS) + 0.0  # -0.0 becomes 0.0
+    return [_plain(point) for point in np.unique(rounded, axis=0)]
+
+
+def _directions() -> Array:
+    """Unit vectors (122 × 3), rounded so that they are the same on every machine."""
+    angles = [2 * math.pi * step / _STEPS for step in range(_STEPS)]
+    circles = [np.roll((math.cos(angle), math.sin(angle), 0.0), axis) for axis in range(3) for angle in angles]
+    cube = [np.array(corner) / math.hypot(*corner) for corner in itertools.product((-1, 0, 1), repeat=3) if any(corner)]
+    unique: Array = np.unique(np.round(circles + cube, 12) + 0.0, axis=0)
+    return unique
+
+
+_DIRECTIONS = _directions()
+
+
+def _nearly_extreme(points: Array, directions: Array, size: float) -> list[Array]:
+    """Per direction, the points that may be extreme: found in single precision, with a margin for its errors.
+
+    All points are looked at once, since a large mesh has millions.
+    """
+    relative = ((points - points.mean(axis=0)) / (size or 1.0)).astype(np.float32)
+    axes = directions.T.astype(np.float32)
+    highest = np.full(len(directions), -np.inf, dtype=np.float32)
+    found = []
+    for start in range(0, len(points), _CHUNK):
+        heights = relative[start : start + _CHUNK] @ axes
+        highest = np.maximum(highest, heights.max(axis=0))
+        rows, columns = np.nonzero(heights >= highest - np.float32(_MARGIN))
+        found.append((columns, rows + start, heights[rows, columns]))
+    columns, rows, values = map(np.concatenate, zip(*found, strict=True))
+    extreme = values >= highest[columns] - np.float32(_MARGIN)
+    columns, rows = columns[extreme], rows[extreme]
+    rows = rows[np.argsort(columns, kind="stable")]
+    return [points[part] for part in np.split(rows, np.cumsum(np.bincount(columns, minlength=len(directions)))[:-1])]
+
+
+def _corners(tied: Array, direction: Array, size: float) -> Array:
+    """Of points in a plane normal to `direction`: those extreme along the other directions, two where these tie too."""
+    if not np.ptp(tied, axis=0).any():
+        return tied[:1]
+    along = np.cross(direction, _DIRECTIONS)
+    others = np.linalg.norm(along, axis=1) > _MARGIN
+    if len(tied) > _CHUNK:
+        tied = np.concatenate(_nearly_extreme(tied, _DIRECTIONS[others], size))
+    heights = _products(tied, _DIRECTIONS[others])
+    extreme = heights >= heights.max(axis=0) - _TIE * size
+    positions = _products(tied, along[others])
+    last = np.where(extreme, positions, -np.inf).argmax(axis=0)
+    first = np.where(extreme, positions, np.inf).argmin(axis=0)
+    corners: Array = tied[np.union1d(first, last)]
+    return corners
+
+
+def _products(points: Array, directions: Array) -> Array:
+    """Scalar products (points × directions); without a matrix product, whose rounding depends on the machine."""
+    x, y, z = (points[:, axis, np.newaxis] * directions[np.newaxis, :, axis] for axis in range(3))
+    products: Array = x + y + z
+    return products
+
+
+def _plain(point: Array) -> list[float]:
+    return [float(coordinate) for coordinate in point]

@@ -1,0 +1,171 @@
+"""Which mesh files a robot refers to, where they may be, and their names in the package. Pure: nothing is looked for.
+
+A mesh is identified by its URI as written together with its scale, since the scale is baked into the
+imported file. Where a URI points to is decided as ROS does it, widened to what URDF files out in the
+world contain: `package://` and `model://` with search paths, `$(find …)` that no xacro has expanded,
+`file:` in all its spellings, relative paths, backslashes and percent-encoding. Other schemes are not
+looked up: a build doesn't use the network.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
+
+from urdfsync.domain import Dependency, Lookup
+from urdfsync.urdf.robot import Collision, Mesh, Robot, Vector, Visual
+
+UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
+AS_IS = (".stl", ".obj")
+"""Formats that Modelica tools draw, and that are imported as they are unless they are scaled."""
+
+_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)")  # two letters at least: `C:` is a drive
+_FOUND = re.compile(r"(?:file:(?://)?)?\$\((?:find|find-pkg-share)\s+([^)]+)\)/*(.*)")
+_LOCAL_HOST = re.compile("^localhost/")
+_DRIVE = re.compile(r"/*([A-Za-z]:/.*)")
+_UNFIT = re.compile("[\x00-\x1f\x7f\ud800-\udfff]")
+_NAME_BYTES = 255
+_PATH_BYTES = 4095
+_STEM_LENGTH = 40
+
+
+def key(mesh: Mesh) -> str:
+    """Identity of a mesh among the imports: its URI and scale, for example `package://arm/a.dae scale 1.0 1.0 1.0`."""
+    return f"{mesh.filename} scale {_numbers(mesh.scale)}"
+
+
+def mesh(key: str) -> Mesh:
+    """The mesh that has this key. Raises ValueError if no mesh has."""
+    filename, separator, numbers = key.rpartition(" scale ")
+    x, y, z = map(float, numbers.split(" "))
+    if not separator:
+        raise ValueError(f"not the key of a mesh: {key!r}")
+    return Mesh(filename, (x, y, z))
+
+
+def suffix(uri: str) -> str:
+    """The format of the mesh file: its suffix in lower case with the dot, or an empty string."""
+    return PurePosixPath(_file_name(uri)).suffix.lower()
+
+
+def as_is(mesh: Mesh) -> bool:
+    """Whether the file is imported byte for byte."""
+    return suffix(mesh.filename) in AS_IS and _scale(mesh) == UNIT_SCALE
+
+
+def target(mesh: Mesh) -> str:
+    """Path of the imported file below the package folder; a function of URI and scale alone.
+
+    The digits are a hash of both, so that two meshes of one file name don't meet, on no file system.
+    """
+    stem = re.sub("[^A-Za-z0-9_-]+", "_", PurePosixPath(_file_name(mesh.filename)).stem)
+    stem = stem[:_STEM_LENGTH].strip("_-") or "mesh"
+    digits = hashlib.sha256(key(mesh).encode("utf-8", "surrogatepass")).hexdigest()[:8]
+    return f"Resources/{stem}_{digits}{suffix(mesh.filename) if as_is(mesh) else '.stl'}"
+
+
+def dependencies(robot: Robot, lookup: Lookup, lines: Mapping[str, int]) -> tuple[Dependency, ...]:
+    """The mesh files of all visuals and collisions, each URI and scale once, in the order of their keys.
+
+    `lines` holds the line of each element by its path, for example `link wheel / visual 2`, as reading
+    the source gave it.
+    """
+    meshes: dict[str, Mesh] = {}
+    first: dict[str, int] = {}
+    for path, found in _meshes(robot):
+        name, line = key(found), _line(path, lines)
+        meshes[name] = found
+        if line:
+            first[name] = min(line, first.get(name, line))
+    return tuple(
+        Dependency(name, found.filename, candidates(found.filename, lookup), target(found), first.get(name, 0))
+        for name, found in sorted(meshes.items())
+    )
+
+
+def candidates(uri: str, lookup: Lookup) -> tuple[Path, ...]:
+    """Absolute paths at which the file may be, best first; none if the URI names no file of this machine.
+
+    The URI is taken literally first, then with its percent-encoding undone.
+    """
+    texts = (uri.strip(), unquote(uri.strip()))
+    paths = (path for text in texts if not _UNFIT.search(text) for path in _places(text.replace("\\", "/"), lookup))
+    return tuple(dict.fromkeys(path for path in paths if path.is_absolute() and _possible(path)))
+
+
+def _places(text: str, lookup: Lookup) -> Iterator[Path]:
+    if match := _FOUND.fullmatch(text):
+        yield from _in_package(match[1].strip(), match[2], lookup)
+    elif not (match := _SCHEME.fullmatch(text)):
+        yield from _at_path(text, lookup)
+    elif match[1].lower() == "file":
+        yield from _at_path(_LOCAL_HOST.sub("/", match[2]), lookup)
+    elif match[1].lower() in ("package", "model"):
+        package, _, rest = match[2].partition("/")
+        yield from _in_package(package, rest, lookup)
+
+
+def _at_path(text: str, lookup: Lookup) -> Iterator[Path]:
+    """A path without a scheme: absolute, or relative to the source's folder, the folders above or a search path."""
+    if drive := _DRIVE.fullmatch(text):
+        yield Path(drive[1])
+    elif text.startswith("/"):
+        yield Path("/" + text.lstrip("/"))
+    elif text:
+        yield from (folder / text for folder in (*lookup.source.parents, *lookup.package_paths))
+
+
+def _in_package(package: str, text: str, lookup: Lookup) -> Iterator[Path]:
+    """A path in a package, which is a child of a search path or of a folder above the source, or is such a folder.
+
+    Exporters that know no package leave its name out (`package:///a.stl`), or name a folder beside the source.
+    """
+    path = text.lstrip("/")
+    if not package:
+        yield from _at_path(path, lookup)
+    elif path:
+        for folder in (*lookup.package_paths, *lookup.source.parents):
+            yield folder / package / path
+            if folder.name == package:
+                yield folder / path
+
+
+def _possible(path: Path) -> bool:
+    """Whether file systems can have such a path at all; asking them for a longer one is an error."""
+    sizes = [len(part.encode()) for part in path.parts]
+    return max(sizes) <= _NAME_BYTES and sum(sizes) + len(sizes) <= _PATH_BYTES
+
+
+def _meshes(robot: Robot) -> Iterator[tuple[str, Mesh]]:
+    """Each mesh with the path of its element."""
+    for link in robot.links:
+        shapes: list[tuple[str, Visual | Collision]] = [
+            *((f"visual {number}", visual) for number, visual in enumerate(link.visuals, start=1)),
+            *((f"collision {number}", collision) for number, collision in enumerate(link.collisions, start=1)),
+        ]
+        for name, shape in shapes:
+            if isinstance(shape.geometry, Mesh):
+                yield f"link {link.name} / {name} / geometry / mesh", shape.geometry
+
+
+def _line(path: str, lines: Mapping[str, int]) -> int:
+    """Line of the element or of the nearest one around it; 0 if unknown."""
+    while path and path not in lines:
+        path = path.rpartition(" / ")[0]
+    return lines.get(path, 0)
+
+
+def _file_name(uri: str) -> str:
+    return unquote(uri.strip().replace("\\", "/")).rpartition("/")[2]
+
+
+def _scale(mesh: Mesh) -> Vector:
+    x, y, z = map(float, mesh.scale)
+    return x, y, z
+
+
+def _numbers(vector: Vector) -> str:
+    return " ".join(repr(float(number)) for number in vector)

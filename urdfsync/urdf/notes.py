@@ -1,0 +1,57 @@
+"""Titles and documentation texts of generated classes."""
+
+from __future__ import annotations
+
+from urdfsync.literals import html
+from urdfsync.urdf.robot import Joint, Link
+
+_EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
+
+_MOTIONS = {
+    "fixed": "does not move",
+    "continuous": "turns without end stops",
+    "revolute": "turns within its limits",
+    "prismatic": "slides within its limits",
+    "planar": "slides in a plane and turns about its normal",
+    "floating": "moves freely",
+}
+
+
+def link_note(link: Link) -> str:
+    """Documentation of a link's model, as HTML."""
+    return f"Rigid body, visuals and collisions of the URDF link <code>{html(link.name)}</code>. {_EDIT}"
+
+
+def joint_title(joint: Joint) -> str:
+    """What a joint is, in words."""
+    return f'{joint.type} joint "{joint.name}" from link "{joint.parent}" to link "{joint.child}"'
+
+
+def joint_note(joint: Joint) -> str:
+    """Documentation of a joint's model, as HTML."""
+    ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
+    return f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {_MOTIONS[joint.type]}. {_EDIT}"
+
+
+def robot_note(name: str) -> str:
+    """Documentation of the robot model, as HTML."""
+    return (
+        f"Links and joints of robot {name}, connected. The flange vectors hold the axes that can be driven; the constants "
+        f"<code>...Axis</code> and <code>...Frame</code> are their numbers and keep their meaning when the robot changes. {_EDIT}"
+    )
+
+
+def run_note(name: str) -> str:
+    """Documentation of the Run model, as HTML."""
+    return (
+        f"Robot {name} in its world, with one input per axis for its position and one output for what its drive has to give. "
+        f"The inputs are filtered, so that they need no derivatives. {_EDIT}"
+    )
+
+
+def test_note(name: str) -> str:
+    """Documentation of the Test model, as HTML."""
+    return (
+        f"Simulates without inputs: every axis of robot {name} moves inside its limits and comes back. A warning in the log "
+        f"names a joint that passes one of its limits all the same, for example that of its effort. {_EDIT}"
+    )

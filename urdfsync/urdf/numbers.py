@@ -1,0 +1,75 @@
+"""The numbers of a joint in groups, as its record holds them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from urdfsync.literals import INFINITY, real
+from urdfsync.urdf.robot import Joint, Vector
+from urdfsync.urdf.skeleton import MOTIONS
+
+
+def joint_numbers(joint: Joint) -> dict[str, Any]:
+    """Template data of a joint's record: name, origin, axis and the groups that the joint has."""
+    return {
+        "name": joint.name,
+        "kind": joint.type.capitalize(),
+        "origin": joint.origin,
+        "axis": axis(joint),
+        "groups": _groups(joint),
+    }
+
+
+def axis(joint: Joint) -> Vector | None:
+    """The axis of a joint that has one."""
+    return joint.axis if joint.type in MOTIONS or joint.type == "planar" else None
+
+
+def _groups(joint: Joint) -> list[dict[str, Any]]:
+    if joint.type == "planar":
+        return _planar_groups(joint)
+    if joint.type not in MOTIONS:
+        return []
+    groups = [_limits(joint)]
+    if joint.dynamics is not None:
+        groups.append(_group("dynamics", damping=joint.dynamics.damping, friction=joint.dynamics.friction))
+    if joint.mimic is not None:
+        groups.append(_group("mimic", multiplier=joint.mimic.multiplier, offset=joint.mimic.offset))
+    if joint.calibration is not None:
+        groups.append(_group("calibration", rising=joint.calibration.rising, falling=joint.calibration.falling))
+    if (safety := joint.safety_controller) is not None:
+        groups.append(
+            _group(
+                "safetyController",
+                k_velocity=safety.k_velocity,
+                k_position=safety.k_position,
+                soft_lower_limit=safety.soft_lower_limit,
+                soft_upper_limit=safety.soft_upper_limit,
+            )
+        )
+    return groups
+
+
+def _planar_groups(joint: Joint) -> list[dict[str, Any]]:
+    if joint.dynamics is None:
+        return []
+    numbers = {"damping": joint.dynamics.damping, "friction": joint.dynamics.friction}
+    return [_group("translation", **numbers), _group("rotation", **numbers)]
+
+
+def _limits(joint: Joint) -> dict[str, Any]:
+    limit = joint.limit
+    limited = joint.type != "continuous"
+    return {
+        "name": "limits",
+        "numbers": [
+            ("lower", real(limit.lower if limit and limited else None, absent=f"-{INFINITY}")),
+            ("upper", real(limit.upper if limit and limited else None)),
+            ("velocity", real(limit.velocity if limit else None)),
+            ("effort", real(limit.effort if limit else None)),
+        ],
+    }
+
+
+def _group(name: str, **numbers: float | None) -> dict[str, Any]:
+    return {"name": name, "numbers": [(field, real(value)) for field, value in numbers.items()]}

@@ -1,0 +1,22 @@
+"""The options of the URDF domain, as they stand in `urdfsync.toml`."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+
+class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What a user can choose for one robot."""
+
+    base: Literal["fixed", "floating"] = "fixed"
+    """`fixed`: the root link is bolted down; `floating`: a mobile robot that moves freely and touches the ground."""
+    visualizer: Literal["standard", "visualization2"] = "standard"
+    """Whose shapes the links show: the Modelica Standard Library's or those of the DLR Visualization 2 library."""
+    collisions: bool = True
+    """Whether links have their collision shapes."""
+    meshes: Literal["import", "skip"] = "import"
+    """Whether mesh files are brought into the package, or left out."""
+    cross_check: bool = True
+    """Whether yourdfpy reads each changed source, too, and has to agree."""

@@ -1,0 +1,189 @@
+"""A robot as its URDF describes it: frozen values in SI units, source order kept.
+
+Lengths are in metres, angles in radians, masses in kilograms, inertias in kg·m². `rpy` are the
+fixed-axis roll, pitch and yaw angles of URDF. What a URDF leaves out and its specification gives no
+number for stays None; all other defaults are those of ROS's urdfdom.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+import msgspec
+
+Vector: TypeAlias = tuple[float, float, float]
+
+JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating"]
+
+
+class Origin(msgspec.Struct, frozen=True):
+    """Pose of a child frame in its parent frame."""
+
+    xyz: Vector = (0.0, 0.0, 0.0)
+    rpy: Vector = (0.0, 0.0, 0.0)
+
+
+class Box(msgspec.Struct, frozen=True, tag="box", tag_field="kind"):
+    """A box, centred; `size` along x, y and z."""
+
+    size: Vector
+
+
+class Cylinder(msgspec.Struct, frozen=True, tag="cylinder", tag_field="kind"):
+    """A cylinder along z, centred."""
+
+    radius: float
+    length: float
+
+
+class Capsule(msgspec.Struct, frozen=True, tag="capsule", tag_field="kind"):
+    """A cylinder along z with half spheres at both ends, centred; `length` without the half spheres."""
+
+    radius: float
+    length: float
+
+
+class Sphere(msgspec.Struct, frozen=True, tag="sphere", tag_field="kind"):
+    """A sphere, centred."""
+
+    radius: float
+
+
+class Mesh(msgspec.Struct, frozen=True, tag="mesh", tag_field="kind"):
+    """A mesh file, by its URI as written."""
+
+    filename: str
+    scale: Vector = (1.0, 1.0, 1.0)
+
+
+Geometry: TypeAlias = Box | Cylinder | Capsule | Sphere | Mesh
+
+
+class Material(msgspec.Struct, frozen=True):
+    """A material, already looked up through the whole robot; `rgba` in 0 to 1."""
+
+    name: str = ""
+    rgba: tuple[float, float, float, float] | None = None
+    texture: str | None = None
+
+
+class Visual(msgspec.Struct, frozen=True):
+    """What a link looks like: one of its shapes."""
+
+    geometry: Geometry
+    origin: Origin = Origin()
+    name: str = ""
+    material: Material | None = None
+
+
+class Collision(msgspec.Struct, frozen=True):
+    """What of a link touches other things: one of its shapes."""
+
+    geometry: Geometry
+    origin: Origin = Origin()
+    name: str = ""
+
+
+class Inertia(msgspec.Struct, frozen=True):
+    """Inertia tensor about the centre of mass, in the axes of the inertial frame."""
+
+    ixx: float = 0.0
+    ixy: float = 0.0
+    ixz: float = 0.0
+    iyy: float = 0.0
+    iyz: float = 0.0
+    izz: float = 0.0
+
+
+class Inertial(msgspec.Struct, frozen=True):
+    """Mass properties; `origin` places the inertial frame, whose origin is the centre of mass."""
+
+    mass: float = 0.0
+    origin: Origin = Origin()
+    inertia: Inertia = Inertia()
+
+
+class Link(msgspec.Struct, frozen=True):
+    """A rigid body; without `inertial` it is massless."""
+
+    name: str
+    inertial: Inertial | None = None
+    visuals: tuple[Visual, ...] = ()
+    collisions: tuple[Collision, ...] = ()
+
+
+class Limit(msgspec.Struct, frozen=True):
+    """Limits of a joint. A position limit that is left out is 0, as in urdfdom; None is no limit."""
+
+    lower: float = 0.0
+    upper: float = 0.0
+    effort: float | None = None
+    velocity: float | None = None
+
+
+class Dynamics(msgspec.Struct, frozen=True):
+    """Losses of a joint: viscous `damping` (N·m·s/rad or N·s/m), dry `friction` (N·m or N)."""
+
+    damping: float = 0.0
+    friction: float = 0.0
+
+
+class Mimic(msgspec.Struct, frozen=True):
+    """Position = `multiplier` · position of `joint` + `offset`."""
+
+    joint: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+
+class Calibration(msgspec.Struct, frozen=True):
+    """Positions of the reference edges."""
+
+    rising: float | None = None
+    falling: float | None = None
+
+
+class SafetyController(msgspec.Struct, frozen=True):
+    """Soft limits and gains of a safety controller."""
+
+    k_velocity: float = 0.0
+    k_position: float = 0.0
+    soft_lower_limit: float = 0.0
+    soft_upper_limit: float = 0.0
+
+
+class Joint(msgspec.Struct, frozen=True):
+    """A joint from link `parent` to link `child`; `axis` is a unit vector in the joint frame."""
+
+    name: str
+    type: JointType
+    parent: str
+    child: str
+    origin: Origin = Origin()
+    axis: Vector = (1.0, 0.0, 0.0)
+    limit: Limit | None = None
+    dynamics: Dynamics | None = None
+    mimic: Mimic | None = None
+    calibration: Calibration | None = None
+    safety_controller: SafetyController | None = None
+
+
+class Extension(msgspec.Struct, frozen=True):
+    """An element that urdfsync keeps but does not model: for example transmission, gazebo or sensor.
+
+    `owner` says where it stands (`""` for the robot, `link wheel`, `joint elbow`), `text` is its
+    XML in canonical form.
+    """
+
+    owner: str
+    tag: str
+    text: str
+
+
+class Robot(msgspec.Struct, frozen=True):
+    """A whole robot: links and joints form one tree (see `checks`)."""
+
+    name: str
+    links: tuple[Link, ...] = ()
+    joints: tuple[Joint, ...] = ()
+    extensions: tuple[Extension, ...] = ()

@@ -1,0 +1,279 @@
+"""Template data of the models of a whole robot: `<Robot>.mo`, `<Robot>Run.mo`, `<Robot>Test.mo` and its record."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from urdfsync.domain import Import, Target
+from urdfsync.urdf import layout, notes
+from urdfsync.urdf.kinematics import compose, link_poses, lowest_point, pose, start_positions
+from urdfsync.urdf.numbers import joint_numbers
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Joint
+from urdfsync.urdf.shapes import hull
+from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
+
+_WORDS: Mapping[Motion, Mapping[str, Any]] = {
+    "rotational": {
+        "domain": "Rotational",
+        "axis": "rotationalAxis",
+        "support": "rotationalSupport",
+        "range": "rotationalRange",
+        "drive": "rotationalDrive",
+        "sweep": "rotationalSweep",
+        "position": "Angle",
+        "velocity": "AngularVelocity",
+        "q": "phi",
+        "v": "w",
+        "effort": "tau",
+        "unit": "rad",
+        "effort_unit": "N.m",
+        "reach": "1",
+        "color": "0, 0, 0",
+        "icon_x": -60,
+        "drive_y": 30,
+    },
+    "translational": {
+        "domain": "Translational",
+        "axis": "translationalAxis",
+        "support": "translationalSupport",
+        "range": "translationalRange",
+        "drive": "translationalDrive",
+        "sweep": "translationalSweep",
+        "position": "Position",
+        "velocity": "Velocity",
+        "q": "s",
+        "v": "v",
+        "effort": "f",
+        "unit": "m",
+        "effort_unit": "N",
+        "reach": "0.1",
+        "color": "0, 127, 0",
+        "icon_x": 30,
+        "drive_y": 70,
+    },
+}
+
+_LINE_COLORS = {"frame": "95, 95, 95", "rotational": "0, 0, 0", "translational": "0, 127, 0"}
+
+
+def robot_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str, Any]:
+    """Data of the robot model and of its benches: structure only, no number of the URDF."""
+    diagram = layout.layout(tree(skeleton))
+    numbers = axis_numbers(skeleton)
+    motions = {joint.name: MOTIONS.get(joint.type) for joint in skeleton.joints}
+    return {
+        "within": target.package,
+        "type": target.name,
+        "record": f"{target.name}Parameters",
+        "title": f"robot {target.name}",
+        "note": notes.robot_note(target.name),
+        "run_note": notes.run_note(target.name),
+        "test_note": notes.test_note(target.name),
+        "base": options.base,
+        "visualizer": options.visualizer,
+        "vectors": vectors(skeleton),
+        "leaves": [{"component": skeleton.link(leaf.name).component, "name": leaf.name} for leaf in skeleton.leaves()],
+        "links": [_link(skeleton, link.name) for link in skeleton.links],
+        "joints": [_joint(skeleton, joint, numbers, motions) for joint in skeleton.joints],
+        "couplings": couplings(skeleton),
+        "diagram": {
+            "extent": _extent(diagram.extent),
+            **{name: _extent((box.x1, box.y1, box.x2, box.y2)) for name, box in diagram.placements.items()},
+        },
+        "lines": _lines(diagram),
+    }
+
+
+def record_data(
+    skeleton: Skeleton, imports: Mapping[str, Import], target: Target, options: Options, name: str
+) -> dict[str, Any]:
+    """Data of the record of the whole robot."""
+    number = {link.name: k for k, link in enumerate(skeleton.links, 1)}
+    return {
+        "within": target.package,
+        "record": f"{target.name}Parameters",
+        "title": f"robot {target.name}",
+        "name": name,
+        "standing_height": standing_height(skeleton, imports) if options.base == "floating" else None,
+        "connection_matrix": [(number[joint.parent], number[joint.child]) for joint in skeleton.joints],
+        "moveable_joints": [(k, 1) for k, joint in enumerate(skeleton.joints, 1) if joint.type != "fixed"],
+        "links": [
+            {"component": skeleton.link(link.name).component, "name": link.name, "inertial": link.inertial}
+            for link in skeleton.links
+        ],
+        "joints": [
+            {"component": skeleton.joint(joint.name).component, **joint_numbers(joint)} for joint in skeleton.joints
+        ],
+    }
+
+
+def standing_height(skeleton: Skeleton, imports: Mapping[str, Import]) -> float | None:
+    """Height of the root frame when the lowest collision shape just touches the ground; None without any shape."""
+    poses = link_poses(skeleton, start_positions(skeleton))
+    heights = [
+        lowest_point(shape.geometry, compose(poses[link.name], pose(shape.origin)), hull(shape.geometry, imports))
+        for link in skeleton.links
+        for shape in link.collisions
+    ]
+    lowest = min((height for height in heights if height is not None), default=None)
+    return None if lowest is None else round(-lowest, 12)
+
+
+def vectors(skeleton: Skeleton) -> list[dict[str, Any]]:
+    """One entry per kind of motion that the robot can be driven in: its words, and its axes in order."""
+    ranges = _ranges(skeleton)
+    result = []
+    for motion, words in _WORDS.items():
+        axes = [
+            {
+                "component": skeleton.joint(joint.name).component,
+                "name": joint.name,
+                "number": number,
+                "range": ranges[joint.name],
+            }
+            for number, joint in enumerate(skeleton.axes(motion), 1)
+        ]
+        if axes:
+            result.append({**words, "axes": axes, **_bench_lines(words["icon_x"], words["drive_y"])})
+    return result
+
+
+def couplings(skeleton: Skeleton) -> list[dict[str, Any]]:
+    """One entry per joint that follows another one."""
+    types = {joint.name: MOTIONS.get(joint.type) for joint in skeleton.joints}
+    result = []
+    for joint, mimic in skeleton.followers():
+        leader, follower = types[mimic.joint], MOTIONS[joint.type]
+        result.append(
+            {
+                "component": f"{skeleton.joint(joint.name).component}Mimic",
+                "type": f"{leader.capitalize()}To{follower.capitalize()}" if leader else f"Held{follower.capitalize()}",
+                "leader": skeleton.joint(mimic.joint).component if leader else None,
+                "follower": skeleton.joint(joint.name).component,
+                "title": f'Joint "{joint.name}" follows joint "{mimic.joint}"',
+            }
+        )
+    return result
+
+
+def tree(skeleton: Skeleton) -> layout.Tree:
+    """What the robot's diagram shows."""
+    axis = axis_numbers(skeleton)
+    children = {
+        skeleton.link(link).component: [
+            layout.TreeJoint(
+                skeleton.joint(joint.name).component,
+                skeleton.link(joint.child).component,
+                MOTIONS.get(joint.type) or ("fixed" if joint.type == "fixed" else "free"),
+                axis.get(joint.name),
+            )
+            for joint in joints
+        ]
+        for link, joints in skeleton.children().items()
+    }
+    return layout.Tree(
+        root=skeleton.link(skeleton.links[0].name).component,
+        children=children,
+        leaves={skeleton.link(leaf.name).component: k for k, leaf in enumerate(skeleton.leaves(), 1)},
+        couplings=[layout.TreeCoupling(c["component"], c["leader"], c["follower"]) for c in couplings(skeleton)],
+    )
+
+
+def _link(skeleton: Skeleton, name: str) -> dict[str, Any]:
+    identifier = skeleton.link(name)
+    return {"component": identifier.component, "type": identifier.type, "title": f'link "{name}"'}
+
+
+def _joint(
+    skeleton: Skeleton, joint: Joint, numbers: Mapping[str, int], motions: Mapping[str, Motion | None]
+) -> dict[str, Any]:
+    identifier = skeleton.joint(joint.name)
+    modifiers: list[str] = []
+    if motion := motions[joint.name]:
+        q, v = _WORDS[motion]["q"], _WORDS[motion]["v"]
+        if joint.mimic is None:
+            modifiers = _driven(q, v, numbers[joint.name])
+        else:
+            leader = skeleton.joint(joint.mimic.joint).component
+            modifiers = _following(q, identifier.component, leader, motions[joint.mimic.joint])
+    return {
+        "component": identifier.component,
+        "type": identifier.type,
+        "title": notes.joint_title(joint),
+        "modifiers": modifiers,
+    }
+
+
+def _driven(q: str, v: str, number: int) -> list[str]:
+    return [
+        f"axisNumber = {number}",
+        "checkLimits = checkLimits",
+        "fixedStart = fixedStart",
+        f"{q}_start = {q}_start[{number}]",
+        f"{v}_start = {v}_start[{number}]",
+    ]
+
+
+def _following(q: str, follower: str, leader: str, leader_motion: Motion | None) -> list[str]:
+    start = f"{follower}.parameters.mimic.offset"
+    if leader_motion:
+        leader_q = _WORDS[leader_motion]["q"]
+        start = f"{follower}.parameters.mimic.multiplier*{leader}.{leader_q}_start + {start}"
+    return ["checkLimits = checkLimits", "fixedStart = false", f"{q}_start = {start}"]
+
+
+def axis_numbers(skeleton: Skeleton) -> Mapping[str, int]:
+    """Number of each driven axis in the flange vectors of its kind of motion."""
+    return {joint.name: number for motion in _WORDS for number, joint in enumerate(skeleton.axes(motion), 1)}
+
+
+def _ranges(skeleton: Skeleton) -> Mapping[str, str]:
+    """Per joint with an axis, a Modelica expression of its range, those of its followers respected."""
+    ranges = {}
+    followers = skeleton.followers_by_leader()
+    for joint in reversed(skeleton.leaders_first()):
+        if joint.type in MOTIONS:
+            component = skeleton.joint(joint.name).component
+            limits = f"{component}.parameters.limits"
+            ends = f"{limits}.lower, {limits}.upper"
+            if joint.type == "continuous":
+                ends = "-Modelica.Constants.inf, Modelica.Constants.inf"
+            expression = f"{{{ends}, {limits}.velocity}}"
+            for follower, _ in followers.get(joint.name, ()):
+                mimic = f"{skeleton.joint(follower.name).component}.parameters.mimic"
+                numbers = f"{mimic}.multiplier, {mimic}.offset, {ranges[follower.name]}"
+                expression = f"UrdfSync.Functions.leaderRange({expression}, {numbers})"
+            ranges[joint.name] = expression
+    return ranges
+
+
+def _bench_lines(icon_x: int, y: int) -> dict[str, Any]:
+    """Lines of the bench's diagram: the robot's icon is 40 wide around x = 40, its upper border at y = -20."""
+    axis, support = 40 + icon_x // 5, 40 + (icon_x + 30) // 5
+    return {
+        "drive_x": -20,
+        "flange_line": f"{{0, {y}}}, {{{axis}, {y}}}, {{{axis}, -20}}",
+        "support_line": f"{{-10, {y - 10}}}, {{-10, {y - 20}}}, {{{support}, {y - 20}}}, {{{support}, -20}}",
+        "input_line": f"{{-120, {y}}}, {{-22, {y}}}",
+        "sweep_line": f"{{-39, {y}}}, {{-22, {y}}}",
+    }
+
+
+def _extent(box: Iterable[int]) -> str:
+    x1, y1, x2, y2 = box
+    return f"{{{{{x1}, {y1}}}, {{{x2}, {y2}}}}}"
+
+
+def _lines(diagram: layout.Diagram) -> list[dict[str, Any]]:
+    return [
+        {
+            "start": start,
+            "end": end,
+            "points": ", ".join(f"{{{x}, {y}}}" for x, y in points),
+            "color": _LINE_COLORS[diagram.kinds[start, end]],
+            "thick": diagram.kinds[start, end] == "frame",
+        }
+        for (start, end), points in diagram.lines.items()
+    ]

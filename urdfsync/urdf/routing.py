@@ -1,0 +1,147 @@
+"""Coordinates for a diagram in rows and columns: room for components, tracks for the lines between them.
+
+Nothing in here knows a robot: it deals in rectangles, in channels with numbered tracks, and in paths of
+axis-parallel segments. All coordinates are even, y points upwards.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import heapq
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from typing import TypeAlias, TypeVar
+
+Point: TypeAlias = tuple[int, int]
+Path: TypeAlias = tuple[Point, ...]
+
+Key = TypeVar("Key", bound=Hashable)
+
+SIZE = 20
+"""Width and height of a component."""
+LINK_AT = 4
+"""From a column's trunk to the left edge of its links and couplings."""
+JOINT_AT = 20
+"""From a column's trunk to the left edge of its joints."""
+COLUMN = 48
+"""From trunk to trunk, as long as one track is enough in the gap between."""
+DROP = 26
+"""From a row's spine down to the middle of its links."""
+
+_TRACK = 4  # distance of neighbouring lines
+_BELOW = 44  # from a row's spine down to its end: link, its name, a gap
+_NAME = 8  # room for a name above a component
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Placement:
+    """A component's rectangle in the diagram: lower left corner (x1, y1), upper right corner (x2, y2)."""
+
+    x1: int
+    y1: int
+    x2: int
+    y2: int
+
+    @property
+    def centre(self) -> Point:
+        """The middle of the rectangle."""
+        return (self.x1 + self.x2) // 2, (self.y1 + self.y2) // 2
+
+    def at(self, icon: Point) -> Point:
+        """Where a point of the icon's coordinate system, -100 to 100 both ways, lies in the diagram."""
+        across = (self.x2 - self.x1) * (icon[0] + 100) // 200
+        up = (self.y2 - self.y1) * (icon[1] + 100) // 200
+        return self.x1 + across, self.y1 + up
+
+    def moved(self, dx: int, dy: int) -> Placement:
+        """The same rectangle elsewhere."""
+        return Placement(self.x1 + dx, self.y1 + dy, self.x2 + dx, self.y2 + dy)
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class RowNeeds:
+    """What a row's channel must hold: one track per bus named in `buses`, `tracks` others, a band of components."""
+
+    buses: frozenset[str]
+    tracks: int
+    band: bool
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Row:
+    """Heights of a row: the spine, the middle of its band, each bus's track, the other tracks from the top."""
+
+    spine: int
+    band: int
+    buses: Mapping[str, int]
+    tracks: Sequence[int]
+
+    @property
+    def bottom(self) -> int:
+        """Where the next row may begin."""
+        return self.spine - _BELOW
+
+
+def rows(needs: Iterable[RowNeeds], order: Sequence[str], top: int) -> list[Row]:
+    """Stack rows downwards from `top`; in every channel the tracks of the buses in `order` lie lowest first."""
+    stacked: list[Row] = []
+    for need in needs:
+        tapped = [bus for bus in reversed(order) if bus in need.buses]
+        buses = {bus: top - _TRACK * (index + 1) for index, bus in enumerate(tapped)}
+        top -= _TRACK * len(buses)
+        lanes = [top - _TRACK * (index + 1) for index in range(need.tracks)]
+        top -= _TRACK * len(lanes)
+        middle = top - _NAME - SIZE // 2
+        if need.band:
+            top -= _NAME + SIZE
+        stacked.append(Row(top - _NAME - SIZE // 2, middle, buses, lanes))
+        top = stacked[-1].bottom
+    return stacked
+
+
+def trunks(gaps: Sequence[int], left: int) -> list[int]:
+    """Give x of every column's trunk; `gaps` counts the tracks left of each, `left` is where the first gap begins."""
+    found = [left + _TRACK * (gaps[0] + 1)]
+    for count in gaps[1:]:
+        found.append(found[-1] + COLUMN + _TRACK * max(0, count - 1))
+    return found
+
+
+def gap_track(trunk: int, track: int) -> int:
+    """Give x of a numbered track in the gap left of a trunk."""
+    return trunk - _TRACK * (track + 1)
+
+
+def tracks(intervals: Mapping[Key, tuple[int, int]]) -> dict[Key, int]:
+    """Number the tracks of a channel, from 0, so that closed intervals on one track don't touch.
+
+    The left-edge method: as few tracks as the densest place of the channel needs.
+    """
+    assigned: dict[Key, int] = {}
+    busy: list[tuple[int, int]] = []
+    for key, (start, end) in sorted(intervals.items(), key=lambda item: item[1]):
+        track = heapq.heappop(busy)[1] if busy and busy[0][0] < start else len(busy)
+        assigned[key] = track
+        heapq.heappush(busy, (end, track))
+    return assigned
+
+
+def square(centre: Point, size: int = SIZE) -> Placement:
+    """A square around `centre`."""
+    half = size // 2
+    return Placement(centre[0] - half, centre[1] - half, centre[0] + half, centre[1] + half)
+
+
+def path(points: Iterable[Point]) -> Path:
+    """The polyline without repeated points and without points inside a straight run."""
+    kept: list[Point] = []
+    for point in points:
+        if kept and point == kept[-1]:
+            continue
+        if len(kept) > 1 and _straight(kept[-2], kept[-1], point):
+            kept.pop()
+        kept.append(point)
+    return tuple(kept)
+
+
+def _straight(a: Point, b: Point, c: Point) -> bool:
+    return a[0] == b[0] == c[0] or a[1] == b[1] == c[1]
