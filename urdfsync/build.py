@@ -182,9 +182,10 @@ class _Build:
         )
         contents = texts | {self._key(path): content for path, content in imported.contents.items()}
         contents |= {key: encode(text) for key, text in decision.texts.items()}
-        said = (*reading.diagnostics, *imported.diagnostics, *self._left_behind())
+        said = [*reading.diagnostics, *imported.diagnostics, *self._left_behind()]
+        said.sort(key=lambda found: (found.file, found.line))
         drawing = self._drawing(snapshot, imported.imports)
-        return _Work(decision, manifest.dumps(renewed), model, contents, said, drawing)
+        return _Work(decision, manifest.dumps(renewed), model, contents, tuple(said), drawing)
 
     def _wanted(
         self, generated: Generated, imported: imports.Imported
@@ -216,6 +217,7 @@ class _Build:
             facts=state.model.imports if state and state.model else {},
             copy=lambda target: self._disk.read(self._old_key(target)),
             base=lambda target: record.base if (record := files.get(self._old_key(target))) else None,
+            moved=state is not None and state.manifest.folder != self._folder,
         )
         return imports.bring_in(
             self._domain,

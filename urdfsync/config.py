@@ -89,6 +89,11 @@ class Config:
         return tuple(robot for robot in self.robots if not names or robot.name in names)
 
 
+def is_robot_name(name: str) -> bool:
+    """Whether a robot's name can be a file's name on every system."""
+    return bool(_SAFE_NAME.fullmatch(name)) and not _DEVICES.fullmatch(name) and not name.endswith(".")
+
+
 def find(start: Path) -> Path:
     """The configuration file of `start` or of the nearest folder above it. Raises ConfigError if there is none."""
     for folder in (start, *start.parents):
@@ -158,7 +163,7 @@ class _Reader:
         self._check_defaults(defaults)
 
     def _robot(self, name: str, values: dict[str, Any], defaults: dict[str, Any]) -> RobotConfig | None:
-        if not _SAFE_NAME.fullmatch(name) or _DEVICES.fullmatch(name) or name.endswith("."):
+        if not is_robot_name(name):
             hint = "use letters, digits, `_`, `-` and `.`, a letter or digit first"
             message = f"the robot's name {name!r} can't be a file's name"
             self._report("robot-name", ("robots", name), message, hint)

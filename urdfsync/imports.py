@@ -23,6 +23,8 @@ class Recorded:
     """Content of an imported file, by its target."""
     base: Callable[[str], str | None]
     """Hash of what was written last, by target."""
+    moved: bool = False
+    """Whether the package has another folder now."""
 
 
 @dataclasses.dataclass(slots=True)
@@ -87,14 +89,16 @@ def _find(dependency: Dependency) -> tuple[Path, bytes] | None:
 def _serve(domain: Domain, dependency: Dependency, source: str, recorded: Recorded, result: Imported) -> bool:
     """Use the conversion of an earlier build, if it has the same input and its copy is untouched."""
     record, facts = recorded.records.get(dependency.key), recorded.facts.get(dependency.key)
-    if record is None or facts is None or record.target != dependency.target:
+    if record is None or facts is None:
         return False
     if {(record.source_hash, record.converter), (facts.source_hash, facts.converter)} != {(source, domain.converter)}:
         return False
     copy = recorded.copy(record.target)
     if copy is None or digest(copy) != record.target_hash:
         return False
-    _add(dependency, Import(record.target, source, digest(copy), domain.converter, facts.facts), result)
+    if recorded.moved or record.target != dependency.target:
+        result.contents[dependency.target] = copy
+    _add(dependency, Import(dependency.target, source, digest(copy), domain.converter, facts.facts), result)
     return True
 
 
@@ -124,8 +128,9 @@ def _keep(dependency: Dependency, recorded: Recorded, source: str, result: Impor
     copy = recorded.copy(record.target) if record and record.target_hash else None
     if record is None or copy is None:
         result.records[dependency.key] = DependencyRecord(dependency.uri, dependency.target)
-        message, code = f"{dependency.noun} `{dependency.uri}` {trouble}; it is left out", f"{dependency.noun}-{code}"
-        result.diagnostics.append(Diagnostic(Severity.WARNING, code, message, source, dependency.line))
+        message, code = f"{dependency.noun} `{dependency.uri}` {trouble} and left out", f"{dependency.noun}-{code}"
+        hint = "add the folder that holds it to `package_paths`" if code.endswith("found") else "repair the file"
+        result.diagnostics.append(Diagnostic(Severity.WARNING, code, message, source, dependency.line, hint=hint))
         return
     facts = recorded.facts.get(dependency.key)
     if facts is None or facts.source_hash != record.source_hash or record.source_hash is None:
@@ -134,7 +139,7 @@ def _keep(dependency: Dependency, recorded: Recorded, source: str, result: Impor
         raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, source, dependency.line, hint=hint))
     copied = digest(copy)
     written = copied if copied == recorded.base(record.target) else record.target_hash or copied
-    if record.target != dependency.target:
+    if recorded.moved or record.target != dependency.target:
         result.contents[dependency.target], written = copy, copied
     entry = Import(dependency.target, record.source_hash, written, facts.converter, facts.facts)
     _add(dependency, entry, result)

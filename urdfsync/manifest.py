@@ -115,7 +115,7 @@ def loads(text: str, file: str) -> Manifest:
     try:
         manifest = msgspec.convert(data, Manifest)
     except msgspec.ValidationError as error:
-        raise StateError(_broken(str(error), text, file)) from None
+        raise StateError(_broken(str(error), data, text, file)) from None
 
     def from_root(path: str) -> str:
         return posixpath.normpath(posixpath.join(manifest.folder, path))
@@ -160,11 +160,24 @@ def _check_format(value: object, file: str, line: int) -> None:
         raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, line, hint="update urdfsync"))
 
 
-def _broken(error: str, text: str, file: str) -> Diagnostic:
+def _broken(error: str, data: Mapping[str, Any], text: str, file: str) -> Diagnostic:
     message, _, place = error.partition(" - at `$")
-    line = tomlfile.line_of(text, *re.findall(r"\w+", place))
+    path = re.findall(r"\w+", place)
+    entries = data.get(path[0]) if "[...]" in place else None
+    if isinstance(entries, dict):
+        path = [path[0], next((key for key, entry in entries.items() if not _fits(path[0], entry)), ""), *path[1:]]
+    line = tomlfile.line_of(text, *path)
     message = f"this is no state of urdfsync: {message[0].lower()}{message[1:]}"
     return Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_REPAIR)
+
+
+def _fits(table: str, entry: object) -> bool:
+    kinds = {"dependencies": DependencyRecord, "orders": tuple[str, ...], "files": FileRecord}
+    try:
+        msgspec.convert(entry, kinds.get(table, dict[str, str]))
+    except msgspec.ValidationError:
+        return False
+    return True
 
 
 def _rekeyed(entries: Mapping[str, Any], rename: Callable[[str], str]) -> dict[str, Any]:

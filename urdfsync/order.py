@@ -18,8 +18,9 @@ def merge(text: str | None, names: Sequence[str], owned: Collection[str] = ()) -
     lines = _without(text.splitlines(), wanted | set(owned), wanted)
     present = [_name(line) for line in lines if _name(line) in wanted]
     kept = set(present)
-    if present == [name for name in owned if name in kept]:
-        ours = iter([name for name in names if name in kept])
+    ordered = [name for name in names if name in kept]
+    if present != ordered and present == [name for name in owned if name in kept]:
+        ours = iter(ordered)
         lines = [next(ours) if _name(line) in kept else line for line in lines]
     for index, name in enumerate(names):
         if name not in kept:

@@ -105,7 +105,7 @@ class Action:
     @property
     def reason(self) -> str:
         """Why, as the end of a sentence that begins with the path."""
-        return _REASONS[self.kind] + ("; waits for the conflicts to be resolved" if self.held else "")
+        return _REASONS[self.kind] + ("; waits until the conflict is settled" if self.held else "")
 
     @property
     def writes(self) -> bool:
@@ -140,6 +140,8 @@ def plan(
         base = record.base if record else None
         generated = target.hash if target else None
         kind = decide(base, found.get(path, Found()), generated)
+        if kind is Kind.FORGET and base is None:
+            continue  # it only waited to be written
         known = target or record
         role, owner = (known.role, known.owner) if known else (Role.MODEL, "")
         actions.append(Action(path, kind, role, owner, base, generated))
@@ -198,7 +200,7 @@ def _after(action: Action) -> FileRecord | None:
 _LITERAL = re.compile(
     r"""
     "(?:[^"\\]|\\.)*"                        # a string
-    | [-+]?\s*(?:
+    | (?:[-+]\s*)?(?:
         Modelica\.Constants\.inf\b           # stands for a limit that is absent
         | (?<![\w.])\d+(?:\.\d*)?(?:[eE][-+]?\d+)?
       )

@@ -8,7 +8,9 @@ are drawn as plain marks where the class places them.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import html
+import itertools
 import math
 import re
 import sys
@@ -51,9 +53,10 @@ class Call:
         return self.arguments.get(key, default)
 
 
-def tokens(text: str) -> list[Token]:
+@functools.cache
+def tokens(text: str) -> tuple[Token, ...]:
     """The words of a Modelica text, without white space and comments."""
-    return [Token(match.lastgroup, match.group()) for match in _TOKEN.finditer(text) if match.lastgroup]
+    return tuple(Token(match.lastgroup, match.group()) for match in _TOKEN.finditer(text) if match.lastgroup)
 
 
 class _Reader:
@@ -109,7 +112,7 @@ class _Reader:
         return self._words[self._next - 1]
 
 
-def annotations(text: str) -> list[Call]:
+def annotations_in(text: str) -> list[Call]:
     """Every `annotation (…)` of a Modelica text, in the order of the text."""
     words = tokens(text)
     return [_Reader(words, at).value() for at, word in enumerate(words) if word == Token("name", "annotation")]
@@ -132,24 +135,29 @@ class Icon:
 
 
 _CONNECTOR = re.compile(
-    r"^ *(?:\w+ )?(?:Modelica|UrdfSync)\.[\w.]*Interfaces\.(\w+)\s(?:[^;\"]|\"[^\"]*\")*?\s(annotation \((?:.|\n)*?\);)",
+    r"^ *(?:\w+ )?(?:Modelica|UrdfSync)\.[\w.]*Interfaces\.(\w+)\s"  # its type
+    r"(?:[^;\"]|\"[^\"]*\")*?\s"  # its name and description
+    r"(annotation \((?:.|\n)*?\);)",
     re.MULTILINE,
 )
 _EXTENDS = re.compile(r"^ *extends (UrdfSync\.[\w.]+)", re.MULTILINE)
 
 
 def source(name: str, library: Path = LIBRARY) -> str:
-    """Text of the class with the full name `name`; it stands in a file, or in the `package.mo` of a folder, of its own."""
+    """Text of the class with the full name `name`, from its own file or the `package.mo` of its own folder."""
     path = library.parent.joinpath(*name.split("."))
     return (path / "package.mo" if path.is_dir() else path.with_suffix(".mo")).read_text("utf-8")
 
 
+@functools.cache
 def icon(name: str, library: Path = LIBRARY) -> Icon:
     """The icon of the class with the full name `name`."""
     text = source(name, library)
     bases = [icon(base, library) for base in _EXTENDS.findall(text)]
-    own = [graphic for note in annotations(text) for graphic in note.get("Icon", Call("Icon", {})).get("graphics", [])]
-    connectors = [_connector(kind, annotations(note)[0]) for kind, note in _CONNECTOR.findall(text)]
+    own = [
+        graphic for note in annotations_in(text) for graphic in note.get("Icon", Call("Icon", {})).get("graphics", [])
+    ]
+    connectors = [_connector(kind, annotations_in(note)[0]) for kind, note in _CONNECTOR.findall(text)]
     return Icon(
         (*(graphic for base in bases for graphic in base.graphics), *own),
         (*(mark for base in bases for mark in base.connectors), *filter(None, connectors)),
@@ -213,7 +221,7 @@ def _path(points: Sequence[Sequence[float]], smooth: bool) -> str:
     if not smooth or len(points) < 3:
         return "M" + " L".join(f"{x:g} {-y:g}" for x, y in points)
     path = f"M{points[0][0]:g} {-points[0][1]:g}"
-    middles = [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2) for a, b in zip(points[:-1], points[1:], strict=True)]
+    middles = [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2) for a, b in itertools.pairwise(points)]
     path += f" L{middles[0][0]:g} {-middles[0][1]:g}"
     for (x, y), (mx, my) in zip(points[1:-1], middles[1:], strict=True):
         path += f" Q{x:g} {-y:g} {mx:g} {-my:g}"

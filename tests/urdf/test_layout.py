@@ -256,6 +256,7 @@ def test_a_coupling_joins_leader_and_follower_in_the_kind_of_each() -> None:
     assert diagram.placements["mimic"].y1 > diagram.placements["right"].y2
 
 
+@settings(deadline=None)
 @given(recipes)
 def test_every_connection_has_a_line_from_port_to_port(found: Recipe) -> None:
     tree = found.tree()
@@ -266,6 +267,7 @@ def test_every_connection_has_a_line_from_port_to_port(found: Recipe) -> None:
         assert points[-1] == port(diagram, end)
 
 
+@settings(deadline=None)
 @given(recipes)
 def test_no_two_components_touch(found: Recipe) -> None:
     tree = found.tree()
@@ -275,6 +277,7 @@ def test_no_two_components_touch(found: Recipe) -> None:
     assert touching(dict(diagram.placements)) == []
 
 
+@settings(deadline=None)
 @given(recipes)
 def test_everything_lies_inside_the_extent_and_on_the_grid(found: Recipe) -> None:
     diagram = layout(found.tree())
@@ -286,6 +289,7 @@ def test_everything_lies_inside_the_extent_and_on_the_grid(found: Recipe) -> Non
         assert x % 2 == y % 2 == 0
 
 
+@settings(deadline=None)
 @given(recipes)
 def test_lines_are_axis_parallel_and_bend_at_every_point(found: Recipe) -> None:
     for points in layout(found.tree()).lines.values():
@@ -294,17 +298,19 @@ def test_lines_are_axis_parallel_and_bend_at_every_point(found: Recipe) -> None:
         assert all(a != b for a, b in itertools.pairwise(upright))
 
 
-@settings(max_examples=60)
+@settings(deadline=None)
 @given(recipes)
 def test_no_line_runs_through_a_component(found: Recipe) -> None:
     assert crossed(layout(found.tree())) == []
 
 
+@settings(deadline=None)
 @given(recipes)
 def test_lines_that_are_not_connected_never_lie_on_top_of_each_other(found: Recipe) -> None:
     assert overlaid(layout(found.tree())) == []
 
 
+@settings(deadline=None)
 @given(recipes)
 def test_the_connectors_stand_at_their_borders(found: Recipe) -> None:
     diagram = layout(found.tree())
@@ -347,6 +353,7 @@ def test_a_path_keeps_its_bends_only() -> None:
     assert path([(0, 0), (0, 4), (0, 8), (0, 8), (6, 8)]) == ((0, 0), (0, 8), (6, 8))
 
 
+@settings(deadline=None)
 @given(st.dictionaries(st.integers(), st.tuples(st.integers(0, 30), st.integers(0, 30)).map(sorted).map(tuple)))
 def test_intervals_on_one_track_never_touch_and_no_track_is_wasted(intervals: dict[int, tuple[int, int]]) -> None:
     assigned = tracks(intervals)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+import re
 
 import pytest
 from hypothesis import example, given, settings
@@ -93,7 +93,8 @@ def in_visual(inner: str) -> str:
 
 def with_joint(inner: str, kind: str = "revolute") -> str:
     ends = '<parent link="a"/><child link="b"/>'
-    return f'<robot name="r">\n<link name="a"/><link name="b"/>\n<joint name="j" type="{kind}">{ends}\n{inner}\n</joint>\n</robot>'
+    joint = f'<joint name="j" type="{kind}">{ends}\n{inner}\n</joint>'
+    return f'<robot name="r">\n<link name="a"/><link name="b"/>\n{joint}\n</robot>'
 
 
 def only_joint(inner: str, kind: str = "revolute") -> Joint:
@@ -247,15 +248,15 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (b"<Robot name='r'/>", "not-urdf", 1),
         (b"<robot name='r' xmlns:xacro='x'>\n<xacro:macro name='m'/>\n<link name='a'/></robot>", "xacro-source", 2),
         (b"<robot name='r'>\n<xacro:leg side='left'/></robot>", "xacro-source", 2),
-        (b"<robot name='r'>\n<link name='a'><visual>\n<origin xyz='0 ${h} 0'/></visual></link></robot>", "xacro-source", 3),
+        (b"<robot name='r'>\n<link name='a'><visual>\n<origin xyz='${h}'/></visual></link></robot>", "xacro-source", 3),
     ],
 )  # fmt: skip
 def test_a_file_that_is_no_urdf_is_one_error(content: bytes, code: str, line: int) -> None:
     reading = read_robot(content, "a.urdf")
     assert reading.robot is None
-    assert [(d.severity, d.code, d.file, d.line) for d in reading.diagnostics if d.severity is not Severity.WARNING] == [
-        (Severity.ERROR, code, "a.urdf", line)
-    ]
+    assert [
+        (d.severity, d.code, d.file, d.line) for d in reading.diagnostics if d.severity is not Severity.WARNING
+    ] == [(Severity.ERROR, code, "a.urdf", line)]
     assert all(d.hint for d in reading.diagnostics)
 
 
@@ -270,22 +271,21 @@ def test_what_looks_like_a_fault_in_a_comment_is_none() -> None:
     assert robot.links == (Link("a"),)
 
 
+INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+
+
 @pytest.mark.parametrize(
     ("text", "code", "line"),
     [
         ('<robot name="r">\n</robot>', "no-link", 1),
         ('<robot name="r">\n<link/></robot>', "missing-attribute", 2),
         ('<robot name="r">\n<link name=" "/></robot>', "empty-attribute", 2),
-        ('<robot name="r">\n<link name="a"/>\n<joint type="fixed"><parent link="a"/><child link="a"/></joint></robot>',
-         "missing-attribute", 3),
-        ('<robot name="r">\n<link name="a"/><link name="b"/>\n<joint name="j"><parent link="a"/><child link="b"/></joint></robot>',
-         "missing-attribute", 3),
+        (with_joint("", "fixed").replace(' name="j"', ""), "missing-attribute", 3),
+        (with_joint("", "fixed").replace(' type="fixed"', ""), "missing-attribute", 3),
+        (with_joint("", "fixed").replace('<parent link="a"/>', ""), "missing-element", 3),
+        (with_joint("", "fixed").replace('<child link="b"/>', "\n<child/>"), "missing-attribute", 4),
         (with_joint("", "revolut"), "unknown-joint-type", 3),
         (with_joint("", "Fixed"), "unknown-joint-type", 3),
-        ('<robot name="r">\n<link name="a"/>\n<link name="b"/>\n<joint name="j" type="fixed"><child link="b"/></joint></robot>',
-         "missing-element", 4),
-        ('<robot name="r">\n<link name="a"/>\n<link name="b"/>\n<joint name="j" type="fixed">\n<parent/><child link="b"/></joint></robot>',
-         "missing-attribute", 5),
         (with_joint('<axis xyz="0 0"/>', "continuous"), "bad-number", 4),
         (with_joint('<axis xyz="0 0 0"/>', "continuous"), "zero-axis", 4),
         (with_joint('<limit lower="1" upper="-1" effort="1" velocity="1"/>'), "limit-order", 4),
@@ -298,8 +298,7 @@ def test_what_looks_like_a_fault_in_a_comment_is_none() -> None:
         (with_joint('<origin xyz="nan 0 0"/>', "fixed"), "bad-number", 4),
         (with_joint('<origin rpy=""/>', "fixed"), "empty-attribute", 4),
         (with_joint('<origin quat_xyzw="0 0 0 1"/>', "fixed"), "unsupported-attribute", 4),
-        (in_link('<inertial>\n<mass value="-1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'),
-         "negative-mass", 4),
+        (in_link(f'<inertial>\n<mass value="-1"/>{INERTIA}</inertial>'), "negative-mass", 4),
         (in_visual('\n<geometry><box/></geometry>'), "missing-attribute", 4),
         (in_visual('\n<geometry><cylinder length="1"/></geometry>'), "missing-attribute", 4),
         (in_visual('\n<geometry><capsule radius="1"/></geometry>'), "missing-attribute", 4),
@@ -320,7 +319,7 @@ def test_a_fault_of_the_model_is_one_error(text: str, code: str, line: int) -> N
     ("text", "code", "line"),
     [
         ('<robot>\n<link name="a"/></robot>', "missing-name", 1),
-        ('<robot nam="r">\n<link name="a"/></robot>', "unknown-attribute", 1),
+        (in_link("<visual nme='v'><geometry><sphere radius='1'/></geometry></visual>"), "unknown-attribute", 3),
         (with_joint(""), "missing-limit", 3),
         (with_joint('<limit effort="1" velocity="1"/>'), "missing-limit-value", 4),
         (with_joint('<limit velocity="1"/>', "continuous"), "missing-limit-value", 4),
@@ -333,7 +332,7 @@ def test_a_fault_of_the_model_is_one_error(text: str, code: str, line: int) -> N
         (with_joint('<dynamics friction="1"/>', "fixed"), "dynamics-without-effect", 4),
         (with_joint('<safety_controller k_position="1"/>', "continuous"), "missing-gain", 4),
         (with_joint('<origin/>\n<origin xyz="1 0 0"/>', "fixed"), "duplicate-element", 5),
-        (in_link('<inertial>\n<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'), "missing-mass", 3),
+        (in_link(f"<inertial>{INERTIA}</inertial>"), "missing-mass", 3),
         (in_link('<inertial><mass value="1"/></inertial>'), "missing-inertia", 3),
         (in_link('<inertial><mass value="1"/>\n<inertia ixx="1" iyy="1" izz="1"/></inertial>'), "missing-inertia", 4),
         (in_link("<visual/>"), "unknown-geometry", 3),
@@ -354,10 +353,7 @@ def test_a_fault_of_the_model_is_one_error(text: str, code: str, line: int) -> N
 def test_an_oddity_of_the_model_is_one_warning(text: str, code: str, line: int) -> None:
     reading = read(text)
     assert reading.robot is not None
-    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics if d.code != "missing-attribute"] in (
-        [("warning", code, line)],
-        [("warning", code, line), ("warning", "missing-name", line)],
-    )
+    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [("warning", code, line)]
     assert all(d.hint for d in reading.diagnostics)
 
 
@@ -495,13 +491,24 @@ def test_decimal_numbers(word: str) -> None:
     assert parse_numbers(f" {word}\n", 1) == (float(word),)
 
 
-@pytest.mark.parametrize(
-    "word",
-    ["nan", "inf", "-inf", "infinity", "1_000", "0x10", "1,5", "1e", "e5", ".", "-", "--1", "1.2.3", "1e999", "1d3", "½", "１", "1\N{NO-BREAK SPACE}2"],
-)  # fmt: skip
+NO_NUMBERS = "nan inf -inf infinity 1_000 0x10 0x1p3 1,5 1e e5 . - --1 1.2.3 1d3 ½ １ 1\N{NO-BREAK SPACE}2 ${x} 1f True"
+
+
+@pytest.mark.parametrize("word", NO_NUMBERS.split(" "))
 def test_words_that_are_no_decimal_numbers(word: str) -> None:
-    with pytest.raises(ValueError, match="decimal number|floating-point"):
+    with pytest.raises(ValueError, match="is not a decimal number"):
         parse_numbers(word, 1)
+
+
+def test_numbers_that_are_too_large() -> None:
+    with pytest.raises(ValueError, match="too large"):
+        parse_numbers("1e999", 1)
+
+
+def test_long_words_are_judged_at_once_and_shown_in_brief() -> None:
+    (diagnostic,) = read(with_joint(f'<axis xyz="0 0 {"1" * 200_000}e"/>', "continuous")).diagnostics
+    assert diagnostic.code == "bad-number"
+    assert len(diagnostic.message) < 250
 
 
 def test_vectors_have_their_exact_length_and_any_blanks() -> None:
@@ -528,7 +535,8 @@ def test_no_input_raises(noise: bytes, position: int, removed: int) -> None:
     reading = read_robot(arm[:position] + noise + arm[position + removed :], "a.urdf", cross_check=False)
     errors = [d for d in reading.diagnostics if d.severity is Severity.ERROR]
     assert (reading.robot is None) == bool(errors)
-    assert all(d.line > 0 and d.code and d.hint for d in reading.diagnostics)
+    assert all(d.line > 0 and d.hint for d in reading.diagnostics)
+    assert all(re.fullmatch("[a-z]+(-[a-z]+)*", d.code) for d in reading.diagnostics)
 
 
 ATTRIBUTE = st.text(st.characters(exclude_characters='<&"', exclude_categories=["Cs", "Cc"]), max_size=8)
@@ -541,9 +549,3 @@ def test_any_name_is_a_name(name: str) -> None:
     assert all(d.code in ("empty-attribute", "xml-syntax", "xacro-leftover") for d in reading.diagnostics)
     if reading.robot:
         assert reading.robot.links[0].name.strip() == name.strip()
-
-
-def test_codes_are_slugs() -> None:
-    samples: list[Any] = [ARM[:50], in_visual("<geometry><box/></geometry>"), with_joint("")]
-    for text in samples:
-        assert all(d.code.replace("-", "").isalpha() and d.code.islower() for d in read(text).diagnostics)

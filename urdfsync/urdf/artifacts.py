@@ -19,6 +19,9 @@ LIBRARY_VERSION = "0.1.0"
 USES = (("Modelica", "4.0.0"), ("UrdfSync", LIBRARY_VERSION))
 """Libraries that a package of its own names in its `uses` annotation."""
 
+LINK_MODEL = "link/model.mo.jinja"
+LINK_RECORD = "link/record.mo.jinja"
+
 
 def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
     """Every file of the robot's package but the imported meshes."""
@@ -48,12 +51,12 @@ def _package(context: _Context) -> Iterator[Artifact | Order]:
         "package.mo",
         within=parent,
         name=last,
+        icon="RobotPackage",
         title=f"Robot {name}: links, joints, robot and benches",
         uses=() if parent else USES,
         note="Made by urdfsync from a URDF. Every file can be edited: urdfsync keeps what you changed, brings everything "
         "else up to date, and reports where both changed.",
     )
-    # "MyRobot" comes first: it is what people look for
     models = (name, f"{name}Run", f"{name}Test", f"{name}Parameters")
     yield Order("package.order", (*models, "Links", *(("Joints",) if context.skeleton.joints else ())))
     yield from _subpackage(context, "Links", [context.skeleton.link(link.name) for link in context.skeleton.links])
@@ -65,7 +68,13 @@ def _subpackage(context: _Context, name: str, identifiers: list[Any]) -> Iterato
     title = f"{name} of robot {context.target.name}"
     note = f"One model and one record of numbers per {name[:-1].lower()}."
     yield _package_file(
-        f"{name}/package.mo", within=context.target.package, name=name, title=title, uses=(), note=note
+        f"{name}/package.mo",
+        within=context.target.package,
+        name=name,
+        icon=f"{name}Package",
+        title=title,
+        uses=(),
+        note=note,
     )
     yield Order(f"{name}/package.order", tuple(n for i in identifiers for n in (i.type, i.record)))
 
@@ -76,26 +85,15 @@ def _package_file(path: str, **data: Any) -> Artifact:
 
 def _link(context: _Context, link: Link) -> Iterator[Artifact]:
     identifier = context.skeleton.link(link.name)
-    visuals, collisions = shapes.link_shapes(link, context.imports, context.target, context.options)
     data = {
         "within": f"{context.target.package}.Links",
         "type": identifier.type,
         "record": identifier.record,
-        "replaceable": False,
-        "name": link.name,
-        "title": f'link "{link.name}"',
-        "note": notes.link_note(link),
-        "inertial": link.inertial,
-        "visuals": visuals,
-        "collisions": collisions,
-        "contacts": shapes.contacts(collisions) if context.options.base == "floating" else [],
-        "visualizer": context.options.visualizer,
-        "top": max([100, *(shape["y"] + 20 for shape in visuals)]),
-        "bottom": min([-100, *(shape["y"] - 20 for shape in collisions)]),
+        **link_data(link, context.imports, context.target, context.options),
     }
     owner = f"link {link.name}"
-    yield Artifact(f"Links/{identifier.record}.mo", Role.RECORD, "link/record.mo.jinja", data, owner)
-    yield Artifact(f"Links/{identifier.type}.mo", Role.MODEL, "link/model.mo.jinja", data, owner)
+    yield Artifact(f"Links/{identifier.record}.mo", Role.RECORD, LINK_RECORD, data, owner)
+    yield Artifact(f"Links/{identifier.type}.mo", Role.MODEL, LINK_MODEL, data, owner)
 
 
 def _joint(context: _Context, joint: Joint) -> Iterator[Artifact]:
@@ -104,6 +102,34 @@ def _joint(context: _Context, joint: Joint) -> Iterator[Artifact]:
         "within": f"{context.target.package}.Joints",
         "type": identifier.type,
         "record": identifier.record,
+        **joint_data(joint),
+    }
+    owner = f"joint {joint.name}"
+    yield Artifact(f"Joints/{identifier.record}.mo", Role.RECORD, "joint/record.mo.jinja", data, owner)
+    yield Artifact(f"Joints/{identifier.type}.mo", Role.MODEL, joint_model(joint), data, owner)
+
+
+def link_data(link: Link, imports: Mapping[str, Import], target: Target, options: Options) -> dict[str, Any]:
+    """What the templates of a link need beside the names of its classes."""
+    visuals, collisions = shapes.link_shapes(link, imports, target, options)
+    return {
+        "replaceable": False,
+        "name": link.name,
+        "title": f'link "{link.name}"',
+        "note": notes.link_note(link),
+        "inertial": link.inertial,
+        "visuals": visuals,
+        "collisions": collisions,
+        "contacts": shapes.contacts(collisions) if options.base == "floating" else [],
+        "visualizer": options.visualizer,
+        "top": max([100, *(shape["y"] + 20 for shape in visuals)]),
+        "bottom": min([-100, *(shape["y"] - 20 for shape in collisions)]),
+    }
+
+
+def joint_data(joint: Joint) -> dict[str, Any]:
+    """What the templates of a joint need beside the names of its classes."""
+    return {
         "kind": joint.type.capitalize(),
         "replaceable": False,
         "title": notes.joint_title(joint),
@@ -112,9 +138,11 @@ def _joint(context: _Context, joint: Joint) -> Iterator[Artifact]:
         "assertion_level": "warning",
         "joint": joint_numbers(joint),
     }
-    owner = f"joint {joint.name}"
-    yield Artifact(f"Joints/{identifier.record}.mo", Role.RECORD, "joint/record.mo.jinja", data, owner)
-    yield Artifact(f"Joints/{identifier.type}.mo", Role.MODEL, f"joint/{joint.type}.mo.jinja", data, owner)
+
+
+def joint_model(joint: Joint) -> str:
+    """The template of a joint's model."""
+    return f"joint/{joint.type}.mo.jinja"
 
 
 def _robot(context: _Context, urdf_name: str) -> Iterator[Artifact]:

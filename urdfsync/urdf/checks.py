@@ -43,6 +43,7 @@ _EXACT = 1e-12
 _ROUNDING = 1e-6
 _INERTIA_TOLERANCE = 1e-6
 _SWEEPS = 12
+_COMPARED = 500
 
 _Element = TypeVar("_Element", Link, Joint)
 
@@ -73,7 +74,9 @@ def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
 
 
 def nearest(name: str, names: Collection[str], likeness: float = 0.7) -> str:
-    """The name most like `name`, or an empty string if none is like it."""
+    """The name most like `name`; an empty string if none is like it, or if there are too many to look at."""
+    if len(names) > _COMPARED:
+        return ""
     return next(iter(difflib.get_close_matches(name, names, 1, likeness)), "")
 
 
@@ -110,13 +113,13 @@ def check_tree(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
             yield _error("no-link", "robot", "the robot has no link", "check that the export is complete")
         return
     parents: dict[str, Joint] = {}
-    for joint in _first_of_each_name(robot.joints).values():
-        yield from _check_ends(joint, links)
+    for path, joint in numbered("joint", robot.joints):
+        yield from _check_ends(path, joint, links)
         complete &= {joint.parent, joint.child} <= links
         first = parents.setdefault(joint.child, joint)
-        if first is not joint:
+        if first.name != joint.name:
             message = f"link {joint.child!r} is the child of joint {joint.name!r} and of joint {first.name!r}"
-            yield _error("two-parents", f"joint {joint.name}", message, "a link has one parent: remove one joint")
+            yield _error("two-parents", path, message, "a link has one parent: remove one joint")
     roots = list(dict.fromkeys(link.name for link in robot.links if link.name not in parents))
     yield from _check_cycles(robot, parents)
     if len(roots) > 1 and complete:
@@ -133,14 +136,14 @@ def _first_of_each_name(joints: Iterable[Joint]) -> dict[str, Joint]:
     return first
 
 
-def _check_ends(joint: Joint, links: Collection[str]) -> Iterator[Finding]:
+def _check_ends(path: str, joint: Joint, links: Collection[str]) -> Iterator[Finding]:
     """Parent and child of a joint exist."""
     for end, name in (("parent", joint.parent), ("child", joint.child)):
         if name not in links:
             meant = nearest(name, links)
             hint = f"perhaps {meant!r} is meant" if meant else "add the link, or correct its name"
             message = f"the {end} of joint {joint.name!r} is link {name!r}, which does not exist"
-            yield _error(f"unknown-{end}", f"joint {joint.name} / {end}", message, hint)
+            yield _error(f"unknown-{end}", f"{path} / {end}", message, hint)
 
 
 def _check_cycles(robot: Robot, parents: Mapping[str, Joint]) -> Iterator[Finding]:

@@ -45,7 +45,7 @@ def cross_check(content: bytes, robot: Robot) -> Iterator[Finding]:
 def _not_checked(reason: str) -> Finding:
     """A note that only one reader has seen the file."""
     message = f"not cross-checked: yourdfpy {reason}"
-    return Finding(Severity.NOTE, "second-reader-failed", "robot", message, "nothing to do")
+    return Finding(Severity.NOTE, "second-reader-failed", "robot", message, "the strict reading alone counts")
 
 
 def _reason(error: Exception) -> str:

@@ -17,8 +17,8 @@ Kind: TypeAlias = Literal["link", "coupling"] | JointKind
 _PIXELS = 3  # nominal size of one unit of the diagram
 _MARGIN = 10
 _HEADER = 24  # room for the title and the names of the connectors at the top
-_FOOTER = 18  # room for the legend
-_FONT, _SMALLEST = 3.6, 2.6
+_FOOTER, _LEGEND = 8, 10  # room for the legend: in any case, and per row
+_FONT, _SMALLEST = 3.6, 2.4
 _ADVANCE = 0.56  # mean width of a character, by font size
 _BEND = 2.0  # radius of the bends of flange lines: joining a bus looks unlike crossing it
 
@@ -34,7 +34,7 @@ class Label(NamedTuple):
 class _Look(NamedTuple):
     fill: str
     stroke: str
-    rounding: float
+    rounding: int
     glyph: str
     detail: float
     """How far below its middle the icon has its detail."""
@@ -107,8 +107,10 @@ def svg(diagram: Diagram, labels: Mapping[str, Label], title: str = "") -> str:
     Raises KeyError for a component without label.
     """
     x1, y1, x2, y2 = diagram.extent
+    kinds = {label.kind for name, label in labels.items() if name in diagram.placements}
+    legend = _legend_rows([kind for kind in _LOOKS if kind in kinds], x2 - x1 + _MARGIN)
     left, top = x1 - _MARGIN, -y2 - _HEADER
-    width, height = x2 - x1 + 2 * _MARGIN, y2 - y1 + _HEADER + _FOOTER
+    width, height = x2 - x1 + 2 * _MARGIN, y2 - y1 + _HEADER + _FOOTER + _LEGEND * len(legend)
     counts = Counter(end.partition("[")[0] for ends in diagram.lines for end in ends if "[" in end)
     body = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width * _PIXELS}" height="{height * _PIXELS}" '
@@ -129,9 +131,8 @@ def svg(diagram: Diagram, labels: Mapping[str, Label], title: str = "") -> str:
             body += _flange(name, placement, counts[name])
         else:
             body += _component(labels[name], placement)
-    kinds = {label.kind for name, label in labels.items() if name in diagram.placements}
-    body += _legend([kind for kind in _LOOKS if kind in kinds], (x1, -y1 + _FOOTER / 2), x2 - x1)
-    return "\n".join([*body, "</svg>", ""])
+    body += _legend(legend, (x1, -y1 + _FOOTER))
+    return "\n".join([*filter(None, body), "</svg>", ""])
 
 
 def _component(label: Label, placement: Placement) -> Iterator[str]:
@@ -143,9 +144,9 @@ def _component(label: Label, placement: Placement) -> Iterator[str]:
     if label.kind == "link":
         yield _text((placement.x1, -placement.y1 + 4), label.name, "", _FONT, 40)
     elif label.kind in ("rotational", "translational"):
-        yield from _haloed((x + 1.5, -placement.y2 - 1.8), label.name, 34)
+        yield from _haloed((x + 1.5, -placement.y2 - 2.4), label.name, 34)
     else:
-        yield from _haloed((placement.x1, -placement.y2 - 1.8), label.name, 42)
+        yield from _haloed((placement.x1, -placement.y2 - 2.4), label.name, 42)
     yield "</g>"
 
 
@@ -157,9 +158,9 @@ def _haloed(at: tuple[float, float], text: str, room: float) -> Iterator[str]:
 
 def _icon(kind: Kind, centre: tuple[float, float], scale: float, glyph: bool = True) -> Iterator[str]:
     look = _LOOKS[kind]
-    zoom = "" if scale == 1 else f" scale({scale:g})"
-    yield f'<g transform="translate({centre[0]:g} {centre[1]:g}){zoom}" stroke="{look.stroke}">'
-    yield f'<rect x="-10" y="-10" width="20" height="20" rx="{look.rounding:g}" fill="{look.fill}" stroke-width="0.6"/>'
+    zoom = "" if scale == 1 else f" scale({scale:.9g})"
+    yield f'<g transform="translate({centre[0]:.9g} {centre[1]:.9g}){zoom}" stroke="{look.stroke}">'
+    yield f'<rect x="-10" y="-10" width="20" height="20" rx="{look.rounding}" fill="{look.fill}" stroke-width="0.6"/>'
     if glyph:
         yield f'<path class="glyph" d="{look.glyph}"/>'
     yield "</g>"
@@ -205,7 +206,7 @@ def _curved(points: Path, radius: float) -> str:
     for before, bend, after in zip(points, points[1:], points[2:], strict=False):
         reach = min(radius, _distance(before, bend) / 2, _distance(bend, after) / 2)
         (x1, y1), (x2, y2) = _towards(bend, before, reach), _towards(bend, after, reach)
-        data.append(f"L{x1:g} {-y1:g}" + (f"Q{bend[0]} {-bend[1]} {x2:g} {-y2:g}" if reach else ""))
+        data.append(f"L{x1:.9g} {-y1:.9g}" + (f"Q{bend[0]} {-bend[1]} {x2:.9g} {-y2:.9g}" if reach else ""))
     data.append(f"L{points[-1][0]} {-points[-1][1]}")
     return "".join(data)
 
@@ -269,16 +270,30 @@ def _inside(value: int, intervals: list[tuple[int, int]]) -> bool:
     return index >= 0 and value < intervals[index][1]
 
 
-def _legend(kinds: list[Kind], start: tuple[float, float], width: float) -> Iterator[str]:
-    """The kinds of components that the drawing has, side by side as far as there is room."""
-    x, y = start
+def _legend_rows(kinds: Iterable[Kind], width: float) -> list[list[Kind]]:
+    """The kinds that the legend explains, as many side by side as there is room for."""
+    rows: list[list[Kind]] = []
+    used = width
     for kind in kinds:
-        needed = 9 + _width(_LOOKS[kind].legend, _FONT) + 6
-        if x + needed > start[0] + width + 6:
-            return
-        yield from _icon(kind, (x + 4, y), 0.35)
-        yield _text((x + 9, y + 1.3), _LOOKS[kind].legend, "legend", _FONT, needed)
-        x += needed
+        used += _legend_width(kind)
+        if used > width:
+            rows.append([])
+            used = _legend_width(kind)
+        rows[-1].append(kind)
+    return rows
+
+
+def _legend_width(kind: Kind) -> float:
+    return 15 + _width(_LOOKS[kind].legend, _FONT)
+
+
+def _legend(rows: list[list[Kind]], start: Point) -> Iterator[str]:
+    for index, row in enumerate(rows):
+        x, y = float(start[0]), start[1] + _LEGEND * index
+        for kind in row:
+            yield from _icon(kind, (x + 4, y), 0.35)
+            yield _text((x + 9, y + 1.3), _LOOKS[kind].legend, "legend", _FONT, _legend_width(kind))
+            x += _legend_width(kind)
 
 
 def _text(at: tuple[float, float], text: str, style: str, size: float, room: float) -> str:
@@ -290,7 +305,7 @@ def _text(at: tuple[float, float], text: str, style: str, size: float, room: flo
     if len(text) > most:
         text = f"{text[: most // 2]}…{text[len(text) - (most - 1) // 2 :]}"
     style = f' class="{style}"' if style else ""
-    return f'<text{style} x="{at[0]:g}" y="{at[1]:g}" font-size="{fitting:.3g}">{_escaped(text)}</text>'
+    return f'<text{style} x="{at[0]:.9g}" y="{at[1]:.9g}" font-size="{fitting:.3g}">{_escaped(text)}</text>'
 
 
 def _width(text: str, size: float) -> float:

@@ -20,7 +20,7 @@ from urdfsync.urdf.xml import Node
 
 Missing = TypeVar("Missing", float, None)
 
-_DECIMAL = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
+_DECIMAL = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
 _BLANKS = re.compile(r"[ \t\r\n\f\v]+")
 _ELEMENTS = {
     "link",
@@ -38,7 +38,7 @@ _ELEMENTS = {
 """Elements of URDF that a stray place does not make misspelt ones."""
 _GROUPED = 3
 _LINES_SHOWN = 8
-_RUN_XACRO = "expand the file with xacro first"
+_SHOWN = 60
 
 
 class Findings:
@@ -154,14 +154,14 @@ class Element:
         return missing if values is None else values[0]
 
     def required(self, name: str) -> float:
-        """A decimal number that must be there; 0, after an error, if it is not."""
+        """A decimal number that must be there; 1, after an error, if it is not."""
         self._require(name)
-        return self.number(name, 0.0)
+        return self.number(name, 1.0)
 
     def required_vector(self, name: str) -> Vector:
-        """Three decimal numbers that must be there; zeros, after an error, if they are not."""
+        """Three decimal numbers that must be there; ones, after an error, if they are not."""
         self._require(name)
-        return self.vector(name, (0.0, 0.0, 0.0))
+        return self.vector(name, (1.0, 1.0, 1.0))
 
     def vector(self, name: str, missing: Vector) -> Vector:
         """Three decimal numbers, or `missing` if the attribute is absent."""
@@ -180,9 +180,9 @@ class Element:
         try:
             return parse_numbers(self.node.attributes[name], count)
         except ValueError as error:
-            code = "empty-attribute" if not self.node.attributes[name].strip() else "bad-number"
-            hint = _RUN_XACRO if "${" in self.node.attributes[name] else "write decimal numbers such as -0.5 or 1e-3"
-            self.error(code, f"{self.path}: {name}={self.node.attributes[name]!r} {error}", hint)
+            code = "bad-number" if self.node.attributes[name].strip() else "empty-attribute"
+            message = f"{self.path}: {name}={brief(self.node.attributes[name])} {error}"
+            self.error(code, message, "write decimal numbers such as -0.5 or 1e-3")
             return None
 
 
@@ -196,8 +196,13 @@ def parse_numbers(text: str, count: int) -> tuple[float, ...]:
         raise ValueError(f"has {len(words)} numbers instead of {count}")
     for word in words:
         if not _DECIMAL.fullmatch(word):
-            raise ValueError(f"is not a decimal number: {word!r}" if len(words) > 1 else "is not a decimal number")
+            raise ValueError(f"is not a decimal number: {brief(word)}" if len(words) > 1 else "is not a decimal number")
     values = tuple(float(word) + 0.0 for word in words)
     if not all(map(math.isfinite, values)):
         raise ValueError("is too large for a floating-point number")
     return values
+
+
+def brief(text: str) -> str:
+    """The text in quotes, cut off if it is long."""
+    return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "…")

@@ -66,10 +66,13 @@ class TreeJoint:
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class TreeCoupling:
-    """A mimic coupling between the axis flanges of two joints; a joint follows at most one other."""
+    """A mimic coupling between the axis flanges of two joints; a joint follows at most one other.
+
+    Without a `leader` the coupling holds its follower by itself.
+    """
 
     name: str
-    leader: str
+    leader: str | None
     follower: str
 
 
@@ -226,13 +229,14 @@ def _branches(tree: Tree, link: str, cell: _Cell) -> list[tuple[TreeJoint, int, 
 def _detours(tree: Tree, cells: _Cells) -> _Detours:
     followers: defaultdict[str, list[_Cell]] = defaultdict(list)
     for coupling in tree.couplings:
-        followers[coupling.leader].append(cells.joints[coupling.follower])
+        if coupling.leader is not None:
+            followers[coupling.leader].append(cells.joints[coupling.follower])
     across: defaultdict[int, dict[str, tuple[int, int]]] = defaultdict(dict)
     along: defaultdict[int, dict[str, tuple[int, int]]] = defaultdict(dict)
     for leader, found in followers.items():
         row, column = cells.joints[leader]
-        stops = [2 * column + 1, *(2 * cell.column for cell in found)]  # axes have odd places, gaps even ones
-        across[row][leader] = min(stops), max(stops)
+        passed = [column, *(cell.column for cell in found)]
+        across[row][leader] = min(passed), max(passed)
         for cell in found:
             low, high = along[cell.column].get(leader, (row, row))
             along[cell.column][leader] = min(low, cell.row), max(high, cell.row)
@@ -309,10 +313,12 @@ def _flange_lines(plan: _Plan) -> Iterator[_Line]:
 
 def _coupling_lines(tree: Tree, plan: _Plan) -> Iterator[_Line]:
     for coupling in tree.couplings:
-        icon = plan.coupling(coupling.follower)
-        leader, follower = plan.cells.parts[coupling.leader], plan.cells.parts[coupling.follower]
+        icon, follower = plan.coupling(coupling.follower), plan.cells.parts[coupling.follower]
         start, end = icon.at(PORTS["follower"]), plan.joint(follower.name).at(PORTS["axis"])
         yield (f"{coupling.name}.follower", f"{follower.name}.axis"), _kind(follower), [start, (end[0], start[1]), end]
+        if coupling.leader is None:
+            continue
+        leader = plan.cells.parts[coupling.leader]
         row, column = plan.cells.joints[leader.name].row, plan.cells.joints[follower.name].column
         y = plan.rows[row].tracks[plan.detours.rows[row][leader.name]]
         x = routing.gap_track(plan.trunks[column], plan.detours.columns[column][leader.name])

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 import msgspec
 
-from urdfsync.urdf.fields import Element, Findings, parse_numbers
+from urdfsync.urdf.fields import Element, Findings, brief, parse_numbers
 from urdfsync.urdf.robot import (
     Box,
     Capsule,
@@ -150,11 +150,11 @@ def _read_color(element: Element) -> tuple[float, float, float, float] | None:
     try:
         rgba = parse_numbers(text, 4)
     except ValueError as error:
-        element.warn("bad-color", f"{element.path}: rgba={text!r} {error}", 'write for example rgba="1 0.5 0 1"')
+        element.warn("bad-color", f"{element.path}: rgba={brief(text)} {error}", 'write for example rgba="1 0.5 0 1"')
         return None
     red, green, blue, opacity = (min(max(value, 0.0), 1.0) for value in rgba)
     if (red, green, blue, opacity) != rgba:
-        message = f"{element.path}: rgba={text!r} is not between 0 and 1, and is cut off there"
+        message = f"{element.path}: rgba={brief(text)} is not between 0 and 1, and is cut off there"
         element.warn("color-range", message, "divide 0 to 255 by 255")
     return red, green, blue, opacity
 

@@ -1,8 +1,8 @@
 """The triangles of a COLLADA file (.dae), placed by its scene, in metres.
 
-Of the metadata, `<unit>` is applied and `<up_axis>` is not. That is how RViz, MoveIt and Gazebo classic
-show the meshes of a URDF, and so what exporters count on; files say `Y_UP` and mean it, or don't
-(ros-visualization/rviz issue 1045, moveit/geometric_shapes pull request 52, gazebosim/gazebo-classic
+Of the metadata, `<unit>` is applied and `<up_axis>` is not. RViz treats the meshes of a URDF so, and
+neither MoveIt nor Gazebo classic turns them, which is what exporters count on (ros-visualization/rviz
+issue 1045 and `getMeshUnitRescale`, moveit/geometric_shapes pull request 52, gazebosim/gazebo-classic
 issue 1305). The transformations of the scene's nodes are applied.
 
 pycollada does the reading. It drops a geometry whose material, image or neighbour it doesn't understand;
@@ -19,7 +19,8 @@ from typing import Any
 import numpy as np
 from lxml import etree
 
-from urdfsync.urdf.mesh_geometry import Array, MeshError, placed
+from urdfsync.urdf.mesh_errors import MeshError, guarded
+from urdfsync.urdf.mesh_geometry import Array, placed
 
 _NO_SHAPE = (
     "library_animations",
@@ -40,23 +41,16 @@ _NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes"}
 
 
 def read_collada(content: bytes) -> Array:
-    """Corners of all triangles (n × 3 × 3, metres). Raises MeshError, or what pycollada raises for broken files."""
-    import collada
-
+    """Corners of all triangles (n × 3 × 3, metres). Raises MeshError."""
     root = _parse(content)
     unit = _unit(root)
     for tag, name in _NOT_READ.items():
         if root.find(f".//{{*}}{tag}") is not None:
             raise MeshError(f"it has {name}, which urdfsync doesn't read")
     etree.strip_elements(root, *(f"{{*}}{tag}" for tag in _NO_SHAPE), with_tail=False)
-    document = collada.Collada(io.BytesIO(etree.tostring(root)), ignore=[collada.DaeError])  # ignored: noted as errors
-    faults = [fault for fault in document.errors if not isinstance(fault, collada.DaeUnsupportedError)]
-    if faults:
-        raise MeshError(str(document.errors[0]))
-    if document.scene is None:
-        raise MeshError("it has no scene")
-    parts = [part for node in document.scene.nodes for part in _triangles(node, np.identity(4))]
-    return unit * np.concatenate([np.empty((0, 3, 3)), *parts])
+    with guarded():
+        parts = [part for node in _scene(root).nodes for part in _triangles(node, np.identity(4))]
+        return unit * np.concatenate([np.empty((0, 3, 3)), *parts])
 
 
 def _parse(content: bytes) -> etree._Element:
@@ -83,6 +77,19 @@ def _unit(root: etree._Element) -> float:
     if not (math.isfinite(unit) and unit > 0):
         raise MeshError(f"its unit of length is {text!r} metres")
     return unit
+
+
+def _scene(root: etree._Element) -> Any:
+    """The scene as pycollada's object. What it can't make sense of is an error, what it doesn't know is not."""
+    import collada
+    from collada.common import DaeError, DaeUnsupportedError
+
+    document = collada.Collada(io.BytesIO(etree.tostring(root)), ignore=[DaeError])
+    if not all(isinstance(fault, DaeUnsupportedError) for fault in document.errors):
+        raise MeshError(f"its content isn't consistent: {document.errors[0]}")
+    if document.scene is None:
+        raise MeshError("it has no scene")
+    return document.scene
 
 
 def _triangles(node: Any, pose: Array) -> Iterator[Array]:

@@ -10,8 +10,10 @@ import numpy as np
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
 from urdfsync.urdf import mesh_lookup
-from urdfsync.urdf.mesh_geometry import Array, MeshError, bounds, placed, support_points
+from urdfsync.urdf.mesh_errors import MeshError
+from urdfsync.urdf.mesh_geometry import Array, bounds, placed, support_points
 from urdfsync.urdf.mesh_reading import read_mesh
+from urdfsync.urdf.robot import Vector
 
 _HEADER = b"binary STL, written by urdfsync".ljust(80)
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -28,23 +30,29 @@ def convert(dependency: Dependency, file: Path, content: bytes) -> Conversion:
     """
     mesh = mesh_lookup.mesh(dependency.key)
     try:
-        corners = placed(read_mesh(mesh_lookup.suffix(mesh.filename), content), np.diag((*mesh.scale, 1.0)))
-        imported = content if mesh_lookup.as_is(mesh) else _binary_stl(corners)
+        corners = _scaled(read_mesh(mesh_lookup.suffix(mesh.filename), content), mesh.scale)
     except MeshError as error:
         message = f"the mesh {mesh.filename} can't be read: {error}"
         hint = "export it again, best as STL or OBJ"
         raise SourceError(Diagnostic(Severity.ERROR, "unreadable-mesh", message, str(file), hint=hint)) from error
     points = corners.reshape(-1, 3)
+    imported = content if mesh_lookup.as_is(mesh) else _binary_stl(corners)
     return Conversion(imported, {"bounds": bounds(points), "hull": support_points(points)})
 
 
-def _binary_stl(corners: Array) -> bytes:
-    """Triangles (n × 3 × 3) as binary STL; the normal of a triangle without area is zero. Raises MeshError."""
-    facets = np.zeros(len(corners), dtype=_FACET)
-    with np.errstate(over="ignore"):
-        facets["corners"] = corners
-    if not np.isfinite(facets["corners"]).all():
+def _scaled(corners: Array, scale: Vector) -> Array:
+    """The triangles (n × 3 × 3), within the range of the numbers in an STL file. Raises MeshError."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        scaled = placed(corners, np.diag((*scale, 1.0)))
+    if not (np.abs(scaled) <= np.finfo(np.float32).max).all():
         raise MeshError("its coordinates are too large for single precision")
+    return scaled
+
+
+def _binary_stl(corners: Array) -> bytes:
+    """Triangles (n × 3 × 3) as binary STL; the normal of a triangle without area is zero."""
+    facets = np.zeros(len(corners), dtype=_FACET)
+    facets["corners"] = corners
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.sqrt(normals[:, 0] ** 2 + normals[:, 1] ** 2 + normals[:, 2] ** 2)[:, np.newaxis]
     facets["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)

@@ -18,10 +18,6 @@ _CHUNK = 1 << 14  # points whose products with all directions stay in the cache
 _DIGITS = 6
 
 
-class MeshError(Exception):
-    """A mesh can't be used; the text is the second half of `the mesh … can't be read: it …`."""
-
-
 def placed(corners: Array, pose: Array) -> Array:
     """Triangles (n × 3 × 3) moved by an affine transformation (4 × 4); one that mirrors keeps their outer sides."""
     x, y, z = (corners[..., axis, np.newaxis] for axis in range(3))

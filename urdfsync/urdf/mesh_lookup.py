@@ -24,7 +24,6 @@ AS_IS = (".stl", ".obj")
 
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)")  # two letters at least: `C:` is a drive
 _FOUND = re.compile(r"(?:file:(?://)?)?\$\((?:find|find-pkg-share)\s+([^)]+)\)/*(.*)")
-_LOCAL_HOST = re.compile("^localhost/")
 _DRIVE = re.compile(r"/*([A-Za-z]:/.*)")
 _UNFIT = re.compile("[\x00-\x1f\x7f\ud800-\udfff]")
 _NAME_BYTES = 255
@@ -53,7 +52,7 @@ def suffix(uri: str) -> str:
 
 def as_is(mesh: Mesh) -> bool:
     """Whether the file is imported byte for byte."""
-    return suffix(mesh.filename) in AS_IS and _scale(mesh) == UNIT_SCALE
+    return suffix(mesh.filename) in AS_IS and mesh.scale == UNIT_SCALE
 
 
 def target(mesh: Mesh) -> str:
@@ -102,7 +101,7 @@ def _places(text: str, lookup: Lookup) -> Iterator[Path]:
     elif not (match := _SCHEME.fullmatch(text)):
         yield from _at_path(text, lookup)
     elif match[1].lower() == "file":
-        yield from _at_path(_LOCAL_HOST.sub("/", match[2]), lookup)
+        yield from _at_path(re.sub("^localhost/", "/", match[2]), lookup)
     elif match[1].lower() in ("package", "model"):
         package, _, rest = match[2].partition("/")
         yield from _in_package(package, rest, lookup)
@@ -135,7 +134,7 @@ def _in_package(package: str, text: str, lookup: Lookup) -> Iterator[Path]:
 
 def _possible(path: Path) -> bool:
     """Whether file systems can have such a path at all; asking them for a longer one is an error."""
-    sizes = [len(part.encode()) for part in path.parts]
+    sizes = [len(part.encode("utf-8", "surrogatepass")) for part in path.parts]
     return max(sizes) <= _NAME_BYTES and sum(sizes) + len(sizes) <= _PATH_BYTES
 
 
@@ -160,11 +159,6 @@ def _line(path: str, lines: Mapping[str, int]) -> int:
 
 def _file_name(uri: str) -> str:
     return unquote(uri.strip().replace("\\", "/")).rpartition("/")[2]
-
-
-def _scale(mesh: Mesh) -> Vector:
-    x, y, z = map(float, mesh.scale)
-    return x, y, z
 
 
 def _numbers(vector: Vector) -> str:

@@ -7,38 +7,27 @@ is the last vertex, and a comment after a number is an error.
 
 from __future__ import annotations
 
-import contextlib
 import io
-import logging
+import json
 import re
-import warnings
 from collections.abc import Callable, Iterator, Mapping
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from urdfsync.urdf.mesh_collada import read_collada
-from urdfsync.urdf.mesh_geometry import Array, MeshError, placed
+from urdfsync.urdf.mesh_errors import MeshError, guarded
+from urdfsync.urdf.mesh_geometry import Array, placed
+
+Indices: TypeAlias = npt.NDArray[np.int64]
 
 _AXES = 3
 _TRIANGLE = 3
 _COMPRESSIONS = (b"KHR_draco_mesh_compression", b"EXT_meshopt_compression")
-_PARTIAL = "it ends early"
-_STL_HEADER = 84  # bytes
-_STL_FACET = 50
-_SEEN_FOR_GARBAGE = (
-    ArithmeticError,
-    AttributeError,
-    LookupError,
-    MemoryError,
-    NameError,
-    NotImplementedError,
-    RecursionError,
-    TypeError,
-    ValueError,
-    DeprecationWarning,  # see `_strict`
-)
-"""What trimesh and pycollada raise for broken files, whose structure they take for granted."""
+_STL_COUNT = slice(80, 84)
+_STL_FACET = 50  # bytes
+_POINTER = b"version https://git-lfs"
 
 
 def read_mesh(suffix: str, content: bytes) -> Array:
@@ -46,17 +35,12 @@ def read_mesh(suffix: str, content: bytes) -> Array:
 
     `suffix` is the format, in lower case with the dot. Raises MeshError.
     """
+    if content.startswith(_POINTER):
+        raise MeshError("it is a Git LFS pointer, and `git lfs pull` brings the file itself")
     reader = _READERS.get(suffix)
     if reader is None:
         raise MeshError(f"its format isn't one of {', '.join(sorted(_READERS))}")
-    try:
-        with _strict():
-            corners = reader(content)
-    except ImportError as error:
-        raise MeshError(f"a Python package is missing: {error}") from error
-    except _SEEN_FOR_GARBAGE as error:
-        detail = f": {error}" if str(error) else ""
-        raise MeshError(f"its content isn't a {suffix} mesh ({type(error).__name__}{detail})") from error
+    corners = reader(content)
     if not len(corners):
         raise MeshError("it has no triangles")
     if not np.isfinite(corners).all():
@@ -64,56 +48,46 @@ def read_mesh(suffix: str, content: bytes) -> Array:
     return corners
 
 
-@contextlib.contextmanager
-def _strict() -> Iterator[None]:
-    """Numbers that numpy can't read to the end are an error in all its versions; trimesh's log is silent."""
-    log = logging.getLogger("trimesh")
-    level = log.level
-    log.setLevel(logging.CRITICAL + 1)
-    try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.filterwarnings("error", "string or file could not be read", DeprecationWarning)
-            yield
-    finally:
-        log.setLevel(level)
-
-
 def _read_stl(content: bytes) -> Array:
-    """A binary file has the length that its header announces; in an ASCII file, trimesh passes over broken solids."""
-    corners = _read_trimesh("stl", content)
-    binary = len(content) == _STL_HEADER + _STL_FACET * len(corners)
-    if not binary and content.lower().count(b"endfacet") != len(corners):
-        raise MeshError(_PARTIAL)
-    return corners
+    if content.lstrip()[:5].lower() == b"solid":  # ASCII; some binary files say so too
+        return _complete(_read_trimesh("stl", content), content.lower().count(b"endfacet"))
+    announced = int.from_bytes(content[_STL_COUNT], "little")
+    if announced and len(content) != _STL_COUNT.stop + announced * _STL_FACET:
+        raise MeshError(f"its length doesn't fit the {announced} triangles that it announces")
+    return _read_trimesh("stl", content)
 
 
 def _read_ply(content: bytes) -> Array:
-    """All elements; trimesh passes over those that an ASCII file announces and doesn't hold."""
-    header, _, body = content.partition(b"end_header")
-    announced = sum(int(count) for count in re.findall(rb"^element +\S+ +(\d+)", header, re.MULTILINE))
-    if b"format ascii" in header and len(body.split(b"\n")) - 1 < announced:
-        raise MeshError(_PARTIAL)
-    return _read_trimesh("ply", content)
+    header = content.partition(b"end_header")[0]
+    announced = re.search(rb"^element[ \t]+face[ \t]+(\d+)", header, re.MULTILINE)
+    return _complete(_read_trimesh("ply", content), int(announced[1]) if announced else 0)
 
 
 def _read_off(content: bytes) -> Array:
-    """All faces; trimesh passes over those that the file announces and doesn't hold."""
-    lines = [line.split(b"#")[0].strip() for line in content.partition(b"OFF")[2].splitlines()]
-    filled = [line for line in lines if line]
-    vertices, faces = map(int, filled[0].split()[:2])
-    if len(filled) <= vertices + faces:
-        raise MeshError(_PARTIAL)
-    return _read_trimesh("off", content)
+    announced = re.search(rb"OFF(?:\s|#.*)*\d+\s+(\d+)", content)
+    return _complete(_read_trimesh("off", content), int(announced[1]) if announced else 0)
 
 
-def _read_gltf(suffix: str) -> Callable[[bytes], Array]:
-    def read(content: bytes) -> Array:
-        for compression in _COMPRESSIONS:
-            if compression in content:
-                raise MeshError(f"it is compressed ({compression.decode()})")
-        return _read_trimesh(suffix, content)
+def _complete(corners: Array, faces: int) -> Array:
+    """All triangles of that many faces; trimesh passes over those that a file announces and doesn't hold."""
+    if len(corners) < faces:
+        raise MeshError("its end is missing")
+    return corners
 
-    return read
+
+def _read_gltf(content: bytes) -> Array:
+    try:
+        json.loads(content)  # where this fails, trimesh looks for another file
+    except ValueError as error:
+        raise MeshError(f"its content isn't JSON: {error}") from error
+    return _read_glb(content, "gltf")
+
+
+def _read_glb(content: bytes, suffix: str = "glb") -> Array:
+    for compression in _COMPRESSIONS:
+        if compression in content:
+            raise MeshError(f"it is compressed ({compression.decode()})")
+    return _read_trimesh(suffix, content)
 
 
 class _NoOtherFiles(Mapping[str, bytes]):
@@ -131,25 +105,26 @@ class _NoOtherFiles(Mapping[str, bytes]):
 
 def _read_trimesh(suffix: str, content: bytes) -> Array:
     """All triangles of the scene that trimesh reads, moved by its nodes."""
-    import trimesh
+    parts = [np.empty((0, _TRIANGLE, _AXES))]
+    with guarded():
+        import trimesh
 
-    scene = trimesh.load_scene(
-        io.BytesIO(content), file_type=suffix, resolver=_NoOtherFiles(), process=False, skip_materials=True
-    )
-    parts = [np.empty((0, 3, 3))]
-    for node in scene.graph.nodes_geometry:
-        pose, name = scene.graph[node]
-        geometry = scene.geometry[name]
-        if isinstance(geometry, trimesh.Trimesh):
-            parts.append(placed(np.asarray(geometry.vertices, dtype=np.float64)[geometry.faces], pose))
-    return np.concatenate(parts)
+        scene = trimesh.load_scene(
+            io.BytesIO(content), file_type=suffix, resolver=_NoOtherFiles(), process=False, skip_materials=True
+        )
+        for node in scene.graph.nodes_geometry:
+            pose, name = scene.graph[node]
+            geometry = scene.geometry[name]
+            if isinstance(geometry, trimesh.Trimesh):
+                parts.append(placed(np.asarray(geometry.vertices, dtype=np.float64)[geometry.faces], pose))
+        return np.concatenate(parts)
 
 
 def _read_obj(content: bytes) -> Array:
     """Positions and faces."""
     coordinates: list[bytes] = []
     corners: list[bytes] = []
-    faces: list[tuple[int, int]] = []
+    faces: list[tuple[int, int]] = []  # number of corners, and of vertices so far
     for number, line in enumerate(content.replace(b"\\\n", b" ").replace(b"\\\r\n", b" ").splitlines(), start=1):
         words = (line.partition(b"#")[0] if b"#" in line else line).split()
         if words and words[0] in (b"v", b"f"):
@@ -160,19 +135,28 @@ def _read_obj(content: bytes) -> Array:
             else:
                 corners += words[1:]
                 faces.append((len(words) - 1, len(coordinates) // _AXES))
-    vertices = np.fromstring(b" ".join(coordinates), sep=" ").reshape(-1, _AXES)
-    indices = np.fromstring(re.sub(rb"/\S*", b"", b" ".join(corners)), dtype=np.int64, sep=" ")
-    sizes, counts = np.array(faces, dtype=np.int64).reshape(-1, 2).T
+    with guarded():
+        vertices = np.fromstring(b" ".join(coordinates), sep=" ").reshape(-1, _AXES)
+        indices = np.fromstring(re.sub(rb"/\S*", b"", b" ".join(corners)), dtype=np.int64, sep=" ")
+    return vertices[_from_zero(indices, np.array(faces, dtype=np.int64).reshape(-1, 2), len(vertices))]
+
+
+def _from_zero(indices: Indices, faces: Indices, vertices: int) -> Indices:
+    """Triangles (n × 3) as indices that count from 0; OBJ counts from 1, or back from the last vertex so far."""
+    sizes, counts = faces.T
+    if len(indices) != sizes.sum():
+        raise MeshError("one of its faces refers to no vertex")
     absolute = np.where(indices > 0, indices - 1, indices + np.repeat(counts, sizes))
-    unknown = (indices == 0) | (absolute < 0) | (absolute >= len(vertices))
+    unknown = (indices == 0) | (absolute < 0) | (absolute >= vertices)
     if unknown.any():
-        raise MeshError(f"a face refers to vertex {indices[unknown][0]} of {len(vertices)}")
-    return vertices[absolute[_fans(sizes)]]
+        raise MeshError(f"one of its faces refers to vertex {indices[unknown][0]} of {vertices}")
+    triangles: Indices = absolute[_fans(sizes)]
+    return triangles
 
 
-def _fans(sizes: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+def _fans(sizes: Indices) -> Indices:
     """Triangles (n × 3) of polygons that have `sizes` corners each, as indices into the row of all their corners."""
-    counts = sizes - 2
+    counts = sizes - (_TRIANGLE - 1)
     first = np.repeat(np.cumsum(sizes) - sizes, counts)
     step = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
     return np.column_stack((first, first + step + 1, first + step + 2))
@@ -180,8 +164,8 @@ def _fans(sizes: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
 
 _READERS: dict[str, Callable[[bytes], Array]] = {
     ".dae": read_collada,
-    ".glb": _read_gltf("glb"),
-    ".gltf": _read_gltf("gltf"),
+    ".glb": _read_glb,
+    ".gltf": _read_gltf,
     ".obj": _read_obj,
     ".off": _read_off,
     ".ply": _read_ply,

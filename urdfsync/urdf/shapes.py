@@ -40,7 +40,6 @@ def contacts(collisions: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
             "component": shape["component"].replace("collision", "contact"),
             "type": "Points" if shape["type"] == "Mesh" else shape["type"],
             "record": shape["component"],
-            "shape": shape["component"],
             "y": shape["y"],
         }
         for shape in collisions

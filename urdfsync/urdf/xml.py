@@ -60,13 +60,9 @@ class Node:
             yield from child.walk()
 
     def canonical(self) -> str:
-        """The element as exclusive canonical XML, without comments, indentation and invented namespaces."""
+        """The element as canonical XML 2.0, without comments, indentation and invented namespaces."""
         element = copy.deepcopy(self.element)
-        for part in element.iter():
-            part.tail = (part.tail or "").strip() if part is not element else None
-            if isinstance(part.tag, str):
-                part.text = (part.text or "").strip()
-        text = etree.tostring(element, method="c14n", exclusive=True, with_comments=False).decode()
+        text = etree.tostring(element, method="c14n2", with_comments=False, strip_text=True).decode()
         return re.sub(rf' xmlns:[^=]+="{_UNDECLARED}[^"]*"', "", text)
 
 
@@ -200,7 +196,7 @@ def _parse_strictly(text: str, starts: list[_Start]) -> tuple[etree._Element, li
 def _undeclared_prefixes(log: etree._ListErrorLog) -> dict[str, Diagnostic] | None:
     """Per undeclared prefix the warning about its first use; None if anything else is wrong."""
     found: dict[str, Diagnostic] = {}
-    for entry in log:
+    for entry in log.filter_from_errors():
         match = _NO_NAMESPACE.match(entry.message)
         if entry.type != etree.ErrorTypes.NS_ERR_UNDEFINED_NAMESPACE or not match:
             return None
@@ -212,12 +208,12 @@ def _undeclared_prefixes(log: etree._ListErrorLog) -> dict[str, Diagnostic] | No
 
 
 def _syntax_fault(error: etree.XMLSyntaxError, log: etree._ListErrorLog) -> _Fault:
-    """The first fatal entry of the parser's log as an error."""
+    """The gravest entry of the parser's log, of several the first, as an error."""
     hint = f"correct the XML, or {_WAIT}"
-    fatal = log.filter_from_fatals()
-    if not fatal:
-        return _Fault("xml-syntax", f"this is not XML: {error.msg}", hint, error.lineno or 0)
-    entry = fatal[0]
+    found = log.filter_from_fatals() or log.filter_from_errors()
+    if not found:
+        return _Fault("xml-syntax", f"this is not well-formed XML: {error.msg}", hint, error.lineno or 1)
+    entry = found[0]
     return _Fault("xml-syntax", f"this is not well-formed XML: {entry.message}", hint, entry.line, entry.column)
 
 

@@ -7,7 +7,7 @@ model Rotational "Viscous damping and smooth dry friction between two rotational
   parameter UrdfSync.Records.RotationalDynamics parameters
     "Damping and friction";
 
-  parameter Real steepness(unit = "s/rad", min = 0) = 100
+  parameter UrdfSync.Types.RotationalSteepness steepness = 100
     "How sharply the dry friction changes its sign around standstill";
 
   Modelica.Units.SI.Angle phi_rel

@@ -7,7 +7,7 @@ model Translational "Viscous damping and smooth dry friction between two transla
   parameter UrdfSync.Records.TranslationalDynamics parameters
     "Damping and friction";
 
-  parameter Real steepness(unit = "s/m", min = 0) = 100
+  parameter UrdfSync.Types.TranslationalSteepness steepness = 100
     "How sharply the dry friction changes its sign around standstill";
 
   Modelica.Units.SI.Position s_rel

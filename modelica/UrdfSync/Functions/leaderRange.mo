@@ -20,14 +20,16 @@ function leaderRange "Range of a joint in which a joint that follows it stays in
 
 protected
   Real k = if abs(multiplier) > Modelica.Constants.eps then multiplier else 1;
-  Real p = (follower[1] - offset)/k;
-  Real q = (follower[2] - offset)/k;
+  constant Real far = 1e60
+    "Farther than any joint moves, and not so far that arithmetic with it overflows";
+  Real p = (max(-far, min(far, follower[1])) - offset)/k;
+  Real q = (max(-far, min(far, follower[2])) - offset)/k;
 algorithm
   range := leader;
   if abs(multiplier) > Modelica.Constants.eps then
     range[1] := max(leader[1], min(p, q));
     range[2] := min(leader[2], max(p, q));
-    range[3] := min(leader[3], follower[3]/abs(k));
+    range[3] := min(leader[3], min(far, follower[3])/abs(k));
   end if;
 
   annotation (Documentation(info="<html>

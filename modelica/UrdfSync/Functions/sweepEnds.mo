@@ -28,16 +28,17 @@ protected
 algorithm
   q := start;
   for k in 1:size(start, 1) loop
-    room := min(reach, margin*range[k, 3]*period/Modelica.Constants.pi);
-    above := margin*(range[k, 2] - start[k]);
-    below := margin*(start[k] - range[k, 1]);
-    q[k] := if above >= below then start[k] + min(room, above) else start[k] - min(room, below);
+    room := margin*min(range[k, 3], reach*Modelica.Constants.pi/(margin*period))*period/Modelica.Constants.pi;
+    above := min(room, margin*min(range[k, 2] - start[k], reach/margin));
+    below := min(room, margin*min(start[k] - range[k, 1], reach/margin));
+    q[k] := if above >= below then start[k] + above else start[k] - below;
   end for;
 
   annotation (Documentation(info="<html>
 <p>
 A sweep is <code>start + (q - start)*(1 - cos(2*pi*t/period))/2</code>; its largest speed is
-<code>pi*abs(q - start)/period</code>. It goes to the side where there is more room.
+<code>pi*abs(q - start)/period</code>. It goes to the side where there is more room. No limit is multiplied before it is bounded:
+limits may be infinite.
 </p>
 </html>"));
 end sweepEnds;

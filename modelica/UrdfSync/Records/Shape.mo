@@ -9,7 +9,7 @@ record Shape "Place and colour of a shape"
   Modelica.Mechanics.MultiBody.Types.Color color = {180, 180, 180}
     "Red, green and blue, 0 to 255";
 
-  Real opacity(unit = "1", min = 0, max = 1) = 1
+  UrdfSync.Types.Opacity opacity = 1
     "1: opaque, 0: invisible; not every visualizer can show it";
 
   annotation (Documentation(info="<html>

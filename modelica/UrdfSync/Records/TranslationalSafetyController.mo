@@ -3,10 +3,10 @@ within UrdfSync.Records;
 record TranslationalSafetyController "Soft limits of a sliding joint"
   extends UrdfSync.Icons.Parameters;
 
-  Real k_velocity(unit = "N.s/m") = 0
+  Modelica.Units.SI.TranslationalDampingConstant k_velocity = 0
     "Gain from speed error to effort bound";
 
-  Real k_position(unit = "1/s") = 0
+  UrdfSync.Types.PositionGain k_position = 0
     "Gain from position error to speed bound";
 
   Modelica.Units.SI.Position soft_lower_limit = -Modelica.Constants.inf

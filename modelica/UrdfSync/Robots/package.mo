@@ -1,7 +1,7 @@
 within UrdfSync;
 
 package Robots "What robots and their benches are made of"
-  extends Modelica.Icons.Package;
+  extends UrdfSync.Icons.RobotPackage;
 
   annotation (Documentation(info="<html>
 <p>

@@ -18,8 +18,8 @@ Standard Library this is the sequence {3, 2, 1} with the angles {yaw, pitch, rol
 <li><em>Names</em>: a URDF name becomes a Modelica identifier. Components begin with a small letter, classes with a capital one. The
 description string of every generated class holds the name as the URDF has it.</li>
 <li><em>Records</em> hold numbers and strings only. Nothing in them switches a component on or off.</li>
-<li><em>Absent numbers</em>: a missing origin is zero, a missing axis is {1, 0, 0}, a limit that is not stated is infinite, a link without
-<code>&lt;inertial&gt;</code> has no mass.</li>
+<li><em>Absent numbers</em>: a missing origin is zero, a missing axis is {1, 0, 0}, a joint without <code>&lt;limit&gt;</code> has no
+limits, a link without <code>&lt;inertial&gt;</code> has no mass.</li>
 <li><em>Icons</em>: links are blue; turning joints are orange, sliding ones green, planar ones purple, floating ones teal, fixed ones grey.
 Links show their mass; joints with one axis show its number in the robot's vector of flanges (0 for a joint that follows another) and its
 direction.</li>

@@ -16,16 +16,18 @@ With <code>Arm</code> as the name of the robot's class:
 <tr><td><code>Joints/&lt;Joint&gt;.mo</code></td><td>model of one joint</td></tr>
 <tr><td><code>Joints/&lt;Joint&gt;Parameters.mo</code></td><td>record with the numbers of that joint</td></tr>
 <tr><td><code>Arm.mo</code></td><td>the robot: links and joints, placed and connected; frames and flanges outside</td></tr>
-<tr><td><code>ArmRun.mo</code></td><td>the robot in its world, with inputs for the positions of all drives: the model to export as FMU</td></tr>
+<tr><td><code>ArmRun.mo</code></td><td>the robot in its world, with inputs for the positions of
+all drives, which are filtered, and outputs for their torques and forces: the model to export as FMU</td></tr>
 <tr><td><code>ArmTest.mo</code></td><td>the same with sources that move every joint inside its limits: the quick check</td></tr>
 <tr><td><code>ArmParameters.mo</code></td>
 <td><a href=\"modelica://UrdfSync.UsersGuide.RecordApproach\">the whole robot as one record</a></td></tr>
 <tr><td><code>Resources/</code></td><td>the meshes of the URDF, imported</td></tr>
-<tr><td><code>package.mo</code>, <code>package.order</code></td><td>in the robot's package and in <code>Links</code> and <code>Joints</code></td></tr>
+<tr><td><code>package.mo</code>, <code>package.order</code></td>
+<td>in the robot's package and in <code>Links</code> and <code>Joints</code></td></tr>
 </table>
 <h4>Models and numbers are apart</h4>
 <p>
-A link or joint model takes every number of the URDF from its record, as <code>parameters</code>. Run and Test models hold no number
+A link or joint model takes every number of the URDF from its record, the component <code>parameters</code>. Run and Test models hold no number
 of the URDF either. So new numbers touch records only. The model of a link or joint is a full copy of its template and extends no other
 link or joint: what you change in it changes nothing else.
 </p>

@@ -40,9 +40,10 @@ Continuous, revolute and prismatic joints have two flanges. <code>support</code>
 </p>
 <h4>Limits</h4>
 <p>
-The record holds position, speed and effort limits; one that the URDF does not state is infinite. No limit holds a joint back. Passing one
-is reported by a warning that names the joint: position (revolute, prismatic), speed, and effort, which is what the drive gives at
-<code>axis</code>, losses included. <code>checkLimits = false</code> silences it.
+The record holds limits of position (revolute, prismatic), speed and effort. Without a <code>&lt;limit&gt;</code> element all of them are
+infinite; in one, <code>lower</code> and <code>upper</code> are zero if left out, <code>velocity</code> and <code>effort</code> infinite.
+No limit holds a joint back: a warning that names the joint reports that it is passed. Effort is what the drive gives at
+<code>axis</code>, losses included. <code>checkLimits = false</code> silences the warnings.
 </p>
 <h4>Losses</h4>
 <p>
@@ -55,8 +56,8 @@ tau = d*w + f*tanh(s*w/2)
 <p>
 It acts against the motion. For sliding joints read force for torque and <code>v</code> for <code>w</code>. The second term is the law
 <code>2*f/(1 + exp(-s*w)) - f</code> of Pign&egrave;de and Oldemeyer, written so that no speed makes it overflow. There is no stiction:
-under load an axis creeps. URDF states the unit of damping as N&middot;m&middot;s/rad for turning and N&middot;s/m for sliding joints,
-and of friction as N&middot;m and N. A planar joint has one component per direction of motion.
+under load an axis creeps. Damping is in N&middot;m&middot;s/rad for turning and N&middot;s/m for sliding joints, friction in N&middot;m and N.
+A planar joint has one component, with the same two numbers, per direction of motion.
 </p>
 <h4>Mimic</h4>
 <p>
@@ -69,7 +70,8 @@ tau_leader + multiplier*tau_follower = 0
 </pre></blockquote>
 <p>
 The second equation is the balance of power: what the follower needs, the leader's drive has to give. Leader and follower may be of
-different kinds, and a follower may itself be followed. The flanges of a follower are not among those of the robot.
+different kinds, and a follower may itself be followed. A joint that follows a fixed one is held at its offset. The flanges of a follower are
+not among those of the robot.
 </p>
 <h4>Start values</h4>
 <p>
@@ -78,8 +80,7 @@ Position and speed at the beginning are parameters. With <code>fixedStart = true
 </p>
 <h4>Stored, not modelled</h4>
 <p>
-<code>&lt;calibration&gt;</code> and <code>&lt;safety_controller&gt;</code> are in the record, for models of your own. Limits of a planar
-joint are not in its record.
+<code>&lt;calibration&gt;</code> and <code>&lt;safety_controller&gt;</code> are in the record, for models of your own.
 </p>
 </html>"));
 end Joints;

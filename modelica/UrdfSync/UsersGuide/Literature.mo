@@ -17,6 +17,11 @@ and joints are made of.</dd>
 <dd><strong>Rigid Body Dynamics Algorithms</strong>. Springer, 2008. Tensors and coordinate transformations.</dd>
 <dt>J. J. Craig:</dt>
 <dd><strong>Introduction to Robotics: Mechanics and Control</strong>. Angles about fixed axes: chapter 2.</dd>
+<dt>K. H. Hunt and F. R. E. Crossley:</dt>
+<dd><strong>Coefficient of Restitution Interpreted as Damping in Vibroimpact</strong>. Journal of Applied Mechanics 42, 1975. The normal
+force of the ground.</dd>
+<dt>E. Pennestr&igrave;, V. Rossi, P. Salvini and P. P. Valentini:</dt>
+<dd><strong>Review and Comparison of Dry Friction Force Models</strong>. Nonlinear Dynamics 83, 2016. Smooth friction laws.</dd>
 <dt>URDF:</dt>
 <dd><a href=\"https://wiki.ros.org/urdf/XML\">XML specification of URDF</a>. Where it leaves something open, the behaviour of
 <a href=\"https://github.com/ros/urdfdom\">urdfdom</a>, the parser of ROS, counts.</dd>

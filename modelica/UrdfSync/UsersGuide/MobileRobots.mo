@@ -19,17 +19,30 @@ Run and Test connect the root link to the world. In a model of your own connect 
 Run and Test extend <a href=\"modelica://UrdfSync.Robots.PartialMobileBench\">PartialMobileBench</a>: a world, a ground and six degrees of
 freedom between the world and the root link.
 </p>
-<ul>
-<li><em>Contact.</em> Every collision shape of every link can touch the ground. The ground pushes at the shape itself, not at the origin
-of its link: a wheel of radius <code>r</code> rests with its axle at height <code>r</code>. The ground yields a little, so that forces are
-smooth; its stiffness follows from the weight of the robot, the parameter <code>load</code> of the bench. The law and its numbers are in
-<a href=\"modelica://UrdfSync.Contacts\">UrdfSync.Contacts</a>. Links touch the ground only, not one another.</li>
-<li><em>Start.</em> The robot begins upright and at rest, at the height where its lowest collision shape just touches the ground
-with all joints at their start: <code>standingHeight</code> in the robot's record. It then settles into the ground.
-<code>r_start</code> and <code>rpy_start</code> of the bench let it begin elsewhere.</li>
-</ul>
+<h4>Ground</h4>
 <p>
-Gravity acts along -z of the world, as in URDF; the ground is the plane <code>z = 0</code>.
+The ground is the plane <code>z = 0</code> of the world, against whose z axis gravity acts. Every collision shape of every link can
+touch it, at the lowest points of the shape itself and not at the origin of its link: a wheel of radius <code>r</code> rests with its
+axle at height <code>r</code>. Of a mesh the convex hull counts. Links touch the ground only, not one another.
+</p>
+<p>
+The ground yields a little. At depth <code>p</code> a point with the upward speed <code>v_n</code> is pushed up by
+</p>
+<blockquote><pre>
+f_n = c*p*(1 - d*v_n), never negative
+</pre></blockquote>
+<p>
+and friction acts against its sliding velocity, by up to <code>friction*f_n</code>. Stiffness <code>c</code> and damping <code>d</code>
+follow from the weight of the robot, the parameter <code>load</code> of the bench, so that light and heavy robots sink in alike: 0.3 mm
+where one point carries the whole weight. There is no stiction and no rolling resistance. The numbers are parameters of
+<a href=\"modelica://UrdfSync.Contacts.Ground\">Ground</a>; the function
+<a href=\"modelica://UrdfSync.Contacts.Functions.point\">point</a> states the law in full.
+</p>
+<h4>Start</h4>
+<p>
+The robot begins upright and at rest, where its lowest collision shape just touches the ground with all joints at their start: that
+height is <code>standingHeight</code> in the record of the whole robot. It then settles. <code>r_start</code> and <code>rpy_start</code> of
+the bench let it begin elsewhere, <code>v_start</code> and <code>w_start</code> in motion.
 </p>
 </html>"));
 end MobileRobots;

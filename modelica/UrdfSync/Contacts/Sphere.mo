@@ -1,0 +1,35 @@
+within UrdfSync.Contacts;
+
+model Sphere "Sphere that touches the ground"
+  extends UrdfSync.Contacts.PartialContact;
+
+  parameter UrdfSync.Records.Sphere parameters
+    "Numbers of the collision";
+
+protected
+  final parameter Real R[3, 3](each unit = "1") = UrdfSync.Functions.rotation(parameters.origin.rpy)
+    "Axes of the shape frame in frame_a, as columns";
+
+equation
+  (f, t) = UrdfSync.Contacts.Functions.sphere(
+    frame_a.r_0[3] - ground.height,
+    Modelica.Mechanics.MultiBody.Frames.resolve2(frame_a.R, {0, 0, 1}),
+    Modelica.Mechanics.MultiBody.Frames.resolve2(frame_a.R, v_0),
+    Modelica.Mechanics.MultiBody.Frames.angularVelocity2(frame_a.R),
+    ground.stiffness,
+    ground.damping,
+    ground.friction,
+    ground.slipSpeed,
+    parameters.origin.xyz,
+    R,
+    parameters.radius);
+
+  annotation (
+    Icon(graphics={
+      Text(extent={{-150, -110}, {150, -80}}, textString="r=%parameters.radius")}),
+    Documentation(info="<html>
+<p>
+One contact point, straight below the centre.
+</p>
+</html>"));
+end Sphere;

@@ -1,0 +1,23 @@
+within UrdfSync;
+
+package Contacts "Ground contact of collision shapes"
+  extends Modelica.Icons.Package;
+
+  annotation (Documentation(info="<html>
+<p>
+A mobile robot stands, rolls and walks on the plane of <code>UrdfSync.Contacts.Ground</code>. Each collision shape of a link
+has a contact of its own, which acts at the lowest points of the true geometry: a wheel of radius
+<code>r</code> carries its axle at height <code>r</code>.
+</p>
+<ul>
+<li>Declare <code>inner UrdfSync.Contacts.Ground ground(load = ...)</code> once, in the model that is simulated, beside
+    <code>inner Modelica.Mechanics.MultiBody.World world(n = {0, 0, -1})</code>.</li>
+<li>Connect a <code>Sphere</code>, <code>Cylinder</code>, <code>Capsule</code>, <code>Box</code> or <code>Points</code>
+    to the <code>frame_a</code> of a link and hand it the record of the collision.</li>
+</ul>
+<p>
+The forces are those of a penalty method, see <code>UrdfSync.Contacts.Functions.point</code>. Links touch the ground only:
+they pass through each other. There is no rolling resistance and no resistance against spinning on one point.
+</p>
+</html>"));
+end Contacts;

@@ -1,0 +1,29 @@
+within UrdfSync.Links;
+
+record BoxLinkParameters "Numbers of box link"
+  extends UrdfSync.Records.Link;
+
+  UrdfSync.Records.Box visual1(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    size = {0.1, 0.1, 0.1},
+    color = {180, 180, 180},
+    opacity = 1)
+    "Visual 1";
+
+  UrdfSync.Records.Box collision1(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    size = {0.1, 0.1, 0.1},
+    color = {255, 105, 180},
+    opacity = 0.5)
+    "Collision 1";
+
+  annotation (Documentation(info="<html>
+<p>
+Numbers of box link. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+</p>
+</html>"));
+end BoxLinkParameters;

@@ -1,0 +1,138 @@
+"""Fixtures for all tests, a guard against tests that write where they must not, and a count of what was skipped."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+REPOSITORY = Path(__file__).parents[1]
+RC_FOLDER = Path(__file__).parent / "rcnetwork"
+NO_CORPUS = "no corpus of robots: set URDFSYNC_CORPUS"
+NO_LIBRARY = "no Modelica Standard Library: set MODELICAPATH"
+
+_HOME = Path.home()
+_ALLOWED = {"__pycache__", ".hypothesis", ".pytest_cache", ".mypy_cache", ".ruff_cache", ".coverage", ".git"}
+_WRITES = {"os.remove": 1, "os.rename": 2, "os.mkdir": 1, "os.rmdir": 1, "os.link": 2, "os.symlink": 2, "os.truncate": 1}
+_strays: list[str] = []
+
+
+def _is_guarded(path: object) -> bool:
+    if not isinstance(path, str | bytes | os.PathLike):
+        return False
+    place = Path(os.path.abspath(os.fsdecode(path)))  # noqa: PTH100 - called by an audit hook: no file system access
+    if place.is_relative_to(REPOSITORY):
+        return not _ALLOWED & set(place.relative_to(REPOSITORY).parts)
+    inside = place.is_relative_to(_HOME) and _HOME != Path("/")
+    return inside and place.relative_to(_HOME).parts[:1] not in ((".cache",), (".matplotlib",), (".config",))
+
+
+def _audit(event: str, arguments: tuple[Any, ...]) -> None:
+    if event == "open":
+        path, mode, flags = arguments[:3]
+        writes = any(letter in mode for letter in "wax+") if isinstance(mode, str) else flags & (os.O_WRONLY | os.O_RDWR)
+        paths: Sequence[object] = [path] if writes else []
+    else:
+        paths = arguments[: _WRITES.get(event, 0)]
+    _strays.extend(f"{event} {os.fsdecode(path)}" for path in paths if _is_guarded(path))  # type: ignore[arg-type]
+
+
+sys.addaudithook(_audit)
+
+
+@pytest.fixture(autouse=True)
+def _no_stray_writes() -> Iterator[None]:
+    """A test that writes to the repository or the home folder fails."""
+    _strays.clear()
+    yield
+    strays = list(_strays)
+    _strays.clear()
+    assert not strays, "the test writes outside of its own folder"
+
+
+@pytest.fixture(autouse=True)
+def _plain_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What the user's shell sets must not decide about tests."""
+    for name in ("ROS_PACKAGE_PATH", "NO_COLOR", "FORCE_COLOR", "COLUMNS"):
+        monkeypatch.delenv(name, raising=False)
+
+
+@pytest.fixture(scope="session")
+def corpus() -> Path:
+    """The folder of real robots and histories."""
+    folder = Path(os.environ.get("URDFSYNC_CORPUS") or REPOSITORY.parent / "shared" / "corpus")
+    if not (folder / "robots").is_dir():
+        pytest.skip(NO_CORPUS)
+    return folder
+
+
+def find_library() -> Path | None:
+    """A folder that holds the Modelica Standard Library, from MODELICAPATH or where OpenModelica keeps it."""
+    folders = [Path(folder) for folder in os.environ.get("MODELICAPATH", "").split(os.pathsep) if folder]
+    for folder in (*folders, _HOME / ".openmodelica" / "libraries", Path("/usr/lib/omlibrary")):
+        if any((path / "package.mo").is_file() for path in (folder / "Modelica", *folder.glob("Modelica [4-9]*"))):
+            return folder
+    return None
+
+
+@pytest.fixture(scope="session")
+def modelica_library() -> Path:
+    """The folder with the Modelica Standard Library, 4.0.0 or later."""
+    folder = find_library()
+    if folder is None:
+        pytest.skip(NO_LIBRARY)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def rc_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder that makes the RC network domain an installed distribution, once it is on Python's path."""
+    site = tmp_path_factory.mktemp("site")
+    info = site / "rcnetwork-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: rcnetwork\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text("[urdfsync.domains]\nrcnetwork = rc_domain:DOMAIN\n")
+    return site
+
+
+@pytest.fixture
+def rc_domain(rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The RC network domain is installed."""
+    monkeypatch.syspath_prepend(rc_site)
+    monkeypatch.syspath_prepend(RC_FOLDER)
+
+
+@pytest.fixture
+def project(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder, also the working one, with a network, its signal and the configuration that builds `Ladder`."""
+    folder = tmp_path / "project"
+    shutil.copytree(RC_FOLDER / "examples", folder)
+    (folder / "urdfsync.toml").write_text(
+        '[robots.ladder]\nsource = "ladder.json"\npackage = "Ladder"\ndomain = "rcnetwork"\n'
+    )
+    monkeypatch.chdir(folder)
+    return folder
+
+
+@pytest.fixture
+def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
+    """A function that gives time of change and content of every file below a folder."""
+
+    def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
+        files = sorted(path for path in folder.rglob("*") if path.is_file())
+        return {path.relative_to(folder).as_posix(): (path.stat().st_mtime_ns, path.read_bytes()) for path in files}
+
+    return snapshot
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Say how many tests need what is not here."""
+    skipped = [str(report.longrepr) for report in terminalreporter.stats.get("skipped", [])]
+    for reason in (NO_LIBRARY, NO_CORPUS):
+        if count := sum(reason in text for text in skipped):
+            terminalreporter.write_line(f"{count} tests skipped: {reason}", yellow=True)

@@ -1,0 +1,344 @@
+"""Ground contact: shapes rest, roll, slide and land where their geometry says, in simulation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+import rumoca
+
+pytestmark = pytest.mark.slow
+
+LIBRARY_PATH = Path(__file__).parents[2] / "modelica"
+
+GRAVITY = 9.80665  # of the standard library's World
+MASS = 5.0
+INERTIA = 0.02
+WEIGHT = MASS * GRAVITY
+MILLIMETRE = 1e-3
+SETTLED = 0.5  # s
+
+ACROSS = f"origin(rpy = {{{math.pi / 2!r}, 0, 0}})"  # turns the z axis of a shape to -y
+WHEEL = f"Cylinder(parameters(radius = 0.1, length = 0.04, {ACROSS}))"
+DISC = "Cylinder(parameters(radius = 0.1, length = 0.2))"
+BALL = "Sphere(parameters(radius = 0.1))"
+BRICK = "Box(parameters(size = {0.2, 0.3, 0.4}))"
+
+Vector = tuple[float, float, float]
+Signal = npt.NDArray[np.float64]
+ZERO: Vector = (0.0, 0.0, 0.0)
+
+
+@pytest.fixture(scope="module")
+def session(modelica_library: Path) -> Any:
+    return rumoca.Session(roots=[str(modelica_library), str(LIBRARY_PATH)])
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What a simulation recorded of a body and of the contact at its frame, which has the body's name + 'Contact'."""
+
+    result: Any
+    body: str
+
+    @property
+    def time(self) -> Signal:
+        return np.asarray(self.result.time)
+
+    def position(self, axis: int) -> Signal:
+        """Coordinate 1, 2 or 3 of the body's frame in the world, in m."""
+        return np.asarray(self.result[f"{self.body}.frame_a.r_0[{axis}]"])
+
+    @property
+    def height(self) -> Signal:
+        return self.position(3)
+
+    def speed(self, axis: int) -> Signal:
+        """Velocity of the body's frame in the world, in m/s."""
+        return np.asarray(self.result[f"{self.body}.v_0[{axis}]"])
+
+    def up(self, axis: int) -> Signal:
+        """Share of an axis of the body that points upward."""
+        return np.asarray(self.result[f"{self.body}.frame_a.R.T[{axis},3]"])
+
+    @property
+    def upward_force(self) -> Signal:
+        """Vertical force of the ground on the body, in N."""
+        force: Signal = sum(self.up(k) * np.asarray(self.result[f"{self.body}Contact.f[{k}]"]) for k in (1, 2, 3))
+        return force
+
+    def settled(self, signal: Signal) -> Signal:
+        return signal[self.time >= SETTLED]
+
+
+def vector(values: Vector) -> str:
+    return "{" + ", ".join(map(repr, values)) + "}"
+
+
+def body(name: str, contact: str, z: float, rpy: Vector = ZERO, v: Vector = ZERO, w: Vector = ZERO) -> str:
+    """Declarations of a body of 5 kg with one contact at its frame, and how it starts (w in its own axes)."""
+    return f"""
+  Modelica.Mechanics.MultiBody.Parts.Body {name}(
+    m = {MASS}, r_CM = {{0, 0, 0}}, I_11 = {INERTIA}, I_22 = {INERTIA}, I_33 = {INERTIA},
+    r_0(each fixed = true, start = {{0, 0, {z!r}}}), v_0(each fixed = true, start = {vector(v)}),
+    sequence_start = {{3, 2, 1}}, angles_start = {vector((rpy[2], rpy[1], rpy[0]))}, angles_fixed = true,
+    w_0_start = {vector(w)}, w_0_fixed = true);
+  UrdfSync.Contacts.{contact.replace("(", f" {name}Contact(", 1)};"""
+
+
+def scene(bodies: dict[str, str], ground: str = f"load = {MASS}*world.g") -> str:
+    """A model: a ground with its modifiers, and bodies (declarations by name) that do not feel each other."""
+    return f"""
+model Case
+  import Modelica;
+  inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, enableAnimation = false);
+  inner UrdfSync.Contacts.Ground ground({ground});
+{"".join(bodies.values())}
+equation
+{"".join(f"  connect({name}.frame_a, {name}Contact.frame_a);" for name in bodies)}
+end Case;
+"""
+
+
+def simulate(session: Any, text: str, seconds: float = 1.0) -> Any:
+    settings = rumoca.SimConfig(rtol=1e-6, atol=1e-6, dt=0.01)
+    return session.loads(text, model="Case").simulate((0, seconds), config=settings)
+
+
+def move(session: Any, contact: str, seconds: float = 1.0, ground: str | None = None, **start: Any) -> Motion:
+    """Simulates a single body."""
+    bodies = {"body": body("body", contact, **start)}
+    return Motion(simulate(session, scene(bodies, ground) if ground else scene(bodies), seconds), "body")
+
+
+def mesh_wheel(radius: float = 0.1, corners: int = 36, half_width: float = 0.02) -> str:
+    """The hull of a wheel that is a prism, with its axis along z of the mesh."""
+    angles = [2 * math.pi * k / corners for k in range(corners)]
+    rims = [(radius * math.cos(a), radius * math.sin(a), side) for side in (-half_width, half_width) for a in angles]
+    points = ", ".join(map(vector, rims))
+    return f"Points(parameters({ACROSS}), hull(n = {len(rims)}, points = {{{points}}}))"
+
+
+# --- At rest -----------------------------------------------------------------------------------------------------
+
+
+RESTING = {  # name: (contact, height at which the body rests)
+    "wheel": (WHEEL, 0.1),
+    "meshWheel": (mesh_wheel(), 0.1),
+    "ball": (BALL, 0.1),
+    "lyingCapsule": (f"Capsule(parameters(radius = 0.1, length = 0.2, {ACROSS}))", 0.1),
+    "turnedBox": (f"Box(parameters(size = {{0.2, 0.3, 0.4}}, {ACROSS}))", 0.15),
+    "uprightCylinder": (DISC, 0.1),
+    "thinDisc": ("Cylinder(parameters(radius = 0.1, length = 0.001))", 0.0005),
+    "footBelow": ("Cylinder(parameters(radius = 0.1, length = 0.1, origin(xyz = {0, 0, -0.2})))", 0.25),
+}
+
+
+@pytest.fixture(scope="module")
+def resting(session: Any) -> Any:
+    """All resting shapes, dropped from 5 mm."""
+    bodies = {name: body(name, contact, z=height + 0.005) for name, (contact, height) in RESTING.items()}
+    return simulate(session, scene(bodies))
+
+
+@pytest.mark.parametrize("name", RESTING)
+def test_rests_with_its_lowest_points_on_the_ground(resting: Any, name: str) -> None:
+    motion, height = Motion(resting, name), RESTING[name][1]
+    assert motion.height[0] == pytest.approx(height + 0.005)
+    assert motion.height.min() > height - MILLIMETRE
+    assert np.abs(motion.settled(motion.height) - height).max() < MILLIMETRE
+    assert np.abs(motion.settled(motion.upward_force) / WEIGHT - 1).max() < 1e-3
+
+
+def test_the_ground_can_be_anywhere(session: Any) -> None:
+    motion = move(session, BALL, z=2.1, ground="height = 2, load = 49")
+    assert motion.height[-1] == pytest.approx(2.1, abs=MILLIMETRE)
+
+
+def test_one_point_sinks_in_by_the_penetration_of_the_load(session: Any) -> None:
+    """The numbers are those of the ground in the simulated model, not its defaults."""
+    motion = move(session, BALL, z=0.1, ground=f"load = {2 * WEIGHT}, penetration = 1e-3")
+    assert motion.height[-1] == pytest.approx(0.1 - 0.5e-3, abs=1e-6)
+
+
+# --- Landing -----------------------------------------------------------------------------------------------------
+
+
+FACES = {  # name: (roll and pitch that turn the face down, axis of the body that points up then, half height)
+    "bottom": (0.0, 0.0, 3, 0.2),
+    "top": (math.pi, 0.0, -3, 0.2),
+    "left": (math.pi / 2, 0.0, 2, 0.15),
+    "right": (-math.pi / 2, 0.0, -2, 0.15),
+    "front": (0.0, math.pi / 2, -1, 0.1),
+    "back": (0.0, -math.pi / 2, 1, 0.1),
+}
+
+
+@pytest.fixture(scope="module")
+def landing(session: Any) -> Any:
+    """One box per face, a little askew, dropped from 3 cm."""
+    bodies = {
+        name: body(name, BRICK, z=height + 0.03, rpy=(roll + 0.05, pitch + 0.03, 0.2))
+        for name, (roll, pitch, _, height) in FACES.items()
+    }
+    return simulate(session, scene(bodies), seconds=2)
+
+
+@pytest.mark.parametrize("name", FACES)
+def test_a_box_lands_and_stands_on_any_face(landing: Any, name: str) -> None:
+    motion, (_, _, axis, height) = Motion(landing, name), FACES[name]
+    assert motion.height[-1] == pytest.approx(height, abs=MILLIMETRE)
+    assert motion.up(abs(axis))[-1] == pytest.approx(math.copysign(1, axis), abs=1e-4)
+    assert motion.upward_force[-1] == pytest.approx(WEIGHT, rel=1e-3)
+
+
+def test_a_tumbling_box_comes_to_rest_on_a_face(session: Any) -> None:
+    motion = move(session, BRICK, z=0.6, rpy=(0.4, 0.5, 0.6), v=(1.0, 0.0, 0.0), w=(3.0, 0.0, 2.0), seconds=4)
+    halves = (0.1, 0.15, 0.2)
+    face = max(range(3), key=lambda k: abs(motion.up(k + 1)[-1]))
+    assert abs(motion.up(face + 1)[-1]) == pytest.approx(1, abs=1e-4)
+    assert motion.height[-1] == pytest.approx(halves[face], abs=MILLIMETRE)
+
+
+def test_an_upright_cylinder_stands_when_it_is_pushed(session: Any) -> None:
+    push = (1.0, 0.5, 3.0)
+    bodies = {
+        "up": body("up", DISC, z=0.1, w=push),
+        "down": body("down", DISC, z=0.1, rpy=(math.pi, 0.0, 0.0), w=push),
+    }
+    result = simulate(session, scene(bodies), seconds=2)
+    for name, direction in {"up": 1, "down": -1}.items():
+        motion = Motion(result, name)
+        assert motion.height[-1] == pytest.approx(0.1, abs=MILLIMETRE)
+        assert motion.up(3)[-1] == pytest.approx(direction, abs=1e-4)
+        assert abs(motion.speed(3)[-1]) < 1e-5
+
+
+def test_a_cylinder_that_leans_too_far_falls_on_its_side(session: Any) -> None:
+    """It tips where the centre is past the rim: at atan(radius / half length), 27 degrees here."""
+    pillar = "Cylinder(parameters(radius = 0.1, length = 0.4))"
+    leaning = {"stands": 22, "falls": 32}
+    bodies = {name: body(name, pillar, z=0.25, rpy=(math.radians(angle), 0.0, 0.0)) for name, angle in leaning.items()}
+    result = simulate(session, scene(bodies), seconds=3)
+    assert Motion(result, "stands").height[-1] == pytest.approx(0.2, abs=MILLIMETRE)
+    assert Motion(result, "falls").height[-1] == pytest.approx(0.1, abs=MILLIMETRE)
+
+
+def test_the_ground_never_pulls_and_nothing_bounces(session: Any) -> None:
+    motion = move(session, BRICK, z=0.7)
+    landed = motion.time > 0.4  # after a fall of 0.5 m, which takes 0.32 s
+    assert motion.upward_force.min() >= 0
+    assert motion.height[landed].max() < 0.2 + MILLIMETRE
+
+
+def test_what_starts_below_the_ground_is_lifted_slowly(session: Any) -> None:
+    motion = move(session, BRICK, z=0.15, seconds=4)
+    assert 0 < motion.speed(3).max() < 0.03
+    assert motion.height.max() < 0.2
+    assert motion.height[-1] == pytest.approx(0.2, abs=MILLIMETRE)
+
+
+# --- Rolling and sliding -----------------------------------------------------------------------------------------
+
+
+def test_a_rolling_wheel_stays_at_its_height_without_bumps(session: Any) -> None:
+    motion = move(session, WHEEL, z=0.1, v=(0.5, 0.0, 0.0), w=(0.0, 5.0, 0.0), seconds=2)
+    assert np.abs(motion.height - 0.1).max() < MILLIMETRE
+    assert np.ptp(motion.settled(motion.height)) < 1e-6
+    assert motion.position(1)[-1] == pytest.approx(1.0, rel=1e-3)
+    assert motion.position(2)[-1] == pytest.approx(0, abs=1e-6)
+
+
+def test_a_rolling_mesh_wheel_stays_at_its_height(session: Any) -> None:
+    motion = move(session, mesh_wheel(), z=0.1, v=(0.5, 0.0, 0.0), w=(0.0, 5.0, 0.0))
+    assert np.abs(motion.height - 0.1).max() < MILLIMETRE
+    assert motion.position(1)[-1] > 0.3
+
+
+def test_a_sliding_ball_ends_in_rolling(session: Any) -> None:
+    """Friction acts at the lowest point, so the angular momentum about it stays: v = v0 / (1 + I / (m r²))."""
+    motion = move(session, BALL, z=0.1, v=(1.0, 0.0, 0.0))
+    rolling = 1 / (1 + INERTIA / (MASS * 0.1**2))
+    assert motion.speed(1)[-1] == pytest.approx(rolling, rel=0.01)
+    assert motion.result["body.w_a[2]"][-1] * 0.1 == pytest.approx(motion.speed(1)[-1], rel=0.01)
+    assert motion.height[-1] == pytest.approx(0.1, abs=MILLIMETRE)
+
+
+def test_a_sliding_box_stops_after_the_way_of_dry_friction(session: Any) -> None:
+    slab = "Box(parameters(size = {0.4, 0.4, 0.1}))"
+    motion = move(session, slab, z=0.05, v=(1.0, 0.0, 0.0), ground=f"load = {WEIGHT}, friction = 0.5")
+    assert motion.position(1)[-1] == pytest.approx(1 / (2 * 0.5 * GRAVITY), rel=0.05)
+    assert abs(motion.speed(1)[-1]) < 1e-3
+
+
+# --- A cart with four wheels -------------------------------------------------------------------------------------
+
+AXLES = ((0.2, 0.15), (0.2, -0.15), (-0.2, 0.15), (-0.2, -0.15))
+CART_MASS = 12.0
+
+
+def wheel_text(number: int, x: float, y: float, drive: str) -> tuple[str, str]:
+    """Declarations and equations of one driven wheel of the cart."""
+    k = number
+    source = {
+        "speed": f"Modelica.Mechanics.Rotational.Sources.Position drive{k}(exact = true);",
+        "torque": f"Modelica.Mechanics.Rotational.Sources.ConstantTorque drive{k}(tau_constant = 0.1);",
+    }[drive]
+    start = ", phi(fixed = true), w(fixed = true)" if drive == "torque" else ""
+    declarations = f"""
+  Modelica.Mechanics.MultiBody.Parts.FixedTranslation place{k}(r = {{{x}, {y}, 0}}, animation = false);
+  Modelica.Mechanics.MultiBody.Joints.Revolute axle{k}(n = {{0, 1, 0}}, useAxisFlange = true{start}, animation = false);
+  Modelica.Mechanics.MultiBody.Parts.Body wheel{k}(
+    m = 0.5, r_CM = {{0, 0, 0}}, I_11 = 0.002, I_22 = 0.0025, I_33 = 0.002, animation = false);
+  UrdfSync.Contacts.{WHEEL.replace("(", f" wheel{k}Contact(", 1)};
+  {source}"""
+    equations = f"""
+  connect(chassis.frame_a, place{k}.frame_a);
+  connect(place{k}.frame_b, axle{k}.frame_a);
+  connect(axle{k}.frame_b, wheel{k}.frame_a);
+  connect(wheel{k}.frame_a, wheel{k}Contact.frame_a);
+  connect(drive{k}.flange, axle{k}.axis);
+  {f"drive{k}.phi_ref = phi;" if drive == "speed" else ""}"""
+    return declarations, equations
+
+
+def cart(drive: str) -> str:
+    """A cart that starts with its axles at the radius of its wheels; 'speed' leads every wheel to 5 rad/s in 1 s."""
+    declarations, equations = zip(*(wheel_text(k, x, y, drive) for k, (x, y) in enumerate(AXLES, 1)), strict=True)
+    return f"""
+model Case
+  import Modelica;
+  inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, enableAnimation = false);
+  inner UrdfSync.Contacts.Ground ground(load = {CART_MASS}*world.g);
+  Modelica.Mechanics.MultiBody.Joints.FreeMotion free(
+    r_rel_a(each fixed = true, start = {{0, 0, 0.1}}), v_rel_a(each fixed = true), angles_fixed = true,
+    w_rel_a_fixed = true, animation = false);
+  Modelica.Mechanics.MultiBody.Parts.Body chassis(
+    m = {CART_MASS - 2}, r_CM = {{0, 0, 0.05}}, I_11 = 0.2, I_22 = 0.3, I_33 = 0.4, animation = false);
+  Modelica.Units.SI.Angle phi = 5*(time - 0.2*(1 - exp(-time/0.2)));
+{"".join(declarations)}
+equation
+  connect(world.frame_b, free.frame_a);
+  connect(free.frame_b, chassis.frame_a);
+{"".join(equations)}
+end Case;
+"""
+
+
+@pytest.mark.parametrize("drive", ["speed", "torque"])
+def test_the_axles_of_a_driven_cart_stay_at_the_radius_of_its_wheels(session: Any, drive: str) -> None:
+    result = simulate(session, cart(drive), seconds=3)
+    wheels = [Motion(result, f"wheel{k}") for k in range(1, 5)]
+    for wheel in wheels:
+        assert np.abs(wheel.height - 0.1).max() < MILLIMETRE
+    assert sum(wheel.upward_force[-1] for wheel in wheels) == pytest.approx(CART_MASS * GRAVITY, rel=1e-3)
+    turned = np.asarray(result["axle1.phi"])
+    travelled = wheels[0].position(1) - wheels[0].position(1)[0]
+    driving = wheels[0].time >= 1
+    assert np.ptp(turned[driving]) > 5
+    assert np.ptp(travelled[driving]) == pytest.approx(0.1 * np.ptp(turned[driving]), rel=0.02)

@@ -1,0 +1,102 @@
+"""The icons of the library, and the viewer that draws them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import icons
+import pytest
+
+SHOWN = [name for name in icons.classes() if icons.icon(name).graphics]
+COMPONENTS = [name for name in icons.classes() if name.startswith("UrdfSync.Icons.") and not name.endswith("Package")]
+REACH = {"Text": 160}
+"""How far from the middle graphics may go; all but texts stay inside the icon."""
+
+
+def outside(name: str) -> list[str]:
+    """Graphics of a class that go beyond their reach."""
+    return [
+        f"{graphic.name} at {point}"
+        for graphic in icons.icon(name).graphics
+        for point in icons.corners(graphic)
+        if max(map(abs, point)) > REACH.get(graphic.name, 100) + 1e-9
+    ]
+
+
+def drawn(graphic: str, tmp_path: Path) -> ElementTree.Element:
+    """The one SVG element of an icon with one graphic."""
+    library = tmp_path / "UrdfSync"
+    library.mkdir()
+    (library / "X.mo").write_text(f"within UrdfSync;\nmodel X\n  annotation (Icon(graphics={{{graphic}}}));\nend X;\n")
+    return ElementTree.fromstring(icons.draw(icons.icon("UrdfSync.X", library), "shoulder"))
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_graphics_stay_inside_their_icon(name: str) -> None:
+    assert outside(name) == []
+
+
+@pytest.mark.parametrize("name", COMPONENTS)
+def test_icons_of_components_show_the_name_in_blue(name: str) -> None:
+    texts = [graphic for graphic in icons.icon(name).graphics if graphic.get("textString") == "%name"]
+    assert [graphic.get("textColor") for graphic in texts] == [[0, 0, 255]]
+
+
+@pytest.mark.parametrize("name", [name for name in COMPONENTS if name.endswith(("Link", "Joint"))])
+def test_links_and_joints_leave_room_for_a_text_below(name: str) -> None:
+    assert min(y for graphic in icons.icon(name).graphics for _, y in icons.corners(graphic)) >= -60
+
+
+def test_no_two_icons_look_the_same() -> None:
+    drawings = [icons.draw(icons.icon(name), "") for name in COMPONENTS]
+    assert len(set(drawings)) == len(drawings)
+
+
+def test_a_sheet_holds_every_icon() -> None:
+    root = ElementTree.fromstring(icons.sheet(SHOWN))
+    assert len(root.findall("{http://www.w3.org/2000/svg}g")) == len(SHOWN)
+
+
+def test_a_graphic_is_turned_and_then_moved() -> None:
+    note = icons.annotations_in("annotation (Rectangle(origin={10, 20}, rotation=90, extent={{0, 0}, {4, -2}}));")[0]
+    points = icons.corners(note.get("Rectangle"))
+    assert points == [pytest.approx(p) for p in [(10, 20), (10, 24), (12, 24), (12, 20)]]
+
+
+def test_y_points_up_in_modelica_and_down_in_svg(tmp_path: Path) -> None:
+    rectangle = drawn(
+        "Rectangle(extent={{-10, 20}, {30, 60}}, fillColor={255, 0, 0}, fillPattern=FillPattern.Solid)", tmp_path
+    )
+    assert [rectangle.get(key) for key in ("x", "y", "width", "height")] == ["-10", "-60", "40", "40"]
+    assert (rectangle.get("fill"), rectangle.get("stroke")) == ("#ff0000", "#000000")
+
+
+def test_an_arc_runs_counter_clockwise_from_the_x_axis(tmp_path: Path) -> None:
+    arc = drawn(
+        "Ellipse(extent={{-10, -10}, {10, 10}}, startAngle=0, endAngle=90, closure=EllipseClosure.None)", tmp_path
+    )
+    path = (arc.get("d") or "").split(" L")
+    assert [float(number) for number in path[0].removeprefix("M").split()] == pytest.approx([10, 0])
+    assert [float(number) for number in path[-1].split()] == pytest.approx([0, -10], abs=1e-9)
+
+
+def test_the_name_of_the_component_is_shown(tmp_path: Path) -> None:
+    text = drawn('Text(extent={{-150, 110}, {150, 150}}, textString="<%name>")', tmp_path)
+    assert text.text == "<shoulder>"
+
+
+def test_icons_are_inherited_and_connectors_marked(tmp_path: Path) -> None:
+    library = tmp_path / "UrdfSync"
+    library.mkdir()
+    (library / "Base.mo").write_text(
+        "within UrdfSync;\nmodel Base\n  annotation (Icon(graphics={Line(points={{0, 0}, {1, 1}})}));\nend Base;\n"
+    )
+    (library / "X.mo").write_text(
+        "within UrdfSync;\nmodel X\n  extends UrdfSync.Base;\n\n"
+        '  Modelica.Mechanics.Rotational.Interfaces.Flange_a axis\n    "Drive"\n'
+        "    annotation (Placement(transformation(extent={{-10, 90}, {10, 110}})));\nend X;\n"
+    )
+    found = icons.icon("UrdfSync.X", library)
+    assert [graphic.name for graphic in found.graphics] == ["Line"]
+    assert found.connectors == (icons.Connector("Flange_a", ((-10, 90), (10, 110))),)

@@ -1,0 +1,236 @@
+"""House rules of the Modelica library that no compiler checks, over every file that the library holds."""
+
+from __future__ import annotations
+
+import functools
+import html.parser
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pymoca.ast
+import pymoca.parser
+import pytest
+import rumoca
+from icons import LIBRARY, annotations_in, tokens
+
+FILES = sorted(LIBRARY.rglob("*.mo"))
+FOLDERS = [file.parent for file in FILES if file.name == "package.mo"]
+
+BUILT_IN = {"Real", "Integer", "Boolean", "String"}
+ENUMERATIONS = {
+    "Arrow",
+    "AssertionLevel",
+    "BorderPattern",
+    "EllipseClosure",
+    "FillPattern",
+    "LinePattern",
+    "Smooth",
+    "StateSelect",
+    "TextAlignment",
+    "TextStyle",
+}
+VOID_TAGS = {"br", "hr", "img"}
+
+
+def where(file: Path) -> str:
+    """The file as the messages of these tests name it."""
+    return file.relative_to(LIBRARY.parent).as_posix()
+
+
+def full_name(file: Path) -> str:
+    """The class that a file of this place must hold."""
+    path = file.parent if file.name == "package.mo" else file.with_suffix("")
+    return ".".join(path.relative_to(LIBRARY.parent).parts)
+
+
+@functools.cache
+def text(file: Path) -> str:
+    """The file's text, line endings as they are."""
+    return file.read_bytes().decode("utf-8")
+
+
+@functools.cache
+def parsed(file: Path) -> Any:
+    """The file's class, as pymoca reads it."""
+    node = pymoca.parser.parse(text(file))
+    for part in full_name(file).split("."):
+        node = node.classes[part]
+    return node
+
+
+def nested(node: Any) -> Iterator[Any]:
+    """A class and all classes inside it."""
+    yield node
+    for inner in node.classes.values():
+        yield from nested(inner)
+
+
+@functools.cache
+def members(folder: Path) -> list[str]:
+    """What belongs into the folder's package: files, sub-packages, and what `package.mo` itself declares."""
+    files = [file.stem for file in folder.glob("*.mo") if file.name != "package.mo"]
+    packages = [path.parent.name for path in folder.glob("*/package.mo")]
+    node = parsed(folder / "package.mo")
+    return [*files, *packages, *node.classes, *node.symbols]
+
+
+@functools.cache
+def documentation(file: Path) -> str:
+    """The documentation text of the file's class, empty if there is none."""
+    notes = [note.get("Documentation") for note in annotations_in(text(file))]
+    return next((note.get("info", "") for note in notes if note), "")
+
+
+def test_there_is_a_library() -> None:
+    assert LIBRARY / "package.mo" in FILES
+
+
+def test_both_parsers_accept_every_file() -> None:
+    assert {where(file): found for file in FILES if (found := rumoca.validate(str(file)))} == {}
+    assert [where(file) for file in FILES if parsed(file) is None] == []
+
+
+def test_files_are_plain_text_with_a_final_newline() -> None:
+    faults = {
+        where(file): fault
+        for file in [*FILES, *LIBRARY.rglob("package.order")]
+        for fault, found in {
+            "tab": "\t" in text(file),
+            "carriage return": "\r" in text(file),
+            "byte order mark": text(file).startswith("\ufeff"),
+            "space at the end of a line": re.search(r" $", text(file), re.MULTILINE) is not None,
+            "no final newline, or several": not re.search(r"[^\n]\n\Z", text(file)),
+        }.items()
+        if found
+    }
+    assert faults == {}
+
+
+def test_within_and_class_name_follow_the_path() -> None:
+    faults = []
+    for file in FILES:
+        package, _, name = full_name(file).rpartition(".")
+        head = re.match(r"within (?P<package>[\w.]*) ?;\n\n", text(file))
+        short = re.search(rf"^type {name} = ", text(file), re.MULTILINE)
+        if not head or head["package"] != package or not (short or text(file).endswith(f"\nend {name};\n")):
+            faults.append(where(file))
+    assert faults == []
+
+
+def test_every_folder_with_classes_is_a_package() -> None:
+    assert [where(file) for file in FILES if not (file.parent / "package.mo").exists()] == []
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=where)
+def test_package_order_lists_exactly_the_members(folder: Path) -> None:
+    order = (folder / "package.order").read_text("utf-8").splitlines()
+    assert sorted(order) == sorted(members(folder))
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=where)
+def test_names_of_a_package_differ_by_more_than_case(folder: Path) -> None:
+    names = [name.casefold() for name in members(folder)]
+    assert sorted(names) == sorted(set(names))
+
+
+def test_every_class_has_a_description() -> None:
+    faults = [f"{where(file)}: {node.name}" for file in FILES for node in nested(parsed(file)) if not node.comment]
+    assert faults == []
+
+
+def test_every_public_declaration_has_a_description() -> None:
+    faults = [
+        f"{where(file)}: {symbol.name}"
+        for file in FILES
+        for node in nested(parsed(file))
+        for symbol in node.symbols.values()
+        if symbol.visibility == pymoca.ast.Visibility.PUBLIC and not symbol.comment
+    ]
+    assert faults == []
+
+
+def test_every_file_documents_its_class() -> None:
+    faults = [where(file) for file in FILES if not re.fullmatch(r"<html>\n.+\n</html>", documentation(file), re.DOTALL)]
+    assert faults == []
+
+
+class Tags(html.parser.HTMLParser):
+    """Collects tags that are not closed in the order in which they were opened."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.faults: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        if tag not in VOID_TAGS:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        if not self.open or self.open.pop() != tag:
+            self.faults.append(tag)
+
+
+def badly_nested(markup: str) -> list[str]:
+    """Tags of an HTML text that are closed wrongly or not at all."""
+    tags = Tags()
+    tags.feed(markup)
+    tags.close()
+    return tags.faults + tags.open
+
+
+def test_documentation_is_well_formed() -> None:
+    assert badly_nested("<p><code>a</p></code>") == ["p", "code"]
+    assert {where(file): tags for file in FILES if (tags := badly_nested(documentation(file)))} == {}
+
+
+def scope(file: Path) -> set[str]:
+    """Names that are found without their package: members of the packages around a class, and its own classes."""
+    folders = [folder for folder in file.parents if folder.is_relative_to(LIBRARY)]
+    own = {node.name for node in nested(parsed(file))}
+    return own.union(*(members(folder) for folder in folders))
+
+
+def foreign_names(file: Path) -> set[str]:
+    """Dotted names, strings and comments aside, that begin in none of the places where they may."""
+    known = {"Modelica", "UrdfSync", *ENUMERATIONS}
+    dotted = {word.text for word in tokens(text(file)) if word.kind == "name" and "." in word.text}
+    heads = {name: name.split(".")[0] for name in dotted}
+    return {name for name, head in heads.items() if head[0].isupper() and head not in known | scope(file)}
+
+
+def test_only_the_standard_library_is_needed() -> None:
+    assert {where(file): names for file in FILES if (names := foreign_names(file))} == {}
+
+
+def test_names_of_types_are_found() -> None:
+    faults = {}
+    for file in FILES:
+        types = {str(symbol.type).split(".")[0] for node in nested(parsed(file)) for symbol in node.symbols.values()}
+        if unknown := types - BUILT_IN - {"Modelica", "UrdfSync"} - scope(file):
+            faults[where(file)] = unknown
+    assert faults == {}
+
+
+def references(file: Path) -> set[str]:
+    """Full names of the library's classes that code and documentation of a file mention."""
+    used = {word.text for word in tokens(text(file)) if word.kind == "name" and word.text.startswith("UrdfSync.")}
+    return used | set(re.findall(r"modelica://(UrdfSync[\w.]*)[\"'#]", documentation(file)))
+
+
+def test_classes_that_are_mentioned_exist() -> None:
+    existing = {full_name(file) for file in FILES}
+    assert {where(file): gone for file in FILES if (gone := references(file) - existing)} == {}
+
+
+def test_files_that_are_mentioned_exist() -> None:
+    mentioned = [(file, uri) for file in FILES for uri in re.findall(r"modelica://UrdfSync/([^\"\\]+)", text(file))]
+    assert mentioned
+    assert [(where(file), uri) for file, uri in mentioned if not (LIBRARY / uri).is_file()] == []
+
+
+def test_the_library_asks_for_the_standard_library_in_the_oldest_version_that_serves() -> None:
+    uses = next(note.get("uses") for note in annotations_in(text(LIBRARY / "package.mo")) if note.get("uses"))
+    assert uses.get("Modelica").get("version") == "4.0.0"

@@ -1,0 +1,173 @@
+"""A second domain: networks of resistors and capacitors in JSON, to Modelica.Electrical.Analog.
+
+It shows what a domain needs, and that the core knows none: the entry point is made by a fixture.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.domain import (
+    Artifact,
+    Conversion,
+    Dependency,
+    Import,
+    Lookup,
+    Order,
+    Proposal,
+    Reading,
+    Role,
+    Snapshot,
+    Target,
+)
+
+GROUND = "ground"
+_NAME = re.compile(r"[A-Z][A-Za-z0-9]*", re.ASCII)
+
+
+class Options(msgspec.Struct, frozen=True):
+    """How a network becomes a model."""
+
+    ground: bool = True
+    """Whether the node `ground` is connected to a ground component."""
+    prefix: str = "node"
+
+
+class Element(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A resistor (`ohm`) or a capacitor (`farad`) between two nodes."""
+
+    name: str
+    between: tuple[str, str]
+    ohm: float | None = None
+    farad: float | None = None
+
+
+class Network(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The whole file; `signal` is a CSV file with times and voltages against ground, for node `drives`."""
+
+    name: str
+    elements: tuple[Element, ...]
+    signal: str | None = None
+    drives: str = "in"
+
+
+class RcNetwork:
+    """The domain object."""
+
+    name = "rcnetwork"
+    templates: Path | None = Path(__file__).parent / "templates"
+    revision = 1
+    converter = 1
+    options = Options
+
+    def read(self, content: bytes, file: str, options: Options) -> Reading:
+        text = content.decode(errors="replace")
+        try:
+            network = msgspec.json.decode(content, type=Network)
+        except msgspec.DecodeError as error:
+            return Reading(None, (Diagnostic(Severity.ERROR, "json", str(error), file, _line(error, text)),))
+        problems = tuple(_check(network, file, text))
+        if problems:
+            return Reading(None, problems)
+        elements = {element.name: msgspec.to_builtins(element) for element in network.elements}
+        lines = {name: _line_of_name(text, name) for name in elements}
+        snapshot = {"name": network.name, "elements": elements, "signal": network.signal, "drives": network.drives}
+        return Reading(snapshot, (), lines | {"signal": _line_of_name(text, network.signal or "")})
+
+    def dependencies(
+        self, snapshot: Snapshot, lookup: Lookup, options: Options, lines: Mapping[str, int]
+    ) -> Sequence[Dependency]:
+        signal = snapshot["signal"]
+        if signal is None:
+            return ()
+        folders = (lookup.source.parent, *lookup.package_paths)
+        candidates = tuple(folder / signal for folder in folders)
+        target = f"Resources/{Path(signal).stem}.txt"
+        return (Dependency(signal, signal, candidates, target, lines.get("signal", 0), noun="table"),)
+
+    def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
+        try:
+            rows = [[float(cell) for cell in row] for row in csv.reader(io.StringIO(content.decode()))]
+        except ValueError as error:
+            raise SourceError(Diagnostic(Severity.ERROR, "csv", str(error), str(file))) from error
+        lines = ["#1", f"double signal({len(rows)}, 2)", *(" ".join(map(repr, row)) for row in rows)]
+        return Conversion(("\n".join(lines) + "\n").encode(), {"rows": len(rows), "end": rows[-1][0]})
+
+    def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
+        return {"elements": {name: name for name in snapshot["elements"]}}
+
+    def artifacts(
+        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
+    ) -> Sequence[Artifact | Order]:
+        elements = [snapshot["elements"][name] for name in sorted(snapshot["elements"])]
+        nodes = sorted({node for element in elements for node in element["between"]} - {GROUND})
+        common = {"package": target.package, "class": target.name, "network": snapshot["name"]}
+        signal = imports.get(snapshot["signal"] or "")
+        whole = common | {"elements": elements, "nodes": nodes, "ground": options.ground, "prefix": options.prefix}
+        whole |= {"signal": signal and {"target": signal.target, **signal.facts, "drives": snapshot["drives"]}}
+        records = [f"{element['name']}Parameters" for element in elements]
+        classes = [element["name"] for element in elements]
+        return (
+            Artifact("package.mo", Role.PACKAGE, "network/package.mo.jinja", whole, "network"),
+            Artifact("Elements/package.mo", Role.PACKAGE, "element/package.mo.jinja", common, "network"),
+            *(artifact for element in elements for artifact in _element(element, common)),
+            Artifact(f"{target.name}.mo", Role.MODEL, "network/network.mo.jinja", whole, "network"),
+            Order("package.order", ("Elements", target.name)),
+            Order("Elements/package.order", (*records, *classes)),
+        )
+
+    def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
+        nodes = {node for element in snapshot["elements"].values() for node in element["between"]}
+        has = GROUND in nodes
+        return (Proposal("ground", has, f"{'a' if has else 'no'} node is named {GROUND}"),)
+
+    def drawing(
+        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
+    ) -> str | None:
+        texts = [f'<text y="{20 * (y + 1)}">{name}</text>' for y, name in enumerate(sorted(snapshot["elements"]))]
+        return f'<svg xmlns="http://www.w3.org/2000/svg">{"".join(texts)}</svg>\n'
+
+
+def _element(element: Mapping[str, Any], common: Mapping[str, Any]) -> Iterator[Artifact]:
+    kind = "resistor" if element["ohm"] is not None else "capacitor"
+    owner, data = f"element {element['name']}", {**common, "element": element, "kind": kind}
+    path = f"Elements/{element['name']}"
+    yield Artifact(f"{path}Parameters.mo", Role.RECORD, "element/parameters.mo.jinja", data, owner)
+    yield Artifact(f"{path}.mo", Role.MODEL, "element/model.mo.jinja", data, owner)
+
+
+def _check(network: Network, file: str, text: str) -> Iterator[Diagnostic]:
+    def problem(code: str, message: str, name: str) -> Diagnostic:
+        return Diagnostic(Severity.ERROR, code, message, file, _line_of_name(text, name))
+
+    for name, count in Counter(element.name for element in network.elements).items():
+        if count > 1:
+            yield problem("duplicate-element", f"there are {count} elements `{name}`", name)
+    for element in network.elements:
+        if not _NAME.fullmatch(element.name):
+            yield problem("element-name", f"{element.name!r} is no class name", element.name)
+        if (element.ohm is None) == (element.farad is None):
+            yield problem("element-value", f"element `{element.name}` needs either `ohm` or `farad`", element.name)
+
+
+def _line_of_name(text: str, name: str) -> int:
+    place = text.find(json.dumps(name))
+    return text.count("\n", 0, place) + 1 if place >= 0 else 0
+
+
+def _line(error: msgspec.DecodeError, text: str) -> int:
+    place = re.search(r"byte (\d+)", str(error))
+    return text.count("\n", 0, int(place[1]) if place else len(text)) + 1
+
+
+DOMAIN = RcNetwork()

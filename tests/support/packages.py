@@ -1,0 +1,100 @@
+"""A URDF rendered to its Modelica package, by the domain and the renderer alone: no engine, no manifest."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.domain import Import, Lookup, Order, Reading, Role, Target
+from urdfsync.render import Renderer
+from urdfsync.urdf.domain import DOMAIN
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.skeleton import Skeleton
+from urdfsync.urdf.snapshot import from_snapshot
+
+from support.corpus import REPOSITORY
+
+RENDERER = Renderer([REPOSITORY / "templates" / "urdf"])
+
+
+@dataclasses.dataclass(frozen=True)
+class Package:
+    """The text files of a generated package by path below its folder, and what they were made from."""
+
+    target: Target
+    robot: Robot
+    skeleton: Skeleton
+    texts: Mapping[str, str]
+    roles: Mapping[str, Role]
+    templates: Mapping[str, str]
+    """Per path, the template's name; `package.order` files have none."""
+    imports: Mapping[str, bytes]
+    """Imported meshes by path below the package's folder."""
+
+    @property
+    def models(self) -> Mapping[str, str]:
+        """The Modelica files among the texts."""
+        return {path: text for path, text in self.texts.items() if path.endswith(".mo")}
+
+    def write(self, root: Path) -> Path:
+        """Write the package below `root`, which stands for the top level of Modelica's names; gives its folder."""
+        folder = root.joinpath(*self.target.package.split("."))
+        files = {path: text.encode() for path, text in self.texts.items()} | dict(self.imports)
+        for path, content in files.items():
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            (folder / path).write_bytes(content)
+        return folder
+
+
+def read(content: bytes, file: str = "robot.urdf") -> Reading:
+    """What the domain reads, without the second reader."""
+    return DOMAIN.read(content, file, Options(cross_check=False))
+
+
+def generate(
+    source: Path | bytes, target: Target, *, modifiers: Mapping[str, Any] | None = None, **options: Any
+) -> Package:
+    """The package of a URDF that has no errors.
+
+    `modifiers` replace template data of that name in every artifact that has it (for example
+    `assertion_level`); `options` are those of the domain.
+    """
+    chosen = Options(cross_check=False, **options)
+    path = source if isinstance(source, Path) else Path("robot.urdf")
+    content = source if isinstance(source, bytes) else source.read_bytes()
+    reading = DOMAIN.read(content, path.name, chosen)
+    assert reading.snapshot is not None, _texts(reading.diagnostics)
+    imports, contents = _imports(reading, path, chosen)
+    artifacts = DOMAIN.artifacts(reading.snapshot, imports, target, chosen)
+    texts, roles, templates = {}, {}, {}
+    for artifact in artifacts:
+        if isinstance(artifact, Order):
+            texts[artifact.path] = "".join(f"{name}\n" for name in artifact.names)
+            roles[artifact.path] = Role.ORDER
+        else:
+            data = artifact.data | {k: v for k, v in (modifiers or {}).items() if k in artifact.data}  # type: ignore[operator]
+            texts[artifact.path] = RENDERER.render(artifact.template, data)
+            roles[artifact.path] = artifact.role
+            templates[artifact.path] = artifact.template
+    robot = from_snapshot(reading.snapshot)
+    return Package(target, robot, Skeleton.of(robot, (target.name,)), texts, roles, templates, contents)
+
+
+def _imports(reading: Reading, path: Path, options: Options) -> tuple[dict[str, Import], dict[str, bytes]]:
+    imports, contents = {}, {}
+    assert reading.snapshot is not None
+    for dependency in DOMAIN.dependencies(reading.snapshot, Lookup(path.absolute()), options, reading.lines):
+        found = next((candidate for candidate in dependency.candidates if candidate.is_file()), None)
+        if found is not None:
+            conversion = DOMAIN.convert(dependency, found, found.read_bytes())
+            imports[dependency.key] = Import(dependency.target, "", "", DOMAIN.converter, conversion.facts)
+            contents[dependency.target] = conversion.content
+    return imports, contents
+
+
+def _texts(diagnostics: tuple[Diagnostic, ...]) -> list[str]:
+    return [str(diagnostic) for diagnostic in diagnostics]

@@ -1,0 +1,631 @@
+"""Builds of the RC network domain: what is written, what is left alone, and what is refused."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tomllib
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from urdfsync import config, files
+from urdfsync.build import Request, build
+from urdfsync.outcome import Exit, Result, exit_code
+from urdfsync.plan import Kind
+
+Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
+
+LADDER = "modelica/Ladder"
+
+
+def run(**request: Any) -> Result:
+    """Build the robot `ladder` of the working folder."""
+    (result,) = run_all(**request)
+    return result
+
+
+def run_all(**request: Any) -> list[Result]:
+    loaded = config.load(Path("urdfsync.toml"))
+    return list(build(loaded, loaded.robots, Request(**request)))
+
+
+def kinds(result: Result) -> dict[str, Kind]:
+    """What happens to each file that does not just stay, by its path in the package."""
+    return {
+        action.path.removeprefix(f"{LADDER}/"): action.kind
+        for action in result.actions
+        if action.kind is not Kind.UNCHANGED and not action.held
+    }
+
+
+def waiting(result: Result) -> set[str]:
+    return {action.path.removeprefix(f"{LADDER}/") for action in result.actions if action.held}
+
+
+def edit(path: Path, old: str, new: str) -> None:
+    text = path.read_bytes().decode()
+    assert old in text
+    path.write_bytes(text.replace(old, new).encode())
+
+
+def configure(project: Path, **keys: str) -> None:
+    """Set keys of the robot; the values are TOML."""
+    lines = {"source": '"ladder.json"', "package": '"Ladder"', "domain": '"rcnetwork"'} | keys
+    text = "\n".join(f"{key} = {value}" for key, value in lines.items())
+    (project / "urdfsync.toml").write_text(f"[robots.ladder]\n{text}\n")
+
+
+def manifest_of(project: Path) -> dict[str, Any]:
+    return tomllib.loads((project / ".urdfsync/robots/ladder.toml").read_text())
+
+
+def failure(**request: Any) -> str:
+    result = run(**request)
+    assert result.failed
+    assert exit_code([result]) is Exit.ERROR
+    return "\n".join(map(str, result.diagnostics))
+
+
+# What a build writes
+
+
+def test_a_first_build_writes_the_package(project: Path) -> None:
+    result = run()
+    assert set(kinds(result).values()) == {Kind.CREATE}
+    written = {path.relative_to(project / LADDER).as_posix() for path in (project / LADDER).rglob("*.*")}
+    assert written == set(kinds(result))
+    assert (project / LADDER / "package.order").read_text() == "Elements\nLadder\n"
+    assert "R = 220.5" in (project / LADDER / "Elements/R2Parameters.mo").read_text()
+    assert (project / LADDER / "Resources/step.txt").read_text().startswith("#1\ndouble signal(4, 2)\n")
+
+
+def test_a_second_build_writes_nothing(project: Path, snapshot_of: Snapshot) -> None:
+    run()
+    before = snapshot_of(project)
+    assert run().in_step
+    assert run(full=True).in_step
+    assert snapshot_of(project) == before
+
+
+def test_a_build_elsewhere_gives_the_same_bytes(project: Path, tmp_path: Path, snapshot_of: Snapshot, monkeypatch: pytest.MonkeyPatch) -> None:
+    other = tmp_path / "quite" / "another place"
+    shutil.copytree(project, other)
+    run()
+    monkeypatch.chdir(other)
+    run()
+    contents = [{path: content for path, (_, content) in snapshot_of(folder).items()} for folder in (project, other)]
+    assert contents[0] == contents[1]
+    assert str(tmp_path).encode() not in b"".join(contents[0].values())
+
+
+def test_a_no_op_imports_nothing_heavy(project: Path, rc_site: Path) -> None:
+    run()
+    code = (
+        "import sys; from urdfsync.cli import main; code = main(['build']); "
+        "print([name for name in ('jinja2', 'rich', 'lxml', 'numpy', 'yourdfpy', 'deepdiff') if name in sys.modules])"
+    )
+    folders = [str(Path(files.__file__).parents[1]), str(rc_site), str(Path(sys.modules["rc_domain"].__file__ or "").parent)]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(folders)}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == ["ladder: in step, 14 files", "[]"]
+
+
+def test_a_dry_run_writes_nothing_and_says_the_same(project: Path, snapshot_of: Snapshot) -> None:
+    before = snapshot_of(project)
+    planned = run(dry=True)
+    assert snapshot_of(project) == before
+    assert planned.actions == run().actions
+
+
+def test_changed_numbers_touch_only_their_record(project: Path) -> None:
+    run()
+    edit(project / "ladder.json", "220.5", "221")
+    assert kinds(run()) == {"Elements/R2Parameters.mo": Kind.UPDATE}
+
+
+def test_changed_white_space_touches_nothing(project: Path, snapshot_of: Snapshot) -> None:
+    run()
+    before = snapshot_of(project / LADDER)
+    edit(project / "ladder.json", "  ", "    ")
+    assert run().in_step
+    assert snapshot_of(project / LADDER) == before
+    assert run().in_step
+
+
+def test_a_removed_element_takes_its_files_along(project: Path) -> None:
+    run()
+    edit(project / "ladder.json", '{"name": "R1", "between": ["in", "middle"], "ohm": 100},', "")
+    edit(project / "ladder.json", '"drives": "in"', '"drives": "out"')
+    assert kinds(run()) == {
+        "Elements/R1.mo": Kind.DELETE,
+        "Elements/R1Parameters.mo": Kind.DELETE,
+        "Elements/package.order": Kind.UPDATE,
+        "Ladder.mo": Kind.UPDATE,
+    }
+    assert not (project / LADDER / "Elements/R1.mo").exists()
+    assert "R1" not in (project / LADDER / "Elements/package.order").read_text()
+    assert not [path for path in manifest_of(project)["files"] if "R1" in path]
+
+
+def test_a_changed_option_or_template_renders_again(project: Path) -> None:
+    run()
+    configure(project, prefix='"pin"')
+    assert kinds(run()) == {"Ladder.mo": Kind.UPDATE}
+    template = project / "own/element/parameters.mo.jinja"
+    template.parent.mkdir(parents=True)
+    template.write_text("within << package >>.Elements;\nrecord << element.name >>Parameters\nend << element.name >>Parameters;\n")
+    configure(project, prefix='"pin"', templates='"own"')
+    assert set(kinds(run())) == {f"Elements/{name}Parameters.mo" for name in ("C1", "C2", "R1", "R2")}
+    edit(template, "record", "record  ")
+    assert set(kinds(run()).values()) == {Kind.UPDATE}
+    assert run().in_step
+
+
+def test_another_package_moves_everything(project: Path) -> None:
+    run()
+    configure(project, package='"Filter"')
+    result = run()
+    assert {action.kind for action in result.actions} == {Kind.CREATE, Kind.DELETE}
+    assert not (project / LADDER).exists()
+    assert (project / "modelica/Filter/Filter.mo").exists()
+
+
+def test_the_manifest_says_what_was_built(project: Path) -> None:
+    run()
+    recorded = manifest_of(project)
+    assert recorded["source"]["path"] == "ladder.json"
+    assert recorded["names"] == {"elements": {name: name for name in ("C1", "C2", "R1", "R2")}}
+    assert recorded["files"]["Elements/R1.mo"] == {
+        "owner": "element R1",
+        "role": "model",
+        "base": files.digest((project / LADDER / "Elements/R1.mo").read_bytes()),
+    }
+    assert recorded["dependencies"]["step.csv"]["target"] == "Resources/step.txt"
+    model = json.loads((project / ".urdfsync/robots/ladder.json").read_text())
+    assert model["snapshot"]["elements"]["R1"]["ohm"] == 100
+    assert (project / ".urdfsync/.gitignore").read_text().splitlines()[1:] == ["/*", "!/.gitignore", "!/robots/", ".*-tmp"]
+
+
+def test_a_drawing_goes_into_the_state_folder(project: Path) -> None:
+    result = run(draw=True)
+    assert result.drawing == project / ".urdfsync/svg/ladder.svg"
+    assert result.drawing.read_text().startswith("<svg")
+
+
+# Hand edits
+
+
+def test_an_edited_file_survives(project: Path) -> None:
+    run()
+    model = project / LADDER / "Elements/R1.mo"
+    edit(model, "v = parameters.R*i;", "v = 2*parameters.R*i;")
+    mine = model.read_bytes()
+    for request in ({}, {"full": True}, {"dry": True}):
+        result = run(**request)
+        assert kinds(result) == {"Elements/R1.mo": Kind.KEEP}
+        assert result.in_step
+    edit(project / "ladder.json", '"ohm": 100', '"ohm": 120')
+    assert kinds(run()) == {"Elements/R1.mo": Kind.KEEP, "Elements/R1Parameters.mo": Kind.UPDATE}
+    assert model.read_bytes() == mine
+    assert manifest_of(project)["files"]["Elements/R1.mo"]["state"] == "edited"
+
+
+def test_line_endings_are_no_edit(project: Path) -> None:
+    run()
+    model = project / LADDER / "Elements/R1.mo"
+    model.write_bytes(model.read_bytes().replace(b"\n", b"\r\n"))
+    assert kinds(run()) == {}
+    assert kinds(run(full=True)) == {}
+
+
+def test_a_deleted_file_comes_back(project: Path) -> None:
+    run()
+    (project / LADDER / "Elements/R1.mo").unlink()
+    (project / LADDER / "Elements/package.order").unlink()
+    assert kinds(run()) == {"Elements/R1.mo": Kind.RESTORE, "Elements/package.order": Kind.RESTORE}
+
+
+def test_a_deleted_package_comes_back(project: Path, snapshot_of: Snapshot) -> None:
+    run()
+    before = {path: content for path, (_, content) in snapshot_of(project).items()}
+    shutil.rmtree(project / "modelica")
+    assert set(kinds(run()).values()) == {Kind.RESTORE}
+    assert {path: content for path, (_, content) in snapshot_of(project).items()} == before
+
+
+def test_a_class_made_a_package_counts_as_edited(project: Path) -> None:
+    run()
+    model = project / LADDER / "Elements/R1.mo"
+    model.unlink()
+    (model.with_suffix("")).mkdir()
+    (model.with_suffix("") / "package.mo").write_text("within Ladder.Elements;\npackage R1\nend R1;\n")
+    assert kinds(run()) == {"Elements/R1.mo": Kind.KEEP}
+    assert not model.exists()
+
+
+def conflict(project: Path, change: Sequence[str]) -> Result:
+    """Edit the network's model, then change the source."""
+    run()
+    edit(project / LADDER / "Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
+    edit(project / "ladder.json", *change)
+    return run()
+
+
+def test_a_conflict_holds_back_structure_but_not_numbers(project: Path, snapshot_of: Snapshot) -> None:
+    run()
+    before = snapshot_of(project / LADDER)
+    edit(project / "ladder.json", '"ohm": 100', '"ohm": 120')
+    result = conflict(project, ['"R2"', '"R3"'])
+    assert exit_code([result]) is Exit.CONFLICT
+    assert kinds(result) == {"Ladder.mo": Kind.CONFLICT}
+    orders = {"Elements/package.order"}
+    assert waiting(result) == orders | {f"Elements/R{n}{kind}.mo" for n in "23" for kind in ("", "Parameters")}
+    after = snapshot_of(project / LADDER)
+    assert {path for path in before if before[path] != after[path]} == {"Ladder.mo", "Elements/R1Parameters.mo"}
+    assert b"// mine" in after["Ladder.mo"][1]
+
+
+def test_numbers_are_renewed_while_models_wait(project: Path) -> None:
+    run()
+    edit(project / LADDER / "Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
+    edit(project / "ladder.json", '"R2"', '"R3"')
+    edit(project / "ladder.json", "4.7e-6", "1e-5")
+    assert kinds(run()) == {"Ladder.mo": Kind.CONFLICT, "Elements/C2Parameters.mo": Kind.UPDATE}
+
+
+def test_a_conflict_stays_until_it_is_settled(project: Path) -> None:
+    first = conflict(project, ['"R2"', '"R3"'])
+    again = run()
+    assert (kinds(again), waiting(again)) == (kinds(first), waiting(first))
+    assert exit_code([again]) is Exit.CONFLICT
+    (project / LADDER / "Ladder.mo").unlink()
+    settled = run()
+    assert exit_code([settled]) is Exit.IN_STEP
+    assert kinds(settled)["Ladder.mo"] is Kind.RESTORE
+    assert kinds(settled)["Elements/R3.mo"] is Kind.CREATE
+    assert not (project / LADDER / "Elements/R2.mo").exists()
+    assert run().in_step
+
+
+def test_a_conflict_ends_when_the_source_comes_back(project: Path) -> None:
+    conflict(project, ['"R2"', '"R3"'])
+    edit(project / "ladder.json", '"R3"', '"R2"')
+    assert kinds(run()) == {"Ladder.mo": Kind.KEEP}
+
+
+def test_a_file_of_the_user_in_the_way_is_a_conflict(project: Path) -> None:
+    foreign = project / LADDER / "Ladder.mo"
+    foreign.parent.mkdir(parents=True)
+    foreign.write_text("mine")
+    result = run()
+    assert kinds(result) == {"Ladder.mo": Kind.UNOWNED, "Resources/step.txt": Kind.CREATE}
+    assert foreign.read_text() == "mine"
+    foreign.unlink()
+    assert exit_code([run()]) is Exit.IN_STEP
+
+
+def test_an_edited_file_that_is_no_longer_generated_is_kept(project: Path) -> None:
+    run()
+    record = project / LADDER / "Elements/R2Parameters.mo"
+    edit(record, "220.5", "330")
+    edit(project / "ladder.json", '"R2"', '"R3"')
+    result = run()
+    assert kinds(result)["Elements/R2Parameters.mo"] is Kind.ORPHAN
+    assert "330" in record.read_text()
+    assert kinds(run()) == {"Elements/R2Parameters.mo": Kind.ORPHAN}
+    record.unlink()
+    assert kinds(run()) == {"Elements/R2Parameters.mo": Kind.FORGET}
+    assert kinds(run()) == {}
+
+
+def test_a_crash_before_the_manifest_heals(project: Path, snapshot_of: Snapshot) -> None:
+    run()
+    recorded = (project / ".urdfsync/robots/ladder.toml").read_bytes()
+    edit(project / "ladder.json", '"ohm": 100', '"ohm": 120')
+    run()
+    before = snapshot_of(project / LADDER)
+    (project / ".urdfsync/robots/ladder.toml").write_bytes(recorded)
+    assert kinds(run()) == {"Elements/R1Parameters.mo": Kind.ADOPT}
+    assert snapshot_of(project / LADDER) == before
+
+
+def test_lost_state_is_found_again_as_far_as_files_agree(project: Path) -> None:
+    run()
+    edit(project / LADDER / "Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
+    shutil.rmtree(project / ".urdfsync")
+    result = run()
+    assert kinds(result).pop("Ladder.mo") is Kind.UNOWNED
+    assert set(kinds(result).values()) == {Kind.UNOWNED, Kind.ADOPT}
+
+
+def test_lines_of_the_user_stay_in_order_files(project: Path) -> None:
+    run()
+    order = project / LADDER / "package.order"
+    order.write_bytes(b"Elements\r\nBench\r\nLadder\r\n")
+    assert kinds(run()) == {}
+    configure(project, **{"class": '"Network"'})
+    assert kinds(run())["package.order"] is Kind.UPDATE
+    assert order.read_bytes() == b"Elements\r\nNetwork\r\nBench\r\n"
+
+
+# The packages around
+
+
+def parent(project: Path, name: str = "Plant", order: str = "Other\n") -> Path:
+    folder = project / "modelica" / name
+    folder.mkdir(parents=True)
+    (folder / "package.mo").write_text(f"package {name}\nend {name};\n")
+    (folder / "package.order").write_text(order)
+    return folder
+
+
+def test_the_parent_lists_the_package(project: Path) -> None:
+    plant = parent(project)
+    configure(project, package='"Plant.Ladder"')
+    run()
+    assert (plant / "package.order").read_text() == "Other\nLadder\n"
+    assert "within Plant;" in (plant / "Ladder/package.mo").read_text()
+    assert run().in_step
+    configure(project, package='"Ladder"')
+    run()
+    assert (plant / "package.order").read_text() == "Other\n"
+    assert not (plant / "Ladder").exists()
+
+
+def test_a_missing_parent_is_refused(project: Path, snapshot_of: Snapshot) -> None:
+    configure(project, package='"Plant.Ladder"')
+    before = snapshot_of(project)
+    assert failure() == (
+        f"urdfsync.toml:3: error: robot `ladder`: the parent package `Plant` does not exist in modelica; "
+        "create it, or set `create_parents = true` [no-parent]"
+    )
+    assert snapshot_of(project) == before
+
+
+def test_missing_parents_are_made_if_the_configuration_says_so(project: Path) -> None:
+    plant = parent(project)
+    configure(project, package='"Plant.Filters.Passive.Ladder"', create_parents="true")
+    run()
+    assert (plant / "package.order").read_text() == "Other\nFilters\n"
+    assert (plant / "Filters/package.order").read_text() == "Passive\n"
+    assert (plant / "Filters/Passive/package.order").read_text() == "Ladder\n"
+    text = 'within Plant.Filters;\npackage Passive "Passive"\nend Passive;\n'
+    assert (plant / "Filters/Passive/package.mo").read_text() == text
+    edit(plant / "Filters/package.mo", '"Filters"', '"All filters"')
+    assert run().in_step
+
+
+def test_a_parent_in_a_single_file_is_refused(project: Path) -> None:
+    (project / "modelica").mkdir()
+    (project / "modelica/Plant.mo").write_text("package Plant end Plant;")
+    configure(project, package='"Plant.Ladder"', create_parents="true")
+    assert "package `Plant` is the single file modelica/Plant.mo" in failure().replace("\\", "/")
+
+
+# What is refused
+
+
+@pytest.mark.parametrize(
+    ("output", "make", "words"),
+    [
+        ("lib", "file", "the output folder lib can't be made: lib is no folder"),
+        ("lib/deep", "file", "can't be made: lib is no folder"),
+        ("../elsewhere", "", "does not exist; create it"),
+        ("lib", "package", "the output folder lib is a Modelica package itself"),
+    ],
+)
+def test_outputs_that_cant_be(project: Path, output: str, make: str, words: str) -> None:
+    if make == "file":
+        (project / "lib").write_text("")
+    elif make == "package":
+        (project / "lib").mkdir()
+        (project / "lib/package.mo").write_text("")
+    configure(project, output=f'"{output}"')
+    message = failure().replace("\\", "/")
+    assert message.startswith("urdfsync.toml:5: error: ")
+    assert words in message
+
+
+@pytest.mark.parametrize("place", [LADDER, f"{LADDER}/Elements", f"{LADDER}/Elements/R1.mo"])
+@pytest.mark.parametrize("kind", ["link", "other"])
+def test_what_is_in_the_way_is_left_alone(project: Path, tmp_path: Path, place: str, kind: str) -> None:
+    outside = tmp_path / "outside"
+    outside.mkdir()
+    path = project / place
+    path.parent.mkdir(parents=True)
+    if kind == "link":
+        path.symlink_to(outside, target_is_directory=True)
+    elif path.suffix:
+        path.mkdir()
+    else:
+        path.write_text("mine")
+    message = failure()
+    assert message.startswith(str(Path(place)))
+    assert "[output-in-the-way]" in message
+    assert not list(outside.iterdir())
+    assert not (project / ".urdfsync").exists()
+
+
+@pytest.mark.parametrize("error", [errno.ENOSPC, errno.EACCES])
+def test_a_disk_that_refuses_changes_nothing(
+    project: Path, monkeypatch: pytest.MonkeyPatch, snapshot_of: Snapshot, error: int
+) -> None:
+    run()
+    before = snapshot_of(project)
+    edit(project / "ladder.json", '"R2"', '"R3"')
+    real = Path.open
+
+    def refuse(path: Path, *arguments: Any, **options: Any) -> Any:
+        if path.name.startswith(".R3.mo"):
+            raise OSError(error, os.strerror(error), str(path))
+        return real(path, *arguments, **options)
+
+    monkeypatch.setattr(Path, "open", refuse)
+    message = failure()
+    assert message.startswith(str(project / LADDER / "Elements" / "R3.mo"))
+    assert os.strerror(error) in message
+    monkeypatch.undo()
+    assert {path for path, entry in snapshot_of(project).items() if before.get(path) != entry} == {"ladder.json"}
+
+
+def test_a_broken_source_changes_nothing(project: Path, snapshot_of: Snapshot) -> None:
+    run()
+    edit(project / "ladder.json", '"ohm": 100', '"ohm": 100, "farad": 1')
+    before = snapshot_of(project)
+    assert failure() == "ladder.json:6: error: element `R1` needs either `ohm` or `farad` [element-value]"
+    assert snapshot_of(project) == before
+
+
+def test_a_missing_source(project: Path) -> None:
+    (project / "ladder.json").unlink()
+    assert failure() == "urdfsync.toml:2: error: robot `ladder`: the source ladder.json does not exist [no-source]"
+
+
+def test_a_missing_template_folder(project: Path) -> None:
+    configure(project, templates='"own"')
+    assert failure() == "urdfsync.toml:5: error: robot `ladder`: the template folder own does not exist [no-templates]"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("one\n<< element.nme >>\n", "element/model.mo.jinja:2: error: the template can't be rendered"),
+        ("one\n<< 1/0 >>\n", "element/model.mo.jinja:2: error: the template can't be rendered"),
+        ("one\n\n<% if %>", "element/model.mo.jinja:3: error: "),
+        ("<% include 'nothing' %>", "there is no template `nothing`"),
+    ],
+)
+def test_a_broken_template_is_named_with_its_line(project: Path, text: str, words: str) -> None:
+    (project / "own/element").mkdir(parents=True)
+    (project / "own/element/model.mo.jinja").write_text(text)
+    configure(project, templates='"own"')
+    assert words in failure().replace("\\", "/")
+    assert not (project / "modelica").exists()
+
+
+def test_state_of_a_newer_program_is_refused(project: Path) -> None:
+    run()
+    edit(project / ".urdfsync/robots/ladder.toml", "revision = 1", "revision = 2")
+    assert "a newer urdfsync built robot `ladder`" in failure()
+
+
+def test_state_with_merge_markers_is_refused(project: Path, snapshot_of: Snapshot) -> None:
+    run()
+    edit(project / ".urdfsync/robots/ladder.toml", "[source]", "<<<<<<< HEAD\n[source]")
+    before = snapshot_of(project)
+    assert "unresolved merge markers" in failure()
+    assert snapshot_of(project) == before
+
+
+def test_state_can_not_reach_files_elsewhere(project: Path, tmp_path: Path) -> None:
+    run()
+    victim = tmp_path / "victim.txt"
+    victim.write_text("precious")
+    entry = f'[files."../../../victim.txt"]\nowner = "x"\nrole = "model"\nbase = "{files.digest(b"precious")}"\n'
+    path = project / ".urdfsync/robots/ladder.toml"
+    path.write_text(path.read_text() + entry)
+    run(full=True)
+    assert victim.read_text() == "precious"
+
+
+def test_one_broken_robot_does_not_stop_the_others(project: Path) -> None:
+    (project / "broken.json").write_text("{")
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write('[robots.broken]\nsource = "broken.json"\npackage = "Broken"\ndomain = "rcnetwork"\n')
+        file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    results = run_all()
+    assert [(result.robot, result.failed) for result in results] == [("ladder", False), ("broken", True), ("other", False)]
+    assert exit_code(results) is Exit.ERROR
+    assert (project / "modelica/Other/package.mo").exists()
+    assert not (project / "modelica/Broken").exists()
+
+
+# Imports
+
+
+def test_a_changed_dependency_is_imported_again(project: Path) -> None:
+    run()
+    edit(project / "step.csv", "0.1,5", "0.1,7")
+    assert kinds(run()) == {"Resources/step.txt": Kind.UPDATE}
+    assert run().in_step
+
+
+def test_a_dependency_that_was_never_found_is_left_out(project: Path) -> None:
+    (project / "step.csv").unlink()
+    result = run()
+    assert [str(found) for found in result.diagnostics] == [
+        "ladder.json:3: warning: table `step.csv` not found and left out; "
+        "add the folder that holds it to `package_paths` [table-not-found]"
+    ]
+    assert not (project / LADDER / "Resources").exists()
+    assert "SignalVoltage" not in (project / LADDER / "Ladder.mo").read_text()
+    assert run().in_step
+    (project / "step.csv").write_text("0,1\n")
+    assert kinds(run()) == {"Resources/step.txt": Kind.CREATE, "Ladder.mo": Kind.UPDATE}
+
+
+def test_the_copy_serves_where_a_dependency_cant_be_found(project: Path, snapshot_of: Snapshot) -> None:
+    run()
+    before = snapshot_of(project / LADDER)
+    (project / "step.csv").unlink()
+    assert run().in_step
+    for request in ({"full": True}, {"full": True, "dry": True}):
+        result = run(**request)
+        assert [found.code for found in result.diagnostics] == ["table-not-found-kept"]
+        assert result.in_step
+    assert snapshot_of(project / LADDER) == before
+    edit(project / "ladder.json", '"ohm": 100', '"ohm": 120')
+    assert kinds(run()) == {"Elements/R1Parameters.mo": Kind.UPDATE}
+
+
+def test_the_copy_serves_in_another_package(project: Path) -> None:
+    run()
+    (project / "step.csv").unlink()
+    configure(project, package='"Filter"')
+    run()
+    assert (project / "modelica/Filter/Resources/step.txt").exists()
+    assert not (project / LADDER).exists()
+
+
+def test_a_copy_whose_facts_are_lost_is_not_thrown_away(project: Path) -> None:
+    run()
+    (project / "step.csv").unlink()
+    (project / ".urdfsync/robots/ladder.json").unlink()
+    assert "what is recorded of its imported copy is lost; restore `.urdfsync/robots`" in failure()
+    assert (project / LADDER / "Resources/step.txt").exists()
+
+
+def test_an_edited_copy_is_kept_and_conflicts_with_a_new_source(project: Path) -> None:
+    run()
+    copy = project / LADDER / "Resources/step.txt"
+    original = copy.read_bytes()
+    copy.write_bytes(b"mine")
+    assert kinds(run(full=True)) == {"Resources/step.txt": Kind.KEEP}
+    edit(project / "step.csv", "0.1,5", "0.1,7")
+    assert kinds(run()) == {"Resources/step.txt": Kind.CONFLICT}
+    assert copy.read_bytes() == b"mine"
+    (project / "step.csv").unlink()
+    assert kinds(run()) == {"Resources/step.txt": Kind.CONFLICT}
+    copy.write_bytes(original)
+    assert exit_code([run()]) is Exit.IN_STEP
+
+
+def test_a_dependency_that_cant_be_used_is_a_warning(project: Path) -> None:
+    (project / "step.csv").write_text("no numbers\n")
+    result = run()
+    assert [found.code for found in result.diagnostics] == ["csv", "table-unreadable"]
+    assert exit_code([result]) is Exit.IN_STEP
+
+
+def test_package_paths_are_searched(project: Path, tmp_path: Path) -> None:
+    (project / "step.csv").rename(tmp_path / "step.csv")
+    assert run(package_paths=(tmp_path,), dry=True).diagnostics == ()
+    configure(project, package_paths=f'["{tmp_path.as_posix()}"]')
+    assert run().diagnostics == ()

@@ -1,0 +1,312 @@
+"""The commands as people and programs use them: output, exit codes, JSON."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import urdfsync
+from urdfsync import cli, config, report
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.report import Report
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture
+def edited(project: Path, capsys: Capture) -> Path:
+    """A built project with one edited model."""
+    cli.main(["build"])
+    model = project / "modelica/Ladder/Ladder.mo"
+    model.write_text(model.read_text() + "// mine\n")
+    capsys.readouterr()
+    return project
+
+
+def change(project: Path, old: str = "220.5", new: str = "330") -> None:
+    source = project / "ladder.json"
+    source.write_text(source.read_text().replace(old, new))
+
+
+def document(capsys: Capture) -> dict[str, Any]:
+    """The JSON on the output stream, which must be all there is."""
+    streams = capsys.readouterr()
+    assert streams.err == ""
+    loaded: dict[str, Any] = json.loads(streams.out)
+    assert loaded["version"] == 1
+    return loaded
+
+
+# build
+
+
+def test_build_in_words(project: Path, capsys: Capture) -> None:
+    assert cli.main(["build"]) == 0
+    assert capsys.readouterr().out == "ladder: 14 files written\n"
+    assert cli.main(["build"]) == 0
+    assert capsys.readouterr().out == "ladder: in step, 14 files\n"
+
+
+def test_build_of_what_was_edited(edited: Path, capsys: Capture) -> None:
+    change(edited)
+    assert cli.main(["build"]) == 0
+    assert capsys.readouterr().out == "ladder: 1 file written, 1 kept because you edited it\n"
+
+
+def test_conflict(edited: Path, capsys: Capture) -> None:
+    change(edited, '"R2"', '"R3"')
+    for arguments in (["build"], ["build", "--check"], ["build", "--quiet"], ["build", "--dry-run"]):
+        assert cli.main(arguments) == 3
+        headline, place, *advice = capsys.readouterr().out.splitlines()
+        assert headline == "ladder: 1 conflict, 5 changes waiting for that"
+        model = Path("modelica/Ladder/Ladder.mo")
+        assert place == f"  conflict   {model}  you edited it, and what it is made from changed too"
+        assert "move the file away and build again" in " ".join(advice)
+
+
+def test_check_writes_nothing_and_exits_with_1_if_out_of_step(
+    project: Path, capsys: Capture, snapshot_of: Callable[[Path], object]
+) -> None:
+    before = snapshot_of(project)
+    assert cli.main(["build", "--check"]) == 1
+    assert capsys.readouterr().out == "ladder: 14 files to write\n"
+    assert snapshot_of(project) == before
+    cli.main(["build"])
+    assert cli.main(["build", "--check"]) == 0
+
+
+def test_check_accepts_edits(edited: Path) -> None:
+    assert cli.main(["build", "--check"]) == 0
+
+
+def test_dry_run_exits_with_0(project: Path, capsys: Capture) -> None:
+    assert cli.main(["build", "--dry-run"]) == 0
+    assert not (project / "modelica").exists()
+
+
+def test_explain_names_each_file_on_one_line(edited: Path, capsys: Capture) -> None:
+    (edited / "modelica/Ladder/Elements/R1.mo").unlink()
+    assert cli.main(["build", "--explain", "--dry-run"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "ladder: 1 to restore, 1 kept because you edited it"
+    folder = Path("modelica/Ladder")
+    assert f"  keep       {folder / 'Ladder.mo'}  you edited it; there is nothing new for it" in lines
+    assert f"  restore    {folder / 'Elements' / 'R1.mo'}  it was deleted; written again" in lines
+    assert len(lines) == 15
+
+
+def test_long_paths_are_not_wrapped(project: Path, capsys: Capture) -> None:
+    name = "VeryLongName" * 12
+    file = project / "urdfsync.toml"
+    file.write_text(file.read_text().replace('"Ladder"', f'"{name}"'))
+    cli.main(["build", "--explain"])
+    assert any(str(Path("modelica") / name / f"{name}.mo") in line for line in capsys.readouterr().out.splitlines())
+
+
+def test_quiet_says_nothing_if_all_is_well(project: Path, capsys: Capture) -> None:
+    (project / "step.csv").unlink()
+    assert cli.main(["build", "--quiet"]) == 0
+    streams = capsys.readouterr()
+    assert (streams.out, streams.err) == ("", "")
+
+
+def test_findings_go_to_the_error_stream(project: Path, capsys: Capture) -> None:
+    change(project, '"R2"', '"r2"')
+    (project / "step.csv").unlink()
+    assert cli.main(["build"]) == 2
+    streams = capsys.readouterr()
+    assert streams.out == ""
+    assert streams.err.splitlines() == [
+        "ladder.json:8: error: 'r2' is no class name [element-name]",
+        "ladder: 1 error, nothing was changed",
+    ]
+
+
+def test_robots_are_chosen_by_name(project: Path, capsys: Capture) -> None:
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    for arguments in (["build", "other"], ["build", "--robot", "other"]):
+        assert cli.main(arguments) == 0
+        assert capsys.readouterr().out.startswith("other: ")
+    assert cli.main(["build", "othr"]) == 2
+    message = "error: no robot `othr` in the configuration; did you mean `other`? [unknown-robot]"
+    assert capsys.readouterr().err == f"urdfsync.toml: {message}\n"
+
+
+def test_the_configuration_is_found_or_named(project: Path, tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    (project / "deep").mkdir()
+    monkeypatch.chdir(project / "deep")
+    assert cli.main(["build"]) == 0
+    assert (project / "modelica/Ladder").is_dir()
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["build", "--config", "project/urdfsync.toml"]) == 0
+    capsys.readouterr()
+    assert cli.main(["build"]) == 2
+    assert capsys.readouterr().err.startswith("error: no urdfsync.toml in ")
+    assert cli.main(["build", "--config", "nothing.toml"]) == 2
+    assert capsys.readouterr().err.startswith("nothing.toml: error: the configuration does not exist")
+
+
+def test_ros_package_path_is_searched(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (project / "step.csv").rename(tmp_path / "step.csv")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    cli.main(["build"])
+    assert (project / "modelica/Ladder/Resources/step.txt").exists()
+
+
+def test_svg(project: Path, capsys: Capture) -> None:
+    assert cli.main(["build", "--svg"]) == 0
+    drawing = Path(".urdfsync/svg/ladder.svg")
+    assert capsys.readouterr().out.splitlines() == ["ladder: 14 files written", f"  diagram: {drawing}"]
+    assert drawing.exists()
+    assert cli.main(["build", "--svg"]) == 0
+    assert capsys.readouterr().out.splitlines() == ["ladder: in step, 14 files", f"  diagram: {drawing}"]
+
+
+def test_build_as_json(edited: Path, capsys: Capture) -> None:
+    (edited / "step.csv").unlink()
+    change(edited)
+    assert cli.main(["build", "--json"]) == 0
+    loaded = document(capsys)
+    assert (loaded["command"], loaded["exit"], loaded["diagnostics"]) == ("build", 0, [])
+    (ladder,) = loaded["robots"]
+    assert (ladder["name"], ladder["package"], ladder["failed"]) == ("ladder", "Ladder", False)
+    assert ladder["diagnostics"][0] == {
+        "severity": "warning",
+        "code": "table-not-found-kept",
+        "message": "table `step.csv` not found; the imported copy is kept",
+        "file": "ladder.json",
+        "line": 3,
+        "column": 0,
+        "hint": "",
+    }
+    assert {
+        "path": "modelica/Ladder/Elements/R2Parameters.mo",
+        "action": "update",
+        "held": False,
+        "owner": "element R2",
+        "role": "record",
+        "reason": "what it is made from changed",
+    } in ladder["actions"]
+    assert len(ladder["actions"]) == 14
+
+
+def test_errors_as_json(project: Path, capsys: Capture) -> None:
+    change(project, '"R2"', '"r2"')
+    assert cli.main(["build", "--json"]) == 2
+    loaded = document(capsys)
+    assert loaded["exit"] == 2
+    assert loaded["robots"][0]["failed"]
+    (project / "urdfsync.toml").write_text("[robots")
+    assert cli.main(["build", "--json"]) == 2
+    loaded = document(capsys)
+    assert (loaded["robots"], [found["code"] for found in loaded["diagnostics"]]) == ([], ["toml-syntax"])
+
+
+def test_interruption(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(config, "load", interrupt)
+    assert cli.main(["build"]) == 130
+    assert "interrupted; run the command again" in capsys.readouterr().err
+
+
+def test_whatever_the_system_refuses_is_one_line(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> None:
+        raise PermissionError(13, "Permission denied", "somewhere")
+
+    monkeypatch.setattr(config, "load", refuse)
+    assert cli.main(["build"]) == 2
+    assert capsys.readouterr().err == "somewhere: error: Permission denied [system]\n"
+
+
+# other commands
+
+
+@pytest.mark.parametrize("arguments", [[], ["biuld"], ["build", "--svg", "--check"], ["build", "--nothing"]])
+def test_bad_usage(arguments: list[str], capsys: Capture) -> None:
+    assert cli.main(arguments) == 2
+    assert capsys.readouterr().err.startswith("usage: urdfsync")
+
+
+@pytest.mark.parametrize("command", ["init", "build", "library"])
+def test_help_has_an_example(command: str, capsys: Capture) -> None:
+    assert cli.main([command, "--help"]) == 0
+    assert "example: " in capsys.readouterr().out
+
+
+def test_version(capsys: Capture) -> None:
+    assert cli.main(["--version"]) == 0
+    assert capsys.readouterr().out == f"urdfsync {urdfsync.__version__}\n"
+
+
+def test_library(capsys: Capture) -> None:
+    assert cli.main(["library"]) == 0
+    folder, line = capsys.readouterr().out.splitlines()
+    assert (Path(folder) / "UrdfSync").is_dir()
+    assert "MODELICAPATH=" in line
+    assert folder in line
+    assert cli.main(["library", "--json"]) == 0
+    assert document(capsys)["folder"] == folder
+
+
+def test_as_a_module() -> None:
+    environment = os.environ | {"PYTHONPATH": str(Path(urdfsync.__file__).parents[1])}
+    command = [sys.executable, "-m", "urdfsync", "--version"]
+    assert subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout.startswith("urdf")
+
+
+# looks
+
+
+class Terminal(io.StringIO):
+    encoding = "utf-8"
+
+    def isatty(self) -> bool:
+        return True
+
+
+def test_a_terminal_gets_colours_unless_they_are_not_wanted(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TERM", "xterm-256color")
+    for expected, plain in ((True, ""), (False, "1")):
+        if plain:
+            monkeypatch.setenv("NO_COLOR", plain)
+        for arguments in (["build"], ["build", "--explain"]):
+            screen = Terminal()
+            monkeypatch.setattr(sys, "stdout", screen)
+            cli.main(arguments)
+            assert ("\x1b[32m" in screen.getvalue()) is expected
+            assert "✓" in screen.getvalue()
+
+
+def test_many_findings_of_one_kind_are_folded(capsys: Capture) -> None:
+    many = [Diagnostic(Severity.WARNING, "mesh-not-found", f"mesh {n} not found", "a.urdf", n) for n in range(1, 10)]
+    Report().problems("build", many)
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[:4] == [f"a.urdf:{n}: warning: mesh {n} not found [mesh-not-found]" for n in range(1, 5)]
+    assert lines[4:] == ["… and 5 more like these [mesh-not-found]; --verbose shows them"]
+    Report(verbose=True).problems("build", many)
+    assert len(capsys.readouterr().err.splitlines()) == 9
+
+
+def test_a_progress_bar_appears_only_if_work_takes_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = iter([0.0, 0.4, 0.6, 0.7, 0.8])
+    monkeypatch.setattr(report.time, "monotonic", lambda: next(clock))
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stderr", screen)
+    shown = Report()
+    shown.progress("arm", 0, 3)
+    assert screen.getvalue() == ""
+    monkeypatch.setattr(report.time, "monotonic", lambda: 1.0)
+    shown.progress("arm: meshes", 1, 3)
+    assert "arm: meshes" in screen.getvalue()
+    shown.finish("build", cli.Exit.IN_STEP)

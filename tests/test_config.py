@@ -1,0 +1,272 @@
+"""The configuration: what it means, and what is said about mistakes in it."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from urdfsync import config, registry, tomlfile
+from urdfsync.config import Config
+from urdfsync.diagnostics import ConfigError
+from urdfsync.domain import Target
+
+pytestmark = pytest.mark.usefixtures("rc_domain")
+
+ROOT = Path(os.path.abspath("/project"))  # noqa: PTH100 - a drive on Windows
+
+
+def parse(text: str) -> Config:
+    return config.parse(text, ROOT / "urdfsync.toml", "urdfsync.toml")
+
+
+def robot(more: str = "", name: str = "arm", package: str = "Arm") -> str:
+    return f'[robots.{name}]\nsource = "arm.json"\npackage = "{package}"\ndomain = "rcnetwork"\n{more}'
+
+
+def failures(text: str) -> list[str]:
+    with pytest.raises(ConfigError) as caught:
+        parse(text)
+    return [str(diagnostic) for diagnostic in caught.value.diagnostics]
+
+
+def test_defaults() -> None:
+    (arm,) = parse(robot()).robots
+    assert arm.name == "arm"
+    assert arm.source == ROOT / "arm.json"
+    assert arm.output == ROOT / "modelica"
+    assert arm.folder == ROOT / "modelica" / "Arm"
+    assert arm.target == Target("Arm", "Arm")
+    assert arm.templates is None
+    assert arm.package_paths == ()
+    assert not arm.create_parents
+    assert msgspec.to_builtins(arm.options) == {"ground": True, "prefix": "node"}
+
+
+def test_everything_set() -> None:
+    text = """
+        [robots.arm]
+        source = "../cad/./arm.json"
+        output = "lib"
+        package = "Plant.Robots.Arm"
+        class = "SixAxis"
+        domain = "rcnetwork"
+        templates = "own"
+        package_paths = ["ros", "/opt/ros"]
+        create_parents = true
+        ground = false
+        prefix = "n"
+    """
+    (arm,) = parse(text).robots
+    assert arm.source == ROOT.parent / "cad" / "arm.json"
+    assert arm.source_text == "../cad/arm.json"
+    assert arm.folder == ROOT / "lib" / "Plant" / "Robots" / "Arm"
+    assert arm.target == Target("Plant.Robots.Arm", "SixAxis")
+    assert arm.templates == ROOT / "own"
+    assert arm.package_paths == (ROOT / "ros", Path(os.path.normpath(ROOT / "/opt/ros")))
+    assert arm.create_parents
+    assert msgspec.to_builtins(arm.options) == {"ground": False, "prefix": "n"}
+
+
+def test_an_absolute_source_is_recorded_by_its_name_only() -> None:
+    (arm,) = parse(robot().replace("arm.json", (ROOT / "cad" / "arm.json").as_posix())).robots
+    assert arm.source == ROOT / "cad" / "arm.json"
+    assert arm.source_text == "arm.json"
+
+
+def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> None:
+    text = '[defaults]\noutput = "lib"\nprefix = "d"\ndomain = "rcnetwork"\n' + robot() + robot('prefix = "b"', "b", "B")
+    arm, other = parse(text).robots
+    assert (arm.output, other.output) == (ROOT / "lib", ROOT / "lib")
+    assert (arm.options.prefix, other.options.prefix) == ("d", "b")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        pytest.param(
+            robot("sorce = 'x'"),
+            "urdfsync.toml:5: error: unknown key `sorce` in robot `arm`; did you mean `source`? [unknown-key]",
+            id="unknown key",
+        ),
+        pytest.param(
+            robot("grund = true"),
+            "urdfsync.toml:5: error: unknown key `grund` in robot `arm`; did you mean `ground`? [unknown-key]",
+            id="unknown option",
+        ),
+        pytest.param(
+            "[default]\n" + robot(),
+            "urdfsync.toml:1: error: unknown key `default` in the configuration; did you mean `defaults`? [unknown-key]",
+            id="unknown table",
+        ),
+        pytest.param(
+            "[defaults]\nsource = 'a'\n" + robot(),
+            "urdfsync.toml:2: error: `source` can't have a default: every robot has its own [unknown-key]",
+            id="default of a robot's own key",
+        ),
+        pytest.param(
+            "[defaults]\nprefx = 'a'\n" + robot(),
+            "urdfsync.toml:2: error: unknown key `prefx` in `[defaults]`; did you mean `prefix`? [unknown-key]",
+            id="unknown default",
+        ),
+        pytest.param(
+            "[robots.arm]\ndomain = 'rcnetwork'\nsource = 'a'",
+            "urdfsync.toml:1: error: robot `arm` has no `package` [missing-key]",
+            id="missing key",
+        ),
+        pytest.param(
+            robot("create_parents = 'yes'"),
+            "urdfsync.toml:5: error: `create_parents` must be true or false, not a string [wrong-value]",
+            id="wrong type",
+        ),
+        pytest.param(
+            robot("package_paths = ['a', 1]"),
+            "urdfsync.toml:5: error: `package_paths`[1] must be a string, not an integer [wrong-value]",
+            id="wrong type inside",
+        ),
+        pytest.param(
+            "[defaults]\noutput = 1\n" + robot(),
+            "urdfsync.toml:2: error: `output` must be a string, not an integer [wrong-value]",
+            id="wrong type of a default",
+        ),
+        pytest.param(
+            robot("ground = 1"),
+            "urdfsync.toml:5: error: `ground` must be true or false, not an integer [wrong-value]",
+            id="wrong type of an option",
+        ),
+        pytest.param(
+            "[robots.arm]\nsource = 'a'\npackage = 'Arm'\nbase = 'floatin'",
+            'urdfsync.toml:4: error: `base` must be "fixed" or "floating", not \'floatin\' [wrong-value]',
+            id="none of the choices",
+        ),
+        pytest.param(
+            robot().replace("rcnetwork", "rcnetwok"),
+            'urdfsync.toml:4: error: there is no domain `rcnetwok`; did you mean "rcnetwork"? [unknown-domain]',
+            id="unknown domain",
+        ),
+        pytest.param("robots = 3", "urdfsync.toml:1: error: `robots` must be a table [wrong-value]", id="no table"),
+        pytest.param(
+            "[robots]\narm = 3", "urdfsync.toml:2: error: `robots.arm` must be a table [wrong-value]", id="no robot"
+        ),
+        pytest.param(
+            "",
+            "urdfsync.toml: error: the configuration has no robot; "
+            "add a table `[robots.NAME]` with `source` and `package` [no-robots]",
+            id="empty",
+        ),
+        pytest.param(
+            robot() + "x = ", "urdfsync.toml:5: error: invalid value [toml-syntax]", id="syntax, end of document"
+        ),
+        pytest.param(
+            "[robots\n",
+            "urdfsync.toml:1:8: error: expected ']' at the end of a table declaration [toml-syntax]",
+            id="syntax",
+        ),
+        pytest.param(
+            robot('class = "2nd"'),
+            "urdfsync.toml:5: error: `class`: '2nd' is no Modelica identifier; "
+            "use letters, digits and `_`, a letter first [modelica-name]",
+            id="no identifier",
+        ),
+    ],
+)
+def test_mistakes_are_one_line_each(text: str, message: str) -> None:
+    assert failures(text) == [message]
+
+
+@pytest.mark.parametrize("package", ["", ".", "Arm.", ".Arm", "Arm.end", "A b", "Gelenk_ä", "../evil", 'a\\"b', "1A"])
+def test_packages_that_are_no_names_of_classes(package: str) -> None:
+    assert all(message.startswith("urdfsync.toml:3: error: `package`") for message in failures(robot(package=package)))
+
+
+@pytest.mark.parametrize("name", ["a/b", "..", ".hidden", "con", "NUL.x", "a:b", "a b", "ä", "x" * 101, "a."])
+def test_robots_whose_names_are_no_names_of_files(name: str) -> None:
+    assert failures(robot(name=f'"{name}"')) == [
+        f"urdfsync.toml:1: error: the robot's name {name!r} can't be a file's name; "
+        "use letters, digits, `_`, `-` and `.`, a letter or digit first [robot-name]"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("one", "two", "words"),
+    [
+        (("a", "Arm"), ("b", "Arm"), "robots `a` and `b` have the same package"),
+        (("a", "Arm"), ("b", "ARM"), "robots `a` and `b` have the same package"),
+        (("a", "Arm"), ("A", "Leg"), "robots `a` and `A` differ in case only"),
+        (("a", "Plant"), ("b", "Plant.Arm"), "the packages of robots `a` and `b` lie inside each other"),
+    ],
+)
+def test_robots_that_are_in_each_others_way(one: tuple[str, str], two: tuple[str, str], words: str) -> None:
+    text = robot("", *one) + robot("", *two)
+    assert failures(text) == [f"urdfsync.toml:7: error: {words} [clash]"]
+
+
+def test_all_mistakes_are_told_at_once_in_the_order_of_lines() -> None:
+    found = failures(robot("x = 1\n") + robot("ground = 'no'", "b", "end"))
+    assert [message.split(":")[1] for message in found] == ["5", "8", "10"]
+
+
+def test_find_looks_upwards(tmp_path: Path) -> None:
+    (tmp_path / "urdfsync.toml").write_text(robot())
+    folder = tmp_path / "a" / "b"
+    folder.mkdir(parents=True)
+    assert config.find(folder) == tmp_path / "urdfsync.toml"
+
+
+def test_find_says_what_to_do(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="write one with `urdfsync init SOURCE`"):
+        config.find(tmp_path)
+
+
+def test_load_takes_a_byte_order_mark(tmp_path: Path) -> None:
+    file = tmp_path / "urdfsync.toml"
+    file.write_bytes(b"\xef\xbb\xbf" + robot().encode())
+    assert [arm.name for arm in config.load(file).robots] == ["arm"]
+
+
+@pytest.mark.parametrize("content", [None, b"\xff\xfe"])
+def test_load_names_a_file_that_it_cant_read(tmp_path: Path, content: bytes | None) -> None:
+    file = tmp_path / "urdfsync.toml"
+    if content is not None:
+        file.write_bytes(content)
+    with pytest.raises(ConfigError, match=r"urdfsync\.toml: error: the configuration"):
+        config.load(file)
+
+
+def test_select() -> None:
+    loaded = parse(robot() + robot("", "leg", "Leg"))
+    assert [arm.name for arm in loaded.select([])] == ["arm", "leg"]
+    assert [arm.name for arm in loaded.select(["leg"])] == ["leg"]
+    with pytest.raises(ConfigError, match="did you mean `leg`"):
+        loaded.select(["legg"])
+
+
+def test_ros_package_path() -> None:
+    value = os.pathsep.join(["/a", "", "/b/c"])
+    assert config.ros_package_path({"ROS_PACKAGE_PATH": value}) == (Path("/a").absolute(), Path("/b/c").absolute())
+    assert config.ros_package_path({}) == ()
+
+
+def test_packaged_data_is_there() -> None:
+    assert (config.library_folder() / "UrdfSync").is_dir()
+    assert config.templates_folder(registry.domain("urdf")).name == "urdf"
+    assert config.templates_folder(registry.domain("rcnetwork")) == registry.domain("rcnetwork").templates
+
+
+@pytest.mark.parametrize(
+    ("path", "line"),
+    [
+        (("defaults", "output"), 3),
+        (("robots", "my arm"), 5),
+        (("robots", "my arm", "package"), 7),
+        (("robots", "my arm", "missing"), 5),
+        (("robots", "leg", "source"), 9),
+        (("nothing",), 0),
+    ],
+)
+def test_lines_of_keys(path: tuple[str, ...], line: int) -> None:
+    text = "# first\n[defaults]\noutput = 'x'\n\n[robots.'my arm'] # the arm\nsource = 'a=b'\n\"package\" = 'P'\n"
+    text += "[robots]\nleg.source = 'x'\n"
+    assert tomlfile.line_of(text, *path) == line

@@ -1,0 +1,196 @@
+"""What the core expects of every domain that is installed."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+
+from urdfsync import config, generate, manifest, registry
+from urdfsync.config import Keys
+from urdfsync.diagnostics import Severity
+from urdfsync.domain import Artifact, Dependency, Domain, Import, Lookup, Order, Role, Snapshot, Target
+from urdfsync.files import digest
+from urdfsync.modelica import is_identifier, within
+
+URDF = b"""<robot name="two &quot;links&quot;">
+  <link name="base link"/>
+  <link name="Tip">
+    <inertial><mass value="1.5"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
+    <visual><geometry><mesh filename="tip.stl"/></geometry></visual>
+  </link>
+  <joint name="tip" type="revolute">
+    <parent link="base link"/><child link="Tip"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1.25" effort="3" velocity="2"/>
+  </joint>
+</robot>
+"""
+STL = b"solid tip\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\nendsolid\n"
+EXAMPLES = Path(__file__).parent / "rcnetwork" / "examples"
+SAMPLES: dict[str, tuple[bytes, bytes]] = {
+    "urdf": (URDF, STL),
+    "rcnetwork": ((EXAMPLES / "ladder.json").read_bytes(), (EXAMPLES / "step.csv").read_bytes()),
+}
+"""Per domain: a source, and the content of the one file that it refers to."""
+
+TARGET = Target("Plant.Robots.Sample", "Sample")
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    """A domain with its sample, read and imported."""
+
+    domain: Domain
+    options: Any
+    snapshot: Snapshot
+    dependency: Dependency
+    imports: Mapping[str, Import]
+
+    def artifacts(self) -> list[Artifact | Order]:
+        return list(self.domain.artifacts(self.snapshot, self.imports, TARGET, self.options))
+
+    def generated(self) -> generate.Generated:
+        folders = [config.templates_folder(self.domain)]
+        return generate.generate(self.domain, self.snapshot, self.imports, TARGET, self.options, folders)
+
+
+def make(name: str) -> Case:
+    domain = registry.domain(name)
+    options = domain.options()
+    source, content = SAMPLES[name]
+    reading = domain.read(source, "sample", options)
+    assert reading.snapshot is not None
+    assert not [found for found in reading.diagnostics if found.severity is Severity.ERROR]
+    snapshot = manifest.plain(reading.snapshot)
+    lookup = Lookup(Path("/sources/sample"), (Path("/packages"),))
+    (dependency,) = domain.dependencies(snapshot, lookup, options, reading.lines)
+    conversion = domain.convert(dependency, dependency.candidates[0], content)
+    hashes = digest(content), digest(conversion.content)
+    facts = json.loads(json.dumps(conversion.facts))
+    entry = Import(dependency.target, *hashes, domain.converter, facts)
+    return Case(domain, options, snapshot, dependency, {dependency.key: entry})
+
+
+@pytest.fixture(params=sorted(SAMPLES))
+def case(request: pytest.FixtureRequest, rc_domain: None) -> Iterator[Case]:
+    return make(request.param)
+
+
+def test_every_installed_domain_is_tested(rc_domain: None) -> None:
+    assert set(registry.names()) == set(SAMPLES)
+
+
+def test_names_and_options(case: Case) -> None:
+    assert registry.domain(case.domain.name) is case.domain
+    fields = msgspec.structs.fields(case.domain.options)
+    shared = {field.encode_name for field in msgspec.structs.fields(Keys)}
+    assert not shared & {field.encode_name for field in fields}, "an option hides a key of the configuration"
+    assert msgspec.convert(msgspec.to_builtins(case.options), case.domain.options) == case.options
+    with pytest.raises(AttributeError, match="immutable"):
+        setattr(case.options, fields[0].name, None)
+    assert isinstance(case.domain.revision, int)
+    assert isinstance(case.domain.converter, int)
+
+
+def test_a_snapshot_is_plain_data(case: Case) -> None:
+    reading = case.domain.read(SAMPLES[case.domain.name][0], "sample", case.options)
+    assert reading.snapshot is not None
+    text = json.dumps(reading.snapshot, allow_nan=False)
+    assert json.loads(text) == case.snapshot
+    again = manifest.load_model(manifest.dump_model(case.snapshot, case.imports), "sample.json").snapshot
+    assert again == case.snapshot
+
+
+@pytest.mark.parametrize("content", [b"", b"\0", b"\xff\xfe", b"<", b"{", b"no source at all", "ä".encode("latin-1")])
+def test_bad_sources_are_told_with_file_and_no_exception(case: Case, content: bytes) -> None:
+    reading = case.domain.read(content, "bad", case.options)
+    errors = [found for found in reading.diagnostics if found.severity is Severity.ERROR]
+    assert reading.snapshot is None
+    assert errors
+    assert {found.file for found in errors} == {"bad"}
+
+
+def test_dependencies_are_only_looked_for_by_the_core(case: Case) -> None:
+    dependency = case.dependency
+    assert dependency.candidates[0] == Path("/sources") / Path(dependency.uri).name
+    assert all(path.is_absolute() for path in dependency.candidates)
+    assert dependency.line > 0
+    assert dependency.noun.isidentifier()
+    generate.check_paths([dependency.target])
+
+
+def test_a_conversion_is_repeatable(case: Case) -> None:
+    content = SAMPLES[case.domain.name][1]
+    one, two = (case.domain.convert(case.dependency, case.dependency.candidates[0], content) for _ in range(2))
+    assert (one.content, dict(one.facts)) == (two.content, dict(two.facts))
+
+
+def test_artifacts_are_inside_the_package_and_apart(case: Case) -> None:
+    artifacts = case.artifacts()
+    generate.check_paths([artifact.path for artifact in artifacts] + [case.dependency.target])
+    assert {artifact.role for artifact in artifacts if isinstance(artifact, Artifact)} <= {
+        Role.RECORD,
+        Role.MODEL,
+        Role.PACKAGE,
+    }
+    assert all(artifact.owner for artifact in artifacts if isinstance(artifact, Artifact))
+
+
+def test_artifacts_follow_from_their_input_alone(case: Case) -> None:
+    assert case.generated() == make(case.domain.name).generated()
+
+
+def test_imports_show_in_the_text_only_while_they_are_there(case: Case) -> None:
+    with_import = case.generated()
+    without = dataclasses.replace(case, imports={}).generated()
+    target = case.dependency.target.encode()
+    assert any(target in output.content for output in with_import.files.values())
+    assert not any(target in output.content for output in without.files.values())
+
+
+def test_every_folder_is_a_package_with_a_complete_order(case: Case) -> None:
+    generated = case.generated()
+    for folder in {str(Path(path).parent) for path in generated.files}:
+        prefix = "" if folder == "." else f"{folder}/"
+        assert f"{prefix}package.mo" in generated.files
+        inside = [path.removeprefix(prefix) for path in generated.files if path.startswith(prefix)]
+        classes = {path.removesuffix(".mo").partition("/")[0] for path in inside} - {"package"}
+        names = generated.orders[f"{prefix}package.order"]
+        assert sorted(names) == sorted(classes)
+
+
+def test_every_class_says_where_it_is(case: Case) -> None:
+    for path, output in case.generated().files.items():
+        *folders, name = path.removesuffix(".mo").split("/")
+        parts = [TARGET.package, *folders, *([] if name == "package" else [name])]
+        text = output.content.decode()
+        assert text.startswith(within(".".join(parts))), path
+        assert text.endswith(f"end {parts[-1].rpartition('.')[2]};\n"), path
+        assert "\r" not in text
+        assert "<<" not in text
+        assert "<%" not in text
+
+
+def test_names_are_identifiers_and_reversible(case: Case) -> None:
+    for names in case.domain.names(case.snapshot, TARGET).values():
+        assert all(map(is_identifier, names.values()))
+        assert len(set(names.values())) == len(names)
+
+
+def test_proposals_are_options(case: Case) -> None:
+    values = {proposal.option: proposal.value for proposal in case.domain.propose(case.snapshot)}
+    options = {field.encode_name for field in msgspec.structs.fields(case.domain.options)}
+    assert values.keys() <= options, difflib.context_diff(sorted(values), sorted(options))
+    msgspec.convert(values, case.domain.options)
+
+
+def test_a_drawing_is_svg(case: Case) -> None:
+    drawing = case.domain.drawing(case.snapshot, case.imports, TARGET, case.options)
+    assert drawing is None or "<svg" in drawing
+    assert drawing == case.domain.drawing(case.snapshot, case.imports, TARGET, case.options)

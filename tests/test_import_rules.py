@@ -1,0 +1,156 @@
+"""Who may know whom: the last column of the table in the design, read from the imports."""
+
+from __future__ import annotations
+
+import ast
+import functools
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import urdfsync
+
+PACKAGE = Path(urdfsync.__file__).parent
+OURS = sorted(path.relative_to(PACKAGE).with_suffix("").as_posix() for path in PACKAGE.rglob("*.py"))
+MODULES = [name for name in OURS if not name.endswith("__init__") and not name.startswith("_data")]
+
+IO = ("os", "io", "shutil", "subprocess", "tempfile", "socket", "glob", "urllib.request", "sys")
+HEAVY = ("jinja2", "rich", "lxml", "yourdfpy", "trimesh", "numpy", "collada", "deepdiff", "rumoca", "watchdog")
+SHELL = ("build", "config", "cli", "watch", "report", "store", "files", "imports", "decide", "parents", "init")
+SHELL_MODULES = tuple(f"urdfsync.{name}" for name in SHELL)
+
+FORBIDDEN: dict[str, tuple[str, ...]] = {
+    "diagnostics": ("urdfsync", *IO, *HEAVY),
+    "domain": ("urdfsync.urdf", "urdfsync.render", "urdfsync.registry", "msgspec", *SHELL_MODULES, *IO, *HEAVY),
+    "changes": ("rich", *IO, *SHELL_MODULES),
+    "render": ("urdfsync.urdf", "urdfsync.manifest", "rich", *SHELL_MODULES),
+    "manifest": ("rich", "pathlib", *IO, *SHELL_MODULES),
+    "plan": ("pathlib", "urdfsync.manifest", "urdfsync.registry", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
+    "order": ("urdfsync", "pathlib", *IO, *HEAVY),
+    "outcome": (*SHELL_MODULES, *IO, *HEAVY),
+    "wording": (*SHELL_MODULES, *IO, *HEAVY),
+    "modelica": ("urdfsync", *IO, *HEAVY),
+    "literals": ("urdfsync", *IO, *HEAVY),
+    "tomlfile": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    "tables": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    "build": ("rich", "watchdog", "urdfsync.report", "urdfsync.cli"),
+    "decide": ("rich", "watchdog", "urdfsync.build", "urdfsync.report", "urdfsync.cli"),
+    "config": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "watch": ("rich", "urdfsync.urdf"),
+    "check": ("rich",),
+    "report": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf"),
+    "cli": ("jinja2", "deepdiff", "urdfsync.urdf", "rich"),
+    "urdf/robot": ("lxml", "yourdfpy", "numpy", "pathlib", *IO),
+    "urdf/source": ("jinja2", "urdfsync.render", "urdfsync.manifest", *SHELL_MODULES),
+    "urdf/naming": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
+    "urdf/artifacts": ("jinja2", "pathlib", *IO, *SHELL_MODULES),
+}
+"""Per module: what it must not import, at whatever place in the file."""
+
+LIGHT = ("cli", "config", "registry", "build", "report", "manifest", "plan", "store", "urdf/domain", "urdf/mesh_lookup")
+"""Modules on the way of a build that has nothing to do: no heavy library, not even through others."""
+
+NO_IO_CALLS = {
+    "open", "read_text", "read_bytes", "write_text", "write_bytes", "mkdir", "unlink", "rmdir", "touch", "iterdir",
+    "rglob", "exists", "is_file", "is_dir", "stat", "lstat", "resolve", "cwd", "home", "symlink_to",
+}  # fmt: skip
+PURE = (
+    *("diagnostics", "domain", "manifest", "plan", "order", "outcome", "wording", "modelica", "literals"),
+    *(name for name in MODULES if name.startswith("urdf/")),
+)
+
+
+@functools.cache
+def tree(module: str) -> ast.Module:
+    return ast.parse((PACKAGE / f"{module}.py").read_text(encoding="utf-8"))
+
+
+def imports(node: ast.AST) -> Iterator[str]:
+    """Full names of what an import statement brings in."""
+    if isinstance(node, ast.Import):
+        yield from (alias.name for alias in node.names)
+    elif isinstance(node, ast.ImportFrom):
+        assert not node.level, "imports are absolute"
+        yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+def all_imports(module: str) -> set[str]:
+    return {name for node in ast.walk(tree(module)) for name in imports(node)}
+
+
+@functools.cache
+def loaded_with(module: str) -> frozenset[str]:
+    """What importing a module imports, through our other modules as well; imports inside functions do not count."""
+    seen: set[str] = set()
+    waiting = [module]
+    while waiting:
+        for node in _executed(tree(waiting.pop())):
+            for name in set(imports(node)) - seen:
+                seen.add(name)
+                ours = name.removeprefix("urdfsync.").replace(".", "/")
+                waiting += [m for m in MODULES if name.startswith("urdfsync.") and m in (ours, ours.rpartition("/")[0])]
+    return frozenset(seen)
+
+
+def _executed(module: ast.Module) -> Iterator[ast.AST]:
+    waiting: list[ast.AST] = [module]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+            continue
+        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
+            continue
+        yield node
+        waiting += ast.iter_child_nodes(node)
+
+
+def broken(found: set[str] | frozenset[str], forbidden: tuple[str, ...]) -> list[str]:
+    return sorted(name for name in found for rule in forbidden if name == rule or name.startswith(f"{rule}."))
+
+
+@pytest.mark.parametrize("module", sorted(FORBIDDEN.keys() & set(MODULES)))
+def test_no_module_knows_what_it_must_not(module: str) -> None:
+    allowed = {"plan": {"msgspec"}}.get(module, set())
+    assert broken(all_imports(module) - allowed, FORBIDDEN[module]) == []
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if not m.startswith("urdf/")])
+def test_the_core_knows_no_domain(module: str) -> None:
+    assert broken(all_imports(module), ("urdfsync.urdf",)) == []
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.startswith("urdf/")])
+def test_the_domain_knows_the_contract_only(module: str) -> None:
+    assert broken(all_imports(module), (*SHELL_MODULES, "urdfsync.plan", "urdfsync.manifest", "rich", "jinja2")) == []
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m != "report"])
+def test_only_the_report_knows_rich(module: str) -> None:
+    assert broken(all_imports(module), ("rich",)) == []
+
+
+@pytest.mark.parametrize("module", LIGHT)
+def test_a_build_with_nothing_to_do_stays_light(module: str) -> None:
+    assert broken(loaded_with(module), HEAVY) == []
+
+
+@pytest.mark.parametrize("module", PURE)
+def test_pure_modules_touch_no_files(module: str) -> None:
+    calls = [node.func for node in ast.walk(tree(module)) if isinstance(node, ast.Call)]
+    names = {call.attr if isinstance(call, ast.Attribute) else getattr(call, "id", "") for call in calls}
+    assert names & NO_IO_CALLS == set()
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_imports_name_what_the_project_depends_on(module: str) -> None:
+    known = {*sys.stdlib_module_names, "urdfsync", "msgspec", "tomli_w", *HEAVY}
+    assert {name.partition(".")[0] for name in all_imports(module)} <= known
+
+
+def test_the_rules_bite() -> None:
+    assert broken(loaded_with("generate"), ("jinja2",)) == [], "imports inside functions are not run"
+    assert "jinja2" in all_imports("generate")
+    assert "jinja2" in loaded_with("render")
+    assert "urdfsync.plan.FileRecord" in loaded_with("build"), "through `manifest`"

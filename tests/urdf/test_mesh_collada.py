@@ -1,0 +1,179 @@
+"""COLLADA: unit and scene count, the axis that is called up does not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from urdfsync.urdf.mesh_collada import read_collada
+from urdfsync.urdf.mesh_errors import MeshError
+from urdfsync.urdf.mesh_geometry import Array, bounds
+
+BOX = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+"""Faces of a box, seen counter-clockwise from outside, with corners counted by x, y, z in binary."""
+
+PLACED = '<node><instance_geometry url="#box"/></node>'
+
+
+def _box(x: float = 1, y: float = 2, z: float = 3, name: str = "box", extra: str = "") -> str:
+    """A box with one corner at the origin."""
+    corners = " ".join(f"{x * (n >> 2)} {y * (n >> 1 & 1)} {z * (n & 1)}" for n in range(8))
+    faces = " ".join(" ".join(map(str, face)) for face in BOX)
+    return f"""
+      <geometry id="{name}"><mesh><!-- a comment -->
+        <source id="{name}-p"><float_array id="{name}-a" count="24">{corners}</float_array><technique_common>
+          <accessor source="#{name}-a" count="8" stride="3">
+            <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+          </accessor></technique_common></source>
+        <vertices id="{name}-v"><input semantic="POSITION" source="#{name}-p"/></vertices>
+        <polylist count="6" material="steel"><input semantic="VERTEX" source="#{name}-v" offset="0"/>
+          <vcount>{"4 " * 6}</vcount><p>{faces}</p></polylist>{extra}
+      </mesh></geometry>"""
+
+
+def _dae(
+    scene: str = PLACED, geometries: str = "", asset: str = "", libraries: str = "", version: str = "1.4.1"
+) -> bytes:
+    return f"""<?xml version="1.0" encoding="utf-8"?>
+    <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="{version}">
+      <asset>{asset}</asset>{libraries}
+      <library_geometries>{geometries or _box()}</library_geometries>
+      <library_visual_scenes><visual_scene id="scene"><!-- a comment -->{scene}</visual_scene></library_visual_scenes>
+      <scene><instance_visual_scene url="#scene"/></scene>
+    </COLLADA>""".encode()
+
+
+def _bounds(content: bytes) -> list[list[float]]:
+    return bounds(read_collada(content).reshape(-1, 3))
+
+
+def _volume(corners: Array) -> float:
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+def test_box_has_twelve_triangles_that_look_outwards() -> None:
+    corners = read_collada(_dae())
+    assert corners.shape == (12, 3, 3)
+    assert _volume(corners) == pytest.approx(6)
+    assert bounds(corners.reshape(-1, 3)) == [[0, 0, 0], [1, 2, 3]]
+
+
+@pytest.mark.parametrize(
+    ("unit", "metres"),
+    [
+        ('<unit name="inch" meter="0.0254"/>', 0.0254),
+        ('<unit name="millimeter" meter="1e-3"/>', 0.001),
+        ('<unit name="meter" meter="1"/>', 1),
+        ('<unit name="meter"/>', 1),
+        ("", 1),
+    ],
+)
+def test_unit_is_applied(unit: str, metres: float) -> None:
+    assert _bounds(_dae(asset=unit)) == [[0, 0, 0], [metres, 2 * metres, 3 * metres]]
+
+
+@pytest.mark.parametrize("axis", ["X_UP", "Y_UP", "Z_UP"])
+def test_up_axis_is_not_applied(axis: str) -> None:
+    assert _bounds(_dae(asset=f"<up_axis>{axis}</up_axis>")) == [[0, 0, 0], [1, 2, 3]]
+
+
+def test_nodes_place_each_of_two_geometries() -> None:
+    scene = """
+      <node><matrix>0 -1 0 10  1 0 0 20  0 0 1 30  0 0 0 1</matrix><instance_geometry url="#box"/>
+        <node><translate>0 0 100</translate><scale>2 2 2</scale><instance_geometry url="#cube"/></node></node>"""
+    content = _dae(scene, _box() + _box(1, 1, 1, "cube"), '<unit meter="0.1"/>')
+    corners = read_collada(content)
+    assert corners.shape == (24, 3, 3)
+    assert bounds(corners[:12].reshape(-1, 3)) == [pytest.approx([0.8, 2, 3]), pytest.approx([1, 2.1, 3.3])]
+    assert bounds(corners[12:].reshape(-1, 3)) == [pytest.approx([0.8, 2, 13]), pytest.approx([1, 2.2, 13.2])]
+    assert _volume(corners) == pytest.approx((6 + 8) / 1000)
+
+
+def test_transformations_of_a_node_apply_in_their_order() -> None:
+    scene = '<node><rotate>0 0 1 90</rotate><translate>5 0 0</translate><instance_geometry url="#box"/></node>'
+    low, high = _bounds(_dae(scene))
+    assert [*low, *high] == pytest.approx([-2, 5, 0, 0, 6, 3], abs=1e-6)
+
+
+def test_node_of_the_library_is_placed_where_it_is_instanced() -> None:
+    library = f'<library_nodes><node id="part"><translate>1 0 0</translate>{PLACED}</node></library_nodes>'
+    content = _dae('<node><translate>0 7 0</translate><instance_node url="#part"/></node>')
+    content = content.replace(b"<library_visual_scenes>", library.encode() + b"<library_visual_scenes>")
+    assert _bounds(content) == [[1, 7, 0], [2, 9, 3]]
+
+
+def test_mirroring_node_keeps_the_outer_sides() -> None:
+    corners = read_collada(_dae('<node><scale>1 1 -1</scale><instance_geometry url="#box"/></node>'))
+    assert bounds(corners.reshape(-1, 3)) == [[0, 0, -3], [1, 2, 0]]
+    assert _volume(corners) == pytest.approx(6)
+
+
+def test_materials_that_nobody_understands_do_not_matter() -> None:
+    material = '<bind_material><technique_common><instance_material symbol="steel" target="#no"/></technique_common>'
+    scene = f'<node><instance_geometry url="#box">{material}</bind_material></instance_geometry></node>'
+    effects = '<library_effects><effect id="e"><profile_CG/></effect></library_effects>'
+    images = '<library_images><image id="i"><init_from>no.png</init_from></image></library_images>'
+    assert _bounds(_dae(scene, libraries=effects + images)) == [[0, 0, 0], [1, 2, 3]]
+
+
+def test_lines_and_nodes_without_a_shape_are_left_out() -> None:
+    lines = '<lines count="1"><input semantic="VERTEX" source="#box-v" offset="0"/><p>0 7</p></lines>'
+    strips = '<linestrips count="1"><input semantic="VERTEX" source="#box-v" offset="0"/><p>0 7 1</p></linestrips>'
+    scene = PLACED + '<node><instance_camera url="#no"/><instance_light url="#no"/><extra><any/></extra></node>'
+    assert len(read_collada(_dae(scene, _box(extra=lines + strips)))) == 12
+
+
+def test_skin_stands_as_it_is_bound() -> None:
+    def source(name: str, array: str, kind: str, parameter: str) -> str:
+        accessor = (
+            f'<accessor source="#{name}-a" count="1" stride="1"><param name="{parameter}" type="{kind}"/></accessor>'
+        )
+        return f'<source id="{name}">{array}<technique_common>{accessor}</technique_common></source>'
+
+    bind = "1 0 0 4  0 1 0 5  0 0 1 6  0 0 0 1"
+    skin = f"""<library_controllers><controller id="skin"><skin source="#box">
+      <bind_shape_matrix>{bind}</bind_shape_matrix>
+      {source("j", '<Name_array id="j-a" count="1">bone</Name_array>', "name", "JOINT")}
+      {source("m", f'<float_array id="m-a" count="16">{bind}</float_array>', "float4x4", "TRANSFORM")}
+      {source("w", '<float_array id="w-a" count="1">1</float_array>', "float", "WEIGHT")}
+      <joints><input semantic="JOINT" source="#j"/><input semantic="INV_BIND_MATRIX" source="#m"/></joints>
+      <vertex_weights count="8"><input semantic="JOINT" source="#j" offset="0"/>
+        <input semantic="WEIGHT" source="#w" offset="1"/><vcount>{"1 " * 8}</vcount><v>{"0 0 " * 8}</v>
+      </vertex_weights></skin></controller></library_controllers>"""
+    content = _dae('<node><instance_controller url="#skin"/></node>')
+    content = content.replace(b"<library_visual_scenes>", skin.encode() + b"<library_visual_scenes>")
+    assert _bounds(content) == [[4, 5, 6], [5, 7, 9]]
+
+
+def test_scene_without_geometry_has_no_triangles() -> None:
+    assert read_collada(_dae("<node/>")).shape == (0, 3, 3)
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        (b"", "well-formed"),
+        (b"solid a\nendsolid a\n", "well-formed"),
+        (_dae()[:900], "well-formed"),
+        (b"<a/>", "no scene"),
+        (b"<!DOCTYPE a [<!ENTITY e 'e'>]><a>&e;</a>", "document type"),
+        (_dae(asset='<unit meter="inch"/>'), "'inch' metres"),
+        (_dae(asset='<unit meter="0"/>'), "'0' metres"),
+        (_dae(asset='<unit meter="nan"/>'), "'nan' metres"),
+        (_dae('<node><instance_geometry url="#other"/></node>'), "#other"),
+        (_dae('<node><instance_geometry url="other.dae#box"/></node>'), "other.dae#box"),
+        (_dae('<node><instance_geometry url="#box"/><instance_node url="#other"/></node>'), "#other"),
+        (_dae("<node><skew>1 0 0 0 1 0 0</skew></node>"), "skewed"),
+        (_dae().replace(b"<polylist", b"<polygons><ph><p/><h/></ph></polygons><polylist"), "holes"),
+        (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3 8"), "index"),
+        (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3 -2"), "index"),
+        (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3 x"), "index"),
+        (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3"), "damaged"),
+        (_dae().replace(b'offset="0"', b""), "damaged"),
+        (_dae().replace(b">0 0 0", b">0 0 x"), "float array"),
+    ],
+)
+def test_what_cannot_be_read_is_said(content: bytes, reason: str) -> None:
+    with pytest.raises(MeshError, match=reason):
+        read_collada(content)

@@ -1,0 +1,137 @@
+"""What of a mesh file arrives in the package."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from urdfsync.diagnostics import Severity, SourceError
+from urdfsync.domain import Conversion, Dependency
+from urdfsync.urdf.mesh_convert import convert
+from urdfsync.urdf.mesh_lookup import key, target
+from urdfsync.urdf.mesh_reading import read_mesh
+from urdfsync.urdf.robot import Mesh, Vector
+
+BOX = trimesh.creation.box(bounds=[(0, 0, 0), (1, 2, 3)])
+CONTENTS = {
+    ".stl": BOX.export(file_type="stl"),
+    ".obj": b"mtllib missing.mtl\n" + BOX.export(file_type="obj").encode(),
+    ".ply": BOX.export(file_type="ply"),
+    ".dae": BOX.export(file_type="dae"),
+    ".glb": trimesh.Scene([BOX]).export(file_type="glb"),
+}
+UNIT = (1.0, 1.0, 1.0)
+
+
+def _convert(uri: str, content: bytes, scale: Vector = UNIT) -> Conversion:
+    mesh = Mesh(uri, scale)
+    return convert(Dependency(key(mesh), uri, (), target(mesh)), Path("/ws/arm") / Path(uri).name, content)
+
+
+def _volume(stl: bytes) -> float:
+    a, b, c = np.moveaxis(read_mesh(".stl", stl), 1, 0)
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+@pytest.mark.parametrize("uri", ["package://arm/box.stl", "box.STL", "box.obj", "box.OBJ"])
+def test_stl_and_obj_stay_as_they_are(uri: str) -> None:
+    content = CONTENTS[uri[-4:].lower()]
+    conversion = _convert(uri, content)
+    assert conversion.content == content
+    assert conversion.facts["bounds"] == [[0, 0, 0], [1, 2, 3]]
+
+
+def test_ascii_stl_stays_as_it_is() -> None:
+    content = BOX.export(file_type="stl_ascii").encode()
+    assert _convert("box.stl", content).content == content
+
+
+@pytest.mark.parametrize("suffix", [".ply", ".dae", ".glb", ".DAE"])
+def test_other_formats_become_binary_stl(suffix: str) -> None:
+    conversion = _convert("box" + suffix, CONTENTS[suffix.lower()])
+    (count,) = struct.unpack_from("<I", conversion.content, 80)
+    assert count == 12
+    assert len(conversion.content) == 84 + 12 * 50
+    assert not conversion.content.startswith(b"solid")
+    assert _volume(conversion.content) == pytest.approx(6)
+    assert conversion.facts["bounds"] == [[0, 0, 0], [1, 2, 3]]
+
+
+@pytest.mark.parametrize("suffix", CONTENTS)
+def test_scale_is_applied(suffix: str) -> None:
+    conversion = _convert("box" + suffix, CONTENTS[suffix], (0.5, 2.0, 10.0))
+    assert conversion.facts["bounds"] == [[0, 0, 0], [0.5, 4, 30]]
+    assert trimesh.load_mesh(trimesh.util.wrap_as_stream(conversion.content), "stl").extents.tolist() == [0.5, 4, 30]
+    assert _volume(conversion.content) == pytest.approx(60)
+
+
+@pytest.mark.parametrize("scale", [(-1.0, 1.0, 1.0), (1.0, -2.0, 1.0), (-1.0, -1.0, -1.0), (-1.0, -1.0, 1.0)])
+def test_mirrored_mesh_still_looks_outwards(scale: Vector) -> None:
+    conversion = _convert("box.stl", CONTENTS[".stl"], scale)
+    assert _volume(conversion.content) == pytest.approx(6 * abs(np.prod(scale)))
+    ends = np.sort([[0, 0, 0], np.multiply(scale, (1, 2, 3))], axis=0)
+    assert conversion.facts["bounds"] == ends.tolist()
+
+
+def test_normals_fit_the_corners_and_a_flat_triangle_has_none() -> None:
+    obj = b"v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\nf 1 1 2\n"
+    content = _convert("a.obj", obj, (1.0, 1.0, -1.0)).content
+    facets = [struct.unpack_from("<12fH", content, 84 + 50 * n) for n in range(2)]
+    assert facets[0] == (0, 0, -1, 0, 2, 0, 2, 0, 0, 0, 0, 0, 0)
+    assert facets[1][:3] == (0, 0, 0)
+
+
+@pytest.mark.parametrize("suffix", CONTENTS)
+def test_same_input_gives_same_bytes_and_facts(suffix: str) -> None:
+    first, second = (_convert("box" + suffix, CONTENTS[suffix], (0.001, 0.001, 0.001)) for _ in range(2))
+    assert first == second
+
+
+def test_hull_of_a_wheel_in_millimetres_has_both_rims() -> None:
+    wheel = trimesh.creation.cylinder(80, 30, sections=72).export(file_type="stl")
+    hull = np.array(_convert("wheel.stl", wheel, (0.001, 0.001, 0.001)).facts["hull"])
+    for side in (-0.015, 0.015):
+        rim = hull[hull[:, 2] == side]
+        assert len(rim) >= 36
+        assert abs(np.hypot(rim[:, 0], rim[:, 1]).max() - 0.08) < 1e-6
+
+
+def test_facts_are_plain_data() -> None:
+    facts = _convert("box.dae", CONTENTS[".dae"]).facts
+    assert set(facts) == {"bounds", "hull"}
+    assert {type(number) for points in facts.values() for point in points for number in point} == {float}
+
+
+@pytest.mark.parametrize(
+    ("uri", "content", "scale", "reason"),
+    [
+        ("package://arm/box.stl", b"", UNIT, "it has no triangles"),
+        ("package://arm/box.stl", b"garbage", UNIT, "it has no triangles"),
+        ("package://arm/box.dae", b"<COLLADA", UNIT, "it isn't well-formed XML: "),
+        ("package://arm/box.ply", b"ply\n", UNIT, "it is damaged or of another format "),
+        ("package://arm/box.step", b"ISO-10303-21;", UNIT, "its format isn't one of "),
+        ("package://arm/box.obj", CONTENTS[".obj"], (1e300, 1.0, 1.0), "its coordinates are too large"),
+        ("package://arm/box.obj", CONTENTS[".obj"], (1e308, -1e308, 1e308), "its coordinates are too large"),
+        ("package://arm/box.obj", b"v 0 0 1e300\nf 1 1 1", UNIT, "its coordinates are too large"),
+    ],
+)
+def test_unreadable_mesh_is_one_diagnostic(uri: str, content: bytes, scale: Vector, reason: str) -> None:
+    with pytest.raises(SourceError) as caught:
+        _convert(uri, content, scale)
+    (diagnostic,) = caught.value.diagnostics
+    assert diagnostic.severity is Severity.ERROR
+    assert diagnostic.code == "unreadable-mesh"
+    assert diagnostic.file == f"/ws/arm/{Path(uri).name}"
+    assert diagnostic.message.startswith(f"the mesh {uri} can't be read: {reason}")
+    assert diagnostic.hint == "export it again, best as STL or OBJ"
+
+
+def test_nothing_is_printed_or_logged(capfd: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture) -> None:
+    with pytest.raises(SourceError):
+        _convert("box.ply", CONTENTS[".ply"][:-9])
+    assert capfd.readouterr() == ("", "")
+    assert caplog.records == []

@@ -1,0 +1,96 @@
+"""Moving and measuring triangles, and the points on which a body stands."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from urdfsync.urdf.mesh_geometry import Array, bounds, placed, support_points
+
+coordinates = st.integers(-1000, 1000).map(lambda number: number / 100)
+clouds = st.lists(st.tuples(coordinates, coordinates, coordinates), min_size=1, max_size=60).map(np.array)
+
+
+def _rims(radius: float, width: float, segments: int, phase: float = 0.0) -> Array:
+    """The rims of a wheel that turns about y, and the middles of its sides."""
+    angles = [phase + 2 * math.pi * n / segments for n in range(segments)]
+    rims = [(radius * math.cos(a), y, radius * math.sin(a)) for a in angles for y in (-width / 2, width / 2)]
+    return np.array([*rims, (0.0, -width / 2, 0.0), (0.0, width / 2, 0.0)])
+
+
+def test_mirroring_turns_the_corners_around() -> None:
+    triangle = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]])
+    assert placed(triangle, np.diag([1.0, 1, 2, 1])).tolist() == triangle.tolist()
+    assert placed(triangle, np.diag([1.0, 1, -1, 1])).tolist() == triangle[:, ::-1].tolist()
+
+
+def test_placing_rotates_and_moves() -> None:
+    pose = np.array([[0.0, -1, 0, 10], [1, 0, 0, 20], [0, 0, 1, 30], [0, 0, 0, 1]])
+    assert placed(np.array([[[1.0, 2, 3]] * 3]), pose)[0, 0].tolist() == [8, 21, 33]
+
+
+def test_bounds_are_least_and_greatest_coordinates() -> None:
+    assert bounds(np.array([[1.0, 5, -3], [2, 4, -6]])) == [[1, 4, -6], [2, 5, -3]]
+
+
+@pytest.mark.parametrize("segments", [36, 48, 72, 100, 360, 20000])
+@pytest.mark.parametrize("phase", [0.0, 0.01])
+def test_wheel_keeps_both_rims(segments: int, phase: float) -> None:
+    hull = np.array(support_points(_rims(0.1, 0.04, segments, phase)))
+    for side in (-0.02, 0.02):
+        rim = hull[hull[:, 1] == side]
+        assert len(rim) >= 36
+        assert np.hypot(rim[:, 0], rim[:, 2]).min() > 0.1 - 1e-6
+        assert abs(np.hypot(rim[:, 0], rim[:, 2]).max() - 0.1) < 1e-6
+    assert len(hull) <= 128
+
+
+def test_box_keeps_its_corners_only_however_fine_its_faces_are() -> None:
+    steps = np.linspace(-1.0, 1.0, 61)
+    faces = [np.roll((side, a, b), axis) for side in (-1, 1) for a in steps for b in steps for axis in range(3)]
+    corners = sorted([0.5 * x, 1.0 * y, 2.0 * z] for x, y, z in itertools.product((-1, 1), repeat=3))
+    assert support_points(np.array(faces) * (0.5, 1.0, 2.0)) == corners
+
+
+def test_points_inside_do_not_matter_in_a_large_mesh() -> None:
+    random = np.random.default_rng(7)
+    sphere = random.normal(size=(20_000, 3))
+    sphere /= np.linalg.norm(sphere, axis=1)[:, np.newaxis]
+    inside = 0.9 * random.permutation(np.repeat(sphere, 3, axis=0))
+    hull = support_points(sphere)
+    assert support_points(np.concatenate((inside, sphere))) == hull
+    assert 100 <= len(hull) <= 122
+
+
+def test_far_from_the_origin_small_things_keep_their_shape() -> None:
+    hull = np.array(support_points(np.add(_rims(0.1, 0.04, 72), (100.0, 0.0, 0.0))))
+    assert len(hull) == 2 * 36 + 2 * 4
+
+
+@pytest.mark.parametrize("count", [1, 3, 40_000])
+def test_a_single_place_is_one_point(count: int) -> None:
+    assert support_points(np.tile([0.1, -0.0, 2.0], (count, 1))) == [[0.1, 0.0, 2.0]]
+
+
+def test_points_are_rounded_to_a_micrometre() -> None:
+    assert support_points(np.array([[0.12345678, 0.0, -1e-9]])) == [[0.123457, 0.0, 0.0]]
+
+
+@given(clouds)
+def test_support_points_are_sorted_points_of_the_cloud_with_the_same_bounds(cloud: Array) -> None:
+    hull = support_points(cloud)
+    assert hull == sorted(hull)
+    assert {tuple(point) for point in hull} <= {tuple(point) for point in cloud.tolist()}
+    assert bounds(np.array(hull)) == bounds(cloud)
+
+
+@given(clouds, st.randoms(use_true_random=False))
+def test_order_and_repetition_of_points_do_not_matter(cloud: Array, random: object) -> None:
+    shuffled = list(cloud) * 2
+    random.shuffle(shuffled)  # type: ignore[attr-defined]
+    assert support_points(np.array(shuffled)) == support_points(cloud)

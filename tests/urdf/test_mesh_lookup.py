@@ -1,0 +1,204 @@
+"""Where meshes are looked for, and what they are called in the package."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from urdfsync.domain import Lookup
+from urdfsync.urdf.mesh_lookup import as_is, candidates, dependencies, key, mesh, suffix, target
+from urdfsync.urdf.robot import Box, Collision, Link, Mesh, Robot, Visual
+
+LOOKUP = Lookup(Path("/ws/src/arm/urdf/arm.urdf"), (Path("/opt/robots"), Path("/opt/gripper")))
+
+scales = st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 3)
+
+
+@pytest.mark.parametrize(
+    ("uri", "paths"),
+    [
+        ("package://arm/meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+        ("package://gripper/a.stl", ["/opt/robots/gripper/a.stl", "/opt/gripper/a.stl", "/ws/src/gripper/a.stl"]),
+        ("package://assets/a.stl", ["/opt/robots/assets/a.stl", "/ws/src/arm/urdf/assets/a.stl"]),
+        ("package:///a.stl", ["/ws/src/arm/urdf/a.stl", "/ws/src/arm/a.stl", "/opt/robots/a.stl"]),
+        ("package://arm//meshes/a.stl", ["/ws/src/arm/meshes/a.stl"]),
+        ("Package://arm/a.stl", ["/ws/src/arm/a.stl"]),
+        ("package:/arm/a.stl", ["/ws/src/arm/a.stl", "/opt/robots/arm/a.stl"]),
+        ("package://arm\\meshes\\a.stl", ["/ws/src/arm/meshes/a.stl"]),
+        ("package://arm/upper%20arm.stl", ["/ws/src/arm/upper%20arm.stl", "/ws/src/arm/upper arm.stl"]),
+        ("model://arm/meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+        ("$(find arm)/meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+        ("file://$(find-pkg-share arm)/meshes/a.stl", ["/ws/src/arm/meshes/a.stl"]),
+        ("file:///data/a.stl", ["/data/a.stl"]),
+        ("file:////data/a.stl", ["/data/a.stl"]),
+        ("file:/data/a.stl", ["/data/a.stl"]),
+        ("file://localhost/data/a.stl", ["/data/a.stl"]),
+        ("file://meshes/a.stl", ["/ws/src/arm/urdf/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+        ("/data/a.stl", ["/data/a.stl"]),
+        ("meshes/a.stl", ["/ws/src/arm/urdf/meshes/a.stl", "/ws/src/arm/meshes/a.stl", "/opt/robots/meshes/a.stl"]),
+        ("./meshes/a.stl", ["/ws/src/arm/urdf/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+        ("../meshes/a.stl", ["/ws/src/arm/urdf/../meshes/a.stl"]),
+        ("..\\meshes\\a.stl", ["/ws/src/arm/urdf/../meshes/a.stl"]),
+        ("  a.stl ", ["/ws/src/arm/urdf/a.stl"]),
+    ],
+)
+def test_uri_is_looked_for_in_this_order(uri: str, paths: list[str]) -> None:
+    found = [str(path) for path in candidates(uri, LOOKUP)]
+    assert [path for path in found if path in paths] == paths
+
+
+@pytest.mark.parametrize(
+    ("uri", "first"),
+    [
+        ("package://arm/a.stl", "/opt/robots/arm/a.stl"),
+        ("meshes/a.stl", "/ws/src/arm/urdf/meshes/a.stl"),
+        ("../meshes/a.stl", "/ws/src/arm/urdf/../meshes/a.stl"),
+    ],
+)
+def test_search_paths_come_first_for_packages_and_the_source_folder_for_relative_paths(uri: str, first: str) -> None:
+    assert str(candidates(uri, LOOKUP)[0]) == first
+
+
+@pytest.mark.parametrize(
+    "uri",
+    [
+        "",
+        " ",
+        "package://",
+        "package://arm",
+        "http://example.org/a.stl",
+        "https://example.org/a.stl",
+        "data:model/stl;base64,AAAA",
+        "meshes/a\0.stl",
+        "meshes/a\n.stl",
+        "meshes/a\ud800.stl",
+        "meshes/" + "a" * 300 + ".stl",
+        "a/" * 3000 + "a.stl",
+    ],
+)
+def test_uri_that_names_no_file_has_no_candidates(uri: str) -> None:
+    assert candidates(uri, LOOKUP) == ()
+
+
+def test_encoded_control_character_is_not_decoded() -> None:
+    assert [path.name for path in candidates("/data/a%00.stl", LOOKUP)] == ["a%00.stl"]
+
+
+def test_folders_above_the_source_may_have_names_that_are_not_utf_8() -> None:
+    assert candidates("a.stl", Lookup(Path("/ws/\udcff/arm.urdf")))[0] == Path("/ws/\udcff/a.stl")
+
+
+def test_mesh_beside_a_package_of_the_source_is_found(tmp_path: Path) -> None:
+    source = tmp_path / "arm_description" / "urdf" / "arm.urdf"
+    wanted = tmp_path / "gripper_description" / "meshes" / "finger.stl"
+    wanted.parent.mkdir(parents=True)
+    wanted.touch()
+    found = candidates("package://gripper_description/meshes/finger.stl", Lookup(source))
+    assert [path for path in found if path.is_file()] == [wanted]
+
+
+@given(st.text(), scales)
+@example("a\0b", (1.0, 1.0, 1.0))
+@example("\ud800.stl", (1.0, 1.0, 1.0))
+@example("../../evil.stl", (1.0, 1.0, 1.0))
+@example("a.stl scale 2.0 2.0 2.0", (1.0, 1.0, 1.0))
+def test_any_uri_has_a_safe_target_harmless_candidates_and_a_reversible_key(
+    uri: str, scale: tuple[float, float, float]
+) -> None:
+    wanted = Mesh(uri, scale)
+    assert re.fullmatch(r"Resources/[A-Za-z0-9_-]{1,40}_[0-9a-f]{8}\.(stl|obj)", target(wanted))
+    assert mesh(key(wanted)) == wanted
+    for path in candidates(uri, LOOKUP):
+        assert path.is_absolute()
+        path.is_file()  # raises for what no file system can have
+
+
+@pytest.mark.parametrize("text", ["", "a.stl", "a.stl scale 1.0 1.0", "a.stl scale x y z", "1.0 1.0 1.0"])
+def test_what_is_no_key_is_refused(text: str) -> None:
+    with pytest.raises(ValueError, match=r".+"):
+        mesh(text)
+
+
+@pytest.mark.parametrize(
+    ("uri", "scale", "name", "kept"),
+    [
+        ("package://arm/meshes/Upper Arm.STL", (1.0, 1.0, 1.0), r"Upper_Arm_\w{8}\.stl", True),
+        ("meshes/base.obj", (1.0, 1.0, 1.0), r"base_\w{8}\.obj", True),
+        ("meshes/base.obj", (0.001, 0.001, 0.001), r"base_\w{8}\.stl", False),
+        ("meshes/base.stl", (1.0, 1.0, -1.0), r"base_\w{8}\.stl", False),
+        ("meshes/base.DAE", (1.0, 1.0, 1.0), r"base_\w{8}\.stl", False),
+        ("C:\\robots\\base.stl", (1.0, 1.0, 1.0), r"base_\w{8}\.stl", True),
+        ("package://arm/%C3%A4%20b.stl", (1.0, 1.0, 1.0), r"b_\w{8}\.stl", True),
+        ("ä.stl", (1.0, 1.0, 1.0), r"mesh_\w{8}\.stl", True),
+        ("a" * 90 + ".stl", (1.0, 1.0, 1.0), r"a{40}_\w{8}\.stl", True),
+        ('a".stl', (1.0, 1.0, 1.0), r"a_\w{8}\.stl", True),
+        ("base", (1.0, 1.0, 1.0), r"base_\w{8}\.stl", False),
+    ],
+)
+def test_target_tells_the_name_and_the_format(
+    uri: str, scale: tuple[float, float, float], name: str, kept: bool
+) -> None:
+    assert re.fullmatch("Resources/" + name, target(Mesh(uri, scale)))
+    assert as_is(Mesh(uri, scale)) is kept
+
+
+def test_targets_differ_by_folder_by_case_and_by_scale() -> None:
+    meshes = [
+        Mesh("visual/base.stl"),
+        Mesh("collision/base.stl"),
+        Mesh("visual/Base.stl"),
+        Mesh("visual/base.stl", (2.0, 2.0, 2.0)),
+        Mesh("visual/base.stl", (2.0, 2.0, -2.0)),
+    ]
+    assert len({target(mesh).lower() for mesh in meshes}) == len(meshes)
+
+
+def test_target_is_the_same_for_ever() -> None:
+    assert target(Mesh("package://arm/meshes/base.dae")) == "Resources/base_44199b6a.stl"
+
+
+def test_suffix_is_that_of_the_file_name() -> None:
+    assert [suffix(uri) for uri in ("a.b/c.STL", "a.b/c", "c.tar.obj", ".stl", "")] == [".stl", "", ".obj", "", ""]
+
+
+def _robot(*meshes: tuple[Mesh, Mesh]) -> Robot:
+    links = [
+        Link(f"l{n}", visuals=(Visual(Box((1, 1, 1))), Visual(v)), collisions=(Collision(c),))
+        for n, (v, c) in enumerate(meshes)
+    ]
+    return Robot("r", tuple(links))
+
+
+def test_each_mesh_is_a_dependency_once_with_its_first_line() -> None:
+    base, scaled, wheel = Mesh("base.dae"), Mesh("base.dae", (2.0, 2.0, 2.0)), Mesh("wheel.stl")
+    lines = {
+        "link l0": 3,
+        "link l0 / visual 2": 9,
+        "link l0 / collision 1 / geometry / mesh": 14,
+        "link l1 / visual 2": 7,
+        "link l1 / collision 1": 20,
+    }
+    found = dependencies(_robot((base, wheel), (base, scaled)), LOOKUP, lines)
+    assert [(d.key, d.uri, d.line) for d in found] == [
+        ("base.dae scale 1.0 1.0 1.0", "base.dae", 7),
+        ("base.dae scale 2.0 2.0 2.0", "base.dae", 20),
+        ("wheel.stl scale 1.0 1.0 1.0", "wheel.stl", 14),
+    ]
+    assert [d.target for d in found] == [target(base), target(scaled), target(wheel)]
+    assert found[0].candidates == candidates("base.dae", LOOKUP)
+
+
+def test_order_of_links_does_not_matter_and_lines_may_be_unknown() -> None:
+    base, wheel = Mesh("base.dae"), Mesh("wheel.stl")
+    robot = _robot((base, wheel), (wheel, base))
+    turned = Robot("r", robot.links[::-1])
+    assert dependencies(robot, LOOKUP, {}) == dependencies(turned, LOOKUP, {})
+    assert {d.line for d in dependencies(robot, LOOKUP, {})} == {0}
+
+
+def test_robot_without_meshes_depends_on_nothing() -> None:
+    assert dependencies(Robot("r", (Link("l", visuals=(Visual(Box((1, 1, 1))),)),)), LOOKUP, {}) == ()

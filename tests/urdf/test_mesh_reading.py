@@ -1,0 +1,169 @@
+"""Every format gives the same triangles, and a damaged file gives none."""
+
+from __future__ import annotations
+
+import base64
+import itertools
+import json
+import logging
+import sys
+
+import numpy as np
+import pytest
+import trimesh
+
+from urdfsync.urdf.mesh_errors import MeshError, guarded
+from urdfsync.urdf.mesh_reading import read_mesh
+
+BOX = trimesh.creation.box((0.5, 1.0, 2.0))
+
+
+def _gltf(**replaced: str) -> bytes:
+    """The box as one glTF file that holds its buffers itself."""
+    files = trimesh.Scene([BOX]).export(file_type="gltf")
+    tree = json.loads(files["model.gltf"])
+    for buffer in tree["buffers"]:
+        inline = "data:application/octet-stream;base64," + base64.b64encode(files[buffer["uri"]]).decode()
+        buffer["uri"] = replaced.get("uri", inline)
+    return json.dumps(tree).encode()
+
+
+def _moved_glb() -> bytes:
+    scene = trimesh.Scene()
+    scene.add_geometry(BOX, transform=trimesh.transformations.translation_matrix((10, 20, 30)))
+    return bytes(scene.export(file_type="glb"))
+
+
+FORMATS = {
+    "binary.stl": BOX.export(file_type="stl"),
+    "ascii.stl": BOX.export(file_type="stl_ascii").encode(),
+    "shouted.stl": BOX.export(file_type="stl_ascii").upper().encode(),
+    "solid.stl": b"solid" + BOX.export(file_type="stl")[5:],
+    "plain.obj": BOX.export(file_type="obj").encode(),
+    "library.obj": b"mtllib missing.mtl\nusemtl steel\n" + BOX.export(file_type="obj").encode(),
+    "binary.ply": BOX.export(file_type="ply"),
+    "ascii.ply": BOX.export(file_type="ply", encoding="ascii"),
+    "plain.off": BOX.export(file_type="off").encode(),
+    "scene.glb": trimesh.Scene([BOX]).export(file_type="glb"),
+    "scene.gltf": _gltf(),
+    "plain.dae": BOX.export(file_type="dae"),
+}
+
+
+def _suffix(name: str) -> str:
+    return "." + name.partition(".")[2]
+
+
+def _sorted(corners: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> list[list[float]]:
+    """The triangles with their least corner first, sorted."""
+    turned = [min(np.roll(triangle, n, axis=0).tolist() for n in range(3)) for triangle in corners]
+    return sorted(list(itertools.chain(*triangle)) for triangle in turned)
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_every_format_gives_the_same_triangles(name: str) -> None:
+    corners = read_mesh(_suffix(name), FORMATS[name])
+    assert corners.dtype == np.float64
+    assert _sorted(corners) == _sorted(BOX.triangles)
+
+
+@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("part", [0.0, 0.1, 0.5, 0.9])
+def test_a_part_of_a_file_is_no_mesh(name: str, part: float) -> None:
+    content = FORMATS[name]
+    cut = content.rfind(b"f ") + 3 if name.endswith(".obj") and part else int(part * len(content))
+    with pytest.raises(MeshError):
+        read_mesh(_suffix(name), content[:cut])
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_content_of_another_format_is_refused(name: str) -> None:
+    others = [content for other, content in FORMATS.items() if _suffix(other) != _suffix(name)]
+    for content in [*others, b"\0" * 500, b"<html>404</html>", b"version https://git-lfs.github.com/spec/v1\n"]:
+        with pytest.raises(MeshError):
+            read_mesh(_suffix(name), content)
+
+
+def test_scene_of_gltf_places_its_meshes() -> None:
+    assert read_mesh(".glb", _moved_glb()).reshape(-1, 3).mean(axis=0).tolist() == [10, 20, 30]
+
+
+VERTICES = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+
+
+@pytest.mark.parametrize(
+    ("faces", "triangles"),
+    [
+        (b"f 1 2 3", ["012"]),
+        (b"f 1/1/1 2//1 3/1", ["012"]),
+        (b"f 1 2 3 4", ["012", "023"]),
+        (b"f 1 2 3 4\nf 1 3 4", ["012", "023", "023"]),
+        (b"f -4 -3 -2", ["012"]),
+        (b"f\t1  2 \\\n 3 # last", ["012"]),
+        (b"o part\ng side\ns off\nvn 0 0 1\nvt 0 0\nl 1 2\nf 2 3 4\r\n", ["123"]),
+        (b"f -1 -2 -3\nv 9 9 9\nv 8 8 8", ["321"]),
+        (b"v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1", ["012"]),
+    ],
+)
+def test_faces_of_obj(faces: bytes, triangles: list[str]) -> None:
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    expected = [[[float(x) for x in corners[int(n)]] for n in triangle] for triangle in triangles]
+    assert read_mesh(".obj", VERTICES + faces).tolist() == expected
+
+
+@pytest.mark.parametrize(
+    ("suffix", "content", "reason"),
+    [
+        ("", b"", "format"),
+        (".stl", b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n", "git lfs pull"),
+        (".step", b"ISO-10303-21;", r"format isn't one of \.dae"),
+        (".obj", b"", "no triangles"),
+        (".obj", VERTICES, "no triangles"),
+        (".obj", VERTICES + b"f 1 2 5", "vertex 5 of 4"),
+        (".obj", VERTICES + b"f 0 1 2", "vertex 0 of 4"),
+        (".obj", VERTICES + b"f 1 2 -5", "vertex -5 of 4"),
+        (".obj", VERTICES + b"f 1 2", "line 5 ends early"),
+        (".obj", b"v 1 2\nf 1 1 1", "line 1 ends early"),
+        (".obj", VERTICES + b"f 1 2 /3", "no vertex"),
+        (".obj", VERTICES + b"f 1 2 x", "damaged"),
+        (".obj", b"v 0 0 zero\nf 1 1 1", "damaged"),
+        (".obj", b"v 0 0 nan\nf 1 1 1", "finite"),
+        (".obj", b"v 0 0 1e999\nf 1 1 1", "finite"),
+        (".stl", FORMATS["binary.stl"][:-50], "length doesn't fit the 12 triangles"),
+        (".stl", FORMATS["binary.stl"] + b"\0" * 50, "length doesn't fit the 12 triangles"),
+        (".stl", FORMATS["ascii.stl"] + FORMATS["ascii.stl"][:-20], "end is missing"),
+        (".stl", b"solid empty\nendsolid empty\n", "no triangles"),
+        (".stl", b"\0" * 84, "no triangles"),
+        (".stl", FORMATS["ascii.stl"].replace(b"vertex 0.25", b"vertex 0,25"), "damaged"),
+        (".ply", b"\n".join(FORMATS["ascii.ply"].split(b"\n")[:-4]), "end is missing"),
+        (".ply", trimesh.PointCloud(BOX.vertices).export(file_type="ply"), "no triangles"),
+        (".off", b"\n".join(FORMATS["plain.off"].split(b"\n")[:-4]), "end is missing"),
+        (".gltf", b"{", "JSON"),
+        (".gltf", _gltf(uri="arm.bin"), "another file, arm.bin"),
+        (".glb", FORMATS["scene.glb"] + b"KHR_draco_mesh_compression", "compressed"),
+    ],
+)
+def test_what_cannot_be_read_is_said(suffix: str, content: bytes, reason: str) -> None:
+    with pytest.raises(MeshError, match=reason):
+        read_mesh(suffix, content)
+
+
+@pytest.mark.parametrize(("suffix", "module"), [(".stl", "trimesh"), (".dae", "collada")])
+def test_missing_library_is_said(suffix: str, module: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, module, None)
+    content = next(content for name, content in FORMATS.items() if name.endswith(suffix))
+    with pytest.raises(MeshError, match=f"a Python package is missing .*{module}"):
+        read_mesh(suffix, content)
+
+
+def test_log_of_trimesh_is_silent_only_while_a_mesh_is_read() -> None:
+    log = logging.getLogger("trimesh")
+    before = log.level
+    with guarded():
+        assert not log.isEnabledFor(logging.CRITICAL)
+    assert log.level == before
+
+
+def test_interruption_is_no_mesh_error() -> None:
+    with pytest.raises(KeyboardInterrupt), guarded():
+        raise KeyboardInterrupt

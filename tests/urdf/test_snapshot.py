@@ -1,0 +1,189 @@
+"""Snapshots: what they look like, that nothing is lost, and that order makes no difference."""
+
+from __future__ import annotations
+
+import json
+import random
+from xml.etree import ElementTree
+
+import msgspec
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from urdfsync.urdf.robot import (
+    Box,
+    Calibration,
+    Capsule,
+    Collision,
+    Cylinder,
+    Dynamics,
+    Extension,
+    Inertia,
+    Inertial,
+    Joint,
+    Limit,
+    Link,
+    Material,
+    Mesh,
+    Mimic,
+    Origin,
+    Robot,
+    SafetyController,
+    Sphere,
+    Visual,
+)
+from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
+from urdfsync.urdf.source import read_robot
+
+NAMES = st.text(max_size=6)
+NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
+ABSENT = st.none()
+VECTORS = st.tuples(NUMBERS, NUMBERS, NUMBERS)
+ORIGINS = st.builds(Origin, VECTORS, VECTORS)
+GEOMETRIES = st.one_of(
+    st.builds(Box, VECTORS),
+    st.builds(Cylinder, NUMBERS, NUMBERS),
+    st.builds(Capsule, NUMBERS, NUMBERS),
+    st.builds(Sphere, NUMBERS),
+    st.builds(Mesh, NAMES, VECTORS),
+)
+MATERIALS = st.builds(Material, NAMES, ABSENT | st.tuples(NUMBERS, NUMBERS, NUMBERS, NUMBERS), ABSENT | NAMES)
+VISUALS = st.builds(Visual, GEOMETRIES, ORIGINS, NAMES, ABSENT | MATERIALS)
+COLLISIONS = st.builds(Collision, GEOMETRIES, ORIGINS, NAMES)
+INERTIALS = st.builds(Inertial, NUMBERS, ORIGINS, st.builds(Inertia, NUMBERS, NUMBERS, NUMBERS, NUMBERS, NUMBERS))
+LINKS = st.builds(
+    Link,
+    NAMES,
+    ABSENT | INERTIALS,
+    st.lists(VISUALS, max_size=2).map(tuple),
+    st.lists(COLLISIONS, max_size=2).map(tuple),
+)
+JOINTS = st.builds(
+    Joint,
+    NAMES,
+    st.sampled_from(["fixed", "continuous", "revolute", "prismatic", "planar", "floating"]),
+    NAMES,
+    NAMES,
+    ORIGINS,
+    VECTORS,
+    ABSENT | st.builds(Limit, NUMBERS, NUMBERS, ABSENT | NUMBERS, ABSENT | NUMBERS),
+    ABSENT | st.builds(Dynamics, NUMBERS, NUMBERS),
+    ABSENT | st.builds(Mimic, NAMES, NUMBERS, NUMBERS),
+    ABSENT | st.builds(Calibration, ABSENT | NUMBERS, ABSENT | NUMBERS),
+    ABSENT | st.builds(SafetyController, NUMBERS, NUMBERS, NUMBERS, NUMBERS),
+)
+ROBOTS = st.builds(
+    Robot,
+    NAMES,
+    st.lists(LINKS, max_size=3, unique_by=lambda link: link.name).map(tuple),
+    st.lists(JOINTS, max_size=3, unique_by=lambda joint: joint.name).map(tuple),
+    st.lists(st.builds(Extension, NAMES, NAMES, NAMES), max_size=3).map(tuple),
+)
+
+ARM = """<robot name="arm">
+  <material name="red"><color rgba="1 0 0 1"/></material>
+  <link name="b">
+    <visual><geometry><sphere radius="1"/></geometry><material name="red"/></visual>
+    <collision><geometry><sphere radius="1"/></geometry></collision>
+    <inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+  </link>
+  <link name="a"/>
+  <joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin xyz="1 2 3"/></joint>
+  <gazebo reference="b"/>
+  <gazebo/>
+</robot>"""
+
+
+def sorted_by_name(robot: Robot) -> Robot:
+    return msgspec.structs.replace(
+        robot,
+        links=tuple(sorted(robot.links, key=lambda link: link.name)),
+        joints=tuple(sorted(robot.joints, key=lambda joint: joint.name)),
+        extensions=tuple(sorted(robot.extensions, key=msgspec.structs.astuple)),
+    )
+
+
+def read(text: str) -> Robot:
+    robot = read_robot(text.encode(), "a.urdf", cross_check=False).robot
+    assert robot is not None
+    return robot
+
+
+def test_a_snapshot_as_an_example() -> None:
+    zero = {"xyz": [0.0, 0.0, 0.0], "rpy": [0.0, 0.0, 0.0]}
+    sphere = {"kind": "sphere", "radius": 1.0}
+    red = {"name": "red", "rgba": [1.0, 0.0, 0.0, 1.0]}
+    inertia = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
+    assert to_snapshot(read(ARM)) == {
+        "name": "arm",
+        "links": {
+            "a": {"visuals": [], "collisions": []},
+            "b": {
+                "inertial": {"mass": 1.0, "origin": zero, "inertia": inertia},
+                "visuals": [{"geometry": sphere, "origin": zero, "name": "", "material": red}],
+                "collisions": [{"geometry": sphere, "origin": zero, "name": ""}],
+            },
+        },
+        "joints": {
+            "j": {
+                "type": "fixed",
+                "parent": "a",
+                "child": "b",
+                "origin": {"xyz": [1.0, 2.0, 3.0], "rpy": [0.0, 0.0, 0.0]},
+                "axis": [1.0, 0.0, 0.0],
+            }
+        },
+        "extensions": {"": {"gazebo": ['<gazebo reference="b"></gazebo>', "<gazebo></gazebo>"]}},
+    }
+
+
+@settings(deadline=None)
+@given(ROBOTS)
+def test_nothing_is_lost_on_the_way_through_json(robot: Robot) -> None:
+    snapshot = to_snapshot(robot)
+    written = json.loads(json.dumps(snapshot, allow_nan=False, sort_keys=True))
+    assert written == snapshot
+    assert from_snapshot(written) == sorted_by_name(robot)
+    assert json.dumps(to_snapshot(from_snapshot(written))) == json.dumps(snapshot)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_order_of_elements_and_attributes_makes_no_difference(seed: int) -> None:
+    shuffle = random.Random(seed).shuffle
+    root = ElementTree.fromstring(ARM)
+    for element in root.iter():
+        children, attributes = list(element), list(element.attrib.items())
+        shuffle(children)
+        shuffle(attributes)
+        element[:] = children
+        element.attrib.clear()
+        element.attrib.update(attributes)
+    shuffled = ElementTree.tostring(root, encoding="unicode")
+    assert json.dumps(to_snapshot(read(shuffled))) == json.dumps(to_snapshot(read(ARM)))
+
+
+def test_the_order_of_visuals_is_kept() -> None:
+    link = Link("a", visuals=(Visual(Sphere(2.0)), Visual(Sphere(1.0))))
+    assert from_snapshot(to_snapshot(Robot("r", (link,)))).links == (link,)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        ARM.replace("\n", "\n\n<!-- c -->"),
+        ARM.replace('xyz="1 2 3"', "rpy = '0 0  -0'\n xyz=\" 1.0 2e0\t+3 \""),
+        ARM.replace("<gazebo/>", "<gazebo >\n  </gazebo>"),
+        ARM.replace("\n", "\r\n"),
+    ],
+)
+def test_what_is_no_change_at_all(text: str) -> None:
+    assert json.dumps(to_snapshot(read(text))) == json.dumps(to_snapshot(read(ARM)))
+
+
+@pytest.mark.parametrize(
+    "snapshot", [{}, {"name": "r", "links": {"a": {"mass": "1"}}, "joints": {"j": {"type": "ball"}}, "extensions": {}}]
+)
+def test_other_data_is_refused(snapshot: dict[str, object]) -> None:
+    with pytest.raises((KeyError, ValueError)):
+        from_snapshot(snapshot)

@@ -1,0 +1,7 @@
+"""`python -m urdfsync` is `urdfsync`."""
+
+import sys
+
+from urdfsync.cli import main
+
+sys.exit(main())

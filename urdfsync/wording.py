@@ -1,0 +1,101 @@
+"""Results in words and as plain data: what `report` shows, without saying how it looks."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any
+
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.outcome import Result
+from urdfsync.plan import Action, Kind
+
+FEW = 5
+"""So many warnings of one kind are shown; of more, only the first ones and their number."""
+
+
+def summary(result: Result) -> str:
+    """What happened to a robot's package (in a dry run: what would), as the rest of a line that names the robot."""
+    if result.failed:
+        errors = sum(found.severity is Severity.ERROR for found in result.diagnostics)
+        return f"{_number(errors, 'error')}, nothing was changed"
+    parts = [_phrase(kind, number, result.dry) for kind, number in _counts(result) if number]
+    waiting = sum(action.held for action in result.actions)
+    if waiting:
+        parts.append(f"{_number(waiting, 'change')} waiting for that")
+    if result.in_step:
+        total = sum(action.kind in (Kind.UNCHANGED, Kind.KEEP) for action in result.actions)
+        parts.insert(0, f"in step, {_number(total, 'file')}")
+    return ", ".join(parts)
+
+
+def _counts(result: Result) -> list[tuple[Kind, int]]:
+    kinds = Counter(action.kind for action in result.actions if not action.held)
+    written = kinds.pop(Kind.CREATE, 0) + kinds.pop(Kind.UPDATE, 0)
+    conflicts = kinds.pop(Kind.CONFLICT, 0) + kinds.pop(Kind.UNOWNED, 0)
+    order = (Kind.RESTORE, Kind.DELETE, Kind.ADOPT, Kind.KEEP, Kind.ORPHAN)
+    return [(Kind.UPDATE, written), *((kind, kinds[kind]) for kind in order), (Kind.CONFLICT, conflicts)]
+
+
+def _phrase(kind: Kind, number: int, dry: bool) -> str:
+    files, them = _number(number, "file"), "them" if number > 1 else "it"
+    return {
+        Kind.UPDATE: f"{files} to write" if dry else f"{files} written",
+        Kind.RESTORE: f"{number} to restore" if dry else f"{number} restored because you deleted {them}",
+        Kind.DELETE: f"{number} to delete" if dry else f"{number} deleted",
+        Kind.ADOPT: f"{number} already as wanted",
+        Kind.KEEP: f"{number} kept because you edited {them}",
+        Kind.ORPHAN: f"{number} no longer generated but kept because you edited {them}",
+        Kind.CONFLICT: _number(number, "conflict"),
+    }[kind]
+
+
+def _number(count: int, noun: str) -> str:
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def folded(diagnostics: Sequence[Diagnostic]) -> tuple[list[Diagnostic], dict[str, int]]:
+    """The findings to show, and how many more there are of each code. Errors are all shown."""
+    seen: Counter[str] = Counter()
+    shown, more = [], Counter[str]()
+    total = Counter(found.code for found in diagnostics)
+    for found in diagnostics:
+        seen[found.code] += 1
+        few = total[found.code] <= FEW or seen[found.code] < FEW
+        if few or found.severity is Severity.ERROR:
+            shown.append(found)
+        else:
+            more[found.code] += 1
+    return shown, dict(more)
+
+
+def finding(diagnostic: Diagnostic) -> dict[str, Any]:
+    """A diagnostic as plain data."""
+    return dataclasses.asdict(diagnostic)
+
+
+def robot(result: Result) -> dict[str, Any]:
+    """A result as plain data; paths are relative to the configuration's folder."""
+    return {
+        "name": result.robot,
+        "package": result.package,
+        "folder": str(result.folder),
+        "failed": result.failed,
+        "in_step": result.in_step,
+        "summary": summary(result),
+        "drawing": str(result.drawing) if result.drawing else None,
+        "actions": [_action(action) for action in result.actions],
+        "diagnostics": [finding(diagnostic) for diagnostic in result.diagnostics],
+    }
+
+
+def _action(action: Action) -> dict[str, Any]:
+    return {
+        "path": action.path,
+        "action": action.kind,
+        "held": action.held,
+        "owner": action.owner,
+        "role": action.role,
+        "reason": action.reason,
+    }
