@@ -94,7 +94,9 @@ def test_a_second_build_writes_nothing(project: Path, snapshot_of: Snapshot) -> 
     assert snapshot_of(project) == before
 
 
-def test_a_build_elsewhere_gives_the_same_bytes(project: Path, tmp_path: Path, snapshot_of: Snapshot, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_build_elsewhere_gives_the_same_bytes(
+    project: Path, tmp_path: Path, snapshot_of: Snapshot, monkeypatch: pytest.MonkeyPatch
+) -> None:
     other = tmp_path / "quite" / "another place"
     shutil.copytree(project, other)
     run()
@@ -105,16 +107,35 @@ def test_a_build_elsewhere_gives_the_same_bytes(project: Path, tmp_path: Path, s
     assert str(tmp_path).encode() not in b"".join(contents[0].values())
 
 
-def test_a_no_op_imports_nothing_heavy(project: Path, rc_site: Path) -> None:
-    run()
+def heavy_after_a_build(*folders: Path) -> list[str]:
+    """What a `build` in a process of its own prints, and which of the heavy modules it has imported."""
     code = (
         "import sys; from urdfsync.cli import main; code = main(['build']); "
         "print([name for name in ('jinja2', 'rich', 'lxml', 'numpy', 'yourdfpy', 'deepdiff') if name in sys.modules])"
     )
-    folders = [str(Path(files.__file__).parents[1]), str(rc_site), str(Path(sys.modules["rc_domain"].__file__ or "").parent)]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(folders)}
+    path = os.pathsep.join(map(str, (Path(files.__file__).parents[1], *folders)))
+    environment = os.environ | {"PYTHONPATH": path}
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines() == ["ladder: in step, 14 files", "[]"]
+    return done.stdout.splitlines()
+
+
+def test_a_no_op_imports_nothing_heavy(project: Path, rc_site: Path) -> None:
+    run()
+    rc_folder = Path(sys.modules["rc_domain"].__file__ or "").parent
+    assert heavy_after_a_build(rc_site, rc_folder) == ["ladder: in step, 14 files", "[]"]
+
+
+def test_a_no_op_of_a_urdf_imports_nothing_heavy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    mesh = '<visual><geometry><mesh filename="tip.stl"/></geometry></visual>'
+    Path("arm.urdf").write_text(f'<robot name="arm"><link name="base">{mesh}</link></robot>')
+    Path("tip.stl").write_text(
+        "solid tip\nfacet normal 0 0 1\nouter loop\n"
+        "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\nendsolid\n"
+    )
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    assert not run().failed
+    assert heavy_after_a_build() == ["arm: in step, 14 files", "[]"]
 
 
 def test_a_dry_run_writes_nothing_and_says_the_same(project: Path, snapshot_of: Snapshot) -> None:
@@ -160,7 +181,9 @@ def test_a_changed_option_or_template_renders_again(project: Path) -> None:
     assert kinds(run()) == {"Ladder.mo": Kind.UPDATE}
     template = project / "own/element/parameters.mo.jinja"
     template.parent.mkdir(parents=True)
-    template.write_text("within << package >>.Elements;\nrecord << element.name >>Parameters\nend << element.name >>Parameters;\n")
+    template.write_text(
+        "within << package >>.Elements;\nrecord << element.name >>Parameters\nend << element.name >>Parameters;\n"
+    )
     configure(project, prefix='"pin"', templates='"own"')
     assert set(kinds(run())) == {f"Elements/{name}Parameters.mo" for name in ("C1", "C2", "R1", "R2")}
     edit(template, "record", "record  ")
@@ -190,7 +213,12 @@ def test_the_manifest_says_what_was_built(project: Path) -> None:
     assert recorded["dependencies"]["step.csv"]["target"] == "Resources/step.txt"
     model = json.loads((project / ".urdfsync/robots/ladder.json").read_text())
     assert model["snapshot"]["elements"]["R1"]["ohm"] == 100
-    assert (project / ".urdfsync/.gitignore").read_text().splitlines()[1:] == ["/*", "!/.gitignore", "!/robots/", ".*-tmp"]
+    assert (project / ".urdfsync/.gitignore").read_text().splitlines()[1:] == [
+        "/*",
+        "!/.gitignore",
+        "!/robots/",
+        ".*-tmp",
+    ]
 
 
 def test_a_drawing_goes_into_the_state_folder(project: Path) -> None:
@@ -383,7 +411,7 @@ def test_a_missing_parent_is_refused(project: Path, snapshot_of: Snapshot) -> No
     configure(project, package='"Plant.Ladder"')
     before = snapshot_of(project)
     assert failure() == (
-        f"urdfsync.toml:3: error: robot `ladder`: the parent package `Plant` does not exist in modelica; "
+        "urdfsync.toml:3: error: robot `ladder`: the parent package `Plant` does not exist in modelica; "
         "create it, or set `create_parents = true` [no-parent]"
     )
     assert snapshot_of(project) == before
@@ -541,7 +569,11 @@ def test_one_broken_robot_does_not_stop_the_others(project: Path) -> None:
         file.write('[robots.broken]\nsource = "broken.json"\npackage = "Broken"\ndomain = "rcnetwork"\n')
         file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
     results = run_all()
-    assert [(result.robot, result.failed) for result in results] == [("ladder", False), ("broken", True), ("other", False)]
+    assert [(result.robot, result.failed) for result in results] == [
+        ("ladder", False),
+        ("broken", True),
+        ("other", False),
+    ]
     assert exit_code(results) is Exit.ERROR
     assert (project / "modelica/Other/package.mo").exists()
     assert not (project / "modelica/Broken").exists()

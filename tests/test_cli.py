@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -14,8 +15,9 @@ from typing import Any
 import pytest
 
 import urdfsync
-from urdfsync import cli, config, report
+from urdfsync import cli, config
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.outcome import Exit
 from urdfsync.report import Report
 
 Capture = pytest.CaptureFixture[str]
@@ -141,7 +143,9 @@ def test_robots_are_chosen_by_name(project: Path, capsys: Capture) -> None:
     assert capsys.readouterr().err == f"urdfsync.toml: {message}\n"
 
 
-def test_the_configuration_is_found_or_named(project: Path, tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_configuration_is_found_or_named(
+    project: Path, tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (project / "deep").mkdir()
     monkeypatch.chdir(project / "deep")
     assert cli.main(["build"]) == 0
@@ -220,7 +224,9 @@ def test_interruption(project: Path, capsys: Capture, monkeypatch: pytest.Monkey
     assert "interrupted; run the command again" in capsys.readouterr().err
 
 
-def test_whatever_the_system_refuses_is_one_line(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_whatever_the_system_refuses_is_one_line(
+    project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def refuse(*_: object) -> None:
         raise PermissionError(13, "Permission denied", "somewhere")
 
@@ -262,7 +268,9 @@ def test_library(capsys: Capture) -> None:
 def test_as_a_module() -> None:
     environment = os.environ | {"PYTHONPATH": str(Path(urdfsync.__file__).parents[1])}
     command = [sys.executable, "-m", "urdfsync", "--version"]
-    assert subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout.startswith("urdf")
+    assert subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout.startswith(
+        "urdf"
+    )
 
 
 # looks
@@ -300,13 +308,13 @@ def test_many_findings_of_one_kind_are_folded(capsys: Capture) -> None:
 
 def test_a_progress_bar_appears_only_if_work_takes_long(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter([0.0, 0.4, 0.6, 0.7, 0.8])
-    monkeypatch.setattr(report.time, "monotonic", lambda: next(clock))
+    monkeypatch.setattr(time, "monotonic", lambda: next(clock))
     screen = Terminal()
     monkeypatch.setattr(sys, "stderr", screen)
     shown = Report()
     shown.progress("arm", 0, 3)
     assert screen.getvalue() == ""
-    monkeypatch.setattr(report.time, "monotonic", lambda: 1.0)
+    monkeypatch.setattr(time, "monotonic", lambda: 1.0)
     shown.progress("arm: meshes", 1, 3)
     assert "arm: meshes" in screen.getvalue()
-    shown.finish("build", cli.Exit.IN_STEP)
+    shown.finish("build", Exit.IN_STEP)

@@ -77,7 +77,9 @@ def test_an_absolute_source_is_recorded_by_its_name_only() -> None:
 
 
 def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> None:
-    text = '[defaults]\noutput = "lib"\nprefix = "d"\ndomain = "rcnetwork"\n' + robot() + robot('prefix = "b"', "b", "B")
+    text = (
+        '[defaults]\noutput = "lib"\nprefix = "d"\ndomain = "rcnetwork"\n' + robot() + robot('prefix = "b"', "b", "B")
+    )
     arm, other = parse(text).robots
     assert (arm.output, other.output) == (ROOT / "lib", ROOT / "lib")
     assert (arm.options.prefix, other.options.prefix) == ("d", "b")
@@ -98,7 +100,8 @@ def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> Non
         ),
         pytest.param(
             "[default]\n" + robot(),
-            "urdfsync.toml:1: error: unknown key `default` in the configuration; did you mean `defaults`? [unknown-key]",
+            "urdfsync.toml:1: error: unknown key `default` in the configuration; "
+            "did you mean `defaults`? [unknown-key]",
             id="unknown table",
         ),
         pytest.param(

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +30,16 @@ URDF = b"""<robot name="two &quot;links&quot;">
   </joint>
 </robot>
 """
-STL = b"solid tip\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\nendsolid\n"
+STL = b"""solid tip
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 1 0 0
+vertex 0 1 0.5
+endloop
+endfacet
+endsolid
+"""
 EXAMPLES = Path(__file__).parent / "rcnetwork" / "examples"
 SAMPLES: dict[str, tuple[bytes, bytes]] = {
     "urdf": (URDF, STL),
@@ -78,7 +86,7 @@ def make(name: str) -> Case:
 
 
 @pytest.fixture(params=sorted(SAMPLES))
-def case(request: pytest.FixtureRequest, rc_domain: None) -> Iterator[Case]:
+def case(request: pytest.FixtureRequest, rc_domain: None) -> Case:
     return make(request.param)
 
 
@@ -186,7 +194,7 @@ def test_names_are_identifiers_and_reversible(case: Case) -> None:
 def test_proposals_are_options(case: Case) -> None:
     values = {proposal.option: proposal.value for proposal in case.domain.propose(case.snapshot)}
     options = {field.encode_name for field in msgspec.structs.fields(case.domain.options)}
-    assert values.keys() <= options, difflib.context_diff(sorted(values), sorted(options))
+    assert values.keys() <= options
     msgspec.convert(values, case.domain.options)
 
 

@@ -49,7 +49,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
 }
 """Per module: what it must not import, at whatever place in the file."""
 
-LIGHT = ("cli", "config", "registry", "build", "report", "manifest", "plan", "store", "urdf/domain", "urdf/mesh_lookup")
+LIGHT = ("cli", "config", "registry", "build", "report", "manifest", "plan", "store", "urdf/domain")
 """Modules on the way of a build that has nothing to do: no heavy library, not even through others."""
 
 NO_IO_CALLS = {

@@ -130,7 +130,14 @@ def test_init_as_json(bare: Path, capsys: Capture) -> None:
 
 @pytest.mark.parametrize(
     ("stem", "name"),
-    [("ur5e", "Ur5e"), ("my_robot-arm", "MyRobotArm"), ("3d arm", "Robot3dArm"), ("", "Robot"), ("ä", "Robot"), ("end", "End")],
+    [
+        ("ur5e", "Ur5e"),
+        ("my_robot-arm", "MyRobotArm"),
+        ("3d arm", "Robot3dArm"),
+        ("", "Robot"),
+        ("ä", "Robot"),
+        ("end", "End"),
+    ],
 )
 def test_class_names_from_stems(stem: str, name: str) -> None:
     assert class_name(stem) == name

@@ -18,7 +18,7 @@ def text_of(artifact: Artifact | Order) -> str:
     return Renderer([REPOSITORY / "templates" / "urdf"]).render(artifact.template, artifact.data)
 
 
-@pytest.mark.parametrize("artifact", library_artifacts(), ids=lambda artifact: artifact.path)
+@pytest.mark.parametrize("artifact", list(library_artifacts()), ids=lambda artifact: artifact.path)
 def test_library_file_is_in_step_with_the_templates(artifact: Artifact | Order) -> None:
     file = LIBRARY / artifact.path
     assert file.read_text(encoding="utf-8") == text_of(artifact), (

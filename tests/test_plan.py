@@ -71,9 +71,7 @@ def test_nothing_of_the_user_is_ever_written_over(base: str | None, mine: Found,
 
 
 @given(base=st.none() | hashes, mine=found, generated=st.none() | hashes)
-def test_after_an_action_the_next_build_has_nothing_to_do(
-    base: str | None, mine: Found, generated: str | None
-) -> None:
+def test_after_an_action_the_next_build_has_nothing_to_do(base: str | None, mine: Found, generated: str | None) -> None:
     action = Action("a", decide(base, mine, generated), Role.MODEL, "", base, generated)
     record = after([action]).get("a")
     written = {Kind.DELETE: ABSENT}.get(action.kind, Found(generated)) if action.writes else mine

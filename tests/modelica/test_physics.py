@@ -10,9 +10,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-
 from support import corpus, inertias, physics
 from support.packages import generate
+
 from urdfsync.domain import Target
 
 MANY_JOINTS = 10

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from support.corpus import REPOSITORY
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Import, Lookup, Order, Reading, Role, Target
 from urdfsync.render import Renderer
@@ -15,8 +16,6 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.skeleton import Skeleton
 from urdfsync.urdf.snapshot import from_snapshot
-
-from support.corpus import REPOSITORY
 
 RENDERER = Renderer([REPOSITORY / "templates" / "urdf"])
 

@@ -10,7 +10,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from urdfsync.diagnostics import Severity
-from urdfsync.urdf.fields import parse_numbers
+from urdfsync.urdf.reader.fields import parse_numbers
 from urdfsync.urdf.robot import (
     Box,
     Calibration,

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from urdfsync.domain import Artifact, Import, Order, Role, Target
-from urdfsync.urdf import notes, robot_model, shapes
-from urdfsync.urdf.numbers import joint_numbers
+from urdfsync.urdf.model import assembly, notes, shapes
+from urdfsync.urdf.model.numbers import joint_numbers
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, Link, Robot
 from urdfsync.urdf.skeleton import Skeleton
@@ -54,8 +54,7 @@ def _package(context: _Context) -> Iterator[Artifact | Order]:
         icon="RobotPackage",
         title=f"Robot {name}: links, joints, robot and benches",
         uses=() if parent else USES,
-        note="Made by urdfsync from a URDF. Every file can be edited: urdfsync keeps what you changed, brings everything "
-        "else up to date, and reports where both changed.",
+        note=notes.PACKAGE,
     )
     models = (name, f"{name}Run", f"{name}Test", f"{name}Parameters")
     yield Order("package.order", (*models, "Links", *(("Joints",) if context.skeleton.joints else ())))
@@ -147,8 +146,8 @@ def joint_model(joint: Joint) -> str:
 
 def _robot(context: _Context, urdf_name: str) -> Iterator[Artifact]:
     name = context.target.name
-    data = robot_model.robot_data(context.skeleton, context.target, context.options)
-    record = robot_model.record_data(context.skeleton, context.imports, context.target, context.options, urdf_name)
+    data = assembly.robot_data(context.skeleton, context.target, context.options)
+    record = assembly.record_data(context.skeleton, context.imports, context.target, context.options, urdf_name)
     yield Artifact(f"{name}.mo", Role.MODEL, "robot/robot.mo.jinja", data, "robot")
     yield Artifact(f"{name}Run.mo", Role.MODEL, "robot/run.mo.jinja", data, "robot")
     yield Artifact(f"{name}Test.mo", Role.MODEL, "robot/test.mo.jinja", data, "robot")

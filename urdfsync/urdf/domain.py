@@ -33,13 +33,13 @@ class UrdfDomain:
         self, snapshot: Snapshot, lookup: Lookup, options: Options, lines: Mapping[str, int]
     ) -> Sequence[Dependency]:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf.mesh_lookup import dependencies
+        from urdfsync.urdf.meshes.lookup import dependencies
 
         return dependencies(_shown(snapshot, options), lookup, lines) if options.meshes == "import" else ()
 
     def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf.mesh_convert import convert
+        from urdfsync.urdf.meshes.convert import convert
 
         return convert(dependency, file, content)
 
@@ -66,10 +66,14 @@ class UrdfDomain:
         return (propose_base(from_snapshot(snapshot)),)
 
     def drawing(
-        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
+        self,
+        snapshot: Snapshot,
+        imports: Mapping[str, Import],  # noqa: ARG002 - the diagram shows no shapes
+        target: Target,
+        options: Options,  # noqa: ARG002 - nor do options change it
     ) -> str | None:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf.robot_drawing import draw
+        from urdfsync.urdf.diagram.picture import draw
 
         return draw(from_snapshot(snapshot), target)
 

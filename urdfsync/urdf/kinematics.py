@@ -72,7 +72,7 @@ def start_positions(skeleton: Skeleton) -> Mapping[str, float]:
     return positions
 
 
-def lowest_point(geometry: Geometry, at: Pose, hull: Iterable[Vector] = ()) -> float | None:
+def lowest_point(geometry: Geometry, at: Pose, hull: Iterable[Sequence[float]] = ()) -> float | None:
     """Smallest z of a shape at a pose; of a mesh that of its `hull`, None if that is empty."""
     up, height = at[0][2], at[1][2]
     match geometry:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.urdf.artifacts import LINK_MODEL, LINK_RECORD, joint_data, joint_model, link_data
-from urdfsync.urdf.mesh_lookup import key
+from urdfsync.urdf.meshes.lookup import key
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,

@@ -11,9 +11,7 @@ from urdfsync.urdf.skeleton import Skeleton
 
 _FOOTPRINT = re.compile(r"base_?footprint", re.IGNORECASE)
 _WHEEL = re.compile(r"wheel|caster|castor|track(?!er)", re.IGNORECASE)
-_LEG = re.compile(
-    r"(?:^|[^a-z])(?:leg|foot|feet|ankle|hip|thigh|calf|shin|toe)(?:$|[^a-z])|_(?:leg|foot)", re.IGNORECASE
-)
+_LEG = re.compile(r"(?:^|[^a-z])(?:leg|foot|feet|ankle|hip|thigh|calf|shin|toe)(?:$|[^a-z])", re.IGNORECASE)
 
 
 def propose_base(robot: Robot) -> Proposal:

@@ -11,13 +11,13 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.urdf import checks, xml
-from urdfsync.urdf.cross_check import cross_check as read_again
-from urdfsync.urdf.fields import Element, Findings
-from urdfsync.urdf.joint_reader import read_joint
-from urdfsync.urdf.link_reader import read_link, read_material, resolve_materials
+from urdfsync.urdf.reader import checks, xml
+from urdfsync.urdf.reader.cross_check import cross_check as read_again
+from urdfsync.urdf.reader.fields import Element, Findings
+from urdfsync.urdf.reader.joint import read_joint
+from urdfsync.urdf.reader.link import read_link, read_material, resolve_materials
+from urdfsync.urdf.reader.xml import Node
 from urdfsync.urdf.robot import Extension, Joint, Link, Robot
-from urdfsync.urdf.xml import Node
 
 _PARTS = ("link", "joint", "material")
 _OTHER_ROOTS = {

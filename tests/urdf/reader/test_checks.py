@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.urdf.checks import check, principal_moments, unit_axes
+from urdfsync.urdf.reader.checks import check, principal_moments, unit_axes
 from urdfsync.urdf.robot import (
     Box,
     Capsule,

@@ -9,8 +9,8 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Literal, NamedTuple, TypeAlias
 
-from urdfsync.urdf.layout import VECTORS, Diagram, JointKind, LineKind
-from urdfsync.urdf.routing import Path, Placement, Point
+from urdfsync.urdf.diagram.layout import VECTORS, Diagram, JointKind, LineKind
+from urdfsync.urdf.diagram.routing import Path, Placement, Point
 
 Kind: TypeAlias = Literal["link", "coupling"] | JointKind
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from urdfsync.diagnostics import Severity
-from urdfsync.urdf.checks import Finding
+from urdfsync.urdf.reader.checks import Finding
 from urdfsync.urdf.robot import Robot
 
 _FAILURES = (ArithmeticError, AttributeError, LookupError, SyntaxError, TypeError, ValueError)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from urdfsync.domain import Target
-from urdfsync.urdf.drawing import Label, svg
-from urdfsync.urdf.layout import layout
+from urdfsync.urdf.diagram.drawing import Label, svg
+from urdfsync.urdf.diagram.layout import layout
+from urdfsync.urdf.model.assembly import axis_numbers, couplings, tree
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.robot_model import axis_numbers, couplings, tree
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from urdfsync.urdf.mesh_errors import MeshError, guarded
-from urdfsync.urdf.mesh_reading import read_mesh
+from urdfsync.urdf.meshes.errors import MeshError, guarded
+from urdfsync.urdf.meshes.reading import read_mesh
 
 BOX = trimesh.creation.box((0.5, 1.0, 2.0))
 

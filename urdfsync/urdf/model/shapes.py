@@ -7,7 +7,7 @@ from typing import Any
 
 from urdfsync.domain import Import, Target
 from urdfsync.literals import real, string, vector
-from urdfsync.urdf import mesh_lookup
+from urdfsync.urdf.meshes import lookup as mesh_lookup
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Box, Capsule, Collision, Cylinder, Geometry, Link, Material, Mesh, Sphere, Visual
 

@@ -15,8 +15,8 @@ from typing import TypeAlias
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from urdfsync.urdf.layout import Diagram, JointKind, Tree, TreeCoupling, TreeJoint, layout
-from urdfsync.urdf.routing import Path, Placement, Point, path, tracks
+from urdfsync.urdf.diagram.layout import Diagram, JointKind, Tree, TreeCoupling, TreeJoint, layout
+from urdfsync.urdf.diagram.routing import Path, Placement, Point, path, tracks
 
 PORTS = {
     "frame_a": (-1.0, 0.0),

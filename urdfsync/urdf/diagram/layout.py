@@ -24,8 +24,8 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Literal, NamedTuple, TypeAlias
 
-from urdfsync.urdf import routing
-from urdfsync.urdf.routing import DROP, JOINT_AT, LINK_AT, SIZE, Path, Placement, Point, Row, RowNeeds, square
+from urdfsync.urdf.diagram import routing
+from urdfsync.urdf.diagram.routing import DROP, JOINT_AT, LINK_AT, SIZE, Path, Placement, Point, Row, RowNeeds, square
 
 JointKind: TypeAlias = Literal["fixed", "rotational", "translational", "free"]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]

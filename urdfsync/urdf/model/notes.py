@@ -7,6 +7,12 @@ from urdfsync.urdf.robot import Joint, Link
 
 _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
 
+PACKAGE = (
+    "Made by urdfsync from a URDF. Every file can be edited: urdfsync keeps what you changed, brings everything else "
+    "up to date, and reports where both changed."
+)
+"""Documentation of a robot's package, as HTML."""
+
 _MOTIONS = {
     "fixed": "does not move",
     "continuous": "turns without end stops",
@@ -36,22 +42,23 @@ def joint_note(joint: Joint) -> str:
 def robot_note(name: str) -> str:
     """Documentation of the robot model, as HTML."""
     return (
-        f"Links and joints of robot {name}, connected. The flange vectors hold the axes that can be driven; the constants "
-        f"<code>...Axis</code> and <code>...Frame</code> are their numbers and keep their meaning when the robot changes. {_EDIT}"
+        f"Links and joints of robot {name}, connected. The flange vectors hold the axes that can be driven; the "
+        "constants <code>...Axis</code> and <code>...Frame</code> are their numbers, and keep their meaning when the "
+        f"robot changes. {_EDIT}"
     )
 
 
 def run_note(name: str) -> str:
     """Documentation of the Run model, as HTML."""
     return (
-        f"Robot {name} in its world, with one input per axis for its position and one output for what its drive has to give. "
-        f"The inputs are filtered, so that they need no derivatives. {_EDIT}"
+        f"Robot {name} in its world, with one input per axis for its position and one output for what its drive has "
+        f"to give. The inputs are filtered, so that they need no derivatives. {_EDIT}"
     )
 
 
 def test_note(name: str) -> str:
     """Documentation of the Test model, as HTML."""
     return (
-        f"Simulates without inputs: every axis of robot {name} moves inside its limits and comes back. A warning in the log "
-        f"names a joint that passes one of its limits all the same, for example that of its effort. {_EDIT}"
+        f"Simulates without inputs: every axis of robot {name} moves inside its limits and comes back. A warning in "
+        "the log names a joint that passes one of its limits all the same, for example that of its effort. " + _EDIT
     )

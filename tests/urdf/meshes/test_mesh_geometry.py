@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.urdf.mesh_geometry import Array, bounds, placed, support_points
+from urdfsync.urdf.meshes.geometry import Array, bounds, placed, support_points
 
 coordinates = st.integers(-1000, 1000).map(lambda number: number / 100)
 clouds = st.lists(st.tuples(coordinates, coordinates, coordinates), min_size=1, max_size=60).map(np.array)

@@ -10,7 +10,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from urdfsync.domain import Lookup
-from urdfsync.urdf.mesh_lookup import as_is, candidates, dependencies, key, mesh, suffix, target
+from urdfsync.urdf.meshes.lookup import as_is, candidates, dependencies, key, mesh, suffix, target
 from urdfsync.urdf.robot import Box, Collision, Link, Mesh, Robot, Visual
 
 LOOKUP = Lookup(Path("/ws/src/arm/urdf/arm.urdf"), (Path("/opt/robots"), Path("/opt/gripper")))

@@ -14,9 +14,9 @@ from collections.abc import Collection, Iterator
 from typing import TypeVar
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.urdf.checks import nearest
+from urdfsync.urdf.reader.checks import nearest
+from urdfsync.urdf.reader.xml import Node
 from urdfsync.urdf.robot import Extension, Vector
-from urdfsync.urdf.xml import Node
 
 Missing = TypeVar("Missing", float, None)
 

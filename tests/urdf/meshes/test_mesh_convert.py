@@ -11,9 +11,9 @@ import trimesh
 
 from urdfsync.diagnostics import Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
-from urdfsync.urdf.mesh_convert import convert
-from urdfsync.urdf.mesh_lookup import key, target
-from urdfsync.urdf.mesh_reading import read_mesh
+from urdfsync.urdf.meshes.convert import convert
+from urdfsync.urdf.meshes.lookup import key, target
+from urdfsync.urdf.meshes.reading import read_mesh
 from urdfsync.urdf.robot import Mesh, Vector
 
 BOX = trimesh.creation.box(bounds=[(0, 0, 0), (1, 2, 3)])

@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 from lxml import etree
 
-from urdfsync.urdf.mesh_errors import MeshError, guarded
-from urdfsync.urdf.mesh_geometry import Array, placed
+from urdfsync.urdf.meshes.errors import MeshError, guarded
+from urdfsync.urdf.meshes.geometry import Array, placed
 
 _NO_SHAPE = (
     "library_animations",

@@ -6,12 +6,13 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from urdfsync.domain import Import, Target
-from urdfsync.urdf import layout, notes
+from urdfsync.urdf.diagram import layout
 from urdfsync.urdf.kinematics import compose, link_poses, lowest_point, pose, start_positions
-from urdfsync.urdf.numbers import joint_numbers
+from urdfsync.urdf.model import notes
+from urdfsync.urdf.model.numbers import joint_numbers
+from urdfsync.urdf.model.shapes import hull
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint
-from urdfsync.urdf.shapes import hull
 from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 
 _WORDS: Mapping[Motion, Mapping[str, Any]] = {
@@ -231,7 +232,7 @@ def axis_numbers(skeleton: Skeleton) -> Mapping[str, int]:
 
 def _ranges(skeleton: Skeleton) -> Mapping[str, str]:
     """Per joint with an axis, a Modelica expression of its range, those of its followers respected."""
-    ranges = {}
+    ranges: dict[str, str] = {}
     followers = skeleton.followers_by_leader()
     for joint in reversed(skeleton.leaders_first()):
         if joint.type in MOTIONS:

@@ -10,7 +10,7 @@ import msgspec
 import pytest
 
 from urdfsync.diagnostics import Severity
-from urdfsync.urdf.cross_check import cross_check
+from urdfsync.urdf.reader.cross_check import cross_check
 from urdfsync.urdf.robot import Joint, Link, Robot
 from urdfsync.urdf.source import read_robot
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from urdfsync.urdf.mesh_collada import read_collada
-from urdfsync.urdf.mesh_errors import MeshError
-from urdfsync.urdf.mesh_geometry import Array, bounds
+from urdfsync.urdf.meshes.collada import read_collada
+from urdfsync.urdf.meshes.errors import MeshError
+from urdfsync.urdf.meshes.geometry import Array, bounds
 
 BOX = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
 """Faces of a box, seen counter-clockwise from outside, with corners counted by x, y, z in binary."""

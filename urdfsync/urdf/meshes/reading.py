@@ -16,9 +16,9 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from urdfsync.urdf.mesh_collada import read_collada
-from urdfsync.urdf.mesh_errors import MeshError, guarded
-from urdfsync.urdf.mesh_geometry import Array, placed
+from urdfsync.urdf.meshes.collada import read_collada
+from urdfsync.urdf.meshes.errors import MeshError, guarded
+from urdfsync.urdf.meshes.geometry import Array, placed
 
 Indices: TypeAlias = npt.NDArray[np.int64]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import get_args
 
-from urdfsync.urdf.checks import LIMITED, SCALAR, nearest
-from urdfsync.urdf.fields import Element
-from urdfsync.urdf.link_reader import read_origin
+from urdfsync.urdf.reader.checks import LIMITED, SCALAR, nearest
+from urdfsync.urdf.reader.fields import Element
+from urdfsync.urdf.reader.link import read_origin
 from urdfsync.urdf.robot import (
     Calibration,
     Dynamics,

@@ -9,10 +9,10 @@ import numpy as np
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
-from urdfsync.urdf import mesh_lookup
-from urdfsync.urdf.mesh_errors import MeshError
-from urdfsync.urdf.mesh_geometry import Array, bounds, placed, support_points
-from urdfsync.urdf.mesh_reading import read_mesh
+from urdfsync.urdf.meshes import lookup as mesh_lookup
+from urdfsync.urdf.meshes.errors import MeshError
+from urdfsync.urdf.meshes.geometry import Array, bounds, placed, support_points
+from urdfsync.urdf.meshes.reading import read_mesh
 from urdfsync.urdf.robot import Vector
 
 _HEADER = b"binary STL, written by urdfsync".ljust(80)

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
-from urdfsync.urdf.drawing import Label, svg
-from urdfsync.urdf.layout import Diagram, Tree, TreeCoupling, TreeJoint, layout
+from urdfsync.urdf.diagram.drawing import Label, svg
+from urdfsync.urdf.diagram.layout import Diagram, Tree, TreeCoupling, TreeJoint, layout
 
 SVG = "{http://www.w3.org/2000/svg}"
 

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Iterator
 
 import msgspec
 
-from urdfsync.urdf.fields import Element, Findings, brief, parse_numbers
+from urdfsync.urdf.reader.fields import Element, Findings, brief, parse_numbers
+from urdfsync.urdf.reader.xml import Node
 from urdfsync.urdf.robot import (
     Box,
     Capsule,
@@ -23,7 +24,6 @@ from urdfsync.urdf.robot import (
     Sphere,
     Visual,
 )
-from urdfsync.urdf.xml import Node
 
 _SHAPES = ("box", "cylinder", "capsule", "sphere", "mesh")
 _COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")

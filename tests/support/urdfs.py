@@ -1,0 +1,55 @@
+"""Small robots of our own, written as URDF text: one line per element."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+def robot(*elements: str, name: str = "own") -> str:
+    """A URDF of links and joints."""
+    return "\n".join(['<?xml version="1.0"?>', f'<robot name="{name}">', *elements, "</robot>", ""])
+
+
+def link(name: str, mass: float | None = None, *, center: str = "0.02 -0.05 0.1", rpy: str = "0.4 -0.3 0.7") -> str:
+    """A link; with a mass, it has a full tensor in an inertial frame that is turned and off-centre."""
+    if mass is None:
+        return f'<link name="{name}"/>'
+    tensor = {"ixx": 0.021, "iyy": 0.018, "izz": 0.015, "ixy": 0.002, "ixz": -0.001, "iyz": 0.0015}
+    numbers = " ".join(f'{key}="{value * mass!r}"' for key, value in tensor.items())
+    inertial = f'<origin xyz="{center}" rpy="{rpy}"/><mass value="{mass!r}"/><inertia {numbers}/>'
+    return f'<link name="{name}"><inertial>{inertial}</inertial></link>'
+
+
+def joint(
+    name: str,
+    kind: str,
+    parent: str,
+    child: str,
+    *,
+    xyz: str = "0.1 -0.2 0.3",
+    rpy: str = "0.5 -0.6 0.7",
+    axis: str = "",
+    inside: Iterable[str] = (),
+) -> str:
+    """A joint away from its parent and turned against it; `inside` holds further elements."""
+    parts = [f'<origin xyz="{xyz}" rpy="{rpy}"/>', f'<parent link="{parent}"/>', f'<child link="{child}"/>']
+    if axis:
+        parts.append(f'<axis xyz="{axis}"/>')
+    return f'<joint name="{name}" type="{kind}">{"".join([*parts, *inside])}</joint>'
+
+
+def limit(lower: float = -3, upper: float = 3, velocity: float = 10, effort: float = 1000) -> str:
+    """Limits of a joint."""
+    return f'<limit lower="{lower!r}" upper="{upper!r}" velocity="{velocity!r}" effort="{effort!r}"/>'
+
+
+def dynamics(damping: float, friction: float) -> str:
+    """Losses of a joint."""
+    return f'<dynamics damping="{damping!r}" friction="{friction!r}"/>'
+
+
+def mimic(leader: str, multiplier: float | None = None, offset: float | None = None) -> str:
+    """A joint follows another one."""
+    numbers = {"multiplier": multiplier, "offset": offset}
+    attributes = "".join(f' {key}="{value!r}"' for key, value in numbers.items() if value is not None)
+    return f'<mimic joint="{leader}"{attributes}/>'

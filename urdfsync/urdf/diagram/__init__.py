@@ -1,0 +1,1 @@
+"""The diagram of the robot model: layout, routing, and the same as a picture."""

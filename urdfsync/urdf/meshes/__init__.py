@@ -1,0 +1,1 @@
+"""Mesh files: where they are, and how they come into the package."""

@@ -1,0 +1,1 @@
+"""Robot to template data."""
