@@ -135,7 +135,9 @@ def test_a_no_op_of_a_urdf_imports_nothing_heavy(tmp_path: Path, monkeypatch: py
     )
     Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
     assert not run().failed
-    assert heavy_after_a_build() == ["arm: in step, 14 files", "[]"]
+    headline, heavy = heavy_after_a_build()
+    assert headline.startswith("arm: in step, ")
+    assert heavy == "[]"
 
 
 def test_a_dry_run_writes_nothing_and_says_the_same(project: Path, snapshot_of: Snapshot) -> None:

@@ -198,7 +198,7 @@ def test_robots_whose_names_are_no_names_of_files(name: str) -> None:
         (("a", "Arm"), ("b", "Arm"), "robots `a` and `b` have the same package"),
         (("a", "Arm"), ("b", "ARM"), "robots `a` and `b` have the same package"),
         (("a", "Arm"), ("A", "Leg"), "robots `a` and `A` differ in case only"),
-        (("a", "Plant"), ("b", "Plant.Arm"), "the packages of robots `a` and `b` lie inside each other"),
+        (("a", "Plant"), ("b", "Plant.Arm"), "the package of robot `b` lies inside that of robot `a`"),
     ],
 )
 def test_robots_that_are_in_each_others_way(one: tuple[str, str], two: tuple[str, str], words: str) -> None:
@@ -272,4 +272,4 @@ def test_packaged_data_is_there() -> None:
 def test_lines_of_keys(path: tuple[str, ...], line: int) -> None:
     text = "# first\n[defaults]\noutput = 'x'\n\n[robots.'my arm'] # the arm\nsource = 'a=b'\n\"package\" = 'P'\n"
     text += "[robots]\nleg.source = 'x'\n"
-    assert tomlfile.line_of(text, *path) == line
+    assert tomlfile.nearest(tomlfile.lines(text), *path) == line

@@ -87,10 +87,10 @@ def test_any_names_survive(files: dict[str, FileRecord], mapping: dict[str, str]
 def test_order_of_entries_does_not_matter() -> None:
     turned = msgspec.structs.replace(
         MANIFEST,
-        files=dict(reversed(MANIFEST.files.items())),
-        orders=dict(reversed(MANIFEST.orders.items())),
-        dependencies=dict(reversed(MANIFEST.dependencies.items())),
-        names={"links": dict(reversed(MANIFEST.names["links"].items()))},
+        files=dict(reversed(list(MANIFEST.files.items()))),
+        orders=dict(reversed(list(MANIFEST.orders.items()))),
+        dependencies=dict(reversed(list(MANIFEST.dependencies.items()))),
+        names={"links": dict(reversed(list(MANIFEST.names["links"].items())))},
     )
     assert dumps(turned) == dumps(MANIFEST)
 

@@ -6,7 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.order import merge, names_in
+from urdfsync.order import merge
+
+
+def names_in(text: str) -> list[str]:
+    return [line for line in text.splitlines() if line]
 
 
 def test_a_new_file_has_one_name_per_line() -> None:

@@ -141,7 +141,8 @@ class _Reader:
         self, text: str, document: dict[str, Any], file: str, root: Path, domains: Callable[[str], Domain]
     ) -> None:
         self.problems: list[Diagnostic] = []
-        self._text, self._document, self._file, self._root = text, document, file, root
+        self._document, self._file, self._root = document, file, root
+        self._lines = tomlfile.lines(text)
         self._domains = domains
         self._option_names: set[str] = set()
 
@@ -219,18 +220,20 @@ class _Reader:
 
     def check_clashes(self, robots: Sequence[RobotConfig]) -> None:
         """Two robots must not share a manifest or a package's folder, nor may one stand in the other's."""
-        for index, robot in enumerate(robots):
-            for other in robots[:index]:
-                one, two = (_folded(r.folder) for r in (other, robot))
-                if robot.name.casefold() == other.name.casefold():
-                    message = f"robots `{other.name}` and `{robot.name}` differ in case only"
-                elif one == two:
-                    message = f"robots `{other.name}` and `{robot.name}` have the same package"
-                elif one in two.parents or two in one.parents:
-                    message = f"the packages of robots `{other.name}` and `{robot.name}` lie inside each other"
-                else:
-                    continue
-                self._report("clash", ("robots", robot.name, "package"), message)
+        names: dict[str, str] = {}
+        folders: dict[str, str] = {}
+        for robot in robots:
+            if (other := names.setdefault(robot.name.casefold(), robot.name)) != robot.name:
+                self._clash(robot.name, f"robots `{other}` and `{robot.name}` differ in case only")
+            elif (other := folders.setdefault(_folded(robot.folder), robot.name)) != robot.name:
+                self._clash(robot.name, f"robots `{other}` and `{robot.name}` have the same package")
+        for robot in robots:
+            for parent in robot.folder.parents:
+                if other := folders.get(_folded(parent), ""):
+                    self._clash(robot.name, f"the package of robot `{robot.name}` lies inside that of robot `{other}`")
+
+    def _clash(self, robot: str, message: str) -> None:
+        self._report("clash", ("robots", robot, "package"), message)
 
     def _subtable(self, key: str) -> dict[str, Any]:
         value = self._document.get(key, {})
@@ -242,12 +245,13 @@ class _Reader:
     def _table(self, values: Mapping[str, Any], name: str, *path: str) -> tables.Table:
         def line(key: str) -> int:
             own = key in self._document.get("robots", {}).get(path[-1], {}) if path[:1] == ("robots",) else True
-            return tomlfile.line_of(self._text, *(path if own or not key else ("defaults",)), *([key] if key else []))
+            table = path if own or not key else ("defaults",)
+            return tomlfile.nearest(self._lines, *table, *filter(None, [key]))
 
         return tables.Table(values, name, self._file, line)
 
     def _report(self, code: str, path: tuple[str, ...], message: str, hint: str = "") -> None:
-        line = tomlfile.line_of(self._text, *path)
+        line = tomlfile.nearest(self._lines, *path)
         self.problems.append(Diagnostic(Severity.ERROR, code, message, self._file, line, hint=hint))
 
 
@@ -278,8 +282,8 @@ def _absolute(path: Path) -> Path:
     return Path(os.path.normpath(path))
 
 
-def _folded(path: Path) -> Path:
-    return Path(str(path).casefold())
+def _folded(path: Path) -> str:
+    return str(path).casefold()
 
 
 def shown(path: Path) -> str:

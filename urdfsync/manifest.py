@@ -111,7 +111,7 @@ def loads(text: str, file: str) -> Manifest:
     Raises StateError with file and line for text that is no manifest or that a newer urdfsync wrote.
     """
     data = tomlfile.parse(text, file, StateError, _REPAIR)
-    _check_format(data.get("format"), file, tomlfile.line_of(text, "format"))
+    _check_format(data.get("format"), file, tomlfile.nearest(tomlfile.lines(text), "format"))
     try:
         manifest = msgspec.convert(data, Manifest)
     except msgspec.ValidationError as error:
@@ -166,7 +166,7 @@ def _broken(error: str, data: Mapping[str, Any], text: str, file: str) -> Diagno
     entries = data.get(path[0]) if "[...]" in place else None
     if isinstance(entries, dict):
         path = [path[0], next((key for key, entry in entries.items() if not _fits(path[0], entry)), ""), *path[1:]]
-    line = tomlfile.line_of(text, *path)
+    line = tomlfile.nearest(tomlfile.lines(text), *path)
     message = f"this is no state of urdfsync: {message[0].lower()}{message[1:]}"
     return Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_REPAIR)
 

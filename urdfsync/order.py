@@ -31,11 +31,6 @@ def merge(text: str | None, names: Sequence[str], owned: Collection[str] = ()) -
     return ending.join(lines) + ending if any(map(_name, lines)) else ""
 
 
-def names_in(text: str) -> list[str]:
-    """The names in a `package.order` file."""
-    return [name for name in map(_name, text.splitlines()) if name]
-
-
 def _name(line: str) -> str:
     return line.strip("\ufeff \t\r\f\v")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import enum
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 
 from urdfsync.diagnostics import Diagnostic
@@ -57,8 +57,3 @@ def exit_code(results: Iterable[Result], check: bool = False) -> Exit:
     if any(result.conflicts for result in results):
         return Exit.CONFLICT
     return Exit.OUT_OF_STEP if check and not all(result.in_step for result in results) else Exit.IN_STEP
-
-
-def count(actions: Sequence[Action], *kinds: Kind) -> int:
-    """How many actions are of these kinds and not held."""
-    return sum(action.kind in kinds and not action.held for action in actions)

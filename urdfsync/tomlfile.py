@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from typing import Any
+from typing import Any, TypeAlias
 
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 
@@ -42,26 +42,29 @@ def _explain(problem: tomllib.TOMLDecodeError, text: str) -> tuple[str, int, int
     return message[0].lower() + message[1:], int(line or len(text.splitlines())), int(column or 0)
 
 
-def line_of(text: str, *path: str) -> int:
-    """The line on which the key at `path` stands, or else the nearest table above it; 0 if there is none."""
-    best, length = 0, 0
+Lines: TypeAlias = dict[tuple[str, ...], int]
+"""Where each key, by its full path, first stands in a document; lines count from 1."""
+
+
+def lines(text: str) -> Lines:
+    """The line of every key and of every table."""
+    found: Lines = {}
     header: tuple[str, ...] = ()
     for number, line in enumerate(text.splitlines(), start=1):
         opening = _HEADER.match(line)
         keys = _keys(line, opening.end() if opening else 0)
         if opening:
-            header, found = keys, keys
-        else:
-            found = header + keys if keys else ()
-        common = _common(found, path)
-        if common > length and (common == len(found) or common == len(path)):
-            best, length = number, common
-    return best
+            header = keys
+        path = keys if opening else header + keys
+        for length in range(1, len(path) + 1):
+            found.setdefault(path[:length], number)
+    return found
 
 
-def _common(found: tuple[str, ...], path: tuple[str, ...]) -> int:
-    pairs = zip(found, path, strict=False)
-    return next((count for count, (a, b) in enumerate(pairs) if a != b), min(len(found), len(path)))
+def nearest(found: Lines, *path: str) -> int:
+    """The line of the key at `path`, or else of the nearest table above it; 0 if there is none."""
+    paths = (path[:length] for length in range(len(path), 0, -1))
+    return next((found[prefix] for prefix in paths if prefix in found), 0)
 
 
 def _keys(line: str, start: int) -> tuple[str, ...]:

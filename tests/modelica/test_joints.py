@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -216,16 +217,26 @@ def modifiers(prefix: str = "") -> str:
     return ", ".join(f"{prefix}{key}_start = {{{', '.join(map(repr, value))}}}" for key, value in FLYING.items())
 
 
+def base_accelerations(free: str, body: str) -> list[str]:
+    """Names of the accelerations of a free base: of its motion, and of the link that moves with it."""
+    linear = [f"{free}.freeMotion.a_rel_a[{i}]" for i in (1, 2, 3)]
+    return linear + [f"{body}.body.z_a[{i}]" for i in (1, 2, 3)]
+
+
 def free_reference(model: pin.Model, others: Motion) -> tuple[Array, Array]:
-    """Accelerations of the free base, resolved in the frame that it is relative to, and of all other joints."""
+    """Accelerations of the free base, and of all other joints.
+
+    Linear ones are resolved in the frame that the motion is relative to, angular ones in the moving frame.
+    """
     model.gravity.linear = np.array([0, 0, -physics.GRAVITY])
     turned = pin.rpy.rpyToMatrix(*FLYING["rpy"])
     w = turned.T @ FLYING["w"]
     v = turned.T @ FLYING["v"]
     attitude = pin.Quaternion(turned).coeffs()
-    positions = np.array([*FLYING["r"], *attitude, *others.q])
+    turns = ([np.cos(q), np.sin(q)] if joint.nq == 2 else [q] for joint, q in zip(model.joints[2:], others.q, strict=True))
+    positions = np.array([*FLYING["r"], *attitude, *itertools.chain(*turns)])
     a = pin.aba(model, model.createData(), positions, np.array([*v, *w, *others.v]), np.zeros(model.nv))
-    return np.array([*(turned @ (a[:3] + np.cross(w, v))), *(turned @ a[3:6])]), np.asarray(a[6:])
+    return np.array([*(turned @ (a[:3] + np.cross(w, v))), *a[3:6]]), np.asarray(a[6:])
 
 
 def test_a_floating_joint_is_free(modelica_library: Path, tmp_path: Path) -> None:
@@ -238,11 +249,10 @@ def test_a_floating_joint_is_free(modelica_library: Path, tmp_path: Path) -> Non
     )
     others = physics.random_motion(1, seed=5)
     base, turn = free_reference(pin.buildModelFromXML(urdf), others)
-    free = "robot.air.freeMotion.freeMotion"
     task = check_model(
         f"Bot.Bot robot(phi_start = {{{others.q[0]}}}, w_start = {{{others.v[0]}}}, air({modifiers()}));",
         "connect(world.frame_b, robot.frame_a);",
-        [*(f"{free}.{a}_rel_a[{i}]" for a in "az" for i in (1, 2, 3)), "robot.turn.revolute.a"],
+        [*base_accelerations("robot.air.freeMotion", "robot.drone"), "robot.turn.revolute.a"],
     )
     folder = generate(urdf.encode(), BOT).write(tmp_path)
     found = start(run(modelica_library, folder, task), list(task.values))
@@ -274,7 +284,7 @@ def test_a_mobile_robot_in_the_air_falls_freely(modelica_library: Path, tmp_path
         f"Bot.Bot robot(phi_start = {{{wheels.q[0]}, {wheels.q[1]}}}, w_start = {{{wheels.v[0]}, {wheels.v[1]}}});",
         "connect(world.frame_b, up.frame_a); connect(up.frame_b, base.frame_a); connect(base.frame_b, robot.frame_a);",
         [
-            *(f"base.freeMotion.{a}_rel_a[{i}]" for a in "az" for i in (1, 2, 3)),
+            *base_accelerations("base", "robot.chassis"),
             "robot.left_axle.revolute.a",
             "robot.right_axle.revolute.a",
         ],

@@ -1,4 +1,4 @@
-"""A child process around the embedded compiler: tasks as JSON on stdin, outcomes as JSON into the file named first.
+"""A child process around the embedded compiler: a job as JSON on stdin, outcomes as JSON on stdout.
 
 A process of its own, because the compiler takes gigabytes for large robots and keeps them, and because
 a crash of it must not end the tests.
@@ -7,6 +7,7 @@ a crash of it must not end the tests.
 from __future__ import annotations
 
 import json
+import os
 import resource
 import sys
 import time
@@ -15,12 +16,16 @@ from typing import Any
 
 import rumoca
 
+from support.slim import slim_library
+
 
 def main() -> None:
     """Do all tasks with one session, in order."""
-    job = json.load(sys.stdin)
-    session = rumoca.Session(roots=job["roots"])
-    Path(sys.argv[1]).write_text(json.dumps([_done(session, task) for task in job["tasks"]]))
+    with os.fdopen(os.dup(sys.stdout.fileno()), "w") as answer:
+        os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what the compiler may say is not the answer
+        job = json.load(sys.stdin)
+        session = rumoca.Session(roots=[str(slim_library(Path(job["library"]))), *job["roots"]])
+        json.dump([_done(session, task) for task in job["tasks"]], answer)
 
 
 def _done(session: Any, task: dict[str, Any]) -> dict[str, Any]:

@@ -1,10 +1,25 @@
-"""Mass properties for links that have none: without them only the kinematics of a robot are tested."""
+"""Copies of URDF files for the comparison with Pinocchio, read by both sides.
+
+Where a moving joint carries no mass, only the kinematics would be tested: the copy has made-up
+inertials. Where Pinocchio's reader refuses what urdfsync warns of, the copy has what is missing.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 import pinocchio as pin
 from lxml import etree
+
+
+def acceptable(urdf: bytes) -> bytes:
+    """The URDF with a name for a robot that has none, and the numbers that limits lack; unchanged if nothing is missing."""
+    root = _parse(urdf)
+    missing = [] if root.get("name") else [(root, "name", "robot")]
+    for limit in root.iterfind("joint/limit"):
+        missing += [(limit, key, "1000") for key in ("effort", "velocity") if limit.get(key) is None]
+    for element, key, value in missing:
+        element.set(key, value)
+    return etree.tostring(root) if missing else urdf
 
 
 def lacks_inertia(urdf: bytes) -> bool:

@@ -1,0 +1,12 @@
+within UrdfSync.Examples.FloatingBuoy;
+
+package Joints "Joints of robot FloatingBuoy"
+  extends UrdfSync.Icons.JointsPackage;
+
+  annotation (
+    Documentation(info="<html>
+<p>
+One model and one record of numbers per joint.
+</p>
+</html>"));
+end Joints;

@@ -1,0 +1,12 @@
+within UrdfSync.Examples.SixAxisArm.Links;
+
+record Grasp_pointParameters "Numbers of link \"grasp_point\""
+  extends UrdfSync.Records.Link(
+    name = "grasp_point");
+
+  annotation (Documentation(info="<html>
+<p>
+Numbers of link &quot;grasp_point&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+</p>
+</html>"));
+end Grasp_pointParameters;

@@ -1,0 +1,12 @@
+within UrdfSync.Examples.SixAxisArm.Links;
+
+record Tool0Parameters "Numbers of link \"tool0\""
+  extends UrdfSync.Records.Link(
+    name = "tool0");
+
+  annotation (Documentation(info="<html>
+<p>
+Numbers of link &quot;tool0&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+</p>
+</html>"));
+end Tool0Parameters;

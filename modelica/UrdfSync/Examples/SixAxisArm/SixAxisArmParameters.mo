@@ -1,0 +1,393 @@
+within UrdfSync.Examples.SixAxisArm;
+
+record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
+  extends UrdfSync.Records.Robot(
+    name = "six_axis_arm",
+    connectionMatrix = [1, 2; 2, 3; 3, 4; 4, 5; 5, 6; 6, 7; 7, 8; 8, 9; 9, 10; 9, 11; 9, 12; 9, 13],
+    moveableJoints = [1, 1; 2, 1; 3, 1; 4, 1; 5, 1; 6, 1; 9, 1; 11, 1; 12, 1]);
+
+  UrdfSync.Records.Link base_link(
+    name = "base_link",
+    inertial(
+      origin(
+        xyz = {-0.008, 0, 0.0817},
+        rpy = {0, 0, 0}),
+      mass = 15.5,
+      inertia(
+        ixx = 0.09709,
+        iyy = 0.111,
+        izz = 0.10437,
+        ixy = 0,
+        ixz = 0.00041,
+        iyz = 0)))
+    "Link 1: \"base_link\"";
+
+  UrdfSync.Records.Link carousel(
+    name = "carousel",
+    inertial(
+      origin(
+        xyz = {0.003, 0, 0.1141},
+        rpy = {0, 0.382, 0}),
+      mass = 11.5,
+      inertia(
+        ixx = 0.081982,
+        iyy = 0.097568,
+        izz = 0.044031,
+        ixy = 0,
+        ixz = -1.6e-05,
+        iyz = 0)))
+    "Link 2: \"carousel\"";
+
+  UrdfSync.Records.Link upper_arm(
+    name = "upper_arm",
+    inertial(
+      origin(
+        xyz = {0, 0, 0.1949},
+        rpy = {0, 0, 0}),
+      mass = 10.5,
+      inertia(
+        ixx = 0.32715,
+        iyy = 0.29181,
+        izz = 0.05616,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 3: \"upper_arm\"";
+
+  UrdfSync.Records.Link elbow_housing(
+    name = "elbow_housing",
+    inertial(
+      origin(
+        xyz = {0.0158, 0.0001, 0.0313},
+        rpy = {0, 0, 0}),
+      mass = 8,
+      inertia(
+        ixx = 0.020434,
+        iyy = 0.051526,
+        izz = 0.047097,
+        ixy = 0.000145,
+        ixz = -0.000213,
+        iyz = -1.7e-05)))
+    "Link 4: \"elbow_housing\"";
+
+  UrdfSync.Records.Link forearm(
+    name = "forearm",
+    inertial(
+      origin(
+        xyz = {0.1118, 0, 0},
+        rpy = {0, 0, 0}),
+      mass = 4.2,
+      inertia(
+        ixx = 0.005953,
+        iyy = 0.029335,
+        izz = 0.030752,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 5: \"forearm\"";
+
+  UrdfSync.Records.Link wrist(
+    name = "wrist",
+    inertial(
+      origin(
+        xyz = {0.0149, 0, 0},
+        rpy = {0, 0, 0}),
+      mass = 1.3,
+      inertia(
+        ixx = 0.0007326,
+        iyy = 0.001127,
+        izz = 0.0011811,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 6: \"wrist\"";
+
+  UrdfSync.Records.Link mounting_flange(
+    name = "mounting_flange",
+    inertial(
+      origin(
+        xyz = {0.006, 0, 8e-05},
+        rpy = {0, 0, 0}),
+      mass = 0.22,
+      inertia(
+        ixx = 0.00010943,
+        iyy = 5.763e-05,
+        izz = 5.707e-05,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 7: \"mounting_flange\"";
+
+  UrdfSync.Records.Link tool0(
+    name = "tool0")
+    "Link 8: \"tool0\"";
+
+  UrdfSync.Records.Link gripper_body(
+    name = "gripper_body",
+    inertial(
+      origin(
+        xyz = {0, 0, 0.0393},
+        rpy = {0, 0, 0}),
+      mass = 0.82,
+      inertia(
+        ixx = 0.0005742,
+        iyy = 0.0011987,
+        izz = 0.0011859,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 9: \"gripper_body\"";
+
+  UrdfSync.Records.Link finger_right(
+    name = "finger_right",
+    inertial(
+      origin(
+        xyz = {0.0131, -0.00166, 0.0344},
+        rpy = {0, 0, 0}),
+      mass = 0.13,
+      inertia(
+        ixx = 9.631e-05,
+        iyy = 0.00010464,
+        izz = 4.01e-05,
+        ixy = -5.43e-06,
+        ixz = 3.98e-06,
+        iyz = -6.36e-06)))
+    "Link 10: \"finger_right\"";
+
+  UrdfSync.Records.Link grasp_point(
+    name = "grasp_point")
+    "Link 11: \"grasp_point\"";
+
+  UrdfSync.Records.Link finger_left(
+    name = "finger_left",
+    inertial(
+      origin(
+        xyz = {0.0131, -0.00166, 0.0344},
+        rpy = {0, 0, 0}),
+      mass = 0.13,
+      inertia(
+        ixx = 9.631e-05,
+        iyy = 0.00010464,
+        izz = 4.01e-05,
+        ixy = -5.43e-06,
+        ixz = 3.98e-06,
+        iyz = -6.36e-06)))
+    "Link 12: \"finger_left\"";
+
+  UrdfSync.Records.Link drive_pinion(
+    name = "drive_pinion",
+    inertial(
+      origin(
+        xyz = {0, 0, 0.00183},
+        rpy = {0, 0, 0}),
+      mass = 0.045,
+      inertia(
+        ixx = 3.4535e-06,
+        iyy = 3.4535e-06,
+        izz = 2.5842e-06,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 13: \"drive_pinion\"";
+
+  UrdfSync.Records.RevoluteJoint turret(
+    name = "turret",
+    origin(
+      xyz = {0, 0, 0.2},
+      rpy = {0, 0, 0}),
+    axis = {0, 0, 1},
+    limits(
+      lower = -2.967,
+      upper = 2.967,
+      velocity = 5,
+      effort = 180),
+    dynamics(
+      damping = 12,
+      friction = 9),
+    calibration(
+      rising = 0,
+      falling = Modelica.Constants.inf),
+    safetyController(
+      k_velocity = 80,
+      k_position = 60,
+      soft_lower_limit = -2.88,
+      soft_upper_limit = 2.88))
+    "Joint 1: \"turret\"";
+
+  UrdfSync.Records.RevoluteJoint shoulder(
+    name = "shoulder",
+    origin(
+      xyz = {0.03, 0, 0.2},
+      rpy = {0, 0, 0}),
+    axis = {0, 1, 0},
+    limits(
+      lower = -1.658,
+      upper = 2.269,
+      velocity = 4.4,
+      effort = 280),
+    dynamics(
+      damping = 15,
+      friction = 11),
+    calibration(
+      rising = 0,
+      falling = Modelica.Constants.inf),
+    safetyController(
+      k_velocity = 110,
+      k_position = 60,
+      soft_lower_limit = -1.57,
+      soft_upper_limit = 2.18))
+    "Joint 2: \"shoulder\"";
+
+  UrdfSync.Records.RevoluteJoint elbow(
+    name = "elbow",
+    origin(
+      xyz = {0, 0, 0.44},
+      rpy = {0, 0, 0}),
+    axis = {0, 1, 0},
+    limits(
+      lower = -3.49,
+      upper = 1.222,
+      velocity = 5,
+      effort = 130),
+    dynamics(
+      damping = 8,
+      friction = 6.5),
+    calibration(
+      rising = 0,
+      falling = Modelica.Constants.inf),
+    safetyController(
+      k_velocity = 50,
+      k_position = 60,
+      soft_lower_limit = -3.4,
+      soft_upper_limit = 1.13))
+    "Joint 3: \"elbow\"";
+
+  UrdfSync.Records.RevoluteJoint forearm_roll(
+    name = "forearm_roll",
+    origin(
+      xyz = {0.15, 0, 0.04},
+      rpy = {0, 0, 0}),
+    axis = {1, 0, 0},
+    limits(
+      lower = -4.712,
+      upper = 4.712,
+      velocity = 7,
+      effort = 34),
+    dynamics(
+      damping = 1.2,
+      friction = 1.6))
+    "Joint 4: \"forearm_roll\"";
+
+  UrdfSync.Records.RevoluteJoint wrist_pitch(
+    name = "wrist_pitch",
+    origin(
+      xyz = {0.27, 0, 0},
+      rpy = {0, 0, 0}),
+    axis = {0, 1, 0},
+    limits(
+      lower = -2.182,
+      upper = 2.182,
+      velocity = 7,
+      effort = 26),
+    dynamics(
+      damping = 0.9,
+      friction = 1.3))
+    "Joint 5: \"wrist_pitch\"";
+
+  UrdfSync.Records.RevoluteJoint flange_roll(
+    name = "flange_roll",
+    origin(
+      xyz = {0.068, 0, 0},
+      rpy = {0, 0, 0}),
+    axis = {1, 0, 0},
+    limits(
+      lower = -6.981,
+      upper = 6.981,
+      velocity = 10.5,
+      effort = 13),
+    dynamics(
+      damping = 0.35,
+      friction = 0.7))
+    "Joint 6: \"flange_roll\"";
+
+  UrdfSync.Records.FixedJoint flange_to_tool(
+    name = "flange_to_tool",
+    origin(
+      xyz = {0.012, 0, 0},
+      rpy = {0, 1.5707963, 0}))
+    "Joint 7: \"flange_to_tool\"";
+
+  UrdfSync.Records.FixedJoint gripper_mount(
+    name = "gripper_mount",
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}))
+    "Joint 8: \"gripper_mount\"";
+
+  UrdfSync.Records.PrismaticJoint finger_coupling(
+    name = "finger_coupling",
+    origin(
+      xyz = {0, 0, 0.074},
+      rpy = {0, 0, 3.1415927}),
+    axis = {1, 0, 0},
+    limits(
+      lower = 0,
+      upper = 0.035,
+      velocity = 0.12,
+      effort = 140),
+    dynamics(
+      damping = 25,
+      friction = 5),
+    mimic(
+      multiplier = 1,
+      offset = 0))
+    "Joint 9: \"finger_coupling\"";
+
+  UrdfSync.Records.FixedJoint grasp_frame(
+    name = "grasp_frame",
+    origin(
+      xyz = {0, 0, 0.151},
+      rpy = {0, 0, 0}))
+    "Joint 10: \"grasp_frame\"";
+
+  UrdfSync.Records.PrismaticJoint gripper_stroke(
+    name = "gripper_stroke",
+    origin(
+      xyz = {0, 0, 0.074},
+      rpy = {0, 0, 0}),
+    axis = {1, 0, 0},
+    limits(
+      lower = 0,
+      upper = 0.035,
+      velocity = 0.12,
+      effort = 140),
+    dynamics(
+      damping = 25,
+      friction = 5))
+    "Joint 11: \"gripper_stroke\"";
+
+  UrdfSync.Records.RevoluteJoint pinion_coupling(
+    name = "pinion_coupling",
+    origin(
+      xyz = {0, 0, 0.074},
+      rpy = {0, 0, 0}),
+    axis = {0, 0, 1},
+    limits(
+      lower = -0.05,
+      upper = 2.85,
+      velocity = 9.6,
+      effort = 1.75),
+    dynamics(
+      damping = 0.0005,
+      friction = 0.005),
+    mimic(
+      multiplier = 80,
+      offset = 0))
+    "Joint 12: \"pinion_coupling\"";
+
+  annotation (Documentation(info="<html>
+<p>
+All numbers of robot SixAxisArm in one record. The robot model takes its numbers from the records of its links and joints; this one is for studies that need them all.
+</p>
+</html>"));
+end SixAxisArmParameters;

@@ -1,0 +1,12 @@
+within UrdfSync.Examples.WheeledRobot.Links;
+
+record Camera_optical_frameParameters "Numbers of link \"camera_optical_frame\""
+  extends UrdfSync.Records.Link(
+    name = "camera_optical_frame");
+
+  annotation (Documentation(info="<html>
+<p>
+Numbers of link &quot;camera_optical_frame&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+</p>
+</html>"));
+end Camera_optical_frameParameters;
