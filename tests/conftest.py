@@ -48,7 +48,10 @@ def _audit(event: str, arguments: tuple[Any, ...]) -> None:
         )
         paths: Sequence[object] = [path] if writes else []
     else:
-        paths = arguments[: _WRITES.get(event, 0)]
+        count = _WRITES.get(event, 0)
+        if any(isinstance(other, int) and other >= 0 for other in arguments[count:]) and event != "os.mkdir":
+            return  # shutil.rmtree: relative to an open folder, so the path says nothing
+        paths = arguments[:count]
     _strays.extend(f"{event} {os.fsdecode(path)}" for path in paths if _is_guarded(path))  # type: ignore[arg-type]
 
 

@@ -432,6 +432,23 @@ def test_missing_parents_are_made_if_the_configuration_says_so(project: Path) ->
     assert run().in_step
 
 
+def test_a_top_level_package_that_is_made_says_what_it_needs(project: Path) -> None:
+    configure(project, package='"Plant.Ladder"', create_parents="true")
+    assert run().diagnostics == ()
+    annotation = '  annotation (uses(Modelica(version="4.0.0")));'
+    text = (project / "modelica/Plant/package.mo").read_text()
+    assert text == f'within;\npackage Plant "Plant"\n{annotation}\nend Plant;\n'
+
+
+def test_a_top_level_package_that_does_not_say_what_it_needs_is_a_warning(project: Path) -> None:
+    parent(project)
+    configure(project, package='"Plant.Ladder"')
+    assert [str(found).replace("\\", "/") for found in run().diagnostics] == [
+        "modelica/Plant/package.mo: warning: package `Plant` does not say that it needs Modelica; "
+        'add `uses(Modelica(version="4.0.0"))` to its annotation [no-uses]'
+    ]
+
+
 def test_a_parent_in_a_single_file_is_refused(project: Path) -> None:
     (project / "modelica").mkdir()
     (project / "modelica/Plant.mo").write_text("package Plant end Plant;")
@@ -595,7 +612,7 @@ def test_a_dependency_that_was_never_found_is_left_out(project: Path) -> None:
     (project / "step.csv").unlink()
     result = run()
     assert [str(found) for found in result.diagnostics] == [
-        "ladder.json:3: warning: table `step.csv` not found and left out; "
+        "ladder.json:3: warning: table `step.csv` not found; left out; "
         "add the folder that holds it to `package_paths` [table-not-found]"
     ]
     assert not (project / LADDER / "Resources").exists()
@@ -654,7 +671,9 @@ def test_an_edited_copy_is_kept_and_conflicts_with_a_new_source(project: Path) -
 def test_a_dependency_that_cant_be_used_is_a_warning(project: Path) -> None:
     (project / "step.csv").write_text("no numbers\n")
     result = run()
-    assert [found.code for found in result.diagnostics] == ["csv", "table-unreadable"]
+    assert [(found.code, found.file, found.line) for found in result.diagnostics] == [
+        ("table-unreadable", "ladder.json", 3)
+    ]
     assert exit_code([result]) is Exit.IN_STEP
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync import imports, manifest, parents, registry
+from urdfsync import imports, manifest, packages, parents, registry
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.decide import Decision, Disk, decide, encode
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, StateError, UrdfsyncError
@@ -82,7 +82,7 @@ class _Build:
     def __init__(self, config: Config, robot: RobotConfig, request: Request) -> None:
         self._config, self._robot, self._request = config, robot, request
         self._domain = registry.domain(robot.domain)
-        self._parents = parents.check(config, robot)
+        self._parents = parents.check(config, robot, self._domain.uses)
         self._store = Store(config.root, shown)
         self._state = self._store.load(robot.name)
         self._disk = Disk(config, robot)
@@ -156,8 +156,12 @@ class _Build:
         )
 
     def _dependencies(self, snapshot: Snapshot, lines: Mapping[str, int]) -> Sequence[Dependency]:
-        paths = self._robot.package_paths + self._request.package_paths
-        return self._domain.dependencies(snapshot, Lookup(self._robot.source, paths), self._robot.options, lines)
+        lookup = Lookup(self._robot.source, self._robot.package_paths + self._request.package_paths)
+        found = self._domain.dependencies(snapshot, lookup, self._robot.options, lines)
+        if imports.all_found(found):
+            return found
+        lookup = dataclasses.replace(lookup, packages=packages.find(lookup.package_paths, lookup.source))
+        return self._domain.dependencies(snapshot, lookup, self._robot.options, lines)
 
     def _afresh(self) -> _Work:
         """Read, import, render and plan."""
@@ -182,7 +186,7 @@ class _Build:
         )
         contents = texts | {self._key(path): content for path, content in imported.contents.items()}
         contents |= {key: encode(text) for key, text in decision.texts.items()}
-        said = [*reading.diagnostics, *imported.diagnostics, *self._left_behind()]
+        said = [*reading.diagnostics, *imported.diagnostics, *self._parents.diagnostics, *self._left_behind()]
         said.sort(key=lambda found: (found.file, found.line))
         drawing = self._drawing(snapshot, imported.imports)
         return _Work(decision, manifest.dumps(renewed), model, contents, tuple(said), drawing)

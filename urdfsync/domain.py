@@ -68,10 +68,10 @@ class Dependency:
     """Where it may be, best first."""
     target: str
     """Where it goes: a POSIX path below the package folder that no other dependency has."""
+    noun: str
+    """What it is, in one lower-case word, for messages and the codes of diagnostics."""
     line: int = 0
     """Line of the source that first refers to it; 0 if unknown."""
-    noun: str = "mesh"
-    """What it is, in one lower-case word, for messages and the codes of diagnostics."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -114,6 +114,8 @@ class Lookup:
     """The source file, absolute."""
     package_paths: tuple[Path, ...] = ()
     """Folders whose children are packages, from the configuration and the environment, best first."""
+    packages: Mapping[str, Path] = dataclasses.field(default_factory=dict)
+    """Folders of packages by their name, wherever they are; filled only if something was not found without."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -146,6 +148,8 @@ class Domain(Protocol):
     """Raised whenever the same snapshot, options and templates give other text."""
     converter: int
     """Raised whenever `convert` gives other bytes for the same input."""
+    uses: Sequence[tuple[str, str]]
+    """Libraries that generated packages need, with their versions: what a top-level package's `uses` names."""
     options: type[Any]
     """A frozen msgspec.Struct with the domain's options and their defaults; unknown keys are refused by the core."""
 

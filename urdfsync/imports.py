@@ -69,10 +69,15 @@ def bring_in(
         progress(count, len(dependencies))
         found = _find(dependency)
         if found is None:
-            _keep(dependency, recorded, source, result, "not-found", "not found")
+            _keep(dependency, recorded, result, _not_found(dependency, source))
         elif again or not _serve(domain, dependency, digest(found[1]), recorded, result):
             _convert(domain, dependency, found, recorded, source, result)
     return result
+
+
+def all_found(dependencies: Sequence[Dependency]) -> bool:
+    """Whether every dependency is somewhere on this machine."""
+    return all(any(map(os.path.isfile, dependency.candidates)) for dependency in dependencies)
 
 
 def _find(dependency: Dependency) -> tuple[Path, bytes] | None:
@@ -114,38 +119,46 @@ def _convert(
     try:
         conversion = domain.convert(dependency, path, content)
     except SourceError as error:
-        result.diagnostics += [dataclasses.replace(d, severity=Severity.WARNING) for d in error.diagnostics]
-        _keep(dependency, recorded, source, result, "unreadable", "can't be used")
+        (found_wrong,) = error.diagnostics
+        _keep(dependency, recorded, result, dataclasses.replace(found_wrong, file=source, code="unreadable"))
         return
     result.contents[dependency.target] = conversion.content
     hashes = digest(content), digest(conversion.content)
     _add(dependency, Import(dependency.target, *hashes, domain.converter, conversion.facts), result)
 
 
-def _keep(dependency: Dependency, recorded: Recorded, source: str, result: Imported, code: str, trouble: str) -> None:
-    """Without the source, the copy that an earlier build made serves; without a copy there is nothing."""
+def _not_found(dependency: Dependency, source: str) -> Diagnostic:
+    message = f"{dependency.noun} `{dependency.uri}` not found"
+    hint = "add the folder that holds it to `package_paths`"
+    return Diagnostic(Severity.WARNING, "not-found", message, source, hint=hint)
+
+
+def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble: Diagnostic) -> None:
+    """Without the source, the copy that an earlier build made serves; without a copy there is nothing.
+
+    `trouble` says what is wrong with the source; what follows from it is added.
+    """
+    trouble = dataclasses.replace(
+        trouble, severity=Severity.WARNING, code=f"{dependency.noun}-{trouble.code}", line=dependency.line
+    )
     record = recorded.records.get(dependency.key)
     copy = recorded.copy(record.target) if record and record.target_hash else None
     if record is None or copy is None:
         result.records[dependency.key] = DependencyRecord(dependency.uri, dependency.target)
-        message, code = f"{dependency.noun} `{dependency.uri}` {trouble} and left out", f"{dependency.noun}-{code}"
-        hint = "add the folder that holds it to `package_paths`" if code.endswith("found") else "repair the file"
-        result.diagnostics.append(Diagnostic(Severity.WARNING, code, message, source, dependency.line, hint=hint))
+        result.diagnostics.append(dataclasses.replace(trouble, message=f"{trouble.message}; left out"))
         return
     facts = recorded.facts.get(dependency.key)
     if facts is None or facts.source_hash != record.source_hash or record.source_hash is None:
-        message = f"{dependency.noun} `{dependency.uri}` {trouble}, and what is recorded of its imported copy is lost"
+        message = f"{trouble.message}, and what is recorded of its imported copy is lost"
         hint = "restore `.urdfsync/robots` from version control, or the file itself"
-        raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, source, dependency.line, hint=hint))
+        raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
     copied = digest(copy)
     written = copied if copied == recorded.base(record.target) else record.target_hash or copied
     if recorded.moved or record.target != dependency.target:
         result.contents[dependency.target], written = copy, copied
-    entry = Import(dependency.target, record.source_hash, written, facts.converter, facts.facts)
-    _add(dependency, entry, result)
-    message = f"{dependency.noun} `{dependency.uri}` {trouble}; the imported copy is kept"
-    code = f"{dependency.noun}-{code}-kept"
-    result.diagnostics.append(Diagnostic(Severity.WARNING, code, message, source, dependency.line))
+    _add(dependency, Import(dependency.target, record.source_hash, written, facts.converter, facts.facts), result)
+    message = f"{trouble.message}; the imported copy is kept"
+    result.diagnostics.append(dataclasses.replace(trouble, code=f"{trouble.code}-kept", message=message, hint=""))
 
 
 def _add(dependency: Dependency, entry: Import, result: Imported) -> None:

@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 
 INFINITY = "Modelica.Constants.inf"
 
 _ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t"}
+_CONTROLS = re.compile(
+    "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff\ufffe\uffff]"
+)
+"""What could end a line, turn the direction of text around, or can't be written as UTF-8."""
+_LARGEST_INTEGER = 2**31 - 1  # what every Modelica tool takes without a decimal point
 
 
 def real(value: float | None, absent: str = INFINITY) -> str:
     """The shortest Modelica Real literal that reads back as the same number; `absent` for None.
 
-    Raises ValueError for numbers that have no literal.
+    Zero has no sign. Raises ValueError for numbers that have no literal.
     """
     if value is None:
         return absent
     if not math.isfinite(value):
         raise ValueError(f"{value} has no Modelica literal")
-    if value == 0:
-        return "0"
-    if value == int(value) and abs(value) < 1e15:
+    if abs(value) <= _LARGEST_INTEGER and value == int(value):
         return str(int(value))
     return repr(float(value))
 
@@ -43,8 +47,8 @@ def matrix(rows: Sequence[Sequence[float]], columns: int) -> str:
 
 def string(value: str) -> str:
     """A Modelica string literal, quotes included; control characters become spaces."""
-    escaped = "".join(_ESCAPES.get(char) or (char if char.isprintable() else " ") for char in value)
-    return f'"{escaped}"'
+    escaped = "".join(_ESCAPES.get(char, char) for char in value)
+    return f'"{_CONTROLS.sub(" ", escaped)}"'
 
 
 def html(value: str) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync import modelica
@@ -19,10 +20,11 @@ class Parents:
     """`package.mo` of every parent that does not exist yet."""
     entered: Mapping[Path, str]
     """`package.order` files above the parent's, and the created package that each has to name."""
+    diagnostics: tuple[Diagnostic, ...] = ()
 
 
-def check(config: Config, robot: RobotConfig) -> Parents:
-    """Look at the output folder and at all parents of the robot's package.
+def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -> Parents:
+    """Look at the output folder and at all parents of the robot's package, which needs the libraries `uses`.
 
     Raises OutputError, at the line of the configuration that says so, if the package can't be there.
     """
@@ -43,10 +45,10 @@ def check(config: Config, robot: RobotConfig) -> Parents:
             message = f"the parent package `{name}` does not exist in {shown(robot.output)}"
             hint = "create it, or set `create_parents = true`"
             raise OutputError(_problem("no-parent", message, "package", robot, file, hint))
-        created[folder / "package.mo"] = _package(name)
+        created[folder / "package.mo"] = _package(name, uses)
         if depth > 1:
             entered[folder.parent / "package.order"] = parts[depth - 1]
-    return Parents(created, entered)
+    return Parents(created, entered, tuple(_check_uses(robot, parts, uses)))
 
 
 def _check_output(config: Config, robot: RobotConfig, file: str) -> None:
@@ -67,9 +69,27 @@ def _check_output(config: Config, robot: RobotConfig, file: str) -> None:
         raise OutputError(_problem("no-output", message, "output", robot, file, hint))
 
 
-def _package(name: str) -> bytes:
-    last = name.rpartition(".")[2]
-    return f'{modelica.within(name)}\npackage {last} "{last}"\nend {last};\n'.encode()
+def _check_uses(robot: RobotConfig, parts: Sequence[str], uses: Sequence[tuple[str, str]]) -> Iterator[Diagnostic]:
+    """A warning if the user's top-level package does not say which libraries it needs now."""
+    top = robot.output / parts[0] / "package.mo"
+    if len(parts) == 1 or not top.is_file():
+        return
+    text = top.read_text(encoding="utf-8", errors="replace")
+    missing = [use for use in uses if use[0] != parts[0] and not re.search(rf"\b{use[0]}\s*\(\s*version", text)]
+    if missing:
+        message = f"package `{parts[0]}` does not say that it needs {' and '.join(name for name, _ in missing)}"
+        hint = f"add `{_uses(missing)}` to its annotation"
+        yield Diagnostic(Severity.WARNING, "no-uses", message, shown(top), hint=hint)
+
+
+def _package(name: str, uses: Sequence[tuple[str, str]]) -> bytes:
+    parent, _, last = name.rpartition(".")
+    annotation = "" if parent else f"  annotation ({_uses(uses)});\n"
+    return f'{modelica.within(name)}\npackage {last} "{last}"\n{annotation}end {last};\n'.encode()
+
+
+def _uses(uses: Sequence[tuple[str, str]]) -> str:
+    return f"uses({', '.join(f'{name}(version={version!r})' for name, version in uses)})".replace("'", '"')
 
 
 def _problem(code: str, message: str, key: str, robot: RobotConfig, file: str, hint: str) -> Diagnostic:

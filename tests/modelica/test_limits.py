@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 
-from support import modelica
-from support.modelica import Run, Series, Task
+from support.modelica import Run, Series, Task, execute
 from support.packages import generate
+from support.physics import DRIVES
 from support.urdfs import joint, limit, link, mimic, robot
 from urdfsync.domain import Target
 
@@ -17,7 +18,10 @@ pytestmark = pytest.mark.slow
 
 LOWER, UPPER, VELOCITY, EFFORT = -0.5, 0.8, 2.0, 10.0
 INERTIA = 0.25
-"""Moment of inertia or mass that each drive moves: the robot is balanced and slides level, so that gravity does nothing."""
+"""Mass and moment of inertia of what each drive moves; all motion is level, so that gravity does nothing."""
+
+LIMITS = limit(LOWER, UPPER, VELOCITY, EFFORT)
+LEVEL = {"xyz": "0 0 0", "rpy": "0 0 0"}
 
 
 def balanced(name: str) -> str:
@@ -25,47 +29,102 @@ def balanced(name: str) -> str:
     return f'<link name="{name}"><inertial><mass value="{INERTIA}"/>{tensor}</inertial></link>'
 
 
-LIMITS = limit(LOWER, UPPER, VELOCITY, EFFORT)
-LEVEL = {"xyz": "0 0 0", "rpy": "0 0 0"}
-
 ROBOT = robot(
     link("base"),
-    *(balanced(name) for name in ("arm", "wheel", "sledge")),
+    *(balanced(name) for name in ("arm", "wheel", "sledge", "flap")),
     link("finger"),
     joint("my elbow", "revolute", "base", "arm", axis="0 0 1", inside=[LIMITS], **LEVEL),
     joint("roll", "continuous", "base", "wheel", axis="0 0 1", inside=[LIMITS], **LEVEL),
     joint("rail", "prismatic", "base", "sledge", axis="1 0 0", inside=[LIMITS], **LEVEL),
-    joint("grip", "prismatic", "arm", "finger", axis="1 0 0", inside=[mimic("my elbow", 0.1), limit(-0.01, 1)], **LEVEL),
+    joint("lid", "revolute", "base", "flap", axis="0 0 1", inside=[limit(-9, 9, 99, 99)], **LEVEL),
+    joint("grip", "prismatic", "flap", "finger", axis="1 0 0", inside=[mimic("lid", 0.1), limit(-0.02, 1)], **LEVEL),
 )
-"""Its axes, in the order of the flange vectors: my elbow, roll; rail. The finger stops the elbow at -0.1 rad."""
+"""Four drives of which three have close limits; grip follows lid, and is at its end where lid is at -0.2 rad."""
 
-DRIVES = """
+CHECK = f"""
 package Check_
   import Modelica;
   import UrdfSync;
-
+{DRIVES}
   model Check
-    parameter Real a0[3] = zeros(3);
-    parameter Real a1[3] = zeros(3);
-    parameter Real a2[3] = zeros(3);
-    parameter Real elbow_a0 = 0;
-    parameter Real elbow_a1 = 0;
-    parameter Real elbow_a2 = 0;
-    parameter Real roll_a1 = 0;
-    parameter Real roll_a2 = 0;
-    parameter Real rail_a0 = 0;
-    parameter Real rail_a1 = 0;
-    parameter Real rail_a2 = 0;
-    inner Modelica.Mechanics.MultiBody.World world(n = {0, 0, -1}, enableAnimation = false);
+    inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, enableAnimation = false);
     Bot.Bot robot(fixedStart = false, checkLimits = %s);
-    Real elbow = elbow_a0 + elbow_a1*time + elbow_a2*time^2/2;
-    Real roll = roll_a1*time + roll_a2*time^2/2;
-    Real rail = rail_a0 + rail_a1*time + rail_a2*time^2/2;
+    RotationalDrive elbow;
+    RotationalDrive lid;
+    RotationalDrive roll;
+    TranslationalDrive rail;
   equation
-    robot.rotationalAxis[1].phi = elbow;
-    robot.rotationalAxis[2].phi = roll;
-    robot.translationalAxis[1].s = rail;
     connect(world.frame_b, robot.frame_a);
+    connect(elbow.flange, robot.rotationalAxis[robot.my_elbowAxis]);
+    connect(lid.flange, robot.rotationalAxis[robot.lidAxis]);
+    connect(roll.flange, robot.rotationalAxis[robot.rollAxis]);
+    connect(rail.flange, robot.translationalAxis[robot.railAxis]);
   end Check;
 end Check_;
 """
+
+PASSING = {
+    "lower": ({"elbow.a1": -1.0}, -LOWER, "my_elbow (joint my elbow) is below its lower position limit"),
+    "upper": ({"elbow.a1": 1.0}, UPPER, "my_elbow (joint my elbow) is above its upper position limit"),
+    "velocity": ({"roll.a2": 4.0}, VELOCITY / 4, "roll (joint roll) is faster than its velocity limit"),
+    "backward": ({"roll.a2": -4.0}, VELOCITY / 4, "roll (joint roll) is faster than its velocity limit"),
+    "effort": ({"rail.a2": 1.01 * EFFORT / INERTIA}, 0.0, "rail (joint rail) is driven above its effort limit"),
+    "slide": ({"rail.a1": 1.0}, UPPER, "rail (joint rail) is above its upper position limit"),
+    "follower": ({"lid.a1": -0.5}, 0.4, "grip (joint grip) is below its lower position limit"),
+}
+"""Per limit: a motion that passes this one alone, when it does, and what is said then."""
+
+INSIDE: Mapping[str, tuple[Mapping[str, float], float]] = {
+    "at rest": ({}, 1.0),
+    "from end to end": ({"elbow.a0": LOWER, "elbow.a1": UPPER - LOWER, "rail.a0": UPPER, "rail.a1": LOWER - UPPER}, 1.0),
+    "as fast as allowed": ({"roll.a1": VELOCITY}, 1.0),
+    "as strong as allowed": ({"rail.a2": 0.99 * EFFORT / INERTIA, "roll.a2": -0.99 * EFFORT / INERTIA}, 0.04),
+    "far where there is no end": ({"roll.a0": 100.0}, 1.0),
+}
+"""Motions that pass no limit, and how long they last."""
+
+EVERYTHING = {"elbow.a1": 1.0, "roll.a2": 4.0, "rail.a2": 100.0, "lid.a1": -1.0}
+"""A motion that passes limits of all kinds."""
+
+
+def runs(library: Path, folder: Path, level: str, check: str, motions: Mapping[str, Run]) -> Mapping[str, Series]:
+    """What comes of each motion if passing a limit has that level; `check` switches the limits on and off."""
+    package = generate(ROBOT.encode(), Target("Bot", "Bot"), modifiers={"assertion_level": level})
+    task = Task(CHECK % check, "Check_.Check", list(motions.values()))
+    (outcome,) = execute(library, [package.write(folder)], [task])
+    assert not outcome.error, outcome.error
+    return dict(zip(motions, outcome.runs, strict=True))
+
+
+@pytest.fixture(scope="module")
+def with_errors(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Series]:
+    passing = {name: Run(1.0, 0.1, motion) for name, (motion, _, _) in PASSING.items()}
+    inside = {name: Run(stop, stop / 10, motion) for name, (motion, stop) in INSIDE.items()}
+    return runs(modelica_library, tmp_path_factory.mktemp("error"), "error", "true", passing | inside)
+
+
+@pytest.mark.parametrize("limit", PASSING)
+def test_a_limit_that_is_passed_is_named(limit: str, with_errors: Mapping[str, Series]) -> None:
+    _, time, message = PASSING[limit]
+    found = re.search(r"assert failed at t=([\d.]+): (.*)", with_errors[limit].error)
+    assert found, with_errors[limit].error or "the simulation ran to its end"
+    assert float(found[1]) == pytest.approx(time, rel=1e-3)
+    assert found[2].strip() == f"Check.robot.{message}"
+
+
+@pytest.mark.parametrize("motion", INSIDE)
+def test_nothing_is_said_inside_the_limits(motion: str, with_errors: Mapping[str, Series]) -> None:
+    assert with_errors[motion].error == ""
+    assert with_errors[motion].times[-1] == INSIDE[motion][1]
+
+
+def test_a_warning_does_not_stop_the_simulation(modelica_library: Path, tmp_path: Path) -> None:
+    (series,) = runs(modelica_library, tmp_path, "warning", "true", {"all": Run(1.0, 0.1, EVERYTHING)}).values()
+    assert series.error == ""
+    assert series.times[-1] == 1.0
+
+
+def test_limits_can_be_switched_off_for_the_whole_robot(modelica_library: Path, tmp_path: Path) -> None:
+    (series,) = runs(modelica_library, tmp_path, "error", "false", {"all": Run(1.0, 0.1, EVERYTHING)}).values()
+    assert series.error == ""
+    assert series.times[-1] == 1.0

@@ -67,6 +67,7 @@ class RcNetwork:
     name = "rcnetwork"
     templates: Path | None = Path(__file__).parent / "templates"
     revision = 1
+    uses = (("Modelica", "4.0.0"),)
     converter = 1
     options = Options
 
@@ -93,7 +94,7 @@ class RcNetwork:
         folders = (lookup.source.parent, *lookup.package_paths)
         candidates = tuple(folder / signal for folder in folders)
         target = f"Resources/{Path(signal).stem}.txt"
-        return (Dependency(signal, signal, candidates, target, lines.get("signal", 0), noun="table"),)
+        return (Dependency(signal, signal, candidates, target, "table", lines.get("signal", 0)),)
 
     def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
         try:

@@ -54,6 +54,13 @@ def read(content: bytes, file: str = "robot.urdf") -> Reading:
     return DOMAIN.read(content, file, Options(cross_check=False))
 
 
+def proposed_base(content: bytes) -> str:
+    """Stationary or mobile, as `init` proposes it."""
+    snapshot = read(content).snapshot
+    assert snapshot is not None
+    return str(next(proposal.value for proposal in DOMAIN.propose(snapshot) if proposal.option == "base"))
+
+
 def generate(
     source: Path | bytes, target: Target, *, modifiers: Mapping[str, Any] | None = None, **options: Any
 ) -> Package:

@@ -29,7 +29,7 @@ TOLERANCE = 1e-10
 
 _VECTORS = {"rotational": ("phi", "tau", "Rotational"), "translational": ("s", "f", "Translational")}
 
-_DRIVES = """
+_DRIVE = """
   model {Domain}Drive
     parameter Real a0 = 0;
     parameter Real a1 = 0;
@@ -39,6 +39,8 @@ _DRIVES = """
     flange.{q} = a0 + a1*time + a2*time^2/2;
   end {Domain}Drive;
 """
+DRIVES = "".join(_DRIVE.format(Domain=domain, q=q) for q, _, domain in _VECTORS.values())
+"""Modelica models that move a flange as q = a0 + a1·t + a2·t²/2."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -219,13 +221,12 @@ def _relative(pairs: Sequence[tuple[Array, Array]]) -> float:
 def _check(
     package: Package, modifiers: str, declarations: list[str], equations: list[str], values: Sequence[str]
 ) -> Task:
-    drives = "".join(_DRIVES.format(Domain=domain, q=q) for q, _, domain in _VECTORS.values())
     source = "\n".join(
         [
             "package Check_",
             "  import Modelica;",
             "  import UrdfSync;",
-            drives,
+            DRIVES,
             "  model Check",
             f"    inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, g = {GRAVITY}, enableAnimation = false);",
             f"    {package.target.package}.{package.target.name} robot({modifiers});",

@@ -9,15 +9,9 @@ from typing import Any
 from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.urdf.model import assembly, notes, shapes
 from urdfsync.urdf.model.numbers import joint_numbers
-from urdfsync.urdf.options import Options
+from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import Joint, Link, Robot
 from urdfsync.urdf.skeleton import Skeleton
-
-LIBRARY_VERSION = "0.1.0"
-"""Version of the UrdfSync Modelica library that generated packages are written for."""
-
-USES = (("Modelica", "4.0.0"), ("UrdfSync", LIBRARY_VERSION))
-"""Libraries that a package of its own names in its `uses` annotation."""
 
 LINK_MODEL = "link/model.mo.jinja"
 LINK_RECORD = "link/record.mo.jinja"

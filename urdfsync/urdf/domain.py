@@ -7,7 +7,7 @@ from pathlib import Path
 
 from urdfsync.domain import Artifact, Conversion, Dependency, Import, Lookup, Order, Proposal, Reading, Snapshot, Target
 from urdfsync.urdf import naming
-from urdfsync.urdf.options import Options
+from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
@@ -19,6 +19,7 @@ class UrdfDomain:
     templates: Path | None = None
     revision = 1
     converter = 1
+    uses = USES
     options = Options
 
     def read(self, content: bytes, file: str, options: Options) -> Reading:

@@ -12,6 +12,9 @@ Matrix = tuple[Vector, Vector, Vector]
 Pose = tuple[Matrix, Vector]
 """Rotation R and translation p: v_world = R·v + p."""
 
+_FAR = 1e60
+"""Farther than any joint moves, and not so far that arithmetic with it overflows: as in the function leaderRange."""
+
 IDENTITY: Pose = (((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0, 0.0, 0.0))
 
 
@@ -65,7 +68,8 @@ def start_positions(skeleton: Skeleton) -> Mapping[str, float]:
     positions: dict[str, float] = {}
     for joint in skeleton.leaders_first():
         if joint.mimic is not None and joint.type in MOTIONS:
-            positions[joint.name] = joint.mimic.multiplier * positions[joint.mimic.joint] + joint.mimic.offset
+            followed = joint.mimic.multiplier * positions[joint.mimic.joint] + joint.mimic.offset
+            positions[joint.name] = _near(followed)
         else:
             lower, upper = ranges[joint.name]
             positions[joint.name] = min(max(0.0, lower), upper)
@@ -92,9 +96,9 @@ def _ranges(skeleton: Skeleton) -> Mapping[str, tuple[float, float]]:
     ranges = {joint.name: own_range(joint) for joint in skeleton.joints}
     followers = skeleton.followers_by_leader()
     for joint in reversed(skeleton.leaders_first()):
-        for follower, mimic in followers.get(joint.name, ()):
-            if mimic.multiplier:
-                ends = sorted((end - mimic.offset) / mimic.multiplier for end in ranges[follower.name])
+        for follower, mimic in followers.get(joint.name, ()) if joint.type in MOTIONS else ():
+            if abs(mimic.multiplier) > math.ulp(1):
+                ends = sorted((_near(end) - mimic.offset) / mimic.multiplier for end in ranges[follower.name])
                 lower, upper = ranges[joint.name]
                 ranges[joint.name] = max(lower, ends[0]), min(upper, ends[1])
     return ranges
@@ -107,6 +111,10 @@ def own_range(joint: Joint) -> tuple[float, float]:
     if joint.type == "continuous" or joint.limit is None:
         return -math.inf, math.inf
     return joint.limit.lower, joint.limit.upper
+
+
+def _near(position: float) -> float:
+    return min(max(position, -_FAR), _FAR)
 
 
 def _dot(a: Sequence[float], b: Sequence[float]) -> float:

@@ -7,6 +7,7 @@ Links and joints of a robot share one namespace, because both become components 
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 import re
 from collections.abc import Iterable, Mapping
 
@@ -16,27 +17,43 @@ Key = tuple[str, str]
 """Kind (`link` or `joint`) and URDF name."""
 
 BUILT_IN = frozenset(
-    "abs acos actualstream array asin assertionlevel atan atan2 backsample boolean cardinality cat ceil "
-    "change clock complex cos cosh cross delay diagonal div edge exp externalobject fill floor getinstancename "
-    "hold homotopy identity instream integer interval inverse ln log log10 linspace matrix max min mod modelica "
-    "modelicaservices ndims noclock noevent ones outerproduct pre previous product promote real reinit rem rooted "
-    "sample scalar semilinear shiftsample sign sin sinh size skew smooth spatialdistribution sqrt stateselect "
-    "string subsample sum supersample symmetric tan tanh terminal terminate time transpose vector zeros "
-    "connections constants urdfsync visualization2".split()
+    """
+    abs acos activestate actualstream array asin assertionlevel atan atan2 backsample boolean cardinality cat
+    ceil change clock complex connections cos cosh cross delay diagonal div edge exp externalobject fill
+    firsttick floor getinstancename hold homotopy identity initialstate instream integer interval inverse
+    linspace ln log log10 matrix max min mod ndims noclock noevent ones outerproduct pre previous product
+    promote real reinit rem rooted sample scalar semilinear shiftsample sign sin sinh size skew smooth
+    spatialdistribution sqrt stateselect string subsample sum supersample symmetric tan tanh terminal terminate
+    ticksinstate time timeinstate transition transpose vector zeros
+    """.split()
 )
+"""Functions, types and operators of the language, folded to lower case."""
+
+LIBRARIES = frozenset({"modelica", "modelicaservices", "urdfsync", "visualization2"})
+"""Libraries that generated text refers to, folded to lower case."""
 
 GENERATED = frozenset(
-    "animation checklimits fixedstart frame_a frame_b joints links m parameters phi_start resources "
-    "rotationalaxis rotationalrange rotationalsupport s_start showcollisions translationalaxis translationalrange "
-    "translationalsupport v_start w_start world".split()
+    "animation checklimits connectionmatrix fixedstart frame_a frame_b ground joints links m moveablejoints name "
+    "parameters phi_start resources rotationalaxis rotationalrange rotationalsupport s_start showcollisions "
+    "standingheight translationalaxis translationalrange translationalsupport v_start visualizationsetup w_start "
+    "world".split()
 )
-"""Names, folded to lower case, that robot models use beside those of links and joints."""
+"""Names, folded to lower case, that models and records of robots use beside those of links and joints."""
+
+DEVICES = frozenset(["con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))])
+"""Names that Windows gives to no file, whatever its suffix."""
+
+LONGEST = 100
+"""A longer spelling is cut, since file systems end at 255 bytes."""
 
 RESERVED_SUFFIXES = ("parameters", "run", "test")
 """Endings, folded to lower case, by which class names are made from other class names."""
 
 DERIVED_SUFFIXES = ("", "axis", "frame", "mimic")
 """Endings, folded to lower case, of the names in the robot model that come with a link or joint."""
+
+_RESERVED = KEYWORDS | BUILT_IN | LIBRARIES | DEVICES
+_DIGITS = 8
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -60,7 +77,7 @@ class Identifier:
 def is_reserved(spelling: str) -> bool:
     """Whether an identifier would collide with the language, a library or generated text."""
     folded = spelling.lower()
-    return folded in KEYWORDS | BUILT_IN | GENERATED or folded.endswith(RESERVED_SUFFIXES)
+    return folded in _RESERVED or folded.endswith(RESERVED_SUFFIXES) or not GENERATED.isdisjoint(_derived(spelling))
 
 
 def spell(name: str, kind: str) -> str:
@@ -68,13 +85,23 @@ def spell(name: str, kind: str) -> str:
     spelled = re.sub(r"[^A-Za-z0-9_]", "_", name)
     if not spelled[:1].isalpha():
         spelled = f"{kind}_{spelled}" if not spelled.startswith("_") else f"{kind}{spelled}"
+    if len(spelled) > LONGEST:
+        digits = hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()[:_DIGITS]
+        spelled = f"{spelled[: LONGEST - _DIGITS - 1]}_{digits}"
     return spelled[0].lower() + spelled[1:]
 
 
-def natural_key(name: str) -> tuple[tuple[int, int, str], ...]:
+def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
     """Sort key in which `link10` follows `link9`; total: distinct names have distinct keys."""
-    parts = re.findall(r"[0-9]+|[^0-9]+", name)
-    return tuple((0, int(p), p) if "0" <= p[0] <= "9" else (1, 0, p) for p in parts)
+    return tuple(map(_part_key, re.findall(r"[0-9]+|[^0-9]+", name)))
+
+
+def _part_key(part: str) -> tuple[int, int, str, str]:
+    """Numbers before words; numbers by value, however long they are, then by the zeros that lead them."""
+    if not "0" <= part[0] <= "9":
+        return 1, 0, part, part
+    digits = part.lstrip("0")
+    return 0, len(digits), digits, part
 
 
 def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Identifier]:
@@ -85,6 +112,7 @@ def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Id
     """
     keys = sorted(set(names), key=lambda key: (key[0] != "link", spell(key[1], key[0]) != key[1], natural_key(key[1])))
     used = {name.lower() for name in taken}
+    counts: dict[str, int] = {}
     result: dict[Key, Identifier] = {}
     for key in keys:
         spelled = spell(key[1], key[0])
@@ -92,22 +120,27 @@ def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Id
             result[key] = _take(spelled, used)
     for key in keys:
         if key not in result:
-            result[key] = _take(_give_way(spell(key[1], key[0]), key[0], used), used)
+            result[key] = _take(_give_way(f"{spell(key[1], key[0])}_{key[0]}", used, counts), used)
     return result
 
 
 def _is_free(spelled: str, used: set[str]) -> bool:
-    return not is_reserved(spelled) and used.isdisjoint(spelled.lower() + suffix for suffix in DERIVED_SUFFIXES)
+    return not is_reserved(spelled) and used.isdisjoint(_derived(spelled))
 
 
 def _take(spelled: str, used: set[str]) -> Identifier:
-    used.update(spelled.lower() + suffix for suffix in DERIVED_SUFFIXES)
+    used.update(_derived(spelled))
     return Identifier(spelled)
 
 
-def _give_way(spelled: str, kind: str, used: set[str]) -> str:
-    candidate, number = f"{spelled}_{kind}", 1
-    while not _is_free(candidate, used):
+def _derived(spelled: str) -> list[str]:
+    return [spelled.lower() + suffix for suffix in DERIVED_SUFFIXES]
+
+
+def _give_way(spelled: str, used: set[str], counts: dict[str, int]) -> str:
+    """The spelling, with the first free number if need be; `counts` remembers how far numbers are taken."""
+    number = counts.get(spelled.lower(), 1)
+    while not _is_free(candidate := f"{spelled}_{number}" if number > 1 else spelled, used):
         number += 1
-        candidate = f"{spelled}_{kind}_{number}"
+    counts[spelled.lower()] = number
     return candidate

@@ -1,10 +1,13 @@
-"""The options of the URDF domain, as they stand in `urdfsync.toml`."""
+"""What generated packages need, and the options of the URDF domain as they stand in `urdfsync.toml`."""
 
 from __future__ import annotations
 
 from typing import Literal
 
 import msgspec
+
+USES = (("Modelica", "4.0.0"), ("UrdfSync", "0.1.0"))
+"""Libraries that generated packages are written for."""
 
 
 class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

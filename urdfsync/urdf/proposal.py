@@ -10,21 +10,27 @@ from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.skeleton import Skeleton
 
 _FOOTPRINT = re.compile(r"base_?footprint", re.IGNORECASE)
-_WHEEL = re.compile(r"wheel|caster|castor|track(?!er)", re.IGNORECASE)
-_LEG = re.compile(r"(?:^|[^a-z])(?:leg|foot|feet|ankle|hip|thigh|calf|shin|toe)(?:$|[^a-z])", re.IGNORECASE)
+_LIMBS = (
+    ("wheels", re.compile(r"wheel|caster|castor|track(?!er|ing)", re.IGNORECASE)),
+    (
+        "legs",
+        re.compile(r"(?<![a-z])(?:leg|foot|feet|ankle|knee|hip|thigh|calf|shank|shin|toe)s?(?![a-z])", re.IGNORECASE),
+    ),
+)
+_CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
 def propose_base(robot: Robot) -> Proposal:
     """Whether a robot stands on the ground by itself: a guess from names, with the name that decided it."""
-    skeleton = Skeleton.of(robot)
-    root = skeleton.links[0].name
-    if root == "world":
-        return Proposal("base", "fixed", 'its root link is named "world"')
+    root = Skeleton.of(robot).links[0].name
+    if root.lower() == "world":
+        return Proposal("base", "fixed", f'its root link is named "{root}"')
     if _FOOTPRINT.search(root):
         return Proposal("base", "floating", f'its root link is named "{root}"')
-    moving = {joint.child for joint in robot.joints if joint.type in ("continuous", "revolute")}
-    for words, pattern in (("a wheel", _WHEEL), ("a leg", _LEG)):
-        found = sorted((name for name in moving if pattern.search(name)), key=natural_key)
-        if len(found) > 1:
-            return Proposal("base", "floating", f'link "{found[0]}" sounds like {words}')
-    return Proposal("base", "fixed", "no link sounds like a wheel or a leg")
+    turning = [joint for joint in robot.joints if joint.type in ("continuous", "revolute")]
+    for limbs, pattern in _LIMBS:
+        for kind, names in (("link", {j.child for j in turning}), ("joint", {j.name for j in turning})):
+            found = sorted((name for name in names if pattern.search(_CAMEL.sub(" ", name))), key=natural_key)
+            if len(found) > 1:
+                return Proposal("base", "floating", f'{kind} "{found[0]}" and others sound like {limbs}')
+    return Proposal("base", "fixed", "no link or joint sounds like wheels or legs")

@@ -29,7 +29,7 @@ UNIT = (1.0, 1.0, 1.0)
 
 def _convert(uri: str, content: bytes, scale: Vector = UNIT) -> Conversion:
     mesh = Mesh(uri, scale)
-    return convert(Dependency(key(mesh), uri, (), target(mesh)), Path("/ws/arm") / Path(uri).name, content)
+    return convert(Dependency(key(mesh), uri, (), target(mesh), "mesh"), Path("/ws/arm") / Path(uri).name, content)
 
 
 def _volume(stl: bytes) -> float:

@@ -80,7 +80,7 @@ def dependencies(robot: Robot, lookup: Lookup, lines: Mapping[str, int]) -> tupl
         if line:
             first[name] = min(line, first.get(name, line))
     return tuple(
-        Dependency(name, found.filename, candidates(found.filename, lookup), target(found), first.get(name, 0))
+        Dependency(name, found.filename, candidates(found.filename, lookup), target(found), "mesh", first.get(name, 0))
         for name, found in sorted(meshes.items())
     )
 
@@ -130,6 +130,8 @@ def _in_package(package: str, text: str, lookup: Lookup) -> Iterator[Path]:
             yield folder / package / path
             if folder.name == package:
                 yield folder / path
+        if package in lookup.packages:
+            yield lookup.packages[package] / path
 
 
 def _possible(path: Path) -> bool:

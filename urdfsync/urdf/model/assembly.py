@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -118,7 +119,7 @@ def standing_height(skeleton: Skeleton, imports: Mapping[str, Import]) -> float 
         for link in skeleton.links
         for shape in link.collisions
     ]
-    lowest = min((height for height in heights if height is not None), default=None)
+    lowest = min((height for height in heights if height is not None and math.isfinite(height)), default=None)
     return None if lowest is None else round(-lowest, 12)
 
 

@@ -34,7 +34,10 @@ def link_shapes(
 
 
 def contacts(collisions: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Template data of the ground contacts of a link: one per collision shape, a mesh by its outermost points."""
+    """Template data of the ground contacts of a link: one per collision shape, a mesh by its outermost points.
+
+    A mesh without any has none.
+    """
     return [
         {
             "component": shape["component"].replace("collision", "contact"),
@@ -43,6 +46,7 @@ def contacts(collisions: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
             "y": shape["y"],
         }
         for shape in collisions
+        if shape["type"] != "Mesh" or shape["hull"]
     ]
 
 

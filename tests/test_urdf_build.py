@@ -1,0 +1,139 @@
+"""Builds of URDF robots from end to end: meshes that come and go, same bytes everywhere, edits that stay."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+from urdfsync.build import Request, build
+from urdfsync.config import load
+from urdfsync.outcome import Result
+
+SAMPLES = Path(__file__).parents[1] / "modelica" / "UrdfSync" / "Resources" / "robots"
+CONFIGURATION = """
+[robots.arm]
+source = "ws/src/six_axis_arm/six_axis_arm.urdf"
+package = "Arm"
+cross_check = false
+"""
+
+
+@pytest.fixture
+def arm(tmp_path: Path) -> Path:
+    """A project that builds the sample arm from a ROS workspace of its own."""
+    shutil.copytree(SAMPLES / "six_axis_arm", tmp_path / "ws" / "src" / "six_axis_arm")
+    (tmp_path / "urdfsync.toml").write_text(CONFIGURATION)
+    return tmp_path
+
+
+def run(project: Path, **request: bool) -> Result:
+    config = load(project / "urdfsync.toml")
+    (result,) = build(config, config.robots, Request(**request))
+    return result
+
+
+def contents(folder: Path) -> Mapping[str, bytes]:
+    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+
+
+def times(folder: Path) -> Mapping[str, int]:
+    return {p.relative_to(folder).as_posix(): p.stat().st_mtime_ns for p in folder.rglob("*")}
+
+
+def test_a_second_build_writes_nothing(arm: Path) -> None:
+    run(arm)
+    before = times(arm)
+    for request in ({}, {"full": True}):
+        assert run(arm, **request).in_step
+        assert times(arm) == before
+
+
+def test_a_build_on_another_path_gives_the_same_bytes(arm: Path, tmp_path: Path) -> None:
+    other = tmp_path / "quite" / "another place"
+    shutil.copytree(arm, other, ignore=shutil.ignore_patterns("quite"))
+    for project in (arm, other):
+        assert not run(project).diagnostics
+    assert contents(other / "modelica") == contents(arm / "modelica")
+    assert contents(other / ".urdfsync") == contents(arm / ".urdfsync")
+
+
+def test_the_order_of_elements_in_the_file_makes_no_difference(arm: Path) -> None:
+    run(arm)
+    before = contents(arm / "modelica")
+    source = arm / "ws/src/six_axis_arm/six_axis_arm.urdf"
+    tree = etree.parse(source)
+    robot = tree.getroot()
+    robot[:] = list(reversed(robot))
+    tree.write(source)
+    assert not any(action.writes for action in run(arm, full=True).actions)
+    assert contents(arm / "modelica") == before
+
+
+def test_meshes_are_imported_and_named_by_modelica_uris(arm: Path) -> None:
+    run(arm)
+    resources = {p.name for p in (arm / "modelica/Arm/Resources").iterdir()}
+    texts = "".join(p.read_text() for p in (arm / "modelica/Arm/Links").glob("*Parameters.mo"))
+    assert len(resources) == 7
+    assert all(f'"modelica://Arm/Resources/{name}"' in texts for name in resources)
+    assert "package://" not in texts
+
+
+def test_a_robot_whose_meshes_are_gone_keeps_its_imported_copies(arm: Path) -> None:
+    run(arm)
+    before = contents(arm / "modelica")
+    shutil.rmtree(arm / "ws/src/six_axis_arm/meshes")
+    result = run(arm, full=True)
+    assert {found.code for found in result.diagnostics} == {"mesh-not-found-kept"}
+    assert contents(arm / "modelica") == before
+
+
+def test_a_robot_whose_meshes_were_never_there_has_no_broken_path(arm: Path) -> None:
+    shutil.rmtree(arm / "ws/src/six_axis_arm/meshes")
+    result = run(arm)
+    assert {found.code for found in result.diagnostics} == {"mesh-not-found"}
+    assert not (arm / "modelica/Arm/Resources").exists()
+    for text in contents(arm / "modelica").values():
+        assert b"modelica://" not in text
+        assert b"UrdfSync.Visualizers.Mesh" not in text
+
+
+def test_a_mesh_that_changes_renews_its_copy_and_the_records_with_its_numbers_only(arm: Path) -> None:
+    run(arm)
+    mesh = arm / "ws/src/six_axis_arm/meshes/carousel.obj"
+    mesh.write_text(mesh.read_text().replace("\nv ", "\nv 9", 1))
+    written = [action.path for action in run(arm).actions if action.writes]
+    assert written
+    assert all("/Resources/carousel_" in path or path.endswith("Parameters.mo") for path in written)
+
+
+def test_a_package_elsewhere_in_the_workspace_is_found_by_its_name(arm: Path) -> None:
+    meshes = arm / "ws/src/vendor-main/robots/arm-2.1"
+    shutil.move(arm / "ws/src/six_axis_arm/meshes", meshes / "meshes")
+    (meshes / "package.xml").write_text("<package><name>six_axis_arm</name></package>")
+    assert {found.code for found in run(arm).diagnostics} == {"mesh-not-found"}
+    (arm / "urdfsync.toml").write_text(CONFIGURATION + 'package_paths = ["ws/src"]\n')
+    assert not run(arm).diagnostics
+    assert run(arm).in_step
+
+
+def test_an_edited_file_survives_every_build(arm: Path) -> None:
+    run(arm)
+    source = arm / "ws/src/six_axis_arm/six_axis_arm.urdf"
+    edited = arm / "modelica/Arm/Joints/Elbow.mo"
+    edited.write_text(edited.read_text() + "// mine\n")
+    mine = edited.read_bytes()
+    for change in (
+        ('name="elbow" type="revolute"', 'name="elbow" type="continuous"'),
+        ("<mass value=", "<mass  value="),
+    ):
+        source.write_text(source.read_text().replace(*change))
+        for request in ({}, {"full": True}):
+            run(arm, **request)
+            assert edited.read_bytes() == mine
+    source.unlink()
+    run(arm)
+    assert edited.read_bytes() == mine

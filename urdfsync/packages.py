@@ -1,0 +1,50 @@
+"""ROS packages on this machine: which folder holds the package of a name."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+_NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
+_IGNORED = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
+_DEPTH = 8
+
+
+def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
+    """Folder of each ROS package below `folders`, and of those around `source`; of two of one name, the first.
+
+    As with rospack, a package holds no others, and folders that ask to be ignored are. Folders that can't be read
+    are passed over.
+    """
+    found: dict[str, Path] = {}
+    for folder in source.parents:
+        if name := _package_name(folder):
+            found.setdefault(name, folder)
+    for folder in folders:
+        for name, path in _below(folder):
+            found.setdefault(name, path)
+    return found
+
+
+def _below(top: Path) -> Iterator[tuple[str, Path]]:
+    for current, folders, files in os.walk(top):
+        path = Path(current)
+        if _IGNORED.intersection(files):
+            folders.clear()
+        elif "package.xml" in files:
+            folders.clear()
+            if name := _package_name(path):
+                yield name, path
+        elif len(path.relative_to(top).parts) >= _DEPTH:
+            folders.clear()
+        folders[:] = sorted(folder for folder in folders if not folder.startswith("."))
+
+
+def _package_name(folder: Path) -> str | None:
+    try:
+        match = _NAME.search((folder / "package.xml").read_bytes())
+    except OSError:
+        return None
+    return match[1].decode(errors="replace") if match else None
