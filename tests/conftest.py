@@ -19,14 +19,15 @@ NO_LIBRARY = "no Modelica Standard Library: set MODELICAPATH"
 _HOME = Path.home()
 _ALLOWED = {"__pycache__", ".hypothesis", ".pytest_cache", ".mypy_cache", ".ruff_cache", ".coverage", ".git"}
 _WRITES = {
-    "os.remove": 1,
-    "os.rename": 2,
-    "os.mkdir": 1,
-    "os.rmdir": 1,
-    "os.link": 2,
-    "os.symlink": 2,
-    "os.truncate": 1,
+    "os.remove": slice(1),
+    "os.rename": slice(2),
+    "os.mkdir": slice(1),
+    "os.rmdir": slice(1),
+    "os.link": slice(1, 2),
+    "os.symlink": slice(1, 2),
+    "os.truncate": slice(1),
 }
+"""Which arguments of an event are paths that change."""
 _strays: list[str] = []
 
 
@@ -48,10 +49,10 @@ def _audit(event: str, arguments: tuple[Any, ...]) -> None:
         )
         paths: Sequence[object] = [path] if writes else []
     else:
-        count = _WRITES.get(event, 0)
-        if any(isinstance(other, int) and other >= 0 for other in arguments[count:]) and event != "os.mkdir":
+        changed = _WRITES.get(event, slice(0))
+        if any(isinstance(other, int) and other >= 0 for other in arguments[changed.stop :]) and event != "os.mkdir":
             return  # shutil.rmtree: relative to an open folder, so the path says nothing
-        paths = arguments[:count]
+        paths = arguments[changed]
     _strays.extend(f"{event} {os.fsdecode(path)}" for path in paths if _is_guarded(path))  # type: ignore[arg-type]
 
 

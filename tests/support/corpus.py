@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from lxml import etree
@@ -29,6 +29,15 @@ def distinct_files() -> tuple[str, ...]:
     for file in (*_files("robots"), *_files("histories")):
         by_content.setdefault(hashlib.sha256((FOLDER / file).read_bytes()).digest(), file)
     return tuple(by_content.values()) or (ABSENT,)
+
+
+def by_source(files: Iterable[str]) -> Mapping[str, Sequence[str]]:
+    """The files by where they come from: a robot alone, all versions of one history together."""
+    result: dict[str, list[str]] = {}
+    for file in files:
+        name = Path(file).parent.name.removesuffix(".urdf") if file.startswith("histories") else label(file)
+        result.setdefault(name, []).append(file)
+    return result
 
 
 @functools.cache

@@ -56,7 +56,7 @@ def write(folder: Path) -> Path:
 
 
 def urdf() -> str:
-    """The robot: revolute, continuous, prismatic and fixed joints in turn, some with losses, one that mimics."""
+    """The robot: joints of four types, some with losses, one that mimics."""
     elements = [_link(name) for name in NAMES]
     elements += [_joint(number, name) for number, name in enumerate(NAMES) if number]
     return "\n".join([f"<robot name={quoteattr(NAMES[2])}>", *elements, "</robot>", ""])
@@ -73,9 +73,9 @@ def _link(name: str) -> str:
 
 
 def _joint(number: int, name: str) -> str:
-    kind = ("revolute", "continuous", "prismatic", "fixed", "fixed", "fixed")[number % 6]
+    kind = {1: "revolute", 2: "continuous", 3: "prismatic"}.get(number % 10, "fixed")
     ends = f"<parent link={quoteattr(NAMES[number - 1])}/><child link={quoteattr(name)}/>"
     limit = '<limit lower="-1" upper="1" effort="1" velocity="1"/>' if kind in ("revolute", "prismatic") else ""
-    losses = '<dynamics damping="0.1" friction="0.2"/>' if number % 3 == 0 and kind != "fixed" else ""
-    mimic = f"<mimic joint={quoteattr(NAMES[1])}/>" if number == 7 else ""
+    losses = '<dynamics damping="0.1" friction="0.2"/>' if number in (3, 12) else ""
+    mimic = f"<mimic joint={quoteattr(NAMES[1])}/>" if number == 11 else ""
     return f'<joint name={quoteattr(name)} type="{kind}">{ends}{limit}{losses}{mimic}</joint>'

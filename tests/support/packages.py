@@ -9,13 +9,13 @@ from typing import Any
 
 from support.corpus import REPOSITORY
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Import, Lookup, Order, Reading, Role, Target
+from urdfsync.domain import Import, Lookup, Order, Reading, Role, Snapshot, Target
 from urdfsync.render import Renderer
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.snapshot import from_snapshot
+from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
 RENDERER = Renderer([REPOSITORY / "templates" / "urdf"])
 
@@ -25,12 +25,11 @@ class Package:
     """The text files of a generated package by path below its folder, and what they were made from."""
 
     target: Target
+    options: Options
     robot: Robot
     skeleton: Skeleton
     texts: Mapping[str, str]
     roles: Mapping[str, Role]
-    templates: Mapping[str, str]
-    """Per path, the template's name; `package.order` files have none."""
     imports: Mapping[str, bytes]
     """Imported meshes by path below the package's folder."""
 
@@ -75,19 +74,42 @@ def generate(
     reading = DOMAIN.read(content, path.name, chosen)
     assert reading.snapshot is not None, _texts(reading.diagnostics)
     imports, contents = _imports(reading, path, chosen)
-    artifacts = DOMAIN.artifacts(reading.snapshot, imports, target, chosen)
-    texts, roles, templates = {}, {}, {}
-    for artifact in artifacts:
+    return _render(reading.snapshot, imports, contents, target, chosen, modifiers or {})
+
+
+def scaled(package: Package, factor: float) -> Package:
+    """The same package with every floating-point number of the robot's snapshot multiplied by `factor`."""
+
+    def scale(value: Any) -> Any:
+        if isinstance(value, Mapping):
+            return {key: scale(item) for key, item in value.items()}
+        if isinstance(value, list | tuple):
+            return [scale(item) for item in value]
+        return value * factor if isinstance(value, float) else value
+
+    options = package.options
+    return _render(scale(to_snapshot(package.robot)), {}, {}, package.target, options, {})
+
+
+def _render(
+    snapshot: Snapshot,
+    imports: Mapping[str, Import],
+    contents: Mapping[str, bytes],
+    target: Target,
+    options: Options,
+    modifiers: Mapping[str, Any],
+) -> Package:
+    texts, roles = {}, {}
+    for artifact in DOMAIN.artifacts(snapshot, imports, target, options):
         if isinstance(artifact, Order):
             texts[artifact.path] = "".join(f"{name}\n" for name in artifact.names)
             roles[artifact.path] = Role.ORDER
         else:
-            data = artifact.data | {k: v for k, v in (modifiers or {}).items() if k in artifact.data}  # type: ignore[operator]
-            texts[artifact.path] = RENDERER.render(artifact.template, data)
+            changed = {key: value for key, value in modifiers.items() if key in artifact.data}
+            texts[artifact.path] = RENDERER.render(artifact.template, {**artifact.data, **changed})
             roles[artifact.path] = artifact.role
-            templates[artifact.path] = artifact.template
-    robot = from_snapshot(reading.snapshot)
-    return Package(target, robot, Skeleton.of(robot, (target.name,)), texts, roles, templates, contents)
+    robot = from_snapshot(snapshot)
+    return Package(target, options, robot, Skeleton.of(robot, (target.name,)), texts, roles, contents)
 
 
 def _imports(reading: Reading, path: Path, options: Options) -> tuple[dict[str, Import], dict[str, bytes]]:

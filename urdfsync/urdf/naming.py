@@ -142,5 +142,5 @@ def _give_way(spelled: str, used: set[str], counts: dict[str, int]) -> str:
     number = counts.get(spelled.lower(), 1)
     while not _is_free(candidate := f"{spelled}_{number}" if number > 1 else spelled, used):
         number += 1
-    counts[spelled.lower()] = number
+    counts[spelled.lower()] = number + 1
     return candidate

@@ -1,0 +1,322 @@
+"""Packages of the whole corpus as text: grammar, names, layout on disk, and what must not be in them.
+
+None of it needs the Modelica Standard Library. Every robot and every version of the histories is
+rendered; parsers see each distinct text once.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path, PurePosixPath
+
+import pymoca.parser
+import pytest
+import rumoca
+
+from support import corpus, nasty
+from support.corpus import FOLDER
+from support.modelica import URDFSYNC
+from support.packages import Package, generate, proposed_base, read, scaled
+from support.urdfs import link, robot
+from support.words import Word, grammar_kinds, qualified_names, unbalanced, without_annotations, words
+from urdfsync.domain import Role, Target
+from urdfsync.modelica import is_identifier
+
+BOT = Target("Bot", "Bot")
+PARTS = 16
+"""The parsers' work is cut into so many tests, so that they run side by side."""
+
+TURTLEBOT = "histories/ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtlebot3"
+SO101 = "histories/TheRobotStudio+SO-ARM100__Simulation_SO101_so101"
+STOMPY = "histories/kscalelabs+sim__sim_stompy_legs_robot"
+FAULTY = {
+    "robots/random/spot_ros/spot_description/urdf/spot_arm.urdf": {"unknown-parent"},
+    f"{TURTLEBOT}_waffle_pi.urdf/003.urdf": {"unknown-child"},
+    f"{SO101}_new_calib.urdf/000.urdf": {"duplicate-link", "cycle", "two-parents"},
+    f"{SO101}_new_calib.urdf/001.urdf": {"duplicate-link", "cycle", "two-parents"},
+    f"{SO101}_old_calib.urdf/000.urdf": {"duplicate-link", "cycle", "two-parents"},
+    f"{STOMPY}.urdf/000.urdf": {"not-urdf"},
+    f"{STOMPY}_fixed.urdf/001.urdf": {"not-urdf"},
+}
+"""The files that no package can be made of, and their faults; the tests of the reader say why each is one."""
+
+SOUND = [file for file in corpus.distinct_files() if file not in FAULTY]
+SOURCES = corpus.by_source(SOUND)
+each_source = pytest.mark.parametrize("files", SOURCES.values(), ids=SOURCES)
+"""One robot, or all versions of one history."""
+
+
+@functools.cache
+def package(file: str) -> Package:
+    """The package of a file of the corpus, stationary or mobile as `init` proposes."""
+    return generate(FOLDER / file, BOT, base=proposed_base((FOLDER / file).read_bytes()))
+
+
+@functools.cache
+def texts() -> Mapping[str, str]:
+    """Every distinct Modelica text of the corpus, with the first place that has it."""
+    result: dict[str, str] = {}
+    for file in SOUND:
+        for path, text in package(file).models.items():
+            result.setdefault(text, f"{file}: {path}")
+    return result
+
+
+def models(files: Sequence[str]) -> Iterator[tuple[str, str, str]]:
+    """Path in the package, text, and both in words for messages, of every Modelica file of these sources."""
+    for file in files:
+        for path, text in package(file).models.items():
+            yield path, text, f"{file}: {path}"
+
+
+def test_a_file_without_package_has_a_fault(corpus: Path) -> None:
+    for file, codes in FAULTY.items():
+        reading = read((corpus / file).read_bytes(), file)
+        assert reading.snapshot is None
+        assert {d.code for d in reading.diagnostics if d.severity == "error"} == codes, file
+        assert all(d.file == file and d.line for d in reading.diagnostics)
+
+
+# Grammar
+
+
+def syntax_errors(text: str) -> list[str]:
+    return [d.message for d in rumoca.validate_source(text) if d.rule == "syntax-error"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("part", range(PARTS))
+def test_rumoca_parses_every_text(part: int, corpus: Path) -> None:
+    for text in list(texts())[part::PARTS]:
+        assert syntax_errors(text) == [], texts()[text]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("part", range(PARTS))
+def test_pymoca_parses_every_kind_of_text(part: int, corpus: Path) -> None:
+    """Texts that differ in nothing but numbers, names and strings are one to a grammar, and are parsed once."""
+    kinds = {grammar_kinds(text): text for text in texts()}
+    for text in list(kinds.values())[part::PARTS]:
+        assert_pymoca_parses(text, texts()[text])
+
+
+@pytest.mark.large
+@pytest.mark.parametrize("part", range(PARTS))
+def test_pymoca_parses_every_text(part: int, corpus: Path) -> None:
+    for text in list(texts())[part::PARTS]:
+        assert_pymoca_parses(text, texts()[text])
+
+
+def assert_pymoca_parses(text: str, place: str) -> None:
+    try:
+        tree = pymoca.parser.parse(text, bypass_cache=True)
+    except pymoca.parser.ModelicaSyntaxError as error:
+        pytest.fail(f"{place}: {error}")
+    assert tree is not None
+
+
+MISTAKES = {
+    "a semicolon is missing": "within A;\nmodel B\n  Real x\nend B;\n",
+    "a keyword is misspelled": "within A;\nmodel B\n  Real x;\nequaton\n  x = 1;\nend B;\n",
+    "a bracket is missing": "within A;\nrecord B\n  extends C(x = {1, 2);\nend B;\n",
+    "a string ends early": 'within A;\nrecord B\n  extends C(name = "a"b");\nend B;\n',
+    "a keyword is a name": "within A;\nmodel B\n  Real end;\nend B;\n",
+}
+
+
+@pytest.mark.parametrize("text", MISTAKES.values(), ids=MISTAKES)
+def test_both_parsers_notice_mistakes(text: str) -> None:
+    assert syntax_errors(text)
+    with pytest.raises(pymoca.parser.ModelicaSyntaxError):
+        pymoca.parser.parse(text, bypass_cache=True)
+
+
+@each_source
+def test_texts_are_tidy(files: Sequence[str], corpus: Path) -> None:
+    """LF at every end of a line, no tabs, brackets in pairs, all words known."""
+    for _, text, place in models(files):
+        assert text.endswith("\n"), place
+        assert not set("\t\r\f\v") & set(text), place
+        assert not unbalanced(words(text)), place
+
+
+# Layout
+
+
+def classes(package: Package) -> Mapping[str, set[str]]:
+    """Names of classes per folder of the package, as its files say."""
+    found: dict[str, set[str]] = {}
+    for path in map(PurePosixPath, package.models):
+        if path.name != "package.mo":
+            found.setdefault(str(path.parent), set()).add(path.stem)
+        elif path.parent.name:
+            found.setdefault(str(path.parent.parent), set()).add(path.parent.name)
+    return found
+
+
+@each_source
+def test_package_order_is_complete(files: Sequence[str], corpus: Path) -> None:
+    for made in map(package, files):
+        orders = {
+            str(PurePosixPath(path).parent): sorted(text.splitlines())
+            for path, text in made.texts.items()
+            if made.roles[path] is Role.ORDER
+        }
+        assert orders == {folder: sorted(names) for folder, names in classes(made).items()}
+
+
+@each_source
+def test_no_name_is_there_twice(files: Sequence[str], corpus: Path) -> None:
+    """Neither of two files, case folded, nor of a component and a class of one robot model."""
+    for made in map(package, files):
+        components = [identifier.component for identifier in made.skeleton.names.values()]
+        for names in ([*made.texts], components):
+            assert len({name.lower() for name in names}) == len(names)
+        assert all(map(is_identifier, components))
+
+
+@each_source
+def test_every_path_is_inside_the_package(files: Sequence[str], corpus: Path) -> None:
+    for file in files:
+        for path in map(PurePosixPath, package(file).texts):
+            assert not path.is_absolute()
+            assert len(path.parts) <= 2
+            assert ".." not in path.parts
+
+
+@each_source
+def test_every_file_says_where_it_belongs(files: Sequence[str], corpus: Path) -> None:
+    for path, text, place in models(files):
+        assert_belongs(path, text, "Bot", place)
+
+
+def assert_belongs(path: str, text: str, package: str, place: str) -> None:
+    """The `within` clause names the folder, and the class has the name of its file."""
+    folder = [*package.split("."), *PurePosixPath(path).parent.parts]
+    own = folder.pop() if path.endswith("package.mo") else PurePosixPath(path).stem
+    found = re.match(r"within ?([\w.]*);\n\n(?:model|record|package) (\w+) ", text)
+    assert found, place
+    assert found.groups() == (".".join(folder), own), place
+    assert text.endswith(f"\nend {own};\n"), place
+
+
+@pytest.mark.slow
+@each_source
+def test_the_compiler_accepts_layout_and_names(files: Sequence[str], corpus: Path, tmp_path: Path) -> None:
+    """What it does not find are names of the standard library, which is not there, and what follows from that."""
+    for number, file in enumerate(files):
+        unknown = unknown_names(package(file).write(tmp_path / str(number)))
+        assert [name for name in unknown if not name.startswith("Modelica.")] == [], file
+
+
+def unknown_names(folder: Path) -> list[str]:
+    """Types, base classes and functions that robot and benches refer to, and that no file has."""
+    session = rumoca.Session(roots=[str(folder), str(URDFSYNC)])
+    components = "".join(f"  Bot.Bot{suffix} part{suffix};\n" for suffix in ("", "Run", "Test"))
+    with pytest.raises(rumoca.CompileError) as caught:
+        session.loads(f"model Probe_\n  import UrdfSync;\n{components}end Probe_;\n", model="Probe_", filename="P.mo")
+    message = str(caught.value)
+    assert "Failed to load source root" not in message, message
+    lines = [line for line in message.splitlines() if "unresolved" in line and "component reference" not in line]
+    return [line.split("'")[1] for line in lines]
+
+
+SMALL = generate(robot(link("arm")).encode(), BOT)
+
+
+def test_the_compiler_notices_a_wrong_layout(tmp_path: Path) -> None:
+    folder = SMALL.write(tmp_path)
+    arm = folder / "Links" / "Arm.mo"
+    arm.write_text(arm.read_text().replace("within Bot.Links;", "within Bot.Joints;"))
+    with pytest.raises(AssertionError, match=r"PKG-010 .* expected `within Bot\.Links;`"):
+        unknown_names(folder)
+
+
+def test_the_compiler_notices_an_unknown_name(tmp_path: Path) -> None:
+    folder = SMALL.write(tmp_path)
+    arm = folder / "Links" / "Arm.mo"
+    arm.write_text(arm.read_text().replace("UrdfSync.Icons.Link;", "UrdfSync.Icons.Lynk;"))
+    assert "UrdfSync.Icons.Lynk" in unknown_names(folder)
+
+
+# What must not be in them
+
+
+@each_source
+def test_link_and_joint_models_are_full_copies(files: Sequence[str], corpus: Path) -> None:
+    for path, text, place in models(files):
+        if path.startswith(("Links/", "Joints/")):
+            names = qualified_names(without_annotations(words(text)))
+            assert not [name for name in names if name.startswith(("UrdfSync.Links", "UrdfSync.Joints"))], place
+
+
+@each_source
+def test_models_contain_no_number_of_the_urdf(files: Sequence[str], corpus: Path) -> None:
+    """A robot with all its numbers changed has other records, and the same models to the byte."""
+    for made in map(package, files):
+        other = scaled(made, 1.37)
+        for path, text in made.texts.items():
+            if made.roles[path] is not Role.RECORD:
+                assert other.texts[path] == text, path
+
+
+def test_the_change_of_all_numbers_changes_records() -> None:
+    """So that the test above can fail."""
+    made = generate(robot(link("arm", 2.0)).encode(), BOT)
+    other = scaled(made, 1.37)
+    assert {path for path in made.texts if made.texts[path] != other.texts[path]} == {
+        "BotParameters.mo",
+        "Links/ArmParameters.mo",
+    }
+
+
+@each_source
+def test_benches_have_numbers_of_axes_only(files: Sequence[str], corpus: Path) -> None:
+    """Beside them 0 and 1, and the reach of a sweep in metres."""
+    for made in map(package, files):
+        counts = {str(len(made.skeleton.axes(motion))) for motion in ("rotational", "translational")}  # type: ignore[arg-type]
+        for suffix in ("Run", "Test"):
+            sequence = without_annotations(words(made.texts[f"Bot{suffix}.mo"]))
+            numbers = {word.text for word in sequence if word.kind == "number"}
+            assert numbers <= {"0", "1", "0.1"} | counts
+
+
+# Names that break careless generators
+
+
+@pytest.fixture(scope="module")
+def nasty_package(tmp_path_factory: pytest.TempPathFactory) -> Package:
+    return generate(nasty.write(tmp_path_factory.mktemp("nasty")), nasty.TARGET)
+
+
+def test_nasty_names_give_right_modelica(nasty_package: Package) -> None:
+    for path, text in nasty_package.models.items():
+        assert syntax_errors(text) == [], path
+        assert_belongs(path, text, nasty.TARGET.package, path)
+        if '\\\\"' not in text:  # pymoca takes the end of a string that ends in a backslash for an escaped quote
+            assert_pymoca_parses(text, path)
+
+
+def test_nasty_names_stay_in_the_folder(nasty_package: Package, tmp_path: Path) -> None:
+    folder = nasty_package.write(tmp_path / "deep" / "deeper")
+    written = [path for path in tmp_path.rglob("*") if path.is_file()]
+    assert len(written) == len(nasty_package.texts) + len(nasty_package.imports)
+    assert all(path.is_relative_to(folder) for path in written)
+    assert {path.parent.name for path in written} == {"Nasty", "Links", "Joints", "Resources"}
+
+
+def test_every_nasty_name_is_in_its_record(nasty_package: Package) -> None:
+    """As a string literal that reads back as the name: the mapping can be undone."""
+    for kind, name in nasty_package.skeleton.names:
+        identifier = nasty_package.skeleton.names[kind, name]
+        text = nasty_package.texts[f"{kind.capitalize()}s/{identifier.record}.mo"]
+        literal = '"' + name.replace("\\", "\\\\").replace('"', '\\"') + '"'
+        assert Word("string", literal) in words(text)
+
+
+def test_the_corpus_is_seen_whole(corpus: Path) -> None:
+    assert len(SOUND) > 150
+    assert len(SOURCES) > 55
+    assert sum(map(len, SOURCES.values())) == len(SOUND)

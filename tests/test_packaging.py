@@ -1,0 +1,67 @@
+"""What users install: a wheel with everything in it, used outside of the repository."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tarfile
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).parents[1]
+ARM = REPOSITORY / "modelica" / "UrdfSync" / "Resources" / "robots" / "six_axis_arm" / "six_axis_arm.urdf"
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def distributions(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with wheel and sdist of the working tree."""
+    folder = tmp_path_factory.mktemp("dist")
+    subprocess.run([sys.executable, "-m", "build", "--outdir", folder, REPOSITORY], check=True, capture_output=True)
+    return folder
+
+
+def tracked(*folders: str) -> set[str]:
+    listing = subprocess.run(["git", "ls-files", *folders], cwd=REPOSITORY, check=True, capture_output=True, text=True)
+    return set(listing.stdout.splitlines())
+
+
+def test_wheel_carries_templates_and_library(distributions: Path) -> None:
+    (wheel,) = distributions.glob("*.whl")
+    names = set(zipfile.ZipFile(wheel).namelist())
+    assert names >= {f"urdfsync/_data/{name}" for name in tracked("templates", "modelica")}
+    assert names >= tracked("urdfsync")
+    assert not any(name.startswith(("tests/", "templates/", "modelica/")) for name in names)
+
+
+def test_sdist_carries_all_that_the_tests_need(distributions: Path) -> None:
+    (sdist,) = distributions.glob("*.tar.gz")
+    with tarfile.open(sdist) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+    assert names >= tracked("urdfsync", "templates", "modelica", "tests", "tools", "docs", "urdfsync.toml", "LICENSE")
+
+
+def test_installed_wheel_builds_a_robot(distributions: Path, tmp_path: Path) -> None:
+    (wheel,) = distributions.glob("*.whl")
+    environment = tmp_path / "environment"
+    venv.create(environment, with_pip=True)
+    folder = environment / ("Scripts" if sys.platform == "win32" else "bin")
+    pip = [folder / "python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    subprocess.run([*pip, wheel], check=True)
+    project = tmp_path / "project"
+    project.mkdir()
+
+    def urdfsync(*arguments: str | Path) -> str:
+        command = [folder / "urdfsync", *arguments]
+        return subprocess.run(command, cwd=project, check=True, capture_output=True, text=True).stdout
+
+    urdfsync("init", ARM)
+    assert "files written" in urdfsync("build")
+    assert "in step" in urdfsync("build", "--check")
+    library = Path(urdfsync("library").splitlines()[0])
+    assert (library / "UrdfSync" / "package.mo").is_file()
+    assert environment in library.parents

@@ -1,0 +1,58 @@
+"""Templates to text: delimiters, strictness, and whose template wins."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import jinja2
+import pytest
+
+from urdfsync.render import Renderer
+
+
+def folder(path: Path, **templates: str) -> Path:
+    path.mkdir()
+    for name, text in templates.items():
+        (path / f"{name}.jinja").write_text(text, encoding="utf-8", newline="\n")
+    return path
+
+
+def rendered(path: Path, text: str, **data: object) -> str:
+    return Renderer([folder(path / "templates", t=text)]).render("t.jinja", data)
+
+
+def test_braces_are_modelica_and_angle_brackets_are_ours(tmp_path: Path) -> None:
+    text = "extent={{-10, 90}, {10, 110}} <# not shown #><< x >> {% {# #} %}\n"
+    assert rendered(tmp_path, text, x="1") == "extent={{-10, 90}, {10, 110}} 1 {% {# #} %}\n"
+
+
+def test_a_line_with_a_block_alone_leaves_nothing_behind(tmp_path: Path) -> None:
+    text = "a\n  <% for n in [1, 2] %>\n  << n >>\n  <% endfor %>\nb\n"
+    assert rendered(tmp_path, text) == "a\n  1\n  2\nb\n"
+
+
+def test_the_literals_are_filters(tmp_path: Path) -> None:
+    numbers = "<< x | real >> << v | vector >> << [v] | matrix(2) >>"
+    texts = "<< s | string >> << s | html >> << s | capitalize_first >>"
+    expected = '0.5 {1, 2} [1, 2] "a\\"b" a&quot;b A"b'
+    assert rendered(tmp_path, f"{numbers} {texts}", x=0.5, v=(1.0, 2.0), s='a"b') == expected
+
+
+def test_what_is_not_there_is_an_error_and_not_an_empty_text(tmp_path: Path) -> None:
+    with pytest.raises(jinja2.UndefinedError, match="mass"):
+        rendered(tmp_path, "<< mass >>")
+
+
+@pytest.mark.parametrize(
+    "text", ["<< 1/0 >>", "<% include 'x' %>", "<# a", "{{ x }}", "#>", ">>", "%>", "-%>\n", "\r\n"]
+)
+def test_text_from_outside_is_never_a_template(text: str, tmp_path: Path) -> None:
+    assert rendered(tmp_path, "[<< x >>]", x=text) == f"[{text}]"
+
+
+def test_a_template_in_an_earlier_folder_hides_its_namesake(tmp_path: Path) -> None:
+    ours = folder(tmp_path / "ours", t="<% include 'part.jinja' %>", part="ours", other="other")
+    users = folder(tmp_path / "users", part="theirs")
+    renderer = Renderer([users, ours])
+    assert renderer.render("t.jinja", {}) == "theirs"
+    assert renderer.render("other.jinja", {}) == "other"
