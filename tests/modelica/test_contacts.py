@@ -121,7 +121,7 @@ def mesh_wheel(radius: float = 0.1, corners: int = 36, half_width: float = 0.02)
     angles = [2 * math.pi * k / corners for k in range(corners)]
     rims = [(radius * math.cos(a), radius * math.sin(a), side) for side in (-half_width, half_width) for a in angles]
     points = ", ".join(map(vector, rims))
-    return f"Points(parameters({ACROSS}), hull(n = {len(rims)}, points = {{{points}}}))"
+    return f"Points(parameters({ACROSS}), corners = {{{points}}})"
 
 
 # --- At rest -----------------------------------------------------------------------------------------------------

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
-
 from support import modelica, physics
 from support.modelica import Run, Task
 from support.packages import generate
 from support.physics import Array, Motion
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
+
 from urdfsync.domain import Target
 
 pytestmark = pytest.mark.slow
@@ -61,7 +61,9 @@ CHAIN = robot(
     joint("equal", "revolute", "part1", "part2", axis="0 1 0", inside=[mimic("lead"), limit(), dynamics(0.2, 0.1)]),
     joint("back", "revolute", "part2", "part3", axis="0 1 1", inside=[mimic("equal", -1.5, 0.3), limit()]),
     joint("rail", "prismatic", "part0", "part4", axis="1 0 0", inside=[limit()]),
-    joint("rack", "prismatic", "part4", "part5", axis="0 1 0", inside=[mimic("rail", -0.5), limit(), dynamics(4.0, 1.0)]),
+    joint(
+        "rack", "prismatic", "part4", "part5", axis="0 1 0", inside=[mimic("rail", -0.5), limit(), dynamics(4.0, 1.0)]
+    ),
 )
 """Turning follows turning twice over, sliding follows sliding; followers have losses of their own."""
 
@@ -115,18 +117,31 @@ def test_free_joints_accelerate_as_pinocchio_says(urdf: str, modelica_library: P
     assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max())
 
 
-def test_losses_are_not_left_out(modelica_library: Path, tmp_path: Path) -> None:
-    """The comparison above would notice: without losses the reference is far off."""
-    package = generate(CHAIN.encode(), BOT)
-    with_losses = physics.Reference(CHAIN, package)
-    without = physics.Reference(CHAIN, generate(CHAIN.replace("damping", "unused").encode(), BOT))
-    motion = physics.random_motion(2, seed=1)
-    assert np.abs(with_losses.efforts(motion) - without.efforts(motion)).min() > 0.01
+FAULTS = {
+    "position": ('rpy="0.5 -0.6 0.7"', 'rpy="0.5 -0.6 0.70000001"'),
+    "rotation": ('rpy="0.5 -0.6 0.7"', 'rpy="0.5 -0.60000001 0.7"'),
+    "effort": ('friction="0.1"', 'friction="0.10000001"'),
+    "mass": ('mass value="2.2"', 'mass value="2.20000001"'),
+}
+
+
+@pytest.mark.parametrize(("kind", "fault"), FAULTS.items())
+def test_the_comparison_notices_a_fault(
+    kind: str, fault: tuple[str, str], modelica_library: Path, tmp_path: Path
+) -> None:
+    """One number of the chain is wrong in its eighth digit."""
+    assert fault[0] in CHAIN
+    package = generate(CHAIN.replace(*fault, 1).encode(), BOT)
+    reference = physics.Reference(CHAIN, generate(CHAIN.encode(), BOT))
+    motion = physics.random_motion(len(reference.axes), seed=1)
+    folder = package.write(tmp_path)
+    errors, _ = physics.measure(modelica_library, folder, reference, motion)
+    assert getattr(errors, kind) > physics.TOLERANCE
 
 
 def check_model(declarations: str, equations: str, values: list[str]) -> Task:
-    world = f"inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, g = {physics.GRAVITY}, enableAnimation = false)"
-    source = f"model Check\n import Modelica;\n import UrdfSync;\n {world};\n {declarations}\nequation\n {equations}\nend Check;"
+    imports = "import Modelica;\n import UrdfSync;"
+    source = f"model Check\n {imports}\n {physics.WORLD}\n {declarations}\nequation\n {equations}\nend Check;\n"
     return Task(source, "Check", [Run(1e-6, 1e-6)], values)
 
 
@@ -233,7 +248,9 @@ def free_reference(model: pin.Model, others: Motion) -> tuple[Array, Array]:
     w = turned.T @ FLYING["w"]
     v = turned.T @ FLYING["v"]
     attitude = pin.Quaternion(turned).coeffs()
-    turns = ([np.cos(q), np.sin(q)] if joint.nq == 2 else [q] for joint, q in zip(model.joints[2:], others.q, strict=True))
+    turns = (
+        [np.cos(q), np.sin(q)] if joint.nq == 2 else [q] for joint, q in zip(model.joints[2:], others.q, strict=True)
+    )
     positions = np.array([*FLYING["r"], *attitude, *itertools.chain(*turns)])
     a = pin.aba(model, model.createData(), positions, np.array([*v, *w, *others.v]), np.zeros(model.nv))
     return np.array([*(turned @ (a[:3] + np.cross(w, v))), *a[3:6]]), np.asarray(a[6:])

@@ -22,6 +22,7 @@ BUILT_IN = {"Real", "Integer", "Boolean", "String"}
 ENUMERATIONS = {
     "Arrow",
     "AssertionLevel",
+    "StateSelect",
     "BorderPattern",
     "EllipseClosure",
     "FillPattern",

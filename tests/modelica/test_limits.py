@@ -1,4 +1,4 @@
-"""Limit warnings are alive: with `AssertionLevel.error` the same model stops where a limit is passed, and only there."""
+"""Limit warnings are alive: as errors they stop the same model where a limit is passed, and only there."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
-
 from support.modelica import Run, Series, Task, execute
 from support.packages import generate
 from support.physics import DRIVES
 from support.urdfs import joint, limit, link, mimic, robot
+
 from urdfsync.domain import Target
 
 pytestmark = pytest.mark.slow
@@ -76,7 +76,10 @@ PASSING = {
 
 INSIDE: Mapping[str, tuple[Mapping[str, float], float]] = {
     "at rest": ({}, 1.0),
-    "from end to end": ({"elbow.a0": LOWER, "elbow.a1": UPPER - LOWER, "rail.a0": UPPER, "rail.a1": LOWER - UPPER}, 1.0),
+    "from end to end": (
+        {"elbow.a0": LOWER, "elbow.a1": UPPER - LOWER, "rail.a0": UPPER, "rail.a1": LOWER - UPPER},
+        1.0,
+    ),
     "as fast as allowed": ({"roll.a1": VELOCITY}, 1.0),
     "as strong as allowed": ({"rail.a2": 0.99 * EFFORT / INERTIA, "roll.a2": -0.99 * EFFORT / INERTIA}, 0.04),
     "far where there is no end": ({"roll.a0": 100.0}, 1.0),

@@ -11,7 +11,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from support import corpus, amended, physics
+from support import amended, corpus, physics
 from support.packages import generate
 
 from urdfsync.domain import Target
@@ -24,7 +24,7 @@ FAULTY = {"robots/random/spot_ros/spot_description/urdf/spot_arm.urdf"}
 
 
 def _cases() -> list[object]:
-    cases = []
+    cases: list[object] = []
     for file, joints in corpus.moving_joints().items():
         if file == corpus.ABSENT:
             return [file]

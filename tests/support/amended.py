@@ -12,7 +12,7 @@ from lxml import etree
 
 
 def acceptable(urdf: bytes) -> bytes:
-    """The URDF with a name for a robot that has none, and the numbers that limits lack; unchanged if nothing is missing."""
+    """The URDF with the name and the numbers of limits that it lacks; the same bytes if it lacks none."""
     root = _parse(urdf)
     missing = [] if root.get("name") else [(root, "name", "robot")]
     for limit in root.iterfind("joint/limit"):

@@ -23,6 +23,7 @@ from urdfsync.urdf.skeleton import MOTIONS
 Array = NDArray[np.float64]
 
 GRAVITY = 9.81
+WORLD = f"inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, g = {GRAVITY}, enableAnimation = false);"
 DURATION = 0.01  # s
 STEEPNESS = 50  # s/rad or s/m: dry friction is f·tanh(50·v)
 TOLERANCE = 1e-10
@@ -68,7 +69,7 @@ class Errors:
 
     def worst(self) -> float:
         """The greatest of all."""
-        return max(dataclasses.astuple(self))
+        return max(map(float, dataclasses.astuple(self)))
 
 
 class Reference:
@@ -228,7 +229,7 @@ def _check(
             "  import UrdfSync;",
             DRIVES,
             "  model Check",
-            f"    inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, g = {GRAVITY}, enableAnimation = false);",
+            f"    {WORLD}",
             f"    {package.target.package}.{package.target.name} robot({modifiers});",
             *declarations,
             "  equation",

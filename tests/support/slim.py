@@ -59,7 +59,9 @@ def _copy(sources: Mapping[str, Path], target: Path) -> None:
             shutil.copytree(source, modelica / part, ignore=unneeded)
         else:
             shutil.copy(source, modelica / part)
-    shutil.copytree(sources["ModelicaServices"], target / "ModelicaServices", ignore=shutil.ignore_patterns("Resources"))
+    shutil.copytree(
+        sources["ModelicaServices"], target / "ModelicaServices", ignore=shutil.ignore_patterns("Resources")
+    )
     shutil.copy(sources["Complex.mo"], target / "Complex.mo")
     for order in target.rglob("package.order"):
         _prune(order)
@@ -70,5 +72,7 @@ def _prune(order: Path) -> None:
     folder = order.parent
     inside = (folder / "package.mo").read_text("utf-8")
     names = order.read_text("utf-8").split()
-    kept = [name for name in names if (folder / name).exists() or (folder / f"{name}.mo").exists() or f" {name}" in inside]
+    kept = [
+        name for name in names if (folder / name).exists() or (folder / f"{name}.mo").exists() or f" {name}" in inside
+    ]
     order.write_text("".join(f"{name}\n" for name in kept), "utf-8")

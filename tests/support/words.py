@@ -26,6 +26,7 @@ _WORD = re.compile(
     | (?P<mark>[<>=]=|<>|:=|\.[+\-*/^]|.)""",
     re.VERBOSE | re.DOTALL | re.ASCII,
 )
+_VALUE = re.compile(r""""(?:\\.|[^"\\])*"|(?<![\w.])-?\d+(?:\.\d*)?(?:[eE][+-]?\d+)?""", re.ASCII)
 _OPEN, _CLOSE = "({[", ")}]"
 
 
@@ -44,6 +45,11 @@ def words(text: str) -> list[Word]:
 def grammar_kinds(text: str) -> str:
     """What a parser's grammar sees of a text: kinds of strings, numbers and names, and all other words themselves."""
     return " ".join(word.text if word.kind in ("keyword", "mark") else word.kind[0] for word in words(text))
+
+
+def without_values(text: str) -> str:
+    """The text with every string and every number replaced by a zero: what is left are its names and its structure."""
+    return _VALUE.sub("0", text)
 
 
 def without_annotations(sequence: Sequence[Word]) -> list[Word]:

@@ -27,7 +27,7 @@ equation
 
   annotation (
     Icon(graphics={
-      Text(extent={{-150, -110}, {150, -80}}, textString="r=%parameters.radius")}),
+      Text(extent={{-150, -110}, {150, -80}}, textString="r=%{parameters.radius}")}),
     Documentation(info="<html>
 <p>
 A wheel rests and rolls on the lowest point of each rim; a cylinder on its end stands on its lower rim.

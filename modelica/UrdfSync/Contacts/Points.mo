@@ -6,8 +6,8 @@ model Points "Convex hull of a mesh that touches the ground"
   parameter UrdfSync.Records.Mesh parameters
     "Numbers of the collision; only its origin is used here";
 
-  parameter UrdfSync.Records.ContactPoints hull
-    "Corners of the convex hull of the mesh";
+  parameter Modelica.Units.SI.Position corners[:, 3]
+    "Corners of the convex hull of the mesh, one per row, resolved in the shape frame";
 
 protected
   final parameter Real R[3, 3](each unit = "1") = UrdfSync.Functions.rotation(parameters.origin.rpy)
@@ -25,14 +25,14 @@ equation
     ground.slipSpeed,
     parameters.origin.xyz,
     R,
-    hull.points);
+    corners);
 
   annotation (
     Icon(graphics={
-      Text(extent={{-150, -110}, {150, -80}}, textString="hull")}),
+      Text(extent={{-150, -110}, {150, -80}}, textString="mesh")}),
     Documentation(info="<html>
 <p>
-Every point of <code>hull</code> is a contact point. A hollow of the mesh does not matter: the ground is flat, so only points
+Every point of <code>corners</code> is a contact point. A hollow of the mesh does not matter: the ground is flat, so only points
 of the convex hull can touch it. A wheel made of a mesh runs on its corners, as a polygon does; a cylinder runs smoothly.
 </p>
 </html>"));

@@ -26,7 +26,7 @@ equation
 
   annotation (
     Icon(graphics={
-      Text(extent={{-150, -110}, {150, -80}}, textString="r=%parameters.radius")}),
+      Text(extent={{-150, -110}, {150, -80}}, textString="r=%{parameters.radius}")}),
     Documentation(info="<html>
 <p>
 One contact point, straight below the centre.

@@ -6,7 +6,7 @@ model Fixed "Fixed joint"
 
   replaceable parameter UrdfSync.Records.FixedJoint parameters
     "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-100, 80}, {-80, 100}})));
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
     animation = false,

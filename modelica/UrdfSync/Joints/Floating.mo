@@ -6,11 +6,11 @@ model Floating "Floating joint"
 
   replaceable parameter UrdfSync.Records.FloatingJoint parameters
     "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-100, 80}, {-80, 100}})));
 
   parameter Boolean fixedStart = true
     "= true, if the simulation begins at the start values"
-    annotation (Dialog(tab="Initialization"));
+    annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
 
   parameter Modelica.Units.SI.Position r_start[3] = {0, 0, 0}
     "Start value of the position of frame_b, resolved in the joint frame"

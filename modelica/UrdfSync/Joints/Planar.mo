@@ -6,11 +6,11 @@ model Planar "Planar joint"
 
   replaceable parameter UrdfSync.Records.PlanarJoint parameters
     "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-100, 80}, {-80, 100}})));
 
   parameter Boolean fixedStart = true
     "= true, if the simulation begins at the start values"
-    annotation (Dialog(tab="Initialization"));
+    annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
 
   parameter Modelica.Units.SI.Position s_start[2] = {0, 0}
     "Start values of the sliding positions"

@@ -5,7 +5,7 @@ model SphereLink "Sphere link"
 
   replaceable parameter SphereLinkParameters parameters
     "Numbers of the link"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-100, 80}, {-80, 100}})));
 
   parameter Boolean animation = true
     "= true, if visuals are drawn"
@@ -67,7 +67,7 @@ equation
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
-      Text(extent={{-150, -100}, {150, -70}}, textString="m=%parameters.inertial.mass")}),
+      Text(extent={{-150, -100}, {150, -70}}, textString="m=%{parameters.inertial.mass}")}),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}})),
     Documentation(info="<html>
 <p>

@@ -15,7 +15,7 @@ partial model PartialRobot "What all robots have in common"
 
   parameter Boolean fixedStart = true
     "= true, if the simulation begins at the start values below; = false, if they are guesses, for axes that are driven by position"
-    annotation (Dialog(tab="Initialization"));
+    annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_a frame_a
     "Frame of the root link"

@@ -43,7 +43,8 @@ Continuous, revolute and prismatic joints have two flanges. <code>support</code>
 The record holds limits of position (revolute, prismatic), speed and effort. Without a <code>&lt;limit&gt;</code> element all of them are
 infinite; in one, <code>lower</code> and <code>upper</code> are zero if left out, <code>velocity</code> and <code>effort</code> infinite.
 No limit holds a joint back: a warning that names the joint reports that it is passed. Effort is what the drive gives at
-<code>axis</code>, losses included. <code>checkLimits = false</code> silences the warnings.
+<code>axis</code>, losses included; where other joints follow, the robot checks the whole of what the drive gives at its flange. A joint
+that follows has no drive of its own, and its effort is not checked. <code>checkLimits = false</code> silences the warnings.
 </p>
 <h4>Losses</h4>
 <p>

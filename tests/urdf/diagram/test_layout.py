@@ -196,25 +196,25 @@ def test_a_single_link_has_both_frames() -> None:
 
 
 def test_one_joint_in_full() -> None:
-    """frame_a, base, shoulder, arm, frame_b: joints on the spine at y = 0, links below, flanges above."""
+    """frame_a at (-100, 0), base, shoulder, arm, frame_b: joints on the spine, links below, flanges above."""
     diagram = layout(Tree("base", {"base": [TreeJoint("shoulder", "arm", "rotational", 1)]}, {"arm": 1}))
-    assert diagram.extent == (-86, -44, 86, 46)
+    assert diagram.extent == (-116, -44, 56, 46)
     assert diagram.placements == {
-        "frame_a": Placement(-86, -16, -54, 16),
-        "base": Placement(-42, -36, -22, -16),
-        "shoulder": Placement(-26, -10, -6, 10),
-        "arm": Placement(6, -36, 26, -16),
-        "frame_b": Placement(54, -16, 86, 16),
-        "rotationalAxis": Placement(-48, 26, -28, 46),
-        "rotationalSupport": Placement(0, 26, 20, 46),
+        "frame_a": Placement(-116, -16, -84, 16),
+        "base": Placement(-72, -36, -52, -16),
+        "shoulder": Placement(-56, -10, -36, 10),
+        "arm": Placement(-24, -36, -4, -16),
+        "frame_b": Placement(24, -16, 56, 16),
+        "rotationalAxis": Placement(-78, 26, -58, 46),
+        "rotationalSupport": Placement(-30, 26, -10, 46),
     }
     assert diagram.lines == {
-        ("frame_a", "base.frame_a"): ((-70, 0), (-46, 0), (-46, -26), (-42, -26)),
-        ("base.frame_a", "shoulder.frame_a"): ((-42, -26), (-46, -26), (-46, 0), (-26, 0)),
-        ("shoulder.frame_b", "arm.frame_a"): ((-6, 0), (2, 0), (2, -26), (6, -26)),
-        ("arm.frame_a", "frame_b[1]"): ((6, -26), (2, -26), (2, 0), (70, 0)),
-        ("shoulder.axis", "rotationalAxis[1]"): ((-16, 10), (-16, 18), (-38, 18), (-38, 36)),
-        ("shoulder.support", "rotationalSupport[1]"): ((-22, 10), (-22, 22), (10, 22), (10, 36)),
+        ("frame_a", "base.frame_a"): ((-100, 0), (-76, 0), (-76, -26), (-72, -26)),
+        ("base.frame_a", "shoulder.frame_a"): ((-72, -26), (-76, -26), (-76, 0), (-56, 0)),
+        ("shoulder.frame_b", "arm.frame_a"): ((-36, 0), (-28, 0), (-28, -26), (-24, -26)),
+        ("arm.frame_a", "frame_b[1]"): ((-24, -26), (-28, -26), (-28, 0), (40, 0)),
+        ("shoulder.axis", "rotationalAxis[1]"): ((-46, 10), (-46, 18), (-68, 18), (-68, 36)),
+        ("shoulder.support", "rotationalSupport[1]"): ((-52, 10), (-52, 22), (-20, 22), (-20, 36)),
     }
     assert set(diagram.kinds.values()) == {"frame", "rotational"}
 

@@ -45,6 +45,9 @@ PORTS: Mapping[str, Point] = {
 VECTORS = ("rotationalAxis", "rotationalSupport", "translationalAxis", "translationalSupport")
 """The flange vectors at the top border, from left to right."""
 
+FRAME_A: Point = (-100, 0)
+"""Where the middle of the connector `frame_a` is in every robot's diagram."""
+
 _FRAME = 32  # size of a frame connector, as in the Modelica Standard Library
 _MARGIN = 44  # from the last trunk to the buses: a link and its name
 _BUS = 6  # distance of neighbouring buses
@@ -118,7 +121,7 @@ def layout(tree: Tree) -> Diagram:
         kinds[ends] = kind
     right = plan.leaf_bus + _LEAD + _FRAME
     extent = (0, plan.rows[-1].bottom, right, 0)
-    return _centred(Diagram(extent, _components(tree, plan), lines, kinds))
+    return _anchored(Diagram(extent, _components(tree, plan), lines, kinds))
 
 
 class _Cell(NamedTuple):
@@ -148,7 +151,7 @@ class _Detours:
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class _Plan:
-    """All coordinates before centring: the left border at x = 0, the upper one at y = 0."""
+    """All coordinates before anchoring: the left border at x = 0, the upper one at y = 0."""
 
     cells: _Cells
     detours: _Detours
@@ -331,9 +334,11 @@ def _kind(joint: TreeJoint) -> LineKind:
     return "translational" if joint.kind == "translational" else "rotational"
 
 
-def _centred(diagram: Diagram) -> Diagram:
+def _anchored(diagram: Diagram) -> Diagram:
+    """The diagram, moved so that `frame_a` is where the class that all robots extend has it."""
+    (x, y), (at_x, at_y) = diagram.placements["frame_a"].centre, FRAME_A
+    dx, dy = at_x - x, at_y - y
     x1, y1, x2, y2 = diagram.extent
-    dx, dy = -((x1 + x2) // 4) * 2, -((y1 + y2) // 4) * 2
     return Diagram(
         (x1 + dx, y1 + dy, x2 + dx, y2 + dy),
         {name: placement.moved(dx, dy) for name, placement in diagram.placements.items()},

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from typing import Any
 
 from urdfsync.domain import Import, Target
@@ -65,6 +65,7 @@ def robot_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str
     diagram = layout.layout(tree(skeleton))
     numbers = axis_numbers(skeleton)
     motions = {joint.name: MOTIONS.get(joint.type) for joint in skeleton.joints}
+    leaders = skeleton.followers_by_leader()
     return {
         "within": target.package,
         "type": target.name,
@@ -73,17 +74,16 @@ def robot_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str
         "note": notes.robot_note(target.name),
         "run_note": notes.run_note(target.name),
         "test_note": notes.test_note(target.name),
+        "assertion_level": "warning",
         "base": options.base,
         "visualizer": options.visualizer,
         "vectors": vectors(skeleton),
         "leaves": [{"component": skeleton.link(leaf.name).component, "name": leaf.name} for leaf in skeleton.leaves()],
         "links": [_link(skeleton, link.name) for link in skeleton.links],
-        "joints": [_joint(skeleton, joint, numbers, motions) for joint in skeleton.joints],
+        "joints": [_joint(skeleton, joint, numbers, motions, leaders) for joint in skeleton.joints],
         "couplings": couplings(skeleton),
-        "diagram": {
-            "extent": _extent(diagram.extent),
-            **{name: _extent((box.x1, box.y1, box.x2, box.y2)) for name, box in diagram.placements.items()},
-        },
+        "extent": _extent(diagram.extent),
+        "diagram": {name: _extent((box.x1, box.y1, box.x2, box.y2)) for name, box in diagram.placements.items()},
         "lines": _lines(diagram),
     }
 
@@ -126,6 +126,7 @@ def standing_height(skeleton: Skeleton, imports: Mapping[str, Import]) -> float 
 def vectors(skeleton: Skeleton) -> list[dict[str, Any]]:
     """One entry per kind of motion that the robot can be driven in: its words, and its axes in order."""
     ranges = _ranges(skeleton)
+    leaders = skeleton.followers_by_leader()
     result = []
     for motion, words in _WORDS.items():
         axes = [
@@ -134,6 +135,7 @@ def vectors(skeleton: Skeleton) -> list[dict[str, Any]]:
                 "name": joint.name,
                 "number": number,
                 "range": ranges[joint.name],
+                "leads": joint.name in leaders,
             }
             for number, joint in enumerate(skeleton.axes(motion), 1)
         ]
@@ -189,14 +191,18 @@ def _link(skeleton: Skeleton, name: str) -> dict[str, Any]:
 
 
 def _joint(
-    skeleton: Skeleton, joint: Joint, numbers: Mapping[str, int], motions: Mapping[str, Motion | None]
+    skeleton: Skeleton,
+    joint: Joint,
+    numbers: Mapping[str, int],
+    motions: Mapping[str, Motion | None],
+    leaders: Container[str],
 ) -> dict[str, Any]:
     identifier = skeleton.joint(joint.name)
     modifiers: list[str] = []
     if motion := motions[joint.name]:
         q, v = _WORDS[motion]["q"], _WORDS[motion]["v"]
         if joint.mimic is None:
-            modifiers = _driven(q, v, numbers[joint.name])
+            modifiers = _driven(q, v, numbers[joint.name], leads=joint.name in leaders)
         else:
             leader = skeleton.joint(joint.mimic.joint).component
             modifiers = _following(q, identifier.component, leader, motions[joint.mimic.joint])
@@ -208,10 +214,11 @@ def _joint(
     }
 
 
-def _driven(q: str, v: str, number: int) -> list[str]:
+def _driven(q: str, v: str, number: int, *, leads: bool) -> list[str]:
     return [
         f"axisNumber = {number}",
         "checkLimits = checkLimits",
+        *(["checkEffort = false"] if leads else []),
         "fixedStart = fixedStart",
         f"{q}_start = {q}_start[{number}]",
         f"{v}_start = {v}_start[{number}]",
@@ -223,7 +230,13 @@ def _following(q: str, follower: str, leader: str, leader_motion: Motion | None)
     if leader_motion:
         leader_q = _WORDS[leader_motion]["q"]
         start = f"{follower}.parameters.mimic.multiplier*{leader}.{leader_q}_start + {start}"
-    return ["checkLimits = checkLimits", "fixedStart = false", f"{q}_start = {start}"]
+    return [
+        "checkLimits = checkLimits",
+        "checkEffort = false",
+        "stateSelect = StateSelect.avoid",
+        "fixedStart = false",
+        f"{q}_start = {start}",
+    ]
 
 
 def axis_numbers(skeleton: Skeleton) -> Mapping[str, int]:

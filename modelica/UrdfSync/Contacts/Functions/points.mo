@@ -3,7 +3,7 @@ within UrdfSync.Contacts.Functions;
 function points "Force and torque of the ground on a set of points"
   extends UrdfSync.Contacts.Functions.PartialForce;
 
-  input Modelica.Units.SI.Position points[:, 3]
+  input Modelica.Units.SI.Position corners[:, 3]
     "One point per row, resolved in the shape frame";
 
 protected
@@ -17,10 +17,10 @@ protected
     "Force and torque";
 
 algorithm
-  for i in 1:size(points, 1) loop
-    if h + m*points[i, :] < 0 then
+  for i in 1:size(corners, 1) loop
+    if h + m*corners[i, :] < 0 then
       wrench := wrench
-        + UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, friction, slipSpeed, xyz + R*points[i, :]);
+        + UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, friction, slipSpeed, xyz + R*corners[i, :]);
     end if;
   end for;
   f := wrench[1:3];

@@ -30,37 +30,37 @@ model FloatingBuoy "Robot FloatingBuoy"
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis[1]
     "Drives"
-    annotation (Placement(transformation(extent={{-24, 26}, {-4, 46}}), iconTransformation(extent={{-70, 90}, {-50, 110}})));
+    annotation (Placement(transformation(extent={{-30, 26}, {-10, 46}}), iconTransformation(extent={{-70, 90}, {-50, 110}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b rotationalSupport[1]
     "Housings of the drives"
-    annotation (Placement(transformation(extent={{24, 26}, {44, 46}}), iconTransformation(extent={{-40, 90}, {-20, 110}})));
+    annotation (Placement(transformation(extent={{18, 26}, {38, 46}}), iconTransformation(extent={{-40, 90}, {-20, 110}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b[1]
     "Frames of the links without children"
-    annotation (Placement(transformation(extent={{78, -16}, {110, 16}}), iconTransformation(extent={{84, -16}, {116, 16}})));
+    annotation (Placement(transformation(extent={{72, -16}, {104, 16}}), iconTransformation(extent={{84, -16}, {116, 16}})));
 
   Links.World_link world_link(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"world\""
-    annotation (Placement(transformation(extent={{-66, -36}, {-46, -16}})));
+    annotation (Placement(transformation(extent={{-72, -36}, {-52, -16}})));
 
   Links.Buoy buoy(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"buoy\""
-    annotation (Placement(transformation(extent={{-18, -36}, {2, -16}})));
+    annotation (Placement(transformation(extent={{-24, -36}, {-4, -16}})));
 
   Links.Clapper clapper(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"clapper\""
-    annotation (Placement(transformation(extent={{30, -36}, {50, -16}})));
+    annotation (Placement(transformation(extent={{24, -36}, {44, -16}})));
 
   Joints.Drift drift
     "Floating joint \"drift\" from link \"world\" to link \"buoy\""
-    annotation (Placement(transformation(extent={{-50, -10}, {-30, 10}})));
+    annotation (Placement(transformation(extent={{-56, -10}, {-36, 10}})));
 
   Joints.Clapper_swing clapper_swing(
     axisNumber = 1,
@@ -69,28 +69,28 @@ model FloatingBuoy "Robot FloatingBuoy"
     phi_start = phi_start[1],
     w_start = w_start[1])
     "Continuous joint \"clapper_swing\" from link \"buoy\" to link \"clapper\""
-    annotation (Placement(transformation(extent={{-2, -10}, {18, 10}})));
+    annotation (Placement(transformation(extent={{-8, -10}, {12, 10}})));
 
 equation
   connect(frame_a, world_link.frame_a)
-    annotation (Line(points={{-94, 0}, {-70, 0}, {-70, -26}, {-66, -26}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-100, 0}, {-76, 0}, {-76, -26}, {-72, -26}}, color={95, 95, 95}, thickness=0.5));
   connect(world_link.frame_a, drift.frame_a)
-    annotation (Line(points={{-66, -26}, {-70, -26}, {-70, 0}, {-50, 0}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, 0}, {-56, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(drift.frame_b, buoy.frame_a)
-    annotation (Line(points={{-30, 0}, {-22, 0}, {-22, -26}, {-18, -26}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, 0}, {-28, 0}, {-28, -26}, {-24, -26}}, color={95, 95, 95}, thickness=0.5));
   connect(buoy.frame_a, clapper_swing.frame_a)
-    annotation (Line(points={{-18, -26}, {-22, -26}, {-22, 0}, {-2, 0}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-24, -26}, {-28, -26}, {-28, 0}, {-8, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(clapper_swing.frame_b, clapper.frame_a)
-    annotation (Line(points={{18, 0}, {26, 0}, {26, -26}, {30, -26}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{12, 0}, {20, 0}, {20, -26}, {24, -26}}, color={95, 95, 95}, thickness=0.5));
   connect(clapper.frame_a, frame_b[1])
-    annotation (Line(points={{30, -26}, {26, -26}, {26, 0}, {94, 0}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{24, -26}, {20, -26}, {20, 0}, {88, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(clapper_swing.axis, rotationalAxis[1])
-    annotation (Line(points={{8, 10}, {8, 18}, {-14, 18}, {-14, 36}}, color={0, 0, 0}));
+    annotation (Line(points={{2, 10}, {2, 18}, {-20, 18}, {-20, 36}}, color={0, 0, 0}));
   connect(clapper_swing.support, rotationalSupport[1])
-    annotation (Line(points={{2, 10}, {2, 22}, {34, 22}, {34, 36}}, color={0, 0, 0}));
+    annotation (Line(points={{-4, 10}, {-4, 22}, {28, 22}, {28, 36}}, color={0, 0, 0}));
 
   annotation (
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-110, -44}, {110, 46}})),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -44}, {104, 46}})),
     Documentation(info="<html>
 <p>
 Links and joints of robot FloatingBuoy, connected. The flange vectors hold the axes that can be driven; the constants <code>...Axis</code> and <code>...Frame</code> are their numbers, and keep their meaning when the robot changes. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

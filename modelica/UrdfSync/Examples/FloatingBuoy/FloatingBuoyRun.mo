@@ -13,7 +13,8 @@ model FloatingBuoyRun "Run robot FloatingBuoy with positions from outside: the m
 
   Modelica.Mechanics.Rotational.Sources.Position rotationalDrive[1](
     each useSupport = true,
-    each exact = false)
+    each exact = false,
+    w(each fixed = true))
     "Moves, through a filter, each axis as asked"
     annotation (Placement(transformation(extent={{-20, 20}, {0, 40}})));
 

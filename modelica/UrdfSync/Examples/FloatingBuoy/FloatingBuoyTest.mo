@@ -1,8 +1,8 @@
 within UrdfSync.Examples.FloatingBuoy;
 
 model FloatingBuoyTest "Quick check of robot FloatingBuoy: every axis moves inside its limits"
-  extends Modelica.Icons.Example;
   extends UrdfSync.Robots.PartialBench;
+  extends Modelica.Icons.Example;
 
   parameter FloatingBuoyParameters parameters
     "Numbers of the whole robot"

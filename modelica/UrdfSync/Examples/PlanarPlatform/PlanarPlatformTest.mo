@@ -1,8 +1,8 @@
 within UrdfSync.Examples.PlanarPlatform;
 
 model PlanarPlatformTest "Quick check of robot PlanarPlatform: every axis moves inside its limits"
-  extends Modelica.Icons.Example;
   extends UrdfSync.Robots.PartialBench;
+  extends Modelica.Icons.Example;
 
   parameter PlanarPlatformParameters parameters
     "Numbers of the whole robot"

@@ -13,13 +13,15 @@ model SixAxisArmRun "Run robot SixAxisArm with positions from outside: the model
 
   Modelica.Mechanics.Rotational.Sources.Position rotationalDrive[6](
     each useSupport = true,
-    each exact = false)
+    each exact = false,
+    w(each fixed = true))
     "Moves, through a filter, each axis as asked"
     annotation (Placement(transformation(extent={{-20, 20}, {0, 40}})));
 
   Modelica.Mechanics.Translational.Sources.Position translationalDrive[1](
     each useSupport = true,
-    each exact = false)
+    each exact = false,
+    v(each fixed = true))
     "Moves, through a filter, each axis as asked"
     annotation (Placement(transformation(extent={{-20, 60}, {0, 80}})));
 

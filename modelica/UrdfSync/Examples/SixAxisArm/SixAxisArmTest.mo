@@ -1,8 +1,8 @@
 within UrdfSync.Examples.SixAxisArm;
 
 model SixAxisArmTest "Quick check of robot SixAxisArm: every axis moves inside its limits"
-  extends Modelica.Icons.Example;
   extends UrdfSync.Robots.PartialBench;
+  extends Modelica.Icons.Example;
 
   parameter SixAxisArmParameters parameters
     "Numbers of the whole robot"

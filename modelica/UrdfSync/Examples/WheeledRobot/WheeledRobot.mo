@@ -97,95 +97,95 @@ model WheeledRobot "Robot WheeledRobot"
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis[7]
     "Drives"
-    annotation (Placement(transformation(extent={{-60, 174}, {-40, 194}}), iconTransformation(extent={{-70, 90}, {-50, 110}})));
+    annotation (Placement(transformation(extent={{18, 34}, {38, 54}}), iconTransformation(extent={{-70, 90}, {-50, 110}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b rotationalSupport[7]
     "Housings of the drives"
-    annotation (Placement(transformation(extent={{-12, 174}, {8, 194}}), iconTransformation(extent={{-40, 90}, {-20, 110}})));
+    annotation (Placement(transformation(extent={{66, 34}, {86, 54}}), iconTransformation(extent={{-40, 90}, {-20, 110}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_a translationalAxis[1]
     "Drives"
-    annotation (Placement(transformation(extent={{36, 174}, {56, 194}}), iconTransformation(extent={{20, 90}, {40, 110}})));
+    annotation (Placement(transformation(extent={{114, 34}, {134, 54}}), iconTransformation(extent={{20, 90}, {40, 110}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_b translationalSupport[1]
     "Housings of the drives"
-    annotation (Placement(transformation(extent={{84, 174}, {104, 194}}), iconTransformation(extent={{50, 90}, {70, 110}})));
+    annotation (Placement(transformation(extent={{162, 34}, {182, 54}}), iconTransformation(extent={{50, 90}, {70, 110}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b[5]
     "Frames of the links without children"
-    annotation (Placement(transformation(extent={{162, 124}, {194, 156}}), iconTransformation(extent={{84, -16}, {116, 16}})));
+    annotation (Placement(transformation(extent={{240, -16}, {272, 16}}), iconTransformation(extent={{84, -16}, {116, 16}})));
 
   Links.Base_link base_link(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"base_link\""
-    annotation (Placement(transformation(extent={{-150, 104}, {-130, 124}})));
+    annotation (Placement(transformation(extent={{-72, -36}, {-52, -16}})));
 
   Links.Caster_fork caster_fork(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"caster_fork\""
-    annotation (Placement(transformation(extent={{-102, 104}, {-82, 124}})));
+    annotation (Placement(transformation(extent={{-24, -36}, {-4, -16}})));
 
   Links.Caster_wheel caster_wheel(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"caster_wheel\""
-    annotation (Placement(transformation(extent={{-54, 104}, {-34, 124}})));
+    annotation (Placement(transformation(extent={{24, -36}, {44, -16}})));
 
   Links.Wheel_left wheel_left(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"wheel_left\""
-    annotation (Placement(transformation(extent={{-102, 34}, {-82, 54}})));
+    annotation (Placement(transformation(extent={{-24, -106}, {-4, -86}})));
 
   Links.Wheel_right wheel_right(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"wheel_right\""
-    annotation (Placement(transformation(extent={{-102, -36}, {-82, -16}})));
+    annotation (Placement(transformation(extent={{-24, -176}, {-4, -156}})));
 
   Links.Column_guide column_guide(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"column_guide\""
-    annotation (Placement(transformation(extent={{-102, -114}, {-82, -94}})));
+    annotation (Placement(transformation(extent={{-24, -254}, {-4, -234}})));
 
   Links.Column column(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"column\""
-    annotation (Placement(transformation(extent={{-54, -114}, {-34, -94}})));
+    annotation (Placement(transformation(extent={{24, -254}, {44, -234}})));
 
   Links.Neck neck(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"neck\""
-    annotation (Placement(transformation(extent={{-6, -114}, {14, -94}})));
+    annotation (Placement(transformation(extent={{72, -254}, {92, -234}})));
 
   Links.Head head(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"head\""
-    annotation (Placement(transformation(extent={{42, -114}, {62, -94}})));
+    annotation (Placement(transformation(extent={{120, -254}, {140, -234}})));
 
   Links.Camera_optical_frame camera_optical_frame(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"camera_optical_frame\""
-    annotation (Placement(transformation(extent={{90, -114}, {110, -94}})));
+    annotation (Placement(transformation(extent={{168, -254}, {188, -234}})));
 
   Links.Lidar_mast lidar_mast(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"lidar_mast\""
-    annotation (Placement(transformation(extent={{-102, -184}, {-82, -164}})));
+    annotation (Placement(transformation(extent={{-24, -324}, {-4, -304}})));
 
   Links.Lidar lidar(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"lidar\""
-    annotation (Placement(transformation(extent={{-54, -184}, {-34, -164}})));
+    annotation (Placement(transformation(extent={{24, -324}, {44, -304}})));
 
   Joints.Caster_swivel caster_swivel(
     axisNumber = 1,
@@ -194,7 +194,7 @@ model WheeledRobot "Robot WheeledRobot"
     phi_start = phi_start[1],
     w_start = w_start[1])
     "Continuous joint \"caster_swivel\" from link \"base_link\" to link \"caster_fork\""
-    annotation (Placement(transformation(extent={{-134, 130}, {-114, 150}})));
+    annotation (Placement(transformation(extent={{-56, -10}, {-36, 10}})));
 
   Joints.Caster_roll caster_roll(
     axisNumber = 2,
@@ -203,7 +203,7 @@ model WheeledRobot "Robot WheeledRobot"
     phi_start = phi_start[2],
     w_start = w_start[2])
     "Continuous joint \"caster_roll\" from link \"caster_fork\" to link \"caster_wheel\""
-    annotation (Placement(transformation(extent={{-86, 130}, {-66, 150}})));
+    annotation (Placement(transformation(extent={{-8, -10}, {12, 10}})));
 
   Joints.Drive_left drive_left(
     axisNumber = 3,
@@ -212,7 +212,7 @@ model WheeledRobot "Robot WheeledRobot"
     phi_start = phi_start[3],
     w_start = w_start[3])
     "Continuous joint \"drive_left\" from link \"base_link\" to link \"wheel_left\""
-    annotation (Placement(transformation(extent={{-134, 60}, {-114, 80}})));
+    annotation (Placement(transformation(extent={{-56, -80}, {-36, -60}})));
 
   Joints.Drive_right drive_right(
     axisNumber = 4,
@@ -221,11 +221,11 @@ model WheeledRobot "Robot WheeledRobot"
     phi_start = phi_start[4],
     w_start = w_start[4])
     "Continuous joint \"drive_right\" from link \"base_link\" to link \"wheel_right\""
-    annotation (Placement(transformation(extent={{-134, -10}, {-114, 10}})));
+    annotation (Placement(transformation(extent={{-56, -150}, {-36, -130}})));
 
   Joints.Guide_mount guide_mount
     "Fixed joint \"guide_mount\" from link \"base_link\" to link \"column_guide\""
-    annotation (Placement(transformation(extent={{-134, -88}, {-114, -68}})));
+    annotation (Placement(transformation(extent={{-56, -228}, {-36, -208}})));
 
   Joints.Lift lift(
     axisNumber = 1,
@@ -234,7 +234,7 @@ model WheeledRobot "Robot WheeledRobot"
     s_start = s_start[1],
     v_start = v_start[1])
     "Prismatic joint \"lift\" from link \"column_guide\" to link \"column\""
-    annotation (Placement(transformation(extent={{-86, -88}, {-66, -68}})));
+    annotation (Placement(transformation(extent={{-8, -228}, {12, -208}})));
 
   Joints.Head_pan head_pan(
     axisNumber = 5,
@@ -243,7 +243,7 @@ model WheeledRobot "Robot WheeledRobot"
     phi_start = phi_start[5],
     w_start = w_start[5])
     "Revolute joint \"head_pan\" from link \"column\" to link \"neck\""
-    annotation (Placement(transformation(extent={{-38, -88}, {-18, -68}})));
+    annotation (Placement(transformation(extent={{40, -228}, {60, -208}})));
 
   Joints.Head_tilt head_tilt(
     axisNumber = 6,
@@ -252,15 +252,15 @@ model WheeledRobot "Robot WheeledRobot"
     phi_start = phi_start[6],
     w_start = w_start[6])
     "Revolute joint \"head_tilt\" from link \"neck\" to link \"head\""
-    annotation (Placement(transformation(extent={{10, -88}, {30, -68}})));
+    annotation (Placement(transformation(extent={{88, -228}, {108, -208}})));
 
   Joints.Camera_mount camera_mount
     "Fixed joint \"camera_mount\" from link \"head\" to link \"camera_optical_frame\""
-    annotation (Placement(transformation(extent={{58, -88}, {78, -68}})));
+    annotation (Placement(transformation(extent={{136, -228}, {156, -208}})));
 
   Joints.Mast_mount mast_mount
     "Fixed joint \"mast_mount\" from link \"base_link\" to link \"lidar_mast\""
-    annotation (Placement(transformation(extent={{-134, -158}, {-114, -138}})));
+    annotation (Placement(transformation(extent={{-56, -298}, {-36, -278}})));
 
   Joints.Lidar_spin lidar_spin(
     axisNumber = 7,
@@ -269,100 +269,100 @@ model WheeledRobot "Robot WheeledRobot"
     phi_start = phi_start[7],
     w_start = w_start[7])
     "Continuous joint \"lidar_spin\" from link \"lidar_mast\" to link \"lidar\""
-    annotation (Placement(transformation(extent={{-86, -158}, {-66, -138}})));
+    annotation (Placement(transformation(extent={{-8, -298}, {12, -278}})));
 
 equation
   connect(frame_a, base_link.frame_a)
-    annotation (Line(points={{-178, 140}, {-154, 140}, {-154, 114}, {-150, 114}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-100, 0}, {-76, 0}, {-76, -26}, {-72, -26}}, color={95, 95, 95}, thickness=0.5));
   connect(base_link.frame_a, caster_swivel.frame_a)
-    annotation (Line(points={{-150, 114}, {-154, 114}, {-154, 140}, {-134, 140}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, 0}, {-56, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(caster_swivel.frame_b, caster_fork.frame_a)
-    annotation (Line(points={{-114, 140}, {-106, 140}, {-106, 114}, {-102, 114}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, 0}, {-28, 0}, {-28, -26}, {-24, -26}}, color={95, 95, 95}, thickness=0.5));
   connect(base_link.frame_a, drive_left.frame_a)
-    annotation (Line(points={{-150, 114}, {-154, 114}, {-154, 70}, {-134, 70}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -70}, {-56, -70}}, color={95, 95, 95}, thickness=0.5));
   connect(drive_left.frame_b, wheel_left.frame_a)
-    annotation (Line(points={{-114, 70}, {-106, 70}, {-106, 44}, {-102, 44}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, -70}, {-28, -70}, {-28, -96}, {-24, -96}}, color={95, 95, 95}, thickness=0.5));
   connect(base_link.frame_a, drive_right.frame_a)
-    annotation (Line(points={{-150, 114}, {-154, 114}, {-154, 0}, {-134, 0}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -140}, {-56, -140}}, color={95, 95, 95}, thickness=0.5));
   connect(drive_right.frame_b, wheel_right.frame_a)
-    annotation (Line(points={{-114, 0}, {-106, 0}, {-106, -26}, {-102, -26}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, -140}, {-28, -140}, {-28, -166}, {-24, -166}}, color={95, 95, 95}, thickness=0.5));
   connect(base_link.frame_a, guide_mount.frame_a)
-    annotation (Line(points={{-150, 114}, {-154, 114}, {-154, -78}, {-134, -78}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -218}, {-56, -218}}, color={95, 95, 95}, thickness=0.5));
   connect(guide_mount.frame_b, column_guide.frame_a)
-    annotation (Line(points={{-114, -78}, {-106, -78}, {-106, -104}, {-102, -104}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, -218}, {-28, -218}, {-28, -244}, {-24, -244}}, color={95, 95, 95}, thickness=0.5));
   connect(base_link.frame_a, mast_mount.frame_a)
-    annotation (Line(points={{-150, 114}, {-154, 114}, {-154, -148}, {-134, -148}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -288}, {-56, -288}}, color={95, 95, 95}, thickness=0.5));
   connect(mast_mount.frame_b, lidar_mast.frame_a)
-    annotation (Line(points={{-114, -148}, {-106, -148}, {-106, -174}, {-102, -174}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, -288}, {-28, -288}, {-28, -314}, {-24, -314}}, color={95, 95, 95}, thickness=0.5));
   connect(caster_fork.frame_a, caster_roll.frame_a)
-    annotation (Line(points={{-102, 114}, {-106, 114}, {-106, 140}, {-86, 140}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-24, -26}, {-28, -26}, {-28, 0}, {-8, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(caster_roll.frame_b, caster_wheel.frame_a)
-    annotation (Line(points={{-66, 140}, {-58, 140}, {-58, 114}, {-54, 114}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{12, 0}, {20, 0}, {20, -26}, {24, -26}}, color={95, 95, 95}, thickness=0.5));
   connect(caster_wheel.frame_a, frame_b[1])
-    annotation (Line(points={{-54, 114}, {-58, 114}, {-58, 140}, {178, 140}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{24, -26}, {20, -26}, {20, 0}, {256, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(wheel_left.frame_a, frame_b[2])
-    annotation (Line(points={{-102, 44}, {-106, 44}, {-106, 70}, {154, 70}, {154, 140}, {178, 140}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-24, -96}, {-28, -96}, {-28, -70}, {232, -70}, {232, 0}, {256, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(wheel_right.frame_a, frame_b[3])
-    annotation (Line(points={{-102, -26}, {-106, -26}, {-106, 0}, {154, 0}, {154, 140}, {178, 140}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-24, -166}, {-28, -166}, {-28, -140}, {232, -140}, {232, 0}, {256, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(column_guide.frame_a, lift.frame_a)
-    annotation (Line(points={{-102, -104}, {-106, -104}, {-106, -78}, {-86, -78}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-24, -244}, {-28, -244}, {-28, -218}, {-8, -218}}, color={95, 95, 95}, thickness=0.5));
   connect(lift.frame_b, column.frame_a)
-    annotation (Line(points={{-66, -78}, {-58, -78}, {-58, -104}, {-54, -104}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{12, -218}, {20, -218}, {20, -244}, {24, -244}}, color={95, 95, 95}, thickness=0.5));
   connect(column.frame_a, head_pan.frame_a)
-    annotation (Line(points={{-54, -104}, {-58, -104}, {-58, -78}, {-38, -78}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{24, -244}, {20, -244}, {20, -218}, {40, -218}}, color={95, 95, 95}, thickness=0.5));
   connect(head_pan.frame_b, neck.frame_a)
-    annotation (Line(points={{-18, -78}, {-10, -78}, {-10, -104}, {-6, -104}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{60, -218}, {68, -218}, {68, -244}, {72, -244}}, color={95, 95, 95}, thickness=0.5));
   connect(neck.frame_a, head_tilt.frame_a)
-    annotation (Line(points={{-6, -104}, {-10, -104}, {-10, -78}, {10, -78}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{72, -244}, {68, -244}, {68, -218}, {88, -218}}, color={95, 95, 95}, thickness=0.5));
   connect(head_tilt.frame_b, head.frame_a)
-    annotation (Line(points={{30, -78}, {38, -78}, {38, -104}, {42, -104}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{108, -218}, {116, -218}, {116, -244}, {120, -244}}, color={95, 95, 95}, thickness=0.5));
   connect(head.frame_a, camera_mount.frame_a)
-    annotation (Line(points={{42, -104}, {38, -104}, {38, -78}, {58, -78}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{120, -244}, {116, -244}, {116, -218}, {136, -218}}, color={95, 95, 95}, thickness=0.5));
   connect(camera_mount.frame_b, camera_optical_frame.frame_a)
-    annotation (Line(points={{78, -78}, {86, -78}, {86, -104}, {90, -104}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{156, -218}, {164, -218}, {164, -244}, {168, -244}}, color={95, 95, 95}, thickness=0.5));
   connect(camera_optical_frame.frame_a, frame_b[4])
-    annotation (Line(points={{90, -104}, {86, -104}, {86, -78}, {154, -78}, {154, 140}, {178, 140}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{168, -244}, {164, -244}, {164, -218}, {232, -218}, {232, 0}, {256, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(lidar_mast.frame_a, lidar_spin.frame_a)
-    annotation (Line(points={{-102, -174}, {-106, -174}, {-106, -148}, {-86, -148}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-24, -314}, {-28, -314}, {-28, -288}, {-8, -288}}, color={95, 95, 95}, thickness=0.5));
   connect(lidar_spin.frame_b, lidar.frame_a)
-    annotation (Line(points={{-66, -148}, {-58, -148}, {-58, -174}, {-54, -174}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{12, -288}, {20, -288}, {20, -314}, {24, -314}}, color={95, 95, 95}, thickness=0.5));
   connect(lidar.frame_a, frame_b[5])
-    annotation (Line(points={{-54, -174}, {-58, -174}, {-58, -148}, {154, -148}, {154, 140}, {178, 140}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{24, -314}, {20, -314}, {20, -288}, {232, -288}, {232, 0}, {256, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(caster_swivel.axis, rotationalAxis[1])
-    annotation (Line(points={{-124, 150}, {-124, 158}, {-50, 158}, {-50, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{-46, 10}, {-46, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
   connect(caster_swivel.support, rotationalSupport[1])
-    annotation (Line(points={{-130, 150}, {-130, 162}, {-2, 162}, {-2, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{-52, 10}, {-52, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
   connect(caster_roll.axis, rotationalAxis[2])
-    annotation (Line(points={{-76, 150}, {-76, 158}, {-50, 158}, {-50, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{2, 10}, {2, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
   connect(caster_roll.support, rotationalSupport[2])
-    annotation (Line(points={{-82, 150}, {-82, 162}, {-2, 162}, {-2, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{-4, 10}, {-4, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
   connect(drive_left.axis, rotationalAxis[3])
-    annotation (Line(points={{-124, 80}, {-124, 88}, {148, 88}, {148, 158}, {-50, 158}, {-50, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{-46, -60}, {-46, -52}, {226, -52}, {226, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
   connect(drive_left.support, rotationalSupport[3])
-    annotation (Line(points={{-130, 80}, {-130, 92}, {142, 92}, {142, 162}, {-2, 162}, {-2, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{-52, -60}, {-52, -48}, {220, -48}, {220, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
   connect(drive_right.axis, rotationalAxis[4])
-    annotation (Line(points={{-124, 10}, {-124, 18}, {148, 18}, {148, 158}, {-50, 158}, {-50, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{-46, -130}, {-46, -122}, {226, -122}, {226, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
   connect(drive_right.support, rotationalSupport[4])
-    annotation (Line(points={{-130, 10}, {-130, 22}, {142, 22}, {142, 162}, {-2, 162}, {-2, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{-52, -130}, {-52, -118}, {220, -118}, {220, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
   connect(lift.axis, translationalAxis[1])
-    annotation (Line(points={{-76, -68}, {-76, -52}, {136, -52}, {136, 166}, {46, 166}, {46, 184}}, color={0, 127, 0}));
+    annotation (Line(points={{2, -208}, {2, -192}, {214, -192}, {214, 26}, {124, 26}, {124, 44}}, color={0, 127, 0}));
   connect(lift.support, translationalSupport[1])
-    annotation (Line(points={{-82, -68}, {-82, -48}, {130, -48}, {130, 170}, {94, 170}, {94, 184}}, color={0, 127, 0}));
+    annotation (Line(points={{-4, -208}, {-4, -188}, {208, -188}, {208, 30}, {172, 30}, {172, 44}}, color={0, 127, 0}));
   connect(head_pan.axis, rotationalAxis[5])
-    annotation (Line(points={{-28, -68}, {-28, -60}, {148, -60}, {148, 158}, {-50, 158}, {-50, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{50, -208}, {50, -200}, {226, -200}, {226, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
   connect(head_pan.support, rotationalSupport[5])
-    annotation (Line(points={{-34, -68}, {-34, -56}, {142, -56}, {142, 162}, {-2, 162}, {-2, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{44, -208}, {44, -196}, {220, -196}, {220, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
   connect(head_tilt.axis, rotationalAxis[6])
-    annotation (Line(points={{20, -68}, {20, -60}, {148, -60}, {148, 158}, {-50, 158}, {-50, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{98, -208}, {98, -200}, {226, -200}, {226, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
   connect(head_tilt.support, rotationalSupport[6])
-    annotation (Line(points={{14, -68}, {14, -56}, {142, -56}, {142, 162}, {-2, 162}, {-2, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{92, -208}, {92, -196}, {220, -196}, {220, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
   connect(lidar_spin.axis, rotationalAxis[7])
-    annotation (Line(points={{-76, -138}, {-76, -130}, {148, -130}, {148, 158}, {-50, 158}, {-50, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{2, -278}, {2, -270}, {226, -270}, {226, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
   connect(lidar_spin.support, rotationalSupport[7])
-    annotation (Line(points={{-82, -138}, {-82, -126}, {142, -126}, {142, 162}, {-2, 162}, {-2, 184}}, color={0, 0, 0}));
+    annotation (Line(points={{-4, -278}, {-4, -266}, {220, -266}, {220, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
 
   annotation (
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-194, -192}, {194, 194}})),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -332}, {272, 54}})),
     Documentation(info="<html>
 <p>
 Links and joints of robot WheeledRobot, connected. The flange vectors hold the axes that can be driven; the constants <code>...Axis</code> and <code>...Frame</code> are their numbers, and keep their meaning when the robot changes. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

@@ -1,10 +1,10 @@
 within UrdfSync.Examples.WheeledRobot;
 
 model WheeledRobotTest "Quick check of robot WheeledRobot: every axis moves inside its limits"
-  extends Modelica.Icons.Example;
   extends UrdfSync.Robots.PartialMobileBench(
     r_start = {0, 0, parameters.standingHeight},
     load = robot.m*world.g);
+  extends Modelica.Icons.Example;
 
   parameter WheeledRobotParameters parameters
     "Numbers of the whole robot"

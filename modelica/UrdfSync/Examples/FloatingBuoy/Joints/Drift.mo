@@ -10,7 +10,7 @@ model Drift "Floating joint \"drift\" from link \"world\" to link \"buoy\""
 
   parameter Boolean fixedStart = true
     "= true, if the simulation begins at the start values"
-    annotation (Dialog(tab="Initialization"));
+    annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
 
   parameter Modelica.Units.SI.Position r_start[3] = {0, 0, 0}
     "Start value of the position of frame_b, resolved in the joint frame"

@@ -10,7 +10,7 @@ model Glide "Planar joint \"glide\" from link \"world\" to link \"platform\""
 
   parameter Boolean fixedStart = true
     "= true, if the simulation begins at the start values"
-    annotation (Dialog(tab="Initialization"));
+    annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
 
   parameter Modelica.Units.SI.Position s_start[2] = {0, 0}
     "Start values of the sliding positions"

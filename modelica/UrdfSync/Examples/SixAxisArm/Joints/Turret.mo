@@ -14,9 +14,16 @@ model Turret "Revolute joint \"turret\" from link \"base_link\" to link \"carous
   parameter Boolean checkLimits = true
     "= true, if passing a limit is reported by a warning";
 
+  parameter Boolean checkEffort = true
+    "= true, if the effort at axis is checked, too; = false, if axis is not all that drives the joint";
+
+  parameter StateSelect stateSelect = StateSelect.prefer
+    "Whether position and speed are taken as states"
+    annotation (Dialog(tab="Advanced"));
+
   parameter Boolean fixedStart = true
     "= true, if the simulation begins at the start values; = false, if they are guesses"
-    annotation (Dialog(tab="Initialization"));
+    annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
 
   parameter Modelica.Units.SI.Angle phi_start = 0
     "Start value of the position"
@@ -47,7 +54,7 @@ model Turret "Revolute joint \"turret\" from link \"base_link\" to link \"carous
     animation = false,
     useAxisFlange = true,
     n = parameters.axis,
-    stateSelect = StateSelect.prefer,
+    stateSelect = stateSelect,
     phi(start = phi_start, fixed = fixedStart),
     w(start = w_start, fixed = fixedStart))
     "Motion along the axis"
@@ -57,18 +64,14 @@ model Turret "Revolute joint \"turret\" from link \"base_link\" to link \"carous
     "Damping and dry friction"
     annotation (Placement(transformation(extent={{0, 30}, {20, 50}})));
 
-protected
-  constant Real tolerance = 1e-6
-    "Share, and distance, by which a limit may be passed without a warning: rounding is no reason for one";
-
 equation
-  assert(not checkLimits or noEvent(revolute.phi >= parameters.limits.lower - tolerance),
+  assert(not checkLimits or noEvent(revolute.phi >= parameters.limits.lower - 1e-6),
     getInstanceName() + " (joint " + parameters.name + ") is below its lower position limit", AssertionLevel.warning);
-  assert(not checkLimits or noEvent(revolute.phi <= parameters.limits.upper + tolerance),
+  assert(not checkLimits or noEvent(revolute.phi <= parameters.limits.upper + 1e-6),
     getInstanceName() + " (joint " + parameters.name + ") is above its upper position limit", AssertionLevel.warning);
-  assert(not checkLimits or noEvent((1 - tolerance)*abs(revolute.w) <= parameters.limits.velocity + tolerance),
+  assert(not checkLimits or noEvent(0.999999*abs(revolute.w) <= parameters.limits.velocity + 1e-6),
     getInstanceName() + " (joint " + parameters.name + ") is faster than its velocity limit", AssertionLevel.warning);
-  assert(not checkLimits or noEvent((1 - tolerance)*abs(axis.tau) <= parameters.limits.effort + tolerance),
+  assert(not (checkLimits and checkEffort) or noEvent(0.999999*abs(axis.tau) <= parameters.limits.effort + 1e-6),
     getInstanceName() + " (joint " + parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
   connect(frame_a, origin.frame_a)
     annotation (Line(points={{-100, 0}, {-80, 0}}, color={95, 95, 95}, thickness=0.5));
@@ -87,7 +90,7 @@ equation
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
-      Text(extent={{-150, -100}, {150, -70}}, textString="%axisNumber: n=%parameters.axis")}),
+      Text(extent={{-150, -100}, {150, -70}}, textString="%axisNumber: n=%{parameters.axis}")}),
     Documentation(info="<html>
 <p>
 The URDF joint <code>turret</code>: link <code>carousel</code> relative to link <code>base_link</code> turns within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

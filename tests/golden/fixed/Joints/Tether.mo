@@ -1,0 +1,62 @@
+within Zoo.Menagerie.Joints;
+
+model Tether "Floating joint \"tether\" from link \"chassis\" to link \"balloon\""
+  extends UrdfSync.Icons.FloatingJoint;
+  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
+
+  parameter TetherParameters parameters
+    "Numbers of the joint"
+    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+
+  parameter Boolean fixedStart = true
+    "= true, if the simulation begins at the start values"
+    annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
+
+  parameter Modelica.Units.SI.Position r_start[3] = {0, 0, 0}
+    "Start value of the position of frame_b, resolved in the joint frame"
+    annotation (Dialog(tab="Initialization"));
+
+  parameter Modelica.Units.SI.Angle rpy_start[3] = {0, 0, 0}
+    "Start values of roll, pitch and yaw of frame_b in the joint frame"
+    annotation (Dialog(tab="Initialization"));
+
+  parameter Modelica.Units.SI.Velocity v_start[3] = {0, 0, 0}
+    "Start value of the velocity of frame_b, resolved in the joint frame"
+    annotation (Dialog(tab="Initialization"));
+
+  parameter Modelica.Units.SI.AngularVelocity w_start[3] = {0, 0, 0}
+    "Start value of the angular velocity of frame_b, resolved in the joint frame"
+    annotation (Dialog(tab="Initialization"));
+
+  Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
+    animation = false,
+    r = parameters.origin.xyz,
+    rotationType = Modelica.Mechanics.MultiBody.Types.RotationTypes.PlanarRotationSequence,
+    sequence = {3, 2, 1},
+    angles = Modelica.Units.Conversions.to_deg({parameters.origin.rpy[3], parameters.origin.rpy[2], parameters.origin.rpy[1]}))
+    "From the frame of the parent link to the joint frame"
+    annotation (Placement(transformation(extent={{-80, -10}, {-60, 10}})));
+
+  UrdfSync.Robots.FreeBase freeMotion(
+    fixedStart = fixedStart,
+    r_start = r_start,
+    rpy_start = rpy_start,
+    v_start = v_start,
+    w_start = w_start)
+    "Six degrees of freedom"
+    annotation (Placement(transformation(extent={{0, -10}, {20, 10}})));
+
+equation
+  connect(frame_a, origin.frame_a)
+    annotation (Line(points={{-100, 0}, {-80, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(origin.frame_b, freeMotion.frame_a)
+    annotation (Line(points={{-60, 0}, {0, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(freeMotion.frame_b, frame_b)
+    annotation (Line(points={{20, 0}, {100, 0}}, color={95, 95, 95}, thickness=0.5));
+
+  annotation (Documentation(info="<html>
+<p>
+The URDF joint <code>tether</code>: link <code>balloon</code> relative to link <code>chassis</code> moves freely. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+</p>
+</html>"));
+end Tether;

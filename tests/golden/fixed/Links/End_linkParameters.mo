@@ -1,0 +1,12 @@
+within Zoo.Menagerie.Links;
+
+record End_linkParameters "Numbers of link \"end\""
+  extends UrdfSync.Records.Link(
+    name = "end");
+
+  annotation (Documentation(info="<html>
+<p>
+Numbers of link &quot;end&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+</p>
+</html>"));
+end End_linkParameters;

@@ -1,0 +1,12 @@
+within Zoo.Menagerie.Links;
+
+record PinionParameters "Numbers of link \"pinion\""
+  extends UrdfSync.Records.Link(
+    name = "pinion");
+
+  annotation (Documentation(info="<html>
+<p>
+Numbers of link &quot;pinion&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+</p>
+</html>"));
+end PinionParameters;

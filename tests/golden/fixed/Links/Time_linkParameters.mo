@@ -1,0 +1,12 @@
+within Zoo.Menagerie.Links;
+
+record Time_linkParameters "Numbers of link \"time\""
+  extends UrdfSync.Records.Link(
+    name = "time");
+
+  annotation (Documentation(info="<html>
+<p>
+Numbers of link &quot;time&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+</p>
+</html>"));
+end Time_linkParameters;

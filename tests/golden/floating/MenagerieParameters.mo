@@ -1,0 +1,362 @@
+within Zoo.Menagerie;
+
+record MenagerieParameters "Numbers of robot Menagerie as a whole"
+  extends UrdfSync.Records.Robot(
+    name = "menagerie \"of\" <everything>",
+    standingHeight = 0.22,
+    connectionMatrix = [1, 2; 2, 3; 2, 4; 1, 5; 5, 6; 5, 7; 1, 8; 1, 9; 9, 10; 9, 11; 1, 12; 12, 13; 1, 14],
+    moveableJoints = [1, 1; 2, 1; 3, 1; 5, 1; 6, 1; 7, 1; 8, 1; 9, 1; 10, 1; 11, 1; 12, 1; 13, 1]);
+
+  UrdfSync.Records.Link chassis(
+    name = "chassis",
+    inertial(
+      origin(
+        xyz = {0.01, -0.02, 0.03},
+        rpy = {0.1, -0.2, 0.3}),
+      mass = 12.5,
+      inertia(
+        ixx = 0.3,
+        iyy = 0.25,
+        izz = 0.2,
+        ixy = 0.001,
+        ixz = -0.002,
+        iyz = 1e-05)))
+    "Link 1: \"chassis\"";
+
+  UrdfSync.Records.Link l_arm(
+    name = "l_arm",
+    inertial(
+      origin(
+        xyz = {0, 0, 0},
+        rpy = {0, 0, 0}),
+      mass = 2,
+      inertia(
+        ixx = 0.02,
+        iyy = 0.02,
+        izz = 0.02,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 2: \"l_arm\"";
+
+  UrdfSync.Records.Link end_link(
+    name = "end")
+    "Link 3: \"end\"";
+
+  UrdfSync.Records.Link pinion(
+    name = "pinion")
+    "Link 4: \"pinion\"";
+
+  UrdfSync.Records.Link name_link(
+    name = "name")
+    "Link 5: \"name\"";
+
+  UrdfSync.Records.Link gelenk__(
+    name = "Gelenk_ä")
+    "Link 6: \"Gelenk_ä\"";
+
+  UrdfSync.Records.Link time_link(
+    name = "time")
+    "Link 7: \"time\"";
+
+  UrdfSync.Records.Link cON_link(
+    name = "CON",
+    inertial(
+      origin(
+        xyz = {0, 0, 0},
+        rpy = {0, 0, 0}),
+      mass = 1,
+      inertia(
+        ixx = 0.01,
+        iyy = 0.01,
+        izz = 0.02,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 8: \"CON\"";
+
+  UrdfSync.Records.Link upper_arm(
+    name = "upper arm",
+    inertial(
+      origin(
+        xyz = {0, 0, 0},
+        rpy = {0, 0, 0}),
+      mass = 3,
+      inertia(
+        ixx = 0.01,
+        iyy = 0.01,
+        izz = 0.01,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 9: \"upper arm\"";
+
+  UrdfSync.Records.Link l_arm_link(
+    name = "L_arm")
+    "Link 10: \"L_arm\"";
+
+  UrdfSync.Records.Link nut(
+    name = "nut")
+    "Link 11: \"nut\"";
+
+  UrdfSync.Records.Link table(
+    name = "table",
+    inertial(
+      origin(
+        xyz = {0, 0, 0},
+        rpy = {0, 0, 0}),
+      mass = 0.5,
+      inertia(
+        ixx = 0.001,
+        iyy = 0.001,
+        izz = 0.001,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 12: \"table\"";
+
+  UrdfSync.Records.Link a_b___c_______1_0______d____e(
+    name = "a\"b\\ <c> & << 1/0 >> {{d}} %e",
+    inertial(
+      origin(
+        xyz = {0, 0, 0},
+        rpy = {0, 0, 0}),
+      mass = 0.25,
+      inertia(
+        ixx = 0.001,
+        iyy = 0.001,
+        izz = 0.001,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 13: \"a\"b\\ <c> & << 1/0 >> {{d}} %e\"";
+
+  UrdfSync.Records.Link balloon(
+    name = "balloon",
+    inertial(
+      origin(
+        xyz = {0, 0, 0},
+        rpy = {0, 0, 0}),
+      mass = 0.1,
+      inertia(
+        ixx = 0.001,
+        iyy = 0.001,
+        izz = 0.001,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 14: \"balloon\"";
+
+  UrdfSync.Records.PrismaticJoint lift(
+    name = "lift",
+    origin(
+      xyz = {-0.2, 0, 0.1},
+      rpy = {0, 0, 0}),
+    axis = {1, 0, 0},
+    limits(
+      lower = -0.05,
+      upper = 0.4,
+      velocity = 0.25,
+      effort = 500),
+    dynamics(
+      damping = 100,
+      friction = 0),
+    calibration(
+      rising = Modelica.Constants.inf,
+      falling = 0.35),
+    safetyController(
+      k_velocity = 5,
+      k_position = 0,
+      soft_lower_limit = 0,
+      soft_upper_limit = 0))
+    "Joint 1: \"lift\"";
+
+  UrdfSync.Records.PrismaticJoint end_joint(
+    name = "end",
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    axis = {1, 0, 0},
+    limits(
+      lower = -1,
+      upper = 1,
+      velocity = 1,
+      effort = 5),
+    dynamics(
+      damping = 2,
+      friction = 0.5),
+    mimic(
+      multiplier = 1,
+      offset = 0))
+    "Joint 2: \"end\"";
+
+  UrdfSync.Records.ContinuousJoint pinion_joint(
+    name = "pinion",
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    axis = {0, 0, 1},
+    limits(
+      lower = -Modelica.Constants.inf,
+      upper = Modelica.Constants.inf,
+      velocity = Modelica.Constants.inf,
+      effort = Modelica.Constants.inf),
+    mimic(
+      multiplier = 80,
+      offset = 0))
+    "Joint 3: \"pinion\"";
+
+  UrdfSync.Records.FixedJoint mount(
+    name = "mount",
+    origin(
+      xyz = {0, 0, 0.2},
+      rpy = {0, 0, 0}))
+    "Joint 4: \"mount\"";
+
+  UrdfSync.Records.PrismaticJoint held_slide(
+    name = "held slide",
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    axis = {1, 0, 0},
+    limits(
+      lower = -1,
+      upper = 1,
+      velocity = 1,
+      effort = 1),
+    mimic(
+      multiplier = 1,
+      offset = 0.125))
+    "Joint 5: \"held slide\"";
+
+  UrdfSync.Records.RevoluteJoint held_turn(
+    name = "held turn",
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    axis = {1, 0, 0},
+    limits(
+      lower = -1,
+      upper = 1,
+      velocity = 1,
+      effort = 1),
+    mimic(
+      multiplier = 1,
+      offset = 0.25))
+    "Joint 6: \"held turn\"";
+
+  UrdfSync.Records.ContinuousJoint rotational_joint(
+    name = "rotational",
+    origin(
+      xyz = {0, 0.25, -0.05},
+      rpy = {-1.5707963267948966, 0, 0}),
+    axis = {0, 0, 1},
+    limits(
+      lower = -Modelica.Constants.inf,
+      upper = Modelica.Constants.inf,
+      velocity = 30,
+      effort = 12),
+    dynamics(
+      damping = 0,
+      friction = 0.01),
+    calibration(
+      rising = 0.5,
+      falling = Modelica.Constants.inf),
+    safetyController(
+      k_velocity = 0.5,
+      k_position = 0,
+      soft_lower_limit = 0,
+      soft_upper_limit = 0))
+    "Joint 7: \"rotational\"";
+
+  UrdfSync.Records.RevoluteJoint shoulder(
+    name = "shoulder",
+    origin(
+      xyz = {0.2, 0, 0.1},
+      rpy = {0, 0.5, 0}),
+    axis = {0, 1, 0},
+    limits(
+      lower = 0.25,
+      upper = 2.5,
+      velocity = 1.5,
+      effort = 150),
+    dynamics(
+      damping = 0.5,
+      friction = 1.25),
+    calibration(
+      rising = 0.3,
+      falling = 2.4),
+    safetyController(
+      k_velocity = 10,
+      k_position = 20,
+      soft_lower_limit = 0.3,
+      soft_upper_limit = 2.4))
+    "Joint 8: \"shoulder\"";
+
+  UrdfSync.Records.RevoluteJoint elbow(
+    name = "elbow",
+    origin(
+      xyz = {0.3, 0, 0},
+      rpy = {0, 0, 0}),
+    axis = {0, 1, 0},
+    limits(
+      lower = -2,
+      upper = 0,
+      velocity = 2,
+      effort = 80),
+    mimic(
+      multiplier = -0.5,
+      offset = 0.1))
+    "Joint 9: \"elbow\"";
+
+  UrdfSync.Records.PrismaticJoint lead_screw(
+    name = "lead-screw",
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    axis = {1, 0, 0},
+    limits(
+      lower = 0,
+      upper = 0.1,
+      velocity = 0.1,
+      effort = 20),
+    mimic(
+      multiplier = 0.02,
+      offset = 0))
+    "Joint 10: \"lead-screw\"";
+
+  UrdfSync.Records.PlanarJoint table_joint(
+    name = "table",
+    origin(
+      xyz = {0, 0, 0.4},
+      rpy = {0, 0, 0}),
+    axis = {0, 0, 1},
+    translation(
+      damping = 4,
+      friction = 2),
+    rotation(
+      damping = 4,
+      friction = 2))
+    "Joint 11: \"table\"";
+
+  UrdfSync.Records.PlanarJoint puck(
+    name = "puck",
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    axis = {0, 0, 1})
+    "Joint 12: \"puck\"";
+
+  UrdfSync.Records.FloatingJoint tether(
+    name = "tether",
+    origin(
+      xyz = {0, 0, 1},
+      rpy = {0, 0, 0}))
+    "Joint 13: \"tether\"";
+
+  annotation (Documentation(info="<html>
+<p>
+All numbers of robot Menagerie in one record. The robot model takes its numbers from the records of its links and joints; this one is for studies that need them all.
+</p>
+</html>"));
+end MenagerieParameters;

@@ -1,0 +1,67 @@
+within Zoo.Menagerie;
+
+model MenagerieRun "Run robot Menagerie with positions from outside: the model to export as FMU"
+  extends UrdfSync.Robots.PartialMobileBench(
+    r_start = {0, 0, parameters.standingHeight},
+    load = robot.m*world.g);
+
+  parameter MenagerieParameters parameters
+    "Numbers of the whole robot"
+    annotation (Placement(transformation(extent={{80, 80}, {100, 100}})));
+
+  Menagerie robot(fixedStart = false)
+    "The robot"
+    annotation (Placement(transformation(extent={{20, -60}, {60, -20}})));
+
+  Modelica.Mechanics.Rotational.Sources.Position rotationalDrive[2](
+    each useSupport = true,
+    each exact = false,
+    w(each fixed = true))
+    "Moves, through a filter, each axis as asked"
+    annotation (Placement(transformation(extent={{-20, 20}, {0, 40}})));
+
+  Modelica.Mechanics.Translational.Sources.Position translationalDrive[1](
+    each useSupport = true,
+    each exact = false,
+    v(each fixed = true))
+    "Moves, through a filter, each axis as asked"
+    annotation (Placement(transformation(extent={{-20, 60}, {0, 80}})));
+
+  Modelica.Blocks.Interfaces.RealInput phi[2](each unit = "rad")
+    "Where each axis is to go, in the order of robot.rotationalAxis"
+    annotation (Placement(transformation(extent={{-140, 10}, {-100, 50}})));
+
+  Modelica.Blocks.Interfaces.RealOutput tau[2](each unit = "N.m") = robot.rotationalAxis.tau
+    "What each drive has to give"
+    annotation (Placement(transformation(extent={{100, 20}, {120, 40}})));
+
+  Modelica.Blocks.Interfaces.RealInput s[1](each unit = "m")
+    "Where each axis is to go, in the order of robot.translationalAxis"
+    annotation (Placement(transformation(extent={{-140, 50}, {-100, 90}})));
+
+  Modelica.Blocks.Interfaces.RealOutput f[1](each unit = "N") = robot.translationalAxis.f
+    "What each drive has to give"
+    annotation (Placement(transformation(extent={{100, 60}, {120, 80}})));
+
+equation
+  connect(base.frame_b, robot.frame_a)
+    annotation (Line(points={{-40, -50}, {0, -50}, {0, -40}, {20, -40}}, color={95, 95, 95}, thickness=0.5));
+  connect(rotationalDrive.flange, robot.rotationalAxis)
+    annotation (Line(points={{0, 30}, {28, 30}, {28, -20}}, color={0, 0, 0}));
+  connect(rotationalDrive.support, robot.rotationalSupport)
+    annotation (Line(points={{-10, 20}, {-10, 10}, {34, 10}, {34, -20}}, color={0, 0, 0}));
+  connect(translationalDrive.flange, robot.translationalAxis)
+    annotation (Line(points={{0, 70}, {46, 70}, {46, -20}}, color={0, 127, 0}));
+  connect(translationalDrive.support, robot.translationalSupport)
+    annotation (Line(points={{-10, 60}, {-10, 50}, {52, 50}, {52, -20}}, color={0, 127, 0}));
+  connect(phi, rotationalDrive.phi_ref)
+    annotation (Line(points={{-120, 30}, {-22, 30}}, color={0, 0, 127}));
+  connect(s, translationalDrive.s_ref)
+    annotation (Line(points={{-120, 70}, {-22, 70}}, color={0, 0, 127}));
+
+  annotation (Documentation(info="<html>
+<p>
+Robot Menagerie in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+</p>
+</html>"));
+end MenagerieRun;

@@ -1,0 +1,110 @@
+"""The diagrams of the whole corpus, read from the generated texts: nothing overlaps, lines end where they should."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from support import corpus, diagram
+from support.diagram import STANDARD, Component, Diagram, corners, is_inside, of_package, overlaps, port
+from support.packages import Package, generate, proposed_base, read
+from support.urdfs import dynamics, joint, limit, link, robot
+
+from urdfsync.domain import Target
+
+BOT = Target("Bot", "Bot")
+SOURCES = corpus.by_source(corpus.distinct_files())
+
+OWN = robot(
+    link("base", 1.0),
+    *(link(f"part{k}", 1.0) for k in range(6)),
+    joint("skate", "planar", "base", "part0", axis="0 0 1", inside=[dynamics(1, 2)]),
+    joint("glide", "planar", "base", "part1", axis="0 0 1"),
+    joint("air", "floating", "part0", "part2"),
+    joint("turn", "continuous", "part0", "part3", inside=[dynamics(1, 2)]),
+    joint("slide", "prismatic", "part0", "part4", inside=[limit(), dynamics(1, 2)]),
+    joint("bare", "prismatic", "part4", "part5", inside=[limit()]),
+)
+"""Joints that the corpus does not have."""
+
+
+def assert_well_drawn(package: Package, place: str) -> None:
+    diagrams = of_package(package)
+    names = {path.removesuffix(".mo").replace("/", "."): drawn for path, drawn in diagrams.items()}
+    for path, drawn in diagrams.items():
+        assert overlaps(drawn.components) == [], f"{place}: {path}"
+        for component in drawn.components:
+            assert all(is_inside(corner, drawn.extent) for corner in corners(component)), f"{place}: {path} {component}"
+        for line in drawn.lines:
+            assert all(is_inside(point, drawn.extent) for point in line.points), f"{place}: {path} {line}"
+            for reference, point in ((line.start, line.points[0]), (line.end, line.points[-1])):
+                found = port(drawn, reference, lambda name: names.get(name) or diagram.library_diagram(name))
+                assert found == pytest.approx(point), f"{place}: {path} {line}"
+
+
+def versions(files: Sequence[str], folder: Path) -> list[tuple[str, bytes]]:
+    """The files that a package can be made of."""
+    contents = [(file, (folder / file).read_bytes()) for file in files]
+    return [(file, content) for file, content in contents if read(content).snapshot is not None]
+
+
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+@pytest.mark.parametrize("files", SOURCES.values(), ids=SOURCES)
+def test_diagrams_of_the_corpus_are_well_drawn(files: Sequence[str], base: str, corpus: Path) -> None:
+    """As `init` proposes it every version, the other way round the last one."""
+    sound = versions(files, corpus)
+    for number, (file, content) in enumerate(sound, 1):
+        if number == len(sound) or proposed_base(content) == base:
+            assert_well_drawn(generate(corpus / file, BOT, base=base), file)
+
+
+@pytest.mark.parametrize("visualizer", ["standard", "visualization2"])
+def test_diagrams_of_all_joints_are_well_drawn(visualizer: str) -> None:
+    assert_well_drawn(generate(OWN.encode(), BOT, visualizer=visualizer), "own")
+
+
+def component(name: str, *box: float) -> Component:
+    return Component(name, "Some.Type", box, box)  # type: ignore[arg-type]
+
+
+def test_overlapping_components_are_noticed() -> None:
+    one, two, three = component("one", 0, 0, 10, 10), component("two", 10, 0, 20, 10), component("three", 19, 9, 30, 30)
+    assert overlaps([three, two, one]) == [("two", "three")]
+
+
+def test_what_a_text_says_is_read() -> None:
+    text = """
+within A;
+
+model B "Example"
+  extends UrdfSync.Icons.Bench;
+
+  inner Modelica.Mechanics.MultiBody.World world(n = {0, 0, -1})
+    "Origin; and gravity"
+    annotation (Placement(transformation(extent={{-100, -60}, {-80, -40}})));
+
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b[2]
+    annotation (Placement(
+      transformation(extent={{84, 14}, {116, -18}}),
+      iconTransformation(extent={{0, 90}, {20, 110}})));
+
+equation
+  connect(world.frame_b, frame_b[1])
+    annotation (Line(points={{-80, -50}, {0.5, -50}, {100, -2}}, color={95, 95, 95}));
+
+  annotation (Diagram(coordinateSystem(extent={{-120, -100}, {100, 80}})));
+end B;
+"""
+    drawn = diagram.read(text, lambda name: Diagram(STANDARD, (), (), {"frame_b": (100, 0)}))
+    assert drawn.extent == (-120, -100, 100, 80)
+    assert [(c.name, c.box) for c in drawn.components] == [
+        ("world", (-100, -60, -80, -40)),
+        ("frame_b", (84, -18, 116, 14)),
+    ]
+    assert drawn.ports["frame_b"] == (10, 100)
+    (line,) = drawn.lines
+    assert (line.start, line.end) == ("world.frame_b", "frame_b")
+    assert line.points == ((-80, -50), (0.5, -50), (100, -2))
+    assert port(drawn, line.start, diagram.library_diagram) == (-80, -50)
+    assert port(drawn, line.end, diagram.library_diagram) == (100, -2)

@@ -1,0 +1,195 @@
+"""Template data of whole robots: tables, axes, couplings, starts, and the height to stand at."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+from hypothesis import given
+from support.trees import robots
+
+from urdfsync.domain import Import, Target
+from urdfsync.urdf.meshes.lookup import key
+from urdfsync.urdf.model.assembly import couplings, record_data, robot_data, standing_height, tree, vectors
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import (
+    Box,
+    Collision,
+    Cylinder,
+    Geometry,
+    Inertial,
+    Joint,
+    JointType,
+    Limit,
+    Link,
+    Mesh,
+    Mimic,
+    Origin,
+    Robot,
+    Sphere,
+)
+from urdfsync.urdf.skeleton import MOTIONS, Skeleton
+
+TARGET = Target("Plant.Arm", "Arm")
+
+
+def skeleton(*joints: Joint, links: tuple[Link, ...] = ()) -> Skeleton:
+    """Joints and their links; those of `links` are more than a name."""
+    names = {joint.parent: None for joint in joints} | {joint.child: None for joint in joints}
+    known = {link.name: link for link in links}
+    every = tuple(known.get(name, Link(name)) for name in names) or links
+    return Skeleton.of(Robot("r", every, joints))
+
+
+def body(name: str, *shapes: Geometry) -> Link:
+    return Link(name, Inertial(1.0), collisions=tuple(map(Collision, shapes)))
+
+
+def data(robot: Skeleton) -> dict[str, Any]:
+    return robot_data(robot, TARGET, Options())
+
+
+def record(robot: Skeleton, **options: Any) -> dict[str, Any]:
+    return record_data(robot, {}, TARGET, Options(**options), "the robot")
+
+
+GRIPPER = skeleton(
+    Joint("slide", "prismatic", "palm", "left", limit=Limit(0, 0.1)),
+    Joint("other", "prismatic", "palm", "right", mimic=Mimic("slide", -1)),
+    Joint("turn", "continuous", "base", "palm"),
+    Joint("mount", "fixed", "palm", "camera"),
+    Joint("pinion", "continuous", "left", "gear", mimic=Mimic("other", 80)),
+    Joint("lock", "revolute", "camera", "lens", mimic=Mimic("mount", 1, 0.5)),
+)
+
+
+def test_tables_count_from_one_in_canonical_order() -> None:
+    found = record(GRIPPER)
+    assert [link["name"] for link in found["links"]] == ["base", "palm", "camera", "lens", "right", "left", "gear"]
+    assert [joint["name"] for joint in found["joints"]] == ["turn", "mount", "lock", "other", "slide", "pinion"]
+    assert found["connection_matrix"] == [(1, 2), (2, 3), (3, 4), (2, 5), (2, 6), (6, 7)]
+    assert found["moveable_joints"] == [(1, 1), (3, 1), (4, 1), (5, 1), (6, 1)]
+    assert found["name"] == "the robot"
+
+
+@given(robots())
+def test_the_tables_say_what_the_tree_is(robot: Robot) -> None:
+    found = record(Skeleton.of(robot))
+    names = [link["name"] for link in found["links"]]
+    ends = {(names[parent - 1], names[child - 1]) for parent, child in found["connection_matrix"]}
+    assert ends == {(joint.parent, joint.child) for joint in robot.joints}
+    moving = {found["joints"][number - 1]["name"] for number, _ in found["moveable_joints"]}
+    assert moving == {joint.name for joint in robot.joints if joint.type != "fixed"}
+    assert all(child == row + 1 for row, (_, child) in enumerate(found["connection_matrix"], start=1))
+
+
+def test_only_joints_that_follow_nothing_can_be_driven() -> None:
+    rotational, translational = vectors(GRIPPER)
+    assert [(axis["name"], axis["number"]) for axis in rotational["axes"]] == [("turn", 1)]
+    assert [(axis["name"], axis["number"]) for axis in translational["axes"]] == [("slide", 1)]
+    assert vectors(skeleton(Joint("j", "fixed", "a", "b"))) == []
+
+
+def test_a_range_respects_all_that_follow() -> None:
+    _, translational = vectors(GRIPPER)
+    (axis,) = translational["axes"]
+    assert axis["range"].count("leaderRange") == 2
+    assert axis["range"].index("slide.") < axis["range"].index("other.") < axis["range"].index("pinion.")
+
+
+def test_every_pairing_has_its_coupling() -> None:
+    found = {entry["follower"]: (entry["component"], entry["type"], entry["leader"]) for entry in couplings(GRIPPER)}
+    assert found == {
+        "other": ("otherMimic", "TranslationalToTranslational", "slide"),
+        "pinion": ("pinionMimic", "TranslationalToRotational", "other"),
+        "lock": ("lockMimic", "HeldRotational", None),
+    }
+
+
+def test_joints_are_told_their_axis_and_followers_where_to_start() -> None:
+    modifiers = {joint["component"]: joint["modifiers"] for joint in data(GRIPPER)["joints"]}
+    assert "axisNumber = 1" in modifiers["slide"]
+    assert "s_start = s_start[1]" in modifiers["slide"]
+    assert modifiers["mount"] == []
+    assert (
+        modifiers["other"][-1]
+        == "s_start = other.parameters.mimic.multiplier*slide.s_start + other.parameters.mimic.offset"
+    )
+    assert "phi_start = pinion.parameters.mimic.multiplier*other.s_start" in modifiers["pinion"][-1]
+    assert modifiers["lock"][-1] == "phi_start = lock.parameters.mimic.offset"
+
+
+@pytest.mark.parametrize("kind", ["fixed", "planar", "floating"])
+def test_joints_without_an_axis_have_nothing_to_be_told(kind: JointType) -> None:
+    assert data(skeleton(Joint("j", kind, "a", "b")))["joints"][0]["modifiers"] == []
+
+
+@given(robots())
+def test_the_robot_model_has_every_element_once_and_a_place_for_each(robot: Robot) -> None:
+    found = data(Skeleton.of(robot))
+    names = [entry["component"] for kind in ("links", "joints", "couplings") for entry in found[kind]]
+    assert len(set(names)) == len(robot.links) + len(robot.joints) + sum(
+        joint.mimic is not None and joint.type in MOTIONS for joint in robot.joints
+    )
+    flanges = [vector[end] for vector in found["vectors"] for end in ("axis", "support")]
+    assert sorted(found["diagram"]) == sorted([*names, *flanges, "frame_a", "frame_b"])
+    assert len(found["leaves"]) == len(robot.links) - len({joint.parent for joint in robot.joints})
+
+
+def test_a_link_may_be_named_as_what_templates_say_of_diagrams() -> None:
+    found = data(skeleton(Joint("items", "fixed", "extent", "keys")))
+    assert found["extent"] != found["diagram"]["extent"]
+    assert {"extent", "items", "keys"} < found["diagram"].keys()
+
+
+def test_numbers_of_the_urdf_are_in_records_only() -> None:
+    numbers = Joint(
+        "j", "revolute", "a", "b", Origin((0.123456, 0.123456, 0.123456)), limit=Limit(-0.123456, 0.123456, 0.123456)
+    )
+    robot = skeleton(numbers, links=(Link("a", Inertial(0.123456)), Link("b", Inertial(0.123456))))
+    assert "123456" not in repr(data(robot))
+    assert repr(record(robot)).count("0.123456") == 8
+
+
+def test_the_tree_of_the_diagram_is_that_of_the_robot() -> None:
+    shown = tree(GRIPPER)
+    assert shown.root == "base"
+    assert [joint.name for joint in shown.children["palm"]] == ["mount", "other", "slide"]
+    assert [joint.axis for joint in shown.children["palm"]] == [None, None, 1]
+    assert shown.leaves == {"lens": 1, "right": 2, "gear": 3}
+
+
+@pytest.mark.parametrize(("shape", "height"), [(Sphere(0.3), 0.3), (Box((1, 1, 0.5)), 0.25), (Cylinder(0.2, 0.6), 0.3)])
+def test_a_body_stands_on_its_lowest_shape(shape: Geometry, height: float) -> None:
+    assert standing_height(skeleton(links=(body("a", Sphere(0.1), shape),)), {}) == pytest.approx(height, abs=1e-12)
+
+
+def test_all_joints_are_at_their_start() -> None:
+    leg = Joint("leg", "prismatic", "a", "b", Origin((0, 0, -1)), axis=(0, 0, -1), limit=Limit(0.5, 2))
+    robot = skeleton(leg, links=(body("a", Sphere(0.1)), body("b", Sphere(0.25))))
+    assert standing_height(robot, {}) == 1.75
+    wheel = Joint("wheel", "continuous", "a", "b", Origin((0, 0, -1), (math.pi / 2, 0, 0)), axis=(0, 0, 1))
+    robot = skeleton(wheel, links=(Link("a"), body("b", Cylinder(0.25, 0.05))))
+    assert standing_height(robot, {}) == 1.25
+
+
+def test_a_mesh_stands_on_its_hull_if_it_has_one() -> None:
+    mesh = Mesh("a.stl")
+    robot = skeleton(links=(body("a", mesh),))
+    found = Import("Resources/a.stl", "", "", 1, {"bounds": [], "hull": [[0, 0, -0.75], [0, 0, 1]]})
+    assert standing_height(robot, {key(mesh): found}) == 0.75
+    assert standing_height(robot, {}) is None
+
+
+def test_there_is_no_height_without_a_shape_or_beyond_all_numbers() -> None:
+    assert standing_height(skeleton(links=(Link("a"),)), {}) is None
+    ends = (("a", "b"), ("b", "c"))
+    joints = [Joint(child, "fixed", parent, child, Origin((0, 0, 1.7e308))) for parent, child in ends]
+    assert standing_height(skeleton(*joints, links=(body("c", Sphere(1)),)), {}) is None
+
+
+def test_only_a_mobile_robot_has_a_height() -> None:
+    robot = skeleton(links=(body("a", Sphere(0.5)),))
+    assert record(robot, base="fixed")["standing_height"] is None
+    assert record(robot, base="floating")["standing_height"] == 0.5

@@ -1,0 +1,221 @@
+"""The files of a generated package: the text of a robot with one of everything, and what holds for every robot.
+
+`tests/golden/fixed` holds the package of `tests/golden/menagerie.urdf`, the other folders what their options change in
+it. `python tests/urdf/test_artifacts.py` writes them anew; review what changed before you commit it.
+"""
+
+from __future__ import annotations
+
+import cProfile
+import re
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from support import urdfs
+from support.modelica import compile_task, execute
+from support.packages import RENDERER, Package, generate
+from support.words import unbalanced, words
+
+from urdfsync.domain import Artifact, Order, Role, Target
+from urdfsync.urdf.artifacts import artifacts
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Joint, Link, Mimic, Robot
+
+GOLDEN = Path(__file__).resolve().parents[1] / "golden"
+TEMPLATES = Path(__file__).resolve().parents[2] / "templates" / "urdf"
+MENAGERIE = Target("Zoo.Menagerie", "Menagerie")
+VARIANTS: Mapping[str, Mapping[str, Any]] = {
+    "fixed": {},
+    "floating": {"base": "floating"},
+    "visualization2": {"visualizer": "visualization2"},
+    "no-collisions": {"collisions": False},
+}
+
+every_variant = pytest.mark.parametrize("variant", VARIANTS)
+
+
+def menagerie(variant: str, target: Target = MENAGERIE) -> Package:
+    return generate(GOLDEN / "menagerie.urdf", target, **VARIANTS[variant])
+
+
+def texts_to_keep(variant: str) -> dict[str, str]:
+    """The golden files of a variant: all of `fixed`, of the others those that differ from it."""
+    common = {} if variant == "fixed" else menagerie("fixed").texts
+    return {path: text for path, text in menagerie(variant).texts.items() if common.get(path) != text}
+
+
+def kept(variant: str) -> dict[str, str]:
+    folder = GOLDEN / variant
+    files = (path for path in folder.rglob("*") if path.is_file())
+    return {path.relative_to(folder).as_posix(): path.read_bytes().decode() for path in files}
+
+
+def description(text: str) -> str:
+    """The description string of a file's class, read back."""
+    literal = next(word.text for word in words(text) if word.kind == "string")
+    return literal[1:-1].replace('\\"', '"').replace("\\\\", "\\")
+
+
+def package_of(*elements: str, package: str = "Own", **options: Any) -> Package:
+    return generate(urdfs.robot(*elements).encode(), Target(package, package.rpartition(".")[2]), **options)
+
+
+def chain(length: int) -> Robot:
+    """A chain of boxes with a mimic joint every tenth time."""
+    joints = []
+    for n in range(length):
+        mimic = Mimic(f"j{n - 1}") if n % 10 == 9 else None
+        joints.append(Joint(f"j{n}", "revolute", f"l{n}", f"l{n + 1}", mimic=mimic))
+    return Robot("chain", tuple(Link(f"l{n}") for n in range(length + 1)), tuple(joints))
+
+
+def texts(robot: Robot, options: Options) -> Iterator[str]:
+    for artifact in artifacts(robot, {}, Target("Chain", "Chain"), options):
+        if isinstance(artifact, Artifact):
+            yield RENDERER.render(artifact.template, artifact.data)
+
+
+@every_variant
+def test_the_text_is_the_golden_one(variant: str) -> None:
+    found, golden = texts_to_keep(variant), kept(variant)
+    assert found.keys() == golden.keys()
+    for path, text in found.items():
+        assert text == golden[path], f"{variant}/{path}: run `python {Path(__file__).name}` and review what it wrote"
+
+
+@every_variant
+def test_golden_files_are_modelica(variant: str, tmp_path: Path) -> None:
+    rumoca = pytest.importorskip("rumoca")
+    folder = menagerie(variant).write(tmp_path)
+    assert {path.name: found for path in folder.rglob("*.mo") if (found := rumoca.validate(str(path)))} == {}
+    assert [path for path, text in menagerie(variant).models.items() if unbalanced(words(text))] == []
+
+
+@pytest.mark.slow
+def test_one_of_everything_compiles(tmp_path: Path, modelica_library: Path) -> None:
+    targets = {"fixed": Target("Bolted", "Bolted"), "floating": Target("Free", "Free")}
+    folders = [menagerie(variant, target).write(tmp_path) for variant, target in targets.items()]
+    models = [f"{each.package}.{each.name}{use}" for each in targets.values() for use in ("", "Run", "Test")]
+    outcomes = execute(modelica_library, folders, [compile_task(model) for model in models])
+    errors = {model: outcome.error for model, outcome in zip(models, outcomes, strict=True) if outcome.error}
+    assert errors == {}
+
+
+def test_every_template_is_in_use() -> None:
+    robot = menagerie("fixed").robot
+    used = {each.template for each in artifacts(robot, {}, MENAGERIE, Options()) if isinstance(each, Artifact)}
+    for path in TEMPLATES.rglob("*.jinja"):
+        used.update(re.findall(r'<%-? (?:import|include) "([^"]+\.jinja)"', path.read_text(encoding="utf-8")))
+    used |= {f"link/{visualizer}.jinja" for visualizer in ("standard", "visualization2")}
+    assert used == {path.relative_to(TEMPLATES).as_posix() for path in TEMPLATES.rglob("*.jinja")}
+
+
+@every_variant
+def test_every_class_says_which_element_it_is(variant: str) -> None:
+    package = menagerie(variant)
+    for kind, elements in (("link", package.robot.links), ("joint", package.robot.joints)):
+        for element in elements:
+            identifier = package.skeleton.names[kind, element.name]
+            for name in (identifier.type, identifier.record):
+                text = package.texts[f"{kind.capitalize()}s/{name}.mo"]
+                assert f'{kind} "{element.name}"' in description(text).replace("Link", "link")
+
+
+@every_variant
+def test_package_orders_name_every_class_once(variant: str) -> None:
+    package = menagerie(variant)
+    for folder in ("", "Links/", "Joints/"):
+        inside = [path.removeprefix(folder) for path in package.texts if path.startswith(folder)]
+        files = {path.removesuffix(".mo") for path in inside if "/" not in path and path.endswith(".mo")}
+        folders = {path.partition("/")[0] for path in inside if "/" in path}
+        names = package.texts[f"{folder}package.order"].split()
+        assert sorted(names) == sorted((files | folders) - {"package"})
+
+
+def test_roles_and_owners() -> None:
+    robot = Robot("r", (Link("a"), Link("b")), (Joint("a", "fixed", "a", "b"),))
+    files = {each.path: each for each in artifacts(robot, {}, Target("R", "R"), Options())}
+    found = {path: (each.role, each.owner) for path, each in files.items() if isinstance(each, Artifact)}
+    assert found["Links/A.mo"] == (Role.MODEL, "link a")
+    assert found["Links/AParameters.mo"] == (Role.RECORD, "link a")
+    assert found["Joints/A_joint.mo"] == (Role.MODEL, "joint a")
+    assert found["R.mo"] == found["RRun.mo"] == found["RTest.mo"] == (Role.MODEL, "robot")
+    assert found["RParameters.mo"] == (Role.RECORD, "robot")
+    assert found["package.mo"] == found["Links/package.mo"] == (Role.PACKAGE, "robot")
+    assert files["package.order"] == Order("package.order", ("R", "RRun", "RTest", "RParameters", "Links", "Joints"))
+
+
+def test_only_a_package_at_the_top_says_what_it_uses() -> None:
+    used = "".join(package_of(urdfs.link("a")).texts["package.mo"].split())
+    assert 'uses(Modelica(version="4.0.0"),UrdfSync(version="' in used
+    assert "uses(" not in package_of(urdfs.link("a"), package="Plant.Robots.Own").texts["package.mo"]
+    assert (
+        package_of(urdfs.link("a"), package="Plant.Robots.Own").texts["package.mo"].startswith("within Plant.Robots;")
+    )
+
+
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+def test_a_robot_of_one_link_has_no_joints_and_no_drives(base: str) -> None:
+    package = package_of(urdfs.link("stone", 1), base=base)
+    assert not any(path.startswith("Joints") for path in package.texts)
+    assert package.texts["package.order"].split()[-1] == "Links"
+    assert "frame_b[1]" in package.texts["Own.mo"]
+    assert "connectionMatrix = fill(0, 0, 2)" in package.texts["OwnParameters.mo"]
+    assert not re.search("rotational|translational", package.texts["Own.mo"] + package.texts["OwnRun.mo"])
+
+
+def test_without_a_collision_there_is_no_height_to_stand_at() -> None:
+    assert "standingHeight" not in package_of(urdfs.link("ghost", 1), base="floating").texts["OwnParameters.mo"]
+
+
+def test_what_is_asked_for_is_there_and_nothing_else() -> None:
+    floating, plain = menagerie("floating").texts["Links/Chassis.mo"], menagerie("fixed").texts["Links/Chassis.mo"]
+    assert floating.count("UrdfSync.Contacts.") == 5
+    assert "UrdfSync.Contacts." not in plain
+    assert "Hull" not in menagerie("fixed").texts["Links/ChassisParameters.mo"]
+    assert "collision" not in menagerie("no-collisions").texts["Links/ChassisParameters.mo"]
+    assert "UrdfSync.Visualizers." not in menagerie("visualization2").texts["Links/Chassis.mo"]
+
+
+def test_a_mesh_that_is_not_to_be_found_is_left_out_and_the_others_keep_their_numbers() -> None:
+    text = menagerie("floating").texts["Links/Chassis.mo"]
+    assert "visual5(" in text
+    assert "visual6" not in text
+    assert "visual7(" in text
+    assert "collision6" not in text
+    assert "contact6" not in text
+
+
+@pytest.mark.parametrize("options", [Options(), Options(base="floating", visualizer="visualization2")], ids=str)
+def test_work_and_text_grow_in_proportion_to_the_robot(options: Options) -> None:
+    def effort(length: int) -> tuple[int, int]:
+        robot = chain(length)
+        profile = cProfile.Profile()
+        size = profile.runcall(lambda: sum(map(len, texts(robot, options))))
+        return sum(entry.callcount for entry in profile.getstats()), size
+
+    effort(1)  # templates are compiled once
+    (small_calls, small_size), (large_calls, large_size) = effort(50), effort(200)
+    assert large_calls < 4.4 * small_calls
+    assert large_size < 4.4 * small_size
+
+
+def _write_golden_files() -> None:
+    for variant in VARIANTS:
+        for path in kept(variant):
+            (GOLDEN / variant / path).unlink()
+        for path, text in texts_to_keep(variant).items():
+            file = GOLDEN / variant / path
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text, encoding="utf-8", newline="\n")
+
+
+if __name__ == "__main__":
+    _write_golden_files()

@@ -1,0 +1,248 @@
+"""Two versions of a model to classified changes, and to the files that these concern. Knows no domain.
+
+Equality comes first: elements that are equal cost one comparison, and only those that differ are handed to deepdiff,
+element by element.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections import defaultdict
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from typing import Any, Protocol
+
+from urdfsync.difference import ChangeClass, Difference, Effect, Element, Kind, Meaning, Version
+from urdfsync.domain import Artifact, Import, Order, Role, Snapshot
+
+NOISE = 1e-6
+"""Relative change of a number that an exporter's rounding explains."""
+
+_KINDS = {
+    "dictionary_item_added": Kind.ADDED,
+    "dictionary_item_removed": Kind.REMOVED,
+    "iterable_item_added": Kind.ADDED,
+    "iterable_item_removed": Kind.REMOVED,
+    "type_changes": Kind.CHANGED,
+    "values_changed": Kind.CHANGED,
+}
+"""What deepdiff calls the differences of plain data."""
+
+
+class Comparing(Protocol):
+    """What a domain has to know about changes."""
+
+    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[Element, str]:
+        """Elements that have another name and nothing else, in the same place: element of the old version → new name.
+
+        An ambiguous match is none.
+        """
+        ...
+
+    def comparable(self, snapshot: Snapshot, renames: Mapping[Element, str]) -> Snapshot:
+        """The snapshot with those elements renamed wherever it mentions them, its parts in the order of a report.
+
+        What stands in lists without an order of its own may be keyed, so that the same things are compared.
+        """
+        ...
+
+    def describe(
+        self, differences: Sequence[Difference], old: Version, new: Version, options: Any
+    ) -> Sequence[Meaning | None]:
+        """The meaning of each difference of two comparable versions; None if another difference says the same."""
+        ...
+
+    def effects(self, old: Version, new: Version, renames: Mapping[Element, str]) -> Sequence[Effect]:
+        """What the differences do to the model as a whole."""
+        ...
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Change:
+    """One change in the domain's words; `old` and `new` are plain data, None for what is not there."""
+
+    path: tuple[str, ...]
+    kind: Kind
+    change_class: ChangeClass
+    old: Any
+    new: Any
+    unit: str = ""
+
+    @property
+    def element(self) -> str:
+        """The element that the change belongs to, for example `joint elbow`."""
+        return self.path[0]
+
+    @property
+    def noise(self) -> bool:
+        """Whether only the rounding of a number may have changed. It is applied like any other change."""
+        if not (_is_number(self.old) and _is_number(self.new)):
+            return False
+        return bool(abs(self.new - self.old) <= NOISE * max(abs(self.old), abs(self.new)))
+
+    @property
+    def percent(self) -> float | None:
+        """Change of a number relative to its old value; None without one, or if that is zero."""
+        if not (_is_number(self.old) and _is_number(self.new)) or self.old == 0:
+            return None
+        return float(100 * (self.new - self.old) / abs(self.old))
+
+    def __str__(self) -> str:
+        """The path as people read it: `joint elbow / origin / xyz[2]`."""
+        return " / ".join(self.path)
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Changes:
+    """Everything that differs between two versions of a model."""
+
+    changes: tuple[Change, ...] = ()
+    renames: Mapping[Element, str] = dataclasses.field(default_factory=dict)
+    generator: bool = False
+    """Whether what turns the model into files is another."""
+
+    @property
+    def change_class(self) -> ChangeClass:
+        """The class that reaches farthest."""
+        if self.generator:
+            return ChangeClass.GENERATOR
+        return max((change.change_class for change in self.changes), key=lambda c: c.rank, default=ChangeClass.NONE)
+
+    @property
+    def noise(self) -> bool:
+        """Whether there are changes and all of them are numeric noise."""
+        return bool(self.changes) and not self.generator and all(change.noise for change in self.changes)
+
+    def by_element(self) -> Mapping[str, Sequence[Change]]:
+        """The changes of each element that has any, in their order."""
+        result: dict[str, list[Change]] = {}
+        for change in self.changes:
+            result.setdefault(change.element, []).append(change)
+        return result
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Stale:
+    """Paths of the files to render, and of those that are no longer generated."""
+
+    render: frozenset[str]
+    gone: frozenset[str]
+
+
+def compare(old: Version, new: Version, domain: Comparing, options: Any) -> Changes:
+    """What changed from one version to another, with the domain's options of the new one."""
+    renames: Mapping[Element, str] = {}
+    differences: list[Difference] = []
+    if old.snapshot != new.snapshot:
+        renames = domain.renames(old.snapshot, new.snapshot)
+        old = dataclasses.replace(old, snapshot=domain.comparable(old.snapshot, renames))
+        new = dataclasses.replace(new, snapshot=domain.comparable(new.snapshot, {}))
+        differences += _of_snapshots(old.snapshot, new.snapshot)
+    if old.imports is not None and new.imports is not None:
+        differences += _of_imports(old.imports, new.imports)
+    meanings = domain.describe(differences, old, new, options) if differences else ()
+    changes = [_renamed(*element, name) for element, name in renames.items()]
+    changes += [
+        Change(meaning.path, difference.kind, meaning.change_class, difference.old, difference.new, meaning.unit)
+        for difference, meaning in zip(differences, meanings, strict=True)
+        if meaning is not None
+    ]
+    return Changes(tuple(changes), renames, old.generator != new.generator)
+
+
+def stale(old: Iterable[Artifact | Order], new: Iterable[Artifact | Order]) -> Stale:
+    """The files whose text can differ from one version's to the other's, if the templates are the same.
+
+    A text follows from its template and data alone, so a file that is not among them has the same text.
+    """
+    before, after = ({artifact.path: artifact for artifact in artifacts} for artifacts in (old, new))
+    render = frozenset(path for path, artifact in after.items() if before.get(path) != artifact)
+    return Stale(render, frozenset(before.keys() - after.keys()))
+
+
+def moves(
+    old: Mapping[str, tuple[str, Role]], new: Mapping[str, tuple[str, Role]], renames: Mapping[Element, str]
+) -> Mapping[str, str]:
+    """Old path → new path of each file that belongs to the same element as before, but is at another place.
+
+    Both mappings have the owner and the role of files by their path. A file moves with its element's new name, or with
+    an identifier that had to give way to another element's. Where an element has several files of a role that moved,
+    nothing is matched.
+    """
+    owners = {f"{kind} {name}": f"{kind} {renamed}" for (kind, name), renamed in renames.items()}
+    leaving = {path: (owners.get(owner, owner), role) for path, (owner, role) in old.items()}
+    staying = {path for path, key in leaving.items() if new.get(path) == key}
+    sources = _by_value((path, key) for path, key in leaving.items() if path not in staying)
+    targets = _by_value((path, key) for path, key in new.items() if path not in staying)
+    pairs = ((paths, targets[key]) for key, paths in sources.items() if key in targets)
+    return {one[0]: two[0] for one, two in pairs if len(one) == len(two) == 1}
+
+
+def _by_value(items: Iterable[tuple[str, Hashable]]) -> Mapping[Hashable, Sequence[str]]:
+    result: defaultdict[Hashable, list[str]] = defaultdict(list)
+    for path, value in items:
+        result[value].append(path)
+    return result
+
+
+def _renamed(kind: str, old: str, new: str) -> Change:
+    return Change((f"{kind} {old}",), Kind.RENAMED, ChangeClass.STRUCTURAL, old, new)
+
+
+def _of_snapshots(old: Snapshot, new: Snapshot) -> Iterator[Difference]:
+    for part in dict.fromkeys([*new, *old]):
+        before, after = old.get(part), new.get(part)
+        if isinstance(before, Mapping) and isinstance(after, Mapping):
+            yield from _of_elements(part, before, after)
+        elif before != after:
+            yield from _inside((part,), before, after)
+
+
+def _of_elements(part: str, old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[Difference]:
+    for name in sorted(old.keys() | new.keys()):
+        if name not in old:
+            yield Difference((part, name), Kind.ADDED, None, new[name])
+        elif name not in new:
+            yield Difference((part, name), Kind.REMOVED, old[name], None)
+        elif old[name] != new[name]:
+            yield from _inside((part, name), old[name], new[name])
+
+
+def _inside(path: tuple[str, ...], old: Any, new: Any) -> Iterator[Difference]:
+    """Differences of two values that are not equal, in the order of their paths."""
+    from deepdiff import DeepDiff
+
+    tree = DeepDiff(
+        old,
+        new,
+        view="tree",
+        zip_ordered_iterables=True,  # else a vector's number that moves is taken for one that comes and one that goes
+        threshold_to_diff_deeper=0,  # else mappings with few keys in common are compared as a whole
+        ignore_private_variables=False,
+    )
+    found = [
+        Difference(
+            (*path, *level.path(output_format="list")),
+            _KINDS[report],
+            None if _KINDS[report] is Kind.ADDED else level.t1,
+            None if _KINDS[report] is Kind.REMOVED else level.t2,
+        )
+        for report, levels in tree.items()
+        for level in levels
+        if level.t1 != level.t2  # 1 and 1.0 are of two types
+    ]
+    yield from sorted(found, key=lambda difference: difference.path)
+
+
+def _of_imports(old: Mapping[str, Import], new: Mapping[str, Import]) -> Iterator[Difference]:
+    """Imported files by their content: its hash stands for it."""
+    for key in sorted(old.keys() | new.keys()):
+        before, after = old.get(key), new.get(key)
+        if before is None or after is None:
+            kind = Kind.ADDED if before is None else Kind.REMOVED
+            yield Difference(("imports", key), kind, before and before.target_hash, after and after.target_hash)
+        elif (before.target_hash, before.facts) != (after.target_hash, after.facts):
+            yield Difference(("imports", key), Kind.CHANGED, before.target_hash, after.target_hash)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)

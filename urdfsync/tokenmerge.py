@@ -1,0 +1,295 @@
+"""Three-way merge of a few lines of Modelica by tokens, for where merging whole lines finds a conflict.
+
+The rules are stricter than those for lines, since tokens that stand side by side mostly mean something together.
+
+- What both sides did alike is done once.
+- Edits of the two sides that overlap are a conflict; so are those that could be told apart only by guessing which of
+  several equal tokens was meant.
+- Otherwise something must stand between them that neither touched and that is more than an operator, a bracket
+  or a comma: a name, a number, a string. So two modifiers of one list merge, and two arguments side by side don't.
+- A list item that is added or removed with its comma, a declaration with its semicolon, may stand next to an
+  edit of another item. Next to what is added, nothing may be removed: its reason may be gone.
+- Comments and white space may stand right next to a value that changes, but not to one that goes.
+- Edits of one side that leave less between them than they change count as one: what they have in common
+  with the text before is chance.
+- The result must read as just these tokens: nothing runs together, no comment swallows what follows it.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import accumulate, groupby, pairwise
+from typing import NamedTuple, TypeAlias
+
+from urdfsync.myers import Change, diff
+from urdfsync.tokens import NEWLINE, SEPARATORS, is_trivia, is_word, tokens
+
+Lines: TypeAlias = tuple[range, range, range]
+"""Whole lines of base, mine and generated, by their numbers from 0."""
+
+
+class Piece(NamedTuple):
+    """Lines that belong together, and the merged text for them: None if there is a conflict."""
+
+    lines: Lines
+    text: str | None
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class _Edit:
+    """Base tokens `start` to `stop` (half open) replaced; what lies from `low` to `high` it could be moved over."""
+
+    start: int
+    stop: int
+    inserted: tuple[str, ...]
+    deleted: tuple[str, ...]
+    low: int = dataclasses.field(compare=False)
+    high: int = dataclasses.field(compare=False)
+    lines: bool = dataclasses.field(default=False, compare=False)
+    """Nothing but whole lines are inserted or deleted."""
+
+    @property
+    def trivia(self) -> bool:
+        """Only comments and white space change."""
+        return all(map(is_trivia, self.inserted + self.deleted))
+
+    @property
+    def weight(self) -> int:
+        """How much changes, in words, and at least 1."""
+        return max(1, sum(map(is_word, self.inserted)), sum(map(is_word, self.deleted)))
+
+
+_MAX_WORK = 50_000
+"""What comparing the tokens of one conflict may cost (see `urdfsync.myers`): enough for some 300 edits."""
+_OPENING, _CLOSING = frozenset("([{"), frozenset(")]}")
+
+
+class _Chunk(NamedTuple):
+    """Edits of one side that stand or fall together."""
+
+    side: int
+    edits: tuple[_Edit, ...]
+
+    @property
+    def start(self) -> int:
+        return self.edits[0].start
+
+    @property
+    def stop(self) -> int:
+        return self.edits[-1].stop
+
+    @property
+    def low(self) -> int:
+        return self.edits[0].low
+
+    @property
+    def high(self) -> int:
+        return self.edits[-1].high
+
+    @property
+    def inserts(self) -> bool:
+        """Nothing is deleted."""
+        return not any(edit.deleted for edit in self.edits)
+
+    @property
+    def deletes(self) -> bool:
+        """Nothing is inserted."""
+        return not any(edit.inserted for edit in self.edits)
+
+    @property
+    def trivia(self) -> bool:
+        return self.edits[0].trivia
+
+
+def merge_tokens(base: str, mine: str, generated: str) -> list[Piece]:
+    """Merge three versions of some whole lines, none of which begins inside a string or comment.
+
+    The pieces follow each other and cover all three texts; they are as small as the conflicts allow.
+    """
+    old = tokens(base)
+    edits = [_edits(old, tokens(text)) for text in (mine, generated)]
+    agreed = {*edits[0]} & {*edits[1]}
+    words = [0, *accumulate(map(is_word, old))]
+    chunks = [
+        _Chunk(side, group)
+        for side in (0, 1)
+        for group in _grouped([edit for edit in edits[side] if edit not in agreed], words)
+    ]
+    clashes = list(_clashes(chunks, old, words))
+    return [
+        _joined(list(group)) for _, group in groupby(_pieces(old, edits, clashes), lambda piece: piece.text is None)
+    ]
+
+
+def _joined(pieces: Sequence[Piece]) -> Piece:
+    """Pieces that follow each other, all with a conflict or all without, as one."""
+    base, mine, generated = (
+        range(first.start, last.stop) for first, last in zip(pieces[0].lines, pieces[-1].lines, strict=True)
+    )
+    texts = [piece.text for piece in pieces if piece.text is not None]
+    return Piece((base, mine, generated), "".join(texts) if texts else None)
+
+
+def _edits(old: Sequence[str], new: Sequence[str]) -> list[_Edit]:
+    """What leads from one text to the other, each edit put where it comprises whole lines if there is such a place."""
+    changes = diff(old, new, thin=False, work=_MAX_WORK)
+    bounds = [0, *(change.stop for change in changes)], [*(change.start for change in changes[1:]), len(old)]
+    return [
+        _placed(change, old, new, floor, ceiling)
+        for change, floor, ceiling in zip(changes, bounds[0], bounds[1], strict=False)
+    ]
+
+
+def _placed(change: Change, old: Sequence[str], new: Sequence[str], floor: int, ceiling: int) -> _Edit:
+    """An edit between the base tokens `floor` and `ceiling`, which belong to its neighbours."""
+    start, stop = change.start, change.stop
+    deleted, inserted = tuple(old[start:stop]), tuple(new[change.new_start : change.new_stop])
+    if deleted and inserted:
+        return _Edit(start, stop, inserted, deleted, start, stop)
+    run = deleted or inserted
+    up = down = 0
+    while start - up > floor and old[start - up - 1] == run[(-up - 1) % len(run)]:
+        up += 1
+    while stop + down < ceiling and old[stop + down] == run[down % len(run)]:
+        down += 1
+    shifts = range(-up, down + 1)
+    whole = [
+        shift
+        for shift in shifts
+        if run[(shift - 1) % len(run)] == NEWLINE and (start + shift == 0 or old[start + shift - 1] == NEWLINE)
+    ]
+    places = whole or shifts
+    turn = places[-1] % len(run)
+    run = run[turn:] + run[:turn]
+    return _Edit(
+        start + places[-1],
+        stop + places[-1],
+        () if deleted else run,
+        run if deleted else (),
+        start + places[0],
+        stop + places[-1],
+        bool(whole),
+    )
+
+
+def _grouped(edits: Iterable[_Edit], words: Sequence[int]) -> Iterator[tuple[_Edit, ...]]:
+    """Edits of one side, those together that leave fewer words between them than they change; not trivia and lines."""
+    group: list[_Edit] = []
+    for edit in edits:
+        if edit.trivia:
+            yield (edit,)
+            continue
+        if group:
+            last = group[-1]
+            between = words[edit.start] - words[last.stop]
+            if edit.lines or last.lines or between >= min(edit.weight, last.weight):
+                yield tuple(group)
+                group = []
+        group.append(edit)
+    if group:
+        yield tuple(group)
+
+
+def _clashes(chunks: Iterable[_Chunk], old: Sequence[str], words: Sequence[int]) -> Iterator[tuple[int, int]]:
+    """Ranges of base tokens over which the sides are in conflict."""
+    ordered = sorted(chunks, key=lambda chunk: (chunk.low, chunk.high))
+    for index, first in enumerate(ordered):
+        for second in ordered[index + 1 :]:
+            if second.low > first.high and words[second.low] > words[first.high]:
+                break
+            if second.side != first.side and not _apart(first, second, old):
+                yield first.low, max(first.high, second.high)
+
+
+def _apart(first: _Chunk, second: _Chunk, old: Sequence[str]) -> bool:
+    """Whether edits of the two sides, in order, have nothing to do with each other."""
+    if first.high > second.low:
+        return False
+    gap = old[first.stop : second.start]
+    if any(map(is_word, gap)):
+        return True
+    if first.trivia or second.trivia:
+        return any(token == NEWLINE or not is_trivia(token) for token in gap) or _may_touch(first, second)
+    if ";" in gap and NEWLINE in gap:
+        return True
+    return _are_items(first, second, gap)
+
+
+def _may_touch(first: _Chunk, second: _Chunk) -> bool:
+    """Whether edits, one of them trivia, may stand side by side: if both remain, and in an order that is clear."""
+    if first.trivia and second.trivia:
+        return not (first.inserts and second.inserts)
+    note, code = (first, second) if first.trivia else (second, first)
+    if code.inserts:
+        return not note.inserts and not note.deletes
+    return not code.deletes
+
+
+def _are_items(first: _Chunk, second: _Chunk, gap: Sequence[str]) -> bool:
+    """Whether a separator stands between edits of which at least one adds or removes whole items."""
+    if not gap and first.inserts and second.inserts:
+        return False
+    if (first.inserts and second.deletes) or (first.deletes and second.inserts):
+        return False
+    before, after = _item(first), _item(second)
+    if (first.deletes and not before) or (second.deletes and not after) or not (before or after):
+        return False
+    return not SEPARATORS.isdisjoint([*gap, *before[-1:], *after[:1]])
+
+
+def _item(chunk: _Chunk) -> list[str]:
+    """The significant tokens of a chunk that adds or removes whole list items or declarations; none for others."""
+    if not (chunk.inserts or chunk.deletes) or len(chunk.edits) > 1:
+        return []
+    run = [token for token in chunk.edits[0].inserted + chunk.edits[0].deleted if not is_trivia(token)]
+    named = "=" in run and (run[0] == "," or run[-1] == ",")
+    return run if (named or run[-1] == ";") and _balanced(run) else []
+
+
+def _balanced(run: Iterable[str]) -> bool:
+    depth = 0
+    for mark in run:
+        depth += (mark in _OPENING) - (mark in _CLOSING)
+        if depth < 0:
+            return False
+    return depth == 0
+
+
+def _pieces(
+    old: Sequence[str], edits: Sequence[Sequence[_Edit]], clashes: Sequence[tuple[int, int]]
+) -> Iterator[Piece]:
+    """The three texts cut at the ends of line that neither side touches and no conflict includes."""
+    taken = {index for side in edits for edit in side for index in range(edit.start, edit.stop)}
+    taken |= {index for low, high in clashes for index in range(low, high)}
+    cuts = [index + 1 for index, token in enumerate(old) if token == NEWLINE and index not in taken]
+    base = mine = generated = range(0)
+    for start, stop in pairwise([0, *cuts, len(old)]):
+        at_end = stop == len(old) and (start == stop or stop not in cuts)
+        inside = range(start, stop + at_end)
+        ours, theirs = ([edit for edit in side if edit.start in inside] for side in edits)
+        base = _next_lines(base, _applied(old, inside, ()))
+        mine = _next_lines(mine, _applied(old, inside, ours))
+        generated = _next_lines(generated, _applied(old, inside, theirs))
+        merged = _applied(old, inside, {*ours, *theirs})
+        text = "".join(merged)
+        clash = any(low in inside for low, _ in clashes) or tokens(text) != merged
+        if base or mine or generated:
+            yield Piece((base, mine, generated), None if clash else text)
+
+
+def _applied(old: Sequence[str], inside: range, edits: Iterable[_Edit]) -> list[str]:
+    """Some base tokens with the edits that belong to them done."""
+    result: list[str] = []
+    position = inside.start
+    for edit in sorted(edits, key=lambda edit: (edit.start, edit.stop)):
+        result += [*old[position : edit.start], *edit.inserted]
+        position = edit.stop
+    return [*result, *old[position : inside.stop]]
+
+
+def _next_lines(previous: range, run: Iterable[str]) -> range:
+    """The numbers of the lines that some tokens make, after those of the previous ones."""
+    text = "".join(run)
+    unfinished = bool(text) and not text.endswith(NEWLINE)
+    return range(previous.stop, previous.stop + text.count(NEWLINE) + unfinished)

@@ -1,0 +1,1 @@
+"""What the differences of two robots mean."""
