@@ -10,11 +10,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import settings
 
 REPOSITORY = Path(__file__).parents[1]
 RC_FOLDER = Path(__file__).parent / "rcnetwork"
 NO_CORPUS = "no corpus of robots: set URDFSYNC_CORPUS"
 NO_LIBRARY = "no Modelica Standard Library: set MODELICAPATH"
+
+settings.register_profile("urdfsync", deadline=None)  # a busy machine is no reason to fail
+settings.load_profile("urdfsync")
 
 _HOME = Path.home()
 _ALLOWED = {"__pycache__", ".hypothesis", ".pytest_cache", ".mypy_cache", ".ruff_cache", ".coverage", ".git"}

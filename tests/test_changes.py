@@ -239,9 +239,11 @@ def test_stale_files_are_those_with_other_data_or_template() -> None:
     def artifact(path: str, template: str = "t", **data: Any) -> Artifact:
         return Artifact(path, Role.MODEL, template, data, "robot")
 
-    old = [artifact("same", x=1), artifact("data", x=1), artifact("template"), artifact("gone"), Order("order", ("a",))]
-    new = [artifact("same", x=1), artifact("data", x=2), artifact("template", "u"), artifact("new"), Order("order", ())]
-    assert stale(old, new) == Stale(frozenset({"data", "template", "new", "order"}), frozenset({"gone"}))
+    files = [artifact("same", x=1), artifact("data", x=1), artifact("template"), artifact("gone")]
+    others = [artifact("same", x=1), artifact("data", x=2), artifact("template", "u"), artifact("new")]
+    assert stale([*files, Order("order", ("a",))], [*others, Order("order", ())]) == Stale(
+        frozenset({"data", "template", "new", "order"}), frozenset({"gone"})
+    )
 
 
 RECORD, MODEL = Role.RECORD, Role.MODEL

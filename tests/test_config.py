@@ -173,6 +173,18 @@ def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> Non
             "use letters, digits and `_`, a letter first [modelica-name]",
             id="no identifier",
         ),
+        pytest.param(
+            robot('class = "robot"'),
+            "urdfsync.toml:5: error: `robot` can't be the class of a robot model; set `class` to a name with a "
+            "capital first that neither Modelica nor urdfsync has a use for [modelica-name]",
+            id="class that looks like a component",
+        ),
+        pytest.param(
+            robot('class = "Links"'),
+            "urdfsync.toml:5: error: `Links` can't be the class of a robot model; set `class` to a name with a "
+            "capital first that neither Modelica nor urdfsync has a use for [modelica-name]",
+            id="class that hides another",
+        ),
     ],
 )
 def test_mistakes_are_one_line_each(text: str, message: str) -> None:

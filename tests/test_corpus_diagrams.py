@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from support import corpus, diagram
-from support.diagram import STANDARD, Component, Diagram, corners, is_inside, of_package, overlaps, port
+from support.diagram import STANDARD, Component, Diagram, Find, corners, is_inside, of_package, overlaps, port
 from support.packages import Package, generate, proposed_base, read
 from support.urdfs import dynamics, joint, limit, link, robot
 
@@ -32,15 +32,29 @@ OWN = robot(
 def assert_well_drawn(package: Package, place: str) -> None:
     diagrams = of_package(package)
     names = {path.removesuffix(".mo").replace("/", "."): drawn for path, drawn in diagrams.items()}
+
+    def find(name: str) -> Diagram:
+        return names.get(name) or diagram.library_diagram(name)
+
     for path, drawn in diagrams.items():
         assert overlaps(drawn.components) == [], f"{place}: {path}"
-        for component in drawn.components:
-            assert all(is_inside(corner, drawn.extent) for corner in corners(component)), f"{place}: {path} {component}"
-        for line in drawn.lines:
-            assert all(is_inside(point, drawn.extent) for point in line.points), f"{place}: {path} {line}"
-            for reference, point in ((line.start, line.points[0]), (line.end, line.points[-1])):
-                found = port(drawn, reference, lambda name: names.get(name) or diagram.library_diagram(name))
-                assert found == pytest.approx(point), f"{place}: {path} {line}"
+        assert outside(drawn) == [], f"{place}: {path}"
+        assert astray(drawn, find) == [], f"{place}: {path}"
+
+
+def outside(drawn: Diagram) -> list[str]:
+    """Components and lines that leave the diagram's extent."""
+    shapes = [(c.name, corners(c)) for c in drawn.components]
+    shapes += [(f"{line.start} to {line.end}", line.points) for line in drawn.lines]
+    return [name for name, points in shapes if not all(is_inside(point, drawn.extent) for point in points)]
+
+
+def astray(drawn: Diagram, find: Find) -> list[str]:
+    """Connectors that a connection names and its line does not reach."""
+    ends = [(line.start, line.points[0]) for line in drawn.lines] + [
+        (line.end, line.points[-1]) for line in drawn.lines
+    ]
+    return [reference for reference, point in ends if port(drawn, reference, find) != pytest.approx(point)]
 
 
 def versions(files: Sequence[str], folder: Path) -> list[tuple[str, bytes]]:

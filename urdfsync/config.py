@@ -193,7 +193,7 @@ class _Reader:
             source=_absolute(self._root / source),
             source_text=source.name if source.is_absolute() else Path(os.path.normpath(source)).as_posix(),
             output=_absolute(self._root / keys.output),
-            target=Target(keys.package, keys.class_ or keys.package.rpartition(".")[2]),
+            target=Target(keys.package, _class_name(keys)),
             domain=keys.domain,
             templates=_absolute(self._root / keys.templates) if keys.templates else None,
             package_paths=tuple(_absolute(self._root / path) for path in keys.package_paths),
@@ -272,9 +272,19 @@ def _check_names(table: tables.Table, keys: Keys) -> list[Diagnostic]:
             message = f"`{key}`: {name!r} is no Modelica identifier"
         hint = "use letters, digits and `_`, a letter first"
         found.append(table.problem("modelica-name", key, message, hint))
+    name = _class_name(keys)
+    if not found and not modelica.is_class_name(name):
+        message = f"`{name}` can't be the class of a robot model"
+        hint = "set `class` to a name with a capital first that neither Modelica nor urdfsync has a use for"
+        found.append(table.problem("modelica-name", "class" if keys.class_ else "package", message, hint))
     if not keys.source:
         found.append(table.problem("wrong-value", "source", "`source` must name a file"))
     return found
+
+
+def _class_name(keys: Keys) -> str:
+    last = keys.package.rpartition(".")[2]
+    return keys.class_ or last[:1].upper() + last[1:]
 
 
 def _absolute(path: Path) -> Path:

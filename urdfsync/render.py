@@ -7,7 +7,6 @@ that comes from a source reaches Modelica through `string` or `html`, every numb
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -51,14 +50,3 @@ class Renderer:
     def render(self, template: str, data: Mapping[str, Any]) -> str:
         """The template's text with `data`. Raises jinja2.TemplateError for a template that can't be used."""
         return self._environment.get_template(template).render(data)
-
-
-def fingerprint(folders: Sequence[Path]) -> str:
-    """SHA-256 (hex) over all templates that a renderer with these folders would use, by name and content."""
-    templates: dict[str, Path] = {}
-    for folder in reversed(folders):
-        templates |= {p.relative_to(folder).as_posix(): p for p in folder.rglob("*.jinja") if p.is_file()}
-    digest = hashlib.sha256()
-    for name, path in sorted(templates.items()):
-        digest.update(f"{name}\0{hashlib.sha256(path.read_bytes()).hexdigest()}\n".encode())
-    return digest.hexdigest()

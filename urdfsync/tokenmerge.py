@@ -6,9 +6,11 @@ The rules are stricter than those for lines, since tokens that stand side by sid
 - Edits of the two sides that overlap are a conflict; so are those that could be told apart only by guessing which of
   several equal tokens was meant.
 - Otherwise something must stand between them that neither touched and that is more than an operator, a bracket
-  or a comma: a name, a number, a string. So two modifiers of one list merge, and two arguments side by side don't.
-- A list item that is added or removed with its comma, a declaration with its semicolon, may stand next to an
-  edit of another item. Next to what is added, nothing may be removed: its reason may be gone.
+  or a comma: a name, a number, a string.
+- A comma is enough between items that have names, such as modifiers, and a semicolon at the end of a line; two
+  arguments or two elements side by side are a conflict.
+- An item that is added or removed with its comma, a declaration with its semicolon, may stand right next to an
+  edit of another one. But next to what is added nothing may be removed: its reason may be gone.
 - Comments and white space may stand right next to a value that changes, but not to one that goes.
 - Edits of one side that leave less between them than they change count as one: what they have in common
   with the text before is chance.
@@ -22,7 +24,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import accumulate, groupby, pairwise
 from typing import NamedTuple, TypeAlias
 
-from urdfsync.myers import Change, diff
+from urdfsync.myers import diff
 from urdfsync.tokens import NEWLINE, SEPARATORS, is_trivia, is_word, tokens
 
 Lines: TypeAlias = tuple[range, range, range]
@@ -63,6 +65,7 @@ class _Edit:
 _MAX_WORK = 50_000
 """What comparing the tokens of one conflict may cost (see `urdfsync.myers`): enough for some 300 edits."""
 _OPENING, _CLOSING = frozenset("([{"), frozenset(")]}")
+_BOUNDS = _OPENING | _CLOSING | SEPARATORS
 
 
 class _Chunk(NamedTuple):
@@ -132,26 +135,40 @@ def _joined(pieces: Sequence[Piece]) -> Piece:
 
 
 def _edits(old: Sequence[str], new: Sequence[str]) -> list[_Edit]:
-    """What leads from one text to the other, each edit put where it comprises whole lines if there is such a place."""
+    """What leads from one text to the other, in order."""
     changes = diff(old, new, thin=False, work=_MAX_WORK)
     bounds = [0, *(change.stop for change in changes)], [*(change.start for change in changes[1:]), len(old)]
-    return [
-        _placed(change, old, new, floor, ceiling)
-        for change, floor, ceiling in zip(changes, bounds[0], bounds[1], strict=False)
-    ]
+    result: list[_Edit] = []
+    for change, floor, ceiling in zip(changes, bounds[0], bounds[1], strict=False):
+        deleted, inserted = tuple(old[change.start : change.stop]), tuple(new[change.new_start : change.new_stop])
+        if deleted and inserted:
+            result += _replaced(change.start, deleted, inserted)
+        else:
+            result.append(_placed(change.start, deleted, inserted, old, range(floor, ceiling)))
+    return result
 
 
-def _placed(change: Change, old: Sequence[str], new: Sequence[str], floor: int, ceiling: int) -> _Edit:
-    """An edit between the base tokens `floor` and `ceiling`, which belong to its neighbours."""
-    start, stop = change.start, change.stop
-    deleted, inserted = tuple(old[start:stop]), tuple(new[change.new_start : change.new_stop])
-    if deleted and inserted:
-        return _Edit(start, stop, inserted, deleted, start, stop)
+def _replaced(start: int, deleted: tuple[str, ...], inserted: tuple[str, ...]) -> Iterator[_Edit]:
+    """A replacement; comments and white space that come with it, before or after, are edits of their own."""
+    stop = start + len(deleted)
+    code = [place for place, token in enumerate(inserted) if not is_trivia(token)]
+    head = code[0] if code and not is_trivia(deleted[0]) else 0
+    tail = code[-1] + 1 if code and not is_trivia(deleted[-1]) else len(inserted)
+    if head:
+        yield _Edit(start, start, inserted[:head], (), start, start)
+    yield _Edit(start, stop, inserted[head:tail], deleted, start, stop)
+    if tail < len(inserted):
+        yield _Edit(stop, stop, inserted[tail:], (), stop, stop)
+
+
+def _placed(start: int, deleted: tuple[str, ...], inserted: tuple[str, ...], old: Sequence[str], space: range) -> _Edit:
+    """An insertion or deletion, put where it comprises whole lines if there is such a place; `space` is all it has."""
+    stop = start + len(deleted)
     run = deleted or inserted
     up = down = 0
-    while start - up > floor and old[start - up - 1] == run[(-up - 1) % len(run)]:
+    while start - up > space.start and old[start - up - 1] == run[(-up - 1) % len(run)]:
         up += 1
-    while stop + down < ceiling and old[stop + down] == run[down % len(run)]:
+    while stop + down < space.stop and old[stop + down] == run[down % len(run)]:
         down += 1
     shifts = range(-up, down + 1)
     whole = [
@@ -213,7 +230,7 @@ def _apart(first: _Chunk, second: _Chunk, old: Sequence[str]) -> bool:
         return any(token == NEWLINE or not is_trivia(token) for token in gap) or _may_touch(first, second)
     if ";" in gap and NEWLINE in gap:
         return True
-    return _are_items(first, second, gap)
+    return _are_items(first, second, old)
 
 
 def _may_touch(first: _Chunk, second: _Chunk) -> bool:
@@ -226,16 +243,24 @@ def _may_touch(first: _Chunk, second: _Chunk) -> bool:
     return not code.deletes
 
 
-def _are_items(first: _Chunk, second: _Chunk, gap: Sequence[str]) -> bool:
-    """Whether a separator stands between edits of which at least one adds or removes whole items."""
+def _are_items(first: _Chunk, second: _Chunk, old: Sequence[str]) -> bool:
+    """Whether a separator stands between edits, one of which is in an item with a name or adds or removes items."""
+    gap = old[first.stop : second.start]
     if not gap and first.inserts and second.inserts:
         return False
     if (first.inserts and second.deletes) or (first.deletes and second.inserts):
         return False
+    if "," in gap and (_is_named(reversed(old[: first.start])) or _is_named(old[second.start :])):
+        return True
     before, after = _item(first), _item(second)
     if (first.deletes and not before) or (second.deletes and not after) or not (before or after):
         return False
     return not SEPARATORS.isdisjoint([*gap, *before[-1:], *after[:1]])
+
+
+def _is_named(run: Iterable[str]) -> bool:
+    """Whether there is an equals sign in the item whose tokens these are, from its other end or from inside it."""
+    return next((mark == "=" for mark in run if mark == "=" or mark in _BOUNDS), False)
 
 
 def _item(chunk: _Chunk) -> list[str]:

@@ -18,11 +18,10 @@ from icons import LIBRARY, annotations_in, tokens
 FILES = sorted(LIBRARY.rglob("*.mo"))
 FOLDERS = [file.parent for file in FILES if file.name == "package.mo"]
 
-BUILT_IN = {"Real", "Integer", "Boolean", "String"}
+BUILT_IN = {"Real", "Integer", "Boolean", "String", "StateSelect"}
 ENUMERATIONS = {
     "Arrow",
     "AssertionLevel",
-    "StateSelect",
     "BorderPattern",
     "EllipseClosure",
     "FillPattern",

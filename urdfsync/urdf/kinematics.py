@@ -68,11 +68,11 @@ def start_positions(skeleton: Skeleton) -> Mapping[str, float]:
     positions: dict[str, float] = {}
     for joint in skeleton.leaders_first():
         if joint.mimic is not None and joint.type in MOTIONS:
-            followed = joint.mimic.multiplier * positions[joint.mimic.joint] + joint.mimic.offset
-            positions[joint.name] = _near(followed)
+            position = joint.mimic.multiplier * positions[joint.mimic.joint] + joint.mimic.offset
         else:
             lower, upper = ranges[joint.name]
-            positions[joint.name] = min(max(0.0, lower), upper)
+            position = min(max(0.0, lower), upper)
+        positions[joint.name] = _near(position)
     return positions
 
 

@@ -61,7 +61,9 @@ equation
   connect(s, translationalDrive.s_ref)
     annotation (Line(points={{-120, 70}, {-22, 70}}, color={0, 0, 127}));
 
-  annotation (Documentation(info="<html>
+  annotation (
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -100}, {120, 100}})),
+    Documentation(info="<html>
 <p>
 Robot Menagerie in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 from collections.abc import Iterator, Mapping, Set
 from pathlib import Path
 from random import Random
@@ -11,10 +12,10 @@ from typing import NamedTuple
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from support.corpus import ABSENT, FOLDER
 from support import mutations
+from support.corpus import ABSENT, FOLDER
 from support.packages import RENDERER, read
+
 from urdfsync.changes import Changes, compare, stale
 from urdfsync.difference import ChangeClass, Version
 from urdfsync.domain import Artifact, Import, Lookup, Order, Role, Snapshot, Target
@@ -112,9 +113,6 @@ def versions(history: Path, options: Options, meshes: bool) -> Iterator[Version]
 @pytest.mark.parametrize("meshes", [True, False], ids=["meshes", "no-meshes"])
 def test_the_class_of_real_changes_says_which_files_differ(corpus: Path, name: str, meshes: bool) -> None:
     options = Options(base="floating" if meshes else "fixed")
-    old, before = None, {}
-    for new in versions(corpus / "histories" / name, options, meshes):
-        after = render(new, options)
-        if old is not None:
-            check(compare(old, new, urdf, options), before, after)
-        old, before = new, after
+    readable = ((new, render(new, options)) for new in versions(corpus / "histories" / name, options, meshes))
+    for (old, before), (new, after) in itertools.pairwise(readable):
+        check(compare(old, new, urdf, options), before, after)

@@ -1,0 +1,95 @@
+"""Effects on the robot as a whole: mass, centre of mass, numbers of connectors."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from support import urdfs
+from support.packages import read
+
+from urdfsync.difference import Element, Version
+from urdfsync.urdf.changes import effects
+
+
+def version(*elements: str) -> Version:
+    snapshot = read(urdfs.robot(*elements).encode()).snapshot
+    assert snapshot is not None
+    return Version(snapshot)
+
+
+def link(name: str, mass: float, center: str = "0 0 0") -> str:
+    return urdfs.link(name, mass, center=center)
+
+
+def joint(name: str, kind: str, parent: str, child: str, xyz: str = "0 0 0") -> str:
+    limit = ['<limit lower="0" upper="1" effort="1" velocity="1"/>'] if kind in ("revolute", "prismatic") else []
+    return urdfs.joint(name, kind, parent, child, xyz=xyz, rpy="0 0 0", axis="0 0 1", inside=limit)
+
+
+def values(old: Version, new: Version, renames: dict[Element, str] | None = None) -> dict[str, tuple[Any, Any]]:
+    return {" / ".join(effect.path): (effect.old, effect.new) for effect in effects(old, new, renames or {})}
+
+
+PAIR = (link("base", 1.0), link("tip", 3.0, "0 0 1"), joint("turn", "continuous", "base", "tip", "2 0 0"))
+
+
+def test_mass_and_centre_of_mass_of_both_versions() -> None:
+    heavier = version(link("base", 3.0), *PAIR[1:])
+    found = values(version(*PAIR), heavier)
+    assert found["robot / mass"] == (4.0, 6.0)
+    before, after = found["robot / centre of mass"]
+    assert before == pytest.approx((1.5, 0, 0.75), abs=1e-15)
+    assert after == pytest.approx((1.0, 0, 0.5), abs=1e-15)
+    assert [effect.unit for effect in effects(version(*PAIR), heavier, {})] == ["kg", "m"]
+
+
+def test_a_robot_without_mass_has_no_centre_of_mass() -> None:
+    found = values(version('<link name="base"/>'), version(link("base", 2.0)))
+    assert found["robot / centre of mass"][0] is None
+    assert found["robot / mass"] == (0.0, 2.0)
+
+
+def test_joints_are_at_zero_even_if_their_limits_exclude_it() -> None:
+    out = (
+        PAIR[2]
+        .replace("continuous", "prismatic")
+        .replace("</joint>", '<limit lower="1" upper="2" effort="1" velocity="1"/></joint>')
+    )
+    assert values(version(*PAIR), version(*PAIR[:2], out))["robot / centre of mass"][1] == pytest.approx((1.5, 0, 0.75))
+
+
+def test_other_names_make_no_difference_to_the_last_digit() -> None:
+    links = [link(name, mass, "0.1 0.2 0.3") for name, mass in (("base", 0.1), ("b", 0.2), ("c", 0.3), ("d", 1e9))]
+    first = version(*links, *(joint(name, "fixed", "base", name) for name in "bcd"))
+    second = version(*links, *(joint(name, "fixed", "base", child) for name, child in zip("xyz", "dcb", strict=True)))
+    found = values(first, second)
+    assert all(old == new for path, (old, new) in found.items() if path.startswith("robot"))
+
+
+STAR = ('<link name="base"/>', '<link name="a"/>', '<link name="b"/>', '<link name="c"/>')
+
+
+def test_connectors_that_have_another_number_now() -> None:
+    old = version(*STAR[:1], *STAR[2:], joint("b", "continuous", "base", "b"), joint("c", "revolute", "base", "c"))
+    new = version(
+        *STAR,
+        joint("a", "continuous", "base", "a"),
+        joint("b", "continuous", "base", "b"),
+        joint("c", "prismatic", "base", "c"),
+    )
+    found = values(old, new)
+    assert found["joint b / connector"] == ("rotationalAxis[1]", "rotationalAxis[2]")
+    assert found["joint c / connector"] == ("rotationalAxis[2]", "translationalAxis[1]")
+    assert found["link b / connector"] == ("frame_b[1]", "frame_b[2]")
+    assert "joint a / connector" not in found
+
+
+def test_a_renamed_joint_keeps_its_connector_or_shows_the_new_one() -> None:
+    def two(first: str, second: str) -> Version:
+        joints = (joint(first, "continuous", "base", "a"), joint(second, "continuous", "base", "b"))
+        return version(*STAR[:3], *joints)
+
+    assert "joint bb / connector" not in values(two("a", "b"), two("a", "bb"), {("joint", "b"): "bb"})
+    moved = values(two("a", "b"), two("z", "b"), {("joint", "a"): "z"})
+    assert moved["joint z / connector"] == ("rotationalAxis[1]", "rotationalAxis[2]")

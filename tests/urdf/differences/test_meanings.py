@@ -1,0 +1,247 @@
+"""Differences of robots in the words of URDF: paths, units and classes, one example per line of the design's table."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from support import urdfs
+from support.packages import read
+
+from urdfsync.changes import Change, compare
+from urdfsync.difference import ChangeClass, Kind, Version
+from urdfsync.domain import Import
+from urdfsync.urdf import changes as urdf
+from urdfsync.urdf.meshes import lookup
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Mesh
+
+NONE, UNMODELLED, PARAMETER, STRUCTURAL = list(ChangeClass)[:4]
+ADDED, REMOVED, CHANGED, RENAMED = list(Kind)
+FIXED, FLOATING = Options(), Options(base="floating")
+MESH = lookup.key(Mesh("arm.stl"))
+Data = dict[str, Any]
+
+ROBOT = urdfs.robot(
+    """<link name="base">
+      <inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+      <visual name="cover"><geometry><box size="1 2 3"/></geometry>
+        <material name="red"><color rgba="1 0 0 1"/></material></visual>
+      <visual><geometry><mesh filename="arm.stl"/></geometry></visual>
+      <collision><geometry><sphere radius="0.1"/></geometry></collision>
+      <collision><geometry><mesh filename="arm.stl"/></geometry></collision>
+    </link>""",
+    *(f'<link name="{name}"/>' for name in ("one", "two", "three", "four", "five")),
+    """<joint name="turn" type="revolute"><parent link="base"/><child link="one"/><axis xyz="0 0 1"/>
+      <limit lower="-1" upper="1" effort="5" velocity="2"/><dynamics damping="0.1" friction="0.2"/>
+      <safety_controller k_velocity="3"/><calibration rising="0.5"/></joint>""",
+    """<joint name="slide" type="prismatic"><parent link="base"/><child link="two"/><axis xyz="0 0 1"/>
+      <limit lower="0" upper="1" effort="5" velocity="2"/><dynamics damping="0.1"/>
+      <mimic joint="turn" multiplier="0.5"/></joint>""",
+    """<joint name="spin" type="continuous"><parent link="base"/><child link="three"/>
+      <limit effort="5" velocity="2"/></joint>""",
+    """<joint name="glide" type="planar"><parent link="base"/><child link="four"/>
+      <dynamics damping="0.1"/></joint>""",
+    '<joint name="weld" type="fixed"><parent link="base"/><child link="five"/></joint>',
+    '<gazebo reference="one"><mu1>1</mu1></gazebo>',
+)
+
+
+def import_(content: str, hull: bool = True) -> Import:
+    facts = {"bounds": [[0.0] * 3, [1.0] * 3], "hull": [[0.0] * 3] if hull else []}
+    return Import("Resources/arm.stl", content, content, 1, facts)
+
+
+def version(edit: Callable[[Data], object] = lambda _: None, found: Import | None = None) -> Version:
+    snapshot = read(ROBOT.encode()).snapshot
+    data = json.loads(json.dumps(snapshot))
+    edit(data)
+    return Version(data, {MESH: found} if found else {})
+
+
+def changes(edit: Callable[[Data], object], options: Options = FIXED) -> list[Change]:
+    """The changes that an edit of the robot's snapshot makes; its mesh is there before and after."""
+    found = import_("a")
+    return list(compare(version(found=found), version(edit, found), urdf, options).changes)
+
+
+def put(*path: str | int, value: Any) -> Callable[[Data], object]:
+    """Set the value at a path of the snapshot."""
+
+    def edit(data: Any) -> None:
+        for key in path[:-1]:
+            data = data[key]
+        data[path[-1]] = value
+
+    return edit
+
+
+def drop(*path: str | int) -> Callable[[Data], object]:
+    """Remove the value at a path of the snapshot."""
+
+    def edit(data: Any) -> None:
+        for key in path[:-1]:
+            data = data[key]
+        del data[path[-1]]
+
+    return edit
+
+
+BASE = ("links", "base")
+DYNAMICS, LIMIT = {"damping": 0.0, "friction": 0.0}, {"lower": 0.0, "upper": 0.0}
+
+CASES = [
+    (put("name", value="other"), "robot / name", CHANGED, "", PARAMETER),
+    (put(*BASE, "inertial", "mass", value=3.0), "link base / inertial / mass", CHANGED, "kg", PARAMETER),
+    (put(*BASE, "inertial", "inertia", "ixy", value=0.1), "link base / inertial / inertia / ixy", CHANGED, "kg·m²",
+     PARAMETER),
+    (drop(*BASE, "inertial"), "link base / inertial", REMOVED, "", PARAMETER),
+    (put(*BASE, "visuals", 0, "origin", "rpy", 2, value=1.0), "link base / visual 1 / origin / rpy[2]", CHANGED, "rad",
+     PARAMETER),
+    (put(*BASE, "visuals", 0, "geometry", "size", 0, value=9.0), "link base / visual 1 / geometry / size[0]", CHANGED,
+     "m", PARAMETER),
+    (put(*BASE, "visuals", 0, "material", "rgba", 1, value=0.5), "link base / visual 1 / material / rgba[1]", CHANGED,
+     "", PARAMETER),
+    (drop(*BASE, "visuals", 0, "material"), "link base / visual 1 / material", REMOVED, "", PARAMETER),
+    (put(*BASE, "visuals", 0, "material", "name", value="blue"), "link base / visual 1 / material / name", CHANGED, "",
+     UNMODELLED),
+    (put(*BASE, "visuals", 0, "material", "texture", value="a.png"), "link base / visual 1 / material / texture", ADDED,
+     "", UNMODELLED),
+    (put(*BASE, "visuals", 1, "material", value={"name": "red"}), "link base / visual 2 / material", ADDED, "",
+     UNMODELLED),
+    (put(*BASE, "visuals", 0, "name", value="lid"), "link base / visual 1 / name", CHANGED, "", STRUCTURAL),
+    (drop(*BASE, "visuals", 1), "link base / visual 2", REMOVED, "", STRUCTURAL),
+    (drop(*BASE, "collisions", 1), "link base / collision 2", REMOVED, "", STRUCTURAL),
+    (put(*BASE, "collisions", 0, "geometry", "radius", value=0.2), "link base / collision 1 / geometry / radius",
+     CHANGED, "m", PARAMETER),
+    (put("joints", "weld", "type", value="floating"), "joint weld / type", CHANGED, "", STRUCTURAL),
+    (put("joints", "weld", "parent", value="one"), "joint weld / parent", CHANGED, "", STRUCTURAL),
+    (put("joints", "weld", "origin", "xyz", 2, value=1.0), "joint weld / origin / xyz[2]", CHANGED, "m", PARAMETER),
+    (put("joints", "weld", "axis", value=[0.0, 0.0, 0.5]), "joint weld / axis[0]", CHANGED, "", UNMODELLED),
+    (put("joints", "weld", "dynamics", value=DYNAMICS), "joint weld / dynamics", ADDED, "", UNMODELLED),
+    (put("joints", "weld", "limit", value=LIMIT), "joint weld / limit", ADDED, "", UNMODELLED),
+    (put("joints", "turn", "axis", 2, value=0.5), "joint turn / axis[2]", CHANGED, "", PARAMETER),
+    (put("joints", "turn", "limit", "upper", value=2.0), "joint turn / limit / upper", CHANGED, "rad", PARAMETER),
+    (put("joints", "turn", "limit", "velocity", value=3.0), "joint turn / limit / velocity", CHANGED, "rad/s",
+     PARAMETER),
+    (drop("joints", "turn", "limit", "effort"), "joint turn / limit / effort", REMOVED, "N·m", PARAMETER),
+    (drop("joints", "turn", "limit"), "joint turn / limit", REMOVED, "", PARAMETER),
+    (put("joints", "turn", "dynamics", "damping", value=0.0), "joint turn / dynamics / damping", CHANGED, "N·m·s/rad",
+     PARAMETER),
+    (drop("joints", "turn", "dynamics"), "joint turn / dynamics", REMOVED, "", STRUCTURAL),
+    (drop("joints", "turn", "calibration"), "joint turn / calibration", REMOVED, "", PARAMETER),
+    (put("joints", "turn", "safety_controller", "k_position", value=1.0), "joint turn / safety_controller / k_position",
+     CHANGED, "1/s", PARAMETER),
+    (put("joints", "spin", "limit", "lower", value=1.0), "joint spin / limit / lower", CHANGED, "rad", UNMODELLED),
+    (put("joints", "spin", "limit", "effort", value=1.0), "joint spin / limit / effort", CHANGED, "N·m", PARAMETER),
+    (put("joints", "slide", "limit", "effort", value=1.0), "joint slide / limit / effort", CHANGED, "N", PARAMETER),
+    (put("joints", "slide", "dynamics", "friction", value=1.0), "joint slide / dynamics / friction", CHANGED, "N",
+     PARAMETER),
+    (put("joints", "slide", "mimic", "multiplier", value=1.0), "joint slide / mimic / multiplier", CHANGED, "m/rad",
+     PARAMETER),
+    (put("joints", "slide", "mimic", "offset", value=1.0), "joint slide / mimic / offset", CHANGED, "m", PARAMETER),
+    (put("joints", "slide", "mimic", "joint", value="spin"), "joint slide / mimic / joint", CHANGED, "", STRUCTURAL),
+    (drop("joints", "slide", "mimic"), "joint slide / mimic", REMOVED, "", STRUCTURAL),
+    (put("joints", "glide", "axis", 0, value=0.5), "joint glide / axis[0]", CHANGED, "", PARAMETER),
+    (put("joints", "glide", "dynamics", "damping", value=1.0), "joint glide / dynamics / damping", CHANGED, "",
+     PARAMETER),
+    (drop("joints", "glide", "dynamics"), "joint glide / dynamics", REMOVED, "", STRUCTURAL),
+    (put("extensions", "", "gazebo", 0, value='<gazebo reference="one"/>'), "robot / gazebo one", CHANGED, "",
+     UNMODELLED),
+    (put("extensions", "link one", value={"sensor": ["<sensor/>"]}), "link one / extensions", ADDED, "", UNMODELLED),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("edit", "path", "kind", "unit", "reach"), CASES, ids=[case[1] for case in CASES])
+def test_an_edit_is_one_change_in_the_words_of_urdf(
+    edit: Callable[[Data], object], path: str, kind: Kind, unit: str, reach: ChangeClass
+) -> None:
+    found = [change for change in changes(edit) if str(change) == path]
+    assert [(change.kind, change.unit, change.change_class) for change in found] == [(kind, unit, reach)]
+
+
+def test_what_is_named_by_its_element_alone_came_or_went() -> None:
+    def add(data: Data) -> None:
+        data["links"]["six"] = {"visuals": [], "collisions": []}
+        data["joints"]["six"] = {**data["joints"]["weld"], "child": "six"}
+
+    found = [(str(change), change.kind, change.change_class) for change in changes(add)]
+    assert found == [("link six", ADDED, STRUCTURAL), ("joint six", ADDED, STRUCTURAL)]
+
+
+def test_the_order_of_visuals_of_one_kind_is_a_parameter() -> None:
+    boxes = [{"geometry": {"kind": "box", "size": [size] * 3}, "origin": {}, "name": ""} for size in (1.0, 2.0)]
+    old, new = (version(put(*BASE, "visuals", value=order)) for order in (boxes, boxes[::-1]))
+    assert compare(old, new, urdf, FIXED).change_class is PARAMETER
+
+
+def test_another_kind_of_geometry_is_structural() -> None:
+    edit = put(*BASE, "visuals", 0, "geometry", value={"kind": "sphere", "radius": 1.0})
+    assert {(str(change), change.change_class) for change in changes(edit)} == {
+        (f"link base / visual 1 / geometry / {field}", STRUCTURAL) for field in ("kind", "radius", "size")
+    }
+
+
+def test_units_of_a_joint_that_turned_into_a_slide() -> None:
+    def edit(data: Data) -> None:
+        data["joints"]["turn"].update(type="prismatic", limit={"lower": -0.5, "upper": 0.5, "effort": 5.0})
+
+    units = {str(change): change.unit for change in changes(edit)}
+    assert units["joint turn / limit / lower"] == "rad → m"
+    assert units["joint turn / limit / velocity"] == "rad/s"
+
+
+def test_collisions_that_are_not_wanted_are_not_modelled() -> None:
+    edit = drop(*BASE, "collisions", 0)
+    hidden = [change.change_class for change in changes(edit, Options(collisions=False))]
+    assert set(hidden) == {UNMODELLED}
+
+
+def test_a_mobile_robot_stands_on_collisions_even_if_they_are_not_wanted() -> None:
+    edit = put(*BASE, "collisions", 0, "geometry", "radius", value=0.2)
+    assert [change.change_class for change in changes(edit, Options(base="floating", collisions=False))] == [PARAMETER]
+
+
+def mesh_change(old: Import | None, new: Import | None, options: Options = FIXED) -> Iterator[tuple[str, Kind, str]]:
+    for change in compare(version(found=old), version(found=new), urdf, options).changes:
+        yield str(change), change.kind, change.change_class
+
+
+def test_the_content_of_a_mesh_is_a_parameter() -> None:
+    assert list(mesh_change(import_("a"), import_("b"))) == [("mesh arm.stl / content", CHANGED, PARAMETER)]
+
+
+@pytest.mark.parametrize(("old", "new", "kind"), [(None, import_("a"), ADDED), (import_("a"), None, REMOVED)])
+def test_a_mesh_that_is_found_or_lost_is_structural(old: Import | None, new: Import | None, kind: Kind) -> None:
+    assert list(mesh_change(old, new)) == [("mesh arm.stl / content", kind, STRUCTURAL)]
+
+
+def test_a_mesh_that_can_no_longer_touch_the_ground_is_structural_for_mobile_robots() -> None:
+    old, new = import_("a"), import_("b", hull=False)
+    assert [change[2] for change in mesh_change(old, new, FIXED)] == [PARAMETER]
+    assert [change[2] for change in mesh_change(old, new, FLOATING)] == [STRUCTURAL]
+
+
+def test_a_shape_without_its_mesh_is_not_modelled() -> None:
+    edit = put(*BASE, "visuals", 1, "origin", "xyz", 0, value=1.0)
+    found = compare(version(), version(edit), urdf, FIXED).changes
+    assert [(str(c), c.change_class) for c in found] == [("link base / visual 2 / origin / xyz[0]", UNMODELLED)]
+
+
+@pytest.mark.parametrize(("meshes", "reach"), [({MESH: import_("a")}, STRUCTURAL), ({}, UNMODELLED), (None, PARAMETER)])
+def test_another_mesh_file_matters_as_far_as_it_is_found(meshes: dict[str, Import] | None, reach: ChangeClass) -> None:
+    edit = put(*BASE, "visuals", 1, "geometry", "filename", value="other.stl")
+    old, new = (dataclasses.replace(version(e), imports=meshes) for e in (lambda _: None, edit))
+    found = compare(old, new, urdf, FIXED).changes
+    assert [(str(c), c.change_class) for c in found] == [("link base / visual 2 / geometry / filename", reach)]
+
+
+def test_reading_the_same_robot_written_differently_gives_no_change() -> None:
+    text = ROBOT.replace('mass value="2"', 'mass value="2.0"').replace("><", ">\n <!-- a comment --> <")
+    snapshot = read(text.encode()).snapshot
+    assert snapshot is not None
+    found = compare(version(), Version(snapshot, {}), urdf, FIXED)
+    assert found.change_class is NONE
