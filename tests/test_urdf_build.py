@@ -30,9 +30,9 @@ def arm(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def run(project: Path, **request: bool) -> Result:
+def run(project: Path, *, full: bool = False) -> Result:
     config = load(project / "urdfsync.toml")
-    (result,) = build(config, config.robots, Request(**request))
+    (result,) = build(config, config.robots, Request(full=full))
     return result
 
 
@@ -47,8 +47,8 @@ def times(folder: Path) -> Mapping[str, int]:
 def test_a_second_build_writes_nothing(arm: Path) -> None:
     run(arm)
     before = times(arm)
-    for request in ({}, {"full": True}):
-        assert run(arm, **request).in_step
+    for full in (False, True):
+        assert run(arm, full=full).in_step
         assert times(arm) == before
 
 
@@ -131,8 +131,8 @@ def test_an_edited_file_survives_every_build(arm: Path) -> None:
         ("<mass value=", "<mass  value="),
     ):
         source.write_text(source.read_text().replace(*change))
-        for request in ({}, {"full": True}):
-            run(arm, **request)
+        for full in (False, True):
+            run(arm, full=full)
             assert edited.read_bytes() == mine
     source.unlink()
     run(arm)

@@ -150,4 +150,6 @@ def _add_common(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--config", type=Path, metavar="PATH", help="default: urdfsync.toml, here or in a folder above")
     group.add_argument("--json", action="store_true", help="one JSON document on the standard output")
     group.add_argument("-q", "--quiet", action="store_true", help="only errors and conflicts")
-    group.add_argument("-v", "--verbose", action="store_true", help="all warnings, and every file that is not just unchanged")
+    group.add_argument(
+        "-v", "--verbose", action="store_true", help="all warnings, and files that are not just unchanged"
+    )

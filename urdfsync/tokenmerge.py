@@ -12,6 +12,8 @@ The rules are stricter than those for lines, since tokens that stand side by sid
 - An item that is added or removed with its comma, a declaration with its semicolon, may stand right next to an
   edit of another one. But next to what is added nothing may be removed: its reason may be gone.
 - Comments and white space may stand right next to a value that changes, but not to one that goes.
+- Edits with which both sides bring in the same name, string or comment, but not alike, are a conflict: one side may have
+  taken over by hand what the other one does, and it must not be there twice.
 - Edits of one side that leave less between them than they change count as one: what they have in common
   with the text before is chance.
 - The result must read as just these tokens: nothing runs together, no comment swallows what follows it.
@@ -25,7 +27,7 @@ from itertools import accumulate, groupby, pairwise
 from typing import NamedTuple, TypeAlias
 
 from urdfsync.myers import diff
-from urdfsync.tokens import NEWLINE, SEPARATORS, is_trivia, is_word, tokens
+from urdfsync.tokens import NEWLINE, SEPARATORS, is_telling, is_trivia, is_word, tokens
 
 Lines: TypeAlias = tuple[range, range, range]
 """Whole lines of base, mine and generated, by their numbers from 0."""
@@ -119,7 +121,7 @@ def merge_tokens(base: str, mine: str, generated: str) -> list[Piece]:
         for side in (0, 1)
         for group in _grouped([edit for edit in edits[side] if edit not in agreed], words)
     ]
-    clashes = list(_clashes(chunks, old, words))
+    clashes = [*_clashes(chunks, old, words), *_twice(chunks)]
     return [
         _joined(list(group)) for _, group in groupby(_pieces(old, edits, clashes), lambda piece: piece.text is None)
     ]
@@ -217,6 +219,22 @@ def _clashes(chunks: Iterable[_Chunk], old: Sequence[str], words: Sequence[int])
                 break
             if second.side != first.side and not _apart(first, second, old):
                 yield first.low, max(first.high, second.high)
+
+
+def _twice(chunks: Sequence[_Chunk]) -> Iterator[tuple[int, int]]:
+    """Ranges of base tokens from one edit to another of the other side that brings in one of the same words."""
+    ours, theirs = (
+        [
+            (chunk, {token for edit in chunk.edits for token in edit.inserted if is_telling(token)})
+            for chunk in chunks
+            if chunk.side == side
+        ]
+        for side in (0, 1)
+    )
+    for mine, words in ours:
+        for generated, others in theirs:
+            if words & others:
+                yield min(mine.low, generated.low), max(mine.high, generated.high)
 
 
 def _apart(first: _Chunk, second: _Chunk, old: Sequence[str]) -> bool:

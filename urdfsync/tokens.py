@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import re
 
+from urdfsync.modelica import KEYWORDS
+
 NEWLINE = "\n"
 SEPARATORS = frozenset(",;")
 """What stands between the items of a list, and after declarations and equations."""
@@ -66,3 +68,8 @@ def is_trivia(token: str) -> bool:
 def is_word(token: str) -> bool:
     """Whether a token stands for something by itself: a name, a number, a string, an array; not an operator."""
     return not is_trivia(token) and _WORD.search(token) is not None
+
+
+def is_telling(token: str) -> bool:
+    """Whether a token tells what is meant rather than how much: a name, a string, a comment; no number, no keyword."""
+    return (is_comment(token) or token[0] in "\"'._" or token[0].isalpha()) and token not in KEYWORDS

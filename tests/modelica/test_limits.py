@@ -20,6 +20,11 @@ LOWER, UPPER, VELOCITY, EFFORT = -0.5, 0.8, 2.0, 10.0
 INERTIA = 0.25
 """Mass and moment of inertia of what each drive moves; all motion is level, so that gravity does nothing."""
 
+LID_EFFORT = 99.0
+FINGER = 5.0
+RATIO = 0.1
+"""Mass of the finger, and its way per angle of the lid."""
+
 LIMITS = limit(LOWER, UPPER, VELOCITY, EFFORT)
 LEVEL = {"xyz": "0 0 0", "rpy": "0 0 0"}
 
@@ -32,12 +37,12 @@ def balanced(name: str) -> str:
 ROBOT = robot(
     link("base"),
     *(balanced(name) for name in ("arm", "wheel", "sledge", "flap")),
-    link("finger"),
+    f'<link name="finger"><inertial><mass value="{FINGER}"/></inertial></link>',
     joint("my elbow", "revolute", "base", "arm", axis="0 0 1", inside=[LIMITS], **LEVEL),
     joint("roll", "continuous", "base", "wheel", axis="0 0 1", inside=[LIMITS], **LEVEL),
     joint("rail", "prismatic", "base", "sledge", axis="1 0 0", inside=[LIMITS], **LEVEL),
-    joint("lid", "revolute", "base", "flap", axis="0 0 1", inside=[limit(-9, 9, 99, 99)], **LEVEL),
-    joint("grip", "prismatic", "flap", "finger", axis="1 0 0", inside=[mimic("lid", 0.1), limit(-0.02, 1)], **LEVEL),
+    joint("lid", "revolute", "base", "flap", axis="0 0 1", inside=[limit(-9, 9, 99, LID_EFFORT)], **LEVEL),
+    joint("grip", "prismatic", "flap", "finger", axis="1 0 0", inside=[mimic("lid", RATIO), limit(-0.02, 1)], **LEVEL),
 )
 """Four drives of which three have close limits; grip follows lid, and is at its end where lid is at -0.2 rad."""
 
@@ -70,6 +75,11 @@ PASSING = {
     "backward": ({"roll.a2": -4.0}, VELOCITY / 4, "roll (joint roll) is faster than its velocity limit"),
     "effort": ({"rail.a2": 1.01 * EFFORT / INERTIA}, 0.0, "rail (joint rail) is driven above its effort limit"),
     "slide": ({"rail.a1": 1.0}, UPPER, "rail (joint rail) is above its upper position limit"),
+    "leader": (
+        {"lid.a2": 1.01 * LID_EFFORT / (INERTIA + RATIO**2 * FINGER)},
+        0.0,
+        "lid (joint lid) is driven above its effort limit",
+    ),
     "follower": ({"lid.a1": -0.5}, 0.4, "grip (joint grip) is below its lower position limit"),
 }
 """Per limit: a motion that passes this one alone, when it does, and what is said then."""
@@ -82,6 +92,7 @@ INSIDE: Mapping[str, tuple[Mapping[str, float], float]] = {
     ),
     "as fast as allowed": ({"roll.a1": VELOCITY}, 1.0),
     "as strong as allowed": ({"rail.a2": 0.99 * EFFORT / INERTIA, "roll.a2": -0.99 * EFFORT / INERTIA}, 0.04),
+    "leading as strong as allowed": ({"lid.a2": 0.99 * LID_EFFORT / (INERTIA + RATIO**2 * FINGER)}, 0.01),
     "far where there is no end": ({"roll.a0": 100.0}, 1.0),
 }
 """Motions that pass no limit, and how long they last."""

@@ -312,9 +312,9 @@ model Menagerie "Robot Menagerie"
     annotation (Placement(transformation(extent={{-20, -514}, {0, -494}})));
 
 equation
-  assert(not checkLimits or noEvent(0.999999*abs(rotationalAxis[2].tau) <= shoulder.parameters.limits.effort + 1e-6),
+  assert(not checkLimits or 0.999999*abs(rotationalAxis[2].tau) <= shoulder.parameters.limits.effort + 1e-6,
     getInstanceName() + ".shoulder (joint " + shoulder.parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
-  assert(not checkLimits or noEvent(0.999999*abs(translationalAxis[1].f) <= lift.parameters.limits.effort + 1e-6),
+  assert(not checkLimits or 0.999999*abs(translationalAxis[1].f) <= lift.parameters.limits.effort + 1e-6,
     getInstanceName() + ".lift (joint " + lift.parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
   connect(frame_a, chassis.frame_a)
     annotation (Line(points={{-100, 0}, {-76, 0}, {-76, -26}, {-72, -26}}, color={95, 95, 95}, thickness=0.5));

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from support import urdfs
+import support.urdfs as urdfs
 from support.packages import read
 
 from urdfsync.domain import Snapshot

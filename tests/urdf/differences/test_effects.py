@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from support import urdfs
+import support.urdfs as urdfs
 from support.packages import read
 
 from urdfsync.difference import Element, Version

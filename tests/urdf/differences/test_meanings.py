@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from support import urdfs
+import support.urdfs as urdfs
 from support.packages import read
 
 from urdfsync.changes import Change, compare
