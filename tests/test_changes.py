@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.changes import Change, Changes, Comparing, Stale, compare, moves, stale
-from urdfsync.difference import ChangeClass, Difference, Effect, Element, Kind, Meaning, Version
+from urdfsync.difference import ChangeClass, Difference, ElementKey, Kind, Meaning, Version
 from urdfsync.domain import Artifact, Import, Order, Role, Snapshot
 
 PLAIN = st.recursive(
@@ -24,12 +24,12 @@ PLAIN = st.recursive(
 class Shelf:
     """A domain of books on a shelf: everything is a parameter, colours are not modelled."""
 
-    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[Element, str]:
+    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
         gone, came = old["books"].keys() - new["books"].keys(), new["books"].keys() - old["books"].keys()
         same = [(a, b) for a in gone for b in came if old["books"][a] == new["books"][b]]
         return {("book", a): b for a, b in same}
 
-    def comparable(self, snapshot: Snapshot, renames: Mapping[Element, str]) -> Snapshot:
+    def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
         return {**snapshot, "books": {renames.get(("book", k), k): v for k, v in snapshot["books"].items()}}
 
     def describe(
@@ -40,9 +40,6 @@ class Shelf:
     def _meaning(self, difference: Difference) -> Meaning:
         kind = ChangeClass.UNMODELLED if "colour" in difference.path else ChangeClass.PARAMETER
         return Meaning(tuple(map(str, difference.path[1:])) or ("shelf",), kind, "mm")
-
-    def effects(self, old: Version, new: Version, renames: Mapping[Element, str]) -> Sequence[Effect]:
-        return ()
 
 
 SHELF: Comparing = Shelf()
@@ -134,7 +131,7 @@ def test_the_changes_lead_from_the_old_to_the_new(books: dict[str, Any], data: s
     differences: list[Difference] = []
 
     class Recorder(Shelf):
-        def renames(self, old: Snapshot, new: Snapshot) -> Mapping[Element, str]:
+        def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
             return {}
 
         def describe(

@@ -24,7 +24,8 @@ SHELL_MODULES = tuple(f"urdfsync.{name}" for name in SHELL)
 FORBIDDEN: dict[str, tuple[str, ...]] = {
     "diagnostics": ("urdfsync", *IO, *HEAVY),
     "domain": ("urdfsync.urdf", "urdfsync.render", "urdfsync.registry", "msgspec", *SHELL_MODULES, *IO, *HEAVY),
-    "changes": ("rich", *IO, *SHELL_MODULES),
+    "changes": ("rich", "pathlib", "jinja2", "urdfsync.urdf", *IO, *SHELL_MODULES),
+    "difference": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
     "render": ("urdfsync.urdf", "urdfsync.manifest", "rich", *SHELL_MODULES),
     "manifest": ("rich", "pathlib", *IO, *SHELL_MODULES),
     "plan": ("pathlib", "urdfsync.manifest", "urdfsync.registry", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
@@ -57,7 +58,19 @@ NO_IO_CALLS = {
     "rglob", "exists", "is_file", "is_dir", "stat", "lstat", "resolve", "cwd", "home", "symlink_to",
 }  # fmt: skip
 PURE = (
-    *("diagnostics", "domain", "manifest", "plan", "order", "outcome", "wording", "modelica", "literals"),
+    *(
+        "changes",
+        "diagnostics",
+        "difference",
+        "domain",
+        "manifest",
+        "plan",
+        "order",
+        "outcome",
+        "wording",
+        "modelica",
+        "literals",
+    ),
     *(name for name in MODULES if name.startswith("urdf/")),
 )
 

@@ -11,7 +11,7 @@ from collections import defaultdict
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Protocol
 
-from urdfsync.difference import ChangeClass, Difference, Effect, Element, Kind, Meaning, Version
+from urdfsync.difference import ChangeClass, Difference, ElementKey, Kind, Meaning, Version
 from urdfsync.domain import Artifact, Import, Order, Role, Snapshot
 
 NOISE = 1e-6
@@ -29,30 +29,20 @@ _KINDS = {
 
 
 class Comparing(Protocol):
-    """What a domain has to know about changes."""
+    """What comparing needs of a domain."""
 
-    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[Element, str]:
-        """Elements that have another name and nothing else, in the same place: element of the old version → new name.
-
-        An ambiguous match is none.
-        """
+    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
+        """Elements that have another name and nothing else, in the same place, with the new names."""
         ...
 
-    def comparable(self, snapshot: Snapshot, renames: Mapping[Element, str]) -> Snapshot:
-        """The snapshot with those elements renamed wherever it mentions them, its parts in the order of a report.
-
-        What stands in lists without an order of its own may be keyed, so that the same things are compared.
-        """
+    def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
+        """The snapshot under the new names."""
         ...
 
     def describe(
         self, differences: Sequence[Difference], old: Version, new: Version, options: Any
     ) -> Sequence[Meaning | None]:
-        """The meaning of each difference of two comparable versions; None if another difference says the same."""
-        ...
-
-    def effects(self, old: Version, new: Version, renames: Mapping[Element, str]) -> Sequence[Effect]:
-        """What the differences do to the model as a whole."""
+        """The meaning of each difference, None for one that need not be reported."""
         ...
 
 
@@ -96,7 +86,7 @@ class Changes:
     """Everything that differs between two versions of a model."""
 
     changes: tuple[Change, ...] = ()
-    renames: Mapping[Element, str] = dataclasses.field(default_factory=dict)
+    renames: Mapping[ElementKey, str] = dataclasses.field(default_factory=dict)
     generator: bool = False
     """Whether what turns the model into files is another."""
 
@@ -130,7 +120,7 @@ class Stale:
 
 def compare(old: Version, new: Version, domain: Comparing, options: Any) -> Changes:
     """What changed from one version to another, with the domain's options of the new one."""
-    renames: Mapping[Element, str] = {}
+    renames: Mapping[ElementKey, str] = {}
     differences: list[Difference] = []
     if old.snapshot != new.snapshot:
         renames = domain.renames(old.snapshot, new.snapshot)
@@ -160,7 +150,7 @@ def stale(old: Iterable[Artifact | Order], new: Iterable[Artifact | Order]) -> S
 
 
 def moves(
-    old: Mapping[str, tuple[str, Role]], new: Mapping[str, tuple[str, Role]], renames: Mapping[Element, str]
+    old: Mapping[str, tuple[str, Role]], new: Mapping[str, tuple[str, Role]], renames: Mapping[ElementKey, str]
 ) -> Mapping[str, str]:
     """Old path → new path of each file that belongs to the same element as before, but is at another place.
 

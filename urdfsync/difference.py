@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 if TYPE_CHECKING:
     from urdfsync.domain import Import, Snapshot
 
-Element: TypeAlias = tuple[str, str]
+ElementKey: TypeAlias = tuple[str, str]
 """Kind and name of an element in the domain's words, for example `("link", "base_link")`."""
 
 

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, Protocol, TypeAlias
 
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.difference import Difference, Effect, ElementKey, Meaning, Version
 
 Snapshot: TypeAlias = Mapping[str, Any]
 """A model as plain data: mappings with string keys, lists, strings, numbers, booleans, None.
@@ -175,6 +176,30 @@ class Domain(Protocol):
         self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
     ) -> Sequence[Artifact | Order]:
         """Every file of the package but the imported ones. Pure."""
+        ...
+
+    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
+        """Elements that have another name and nothing else, in the same place: element of the old version → new name.
+
+        An ambiguous match is none.
+        """
+        ...
+
+    def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
+        """The snapshot with those elements renamed wherever it mentions them, its parts in the order of a report.
+
+        What stands in lists without an order of its own may be keyed, so that the same things are compared.
+        """
+        ...
+
+    def describe(
+        self, differences: Sequence[Difference], old: Version, new: Version, options: Any
+    ) -> Sequence[Meaning | None]:
+        """The meaning of each difference of two comparable versions; None if another difference says the same."""
+        ...
+
+    def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
+        """What the differences do to the model as a whole; the versions are as read, not comparable ones."""
         ...
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:

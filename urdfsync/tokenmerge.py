@@ -12,8 +12,8 @@ The rules are stricter than those for lines, since tokens that stand side by sid
 - An item that is added or removed with its comma, a declaration with its semicolon, may stand right next to an
   edit of another one. But next to what is added nothing may be removed: its reason may be gone.
 - Comments and white space may stand right next to a value that changes, but not to one that goes.
-- Edits with which both sides bring in the same name, string or comment, but not alike, are a conflict: one side may have
-  taken over by hand what the other one does, and it must not be there twice.
+- Edits with which both sides bring in the same name, string or comment, but not alike, are a conflict: one side
+  may have taken over by hand what the other one does, and it must not be there twice.
 - Edits of one side that leave less between them than they change count as one: what they have in common
   with the text before is chance.
 - The result must read as just these tokens: nothing runs together, no comment swallows what follows it.
@@ -21,13 +21,15 @@ The rules are stricter than those for lines, since tokens that stand side by sid
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import accumulate, groupby, pairwise
 from typing import NamedTuple, TypeAlias
 
-from urdfsync.myers import diff
+from urdfsync.tokenedits import Edit, edits_between
 from urdfsync.tokens import NEWLINE, SEPARATORS, is_telling, is_trivia, is_word, tokens
+
+_OPENING, _CLOSING = frozenset("([{"), frozenset(")]}")
+_BOUNDS = _OPENING | _CLOSING | SEPARATORS
 
 Lines: TypeAlias = tuple[range, range, range]
 """Whole lines of base, mine and generated, by their numbers from 0."""
@@ -40,41 +42,11 @@ class Piece(NamedTuple):
     text: str | None
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class _Edit:
-    """Base tokens `start` to `stop` (half open) replaced; what lies from `low` to `high` it could be moved over."""
-
-    start: int
-    stop: int
-    inserted: tuple[str, ...]
-    deleted: tuple[str, ...]
-    low: int = dataclasses.field(compare=False)
-    high: int = dataclasses.field(compare=False)
-    lines: bool = dataclasses.field(default=False, compare=False)
-    """Nothing but whole lines are inserted or deleted."""
-
-    @property
-    def trivia(self) -> bool:
-        """Only comments and white space change."""
-        return all(map(is_trivia, self.inserted + self.deleted))
-
-    @property
-    def weight(self) -> int:
-        """How much changes, in words, and at least 1."""
-        return max(1, sum(map(is_word, self.inserted)), sum(map(is_word, self.deleted)))
-
-
-_MAX_WORK = 50_000
-"""What comparing the tokens of one conflict may cost (see `urdfsync.myers`): enough for some 300 edits."""
-_OPENING, _CLOSING = frozenset("([{"), frozenset(")]}")
-_BOUNDS = _OPENING | _CLOSING | SEPARATORS
-
-
 class _Chunk(NamedTuple):
     """Edits of one side that stand or fall together."""
 
     side: int
-    edits: tuple[_Edit, ...]
+    edits: tuple[Edit, ...]
 
     @property
     def start(self) -> int:
@@ -113,7 +85,7 @@ def merge_tokens(base: str, mine: str, generated: str) -> list[Piece]:
     The pieces follow each other and cover all three texts; they are as small as the conflicts allow.
     """
     old = tokens(base)
-    edits = [_edits(old, tokens(text)) for text in (mine, generated)]
+    edits = [edits_between(old, tokens(text)) for text in (mine, generated)]
     agreed = {*edits[0]} & {*edits[1]}
     words = [0, *accumulate(map(is_word, old))]
     chunks = [
@@ -136,78 +108,24 @@ def _joined(pieces: Sequence[Piece]) -> Piece:
     return Piece((base, mine, generated), "".join(texts) if texts else None)
 
 
-def _edits(old: Sequence[str], new: Sequence[str]) -> list[_Edit]:
-    """What leads from one text to the other, in order."""
-    changes = diff(old, new, thin=False, work=_MAX_WORK)
-    bounds = [0, *(change.stop for change in changes)], [*(change.start for change in changes[1:]), len(old)]
-    result: list[_Edit] = []
-    for change, floor, ceiling in zip(changes, bounds[0], bounds[1], strict=False):
-        deleted, inserted = tuple(old[change.start : change.stop]), tuple(new[change.new_start : change.new_stop])
-        if deleted and inserted:
-            result += _replaced(change.start, deleted, inserted)
-        else:
-            result.append(_placed(change.start, deleted, inserted, old, range(floor, ceiling)))
-    return result
-
-
-def _replaced(start: int, deleted: tuple[str, ...], inserted: tuple[str, ...]) -> Iterator[_Edit]:
-    """A replacement; comments and white space that come with it, before or after, are edits of their own."""
-    stop = start + len(deleted)
-    code = [place for place, token in enumerate(inserted) if not is_trivia(token)]
-    head = code[0] if code and not is_trivia(deleted[0]) else 0
-    tail = code[-1] + 1 if code and not is_trivia(deleted[-1]) else len(inserted)
-    if head:
-        yield _Edit(start, start, inserted[:head], (), start, start)
-    yield _Edit(start, stop, inserted[head:tail], deleted, start, stop)
-    if tail < len(inserted):
-        yield _Edit(stop, stop, inserted[tail:], (), stop, stop)
-
-
-def _placed(start: int, deleted: tuple[str, ...], inserted: tuple[str, ...], old: Sequence[str], space: range) -> _Edit:
-    """An insertion or deletion, put where it comprises whole lines if there is such a place; `space` is all it has."""
-    stop = start + len(deleted)
-    run = deleted or inserted
-    up = down = 0
-    while start - up > space.start and old[start - up - 1] == run[(-up - 1) % len(run)]:
-        up += 1
-    while stop + down < space.stop and old[stop + down] == run[down % len(run)]:
-        down += 1
-    shifts = range(-up, down + 1)
-    whole = [
-        shift
-        for shift in shifts
-        if run[(shift - 1) % len(run)] == NEWLINE and (start + shift == 0 or old[start + shift - 1] == NEWLINE)
-    ]
-    places = whole or shifts
-    turn = places[-1] % len(run)
-    run = run[turn:] + run[:turn]
-    return _Edit(
-        start + places[-1],
-        stop + places[-1],
-        () if deleted else run,
-        run if deleted else (),
-        start + places[0],
-        stop + places[-1],
-        bool(whole),
-    )
-
-
-def _grouped(edits: Iterable[_Edit], words: Sequence[int]) -> Iterator[tuple[_Edit, ...]]:
+def _grouped(edits: Iterable[Edit], words: Sequence[int]) -> Iterator[tuple[Edit, ...]]:
     """Edits of one side, those together that leave fewer words between them than they change; not trivia and lines."""
-    group: list[_Edit] = []
+    groups: list[tuple[Edit, ...]] = []
     for edit in edits:
         if edit.trivia:
             yield (edit,)
             continue
-        if group:
-            last = group[-1]
-            between = words[edit.start] - words[last.stop]
-            if edit.lines or last.lines or between >= min(edit.weight, last.weight):
-                yield tuple(group)
-                group = []
-        group.append(edit)
-    if group:
-        yield tuple(group)
+        groups.append((edit,))
+        while len(groups) > 1 and _belong(groups[-2], groups[-1], words):
+            last = groups.pop()
+            groups[-1] += last
+    yield from groups
+
+
+def _belong(first: tuple[Edit, ...], second: tuple[Edit, ...], words: Sequence[int]) -> bool:
+    between = words[second[0].start] - words[first[-1].stop]
+    weights = (sum(edit.weight for edit in group) for group in (first, second))
+    return between < min(weights) and not (first[-1].lines or second[0].lines)
 
 
 def _clashes(chunks: Iterable[_Chunk], old: Sequence[str], words: Sequence[int]) -> Iterator[tuple[int, int]]:
@@ -271,9 +189,7 @@ def _are_items(first: _Chunk, second: _Chunk, old: Sequence[str]) -> bool:
     if "," in gap and (_is_named(reversed(old[: first.start])) or _is_named(old[second.start :])):
         return True
     before, after = _item(first), _item(second)
-    if (first.deletes and not before) or (second.deletes and not after) or not (before or after):
-        return False
-    return not SEPARATORS.isdisjoint([*gap, *before[-1:], *after[:1]])
+    return bool(before or after) and not SEPARATORS.isdisjoint([*gap, *before[-1:], *after[:1]])
 
 
 def _is_named(run: Iterable[str]) -> bool:
@@ -299,9 +215,7 @@ def _balanced(run: Iterable[str]) -> bool:
     return depth == 0
 
 
-def _pieces(
-    old: Sequence[str], edits: Sequence[Sequence[_Edit]], clashes: Sequence[tuple[int, int]]
-) -> Iterator[Piece]:
+def _pieces(old: Sequence[str], edits: Sequence[Sequence[Edit]], clashes: Sequence[tuple[int, int]]) -> Iterator[Piece]:
     """The three texts cut at the ends of line that neither side touches and no conflict includes."""
     taken = {index for side in edits for edit in side for index in range(edit.start, edit.stop)}
     taken |= {index for low, high in clashes for index in range(low, high)}
@@ -321,7 +235,7 @@ def _pieces(
             yield Piece((base, mine, generated), None if clash else text)
 
 
-def _applied(old: Sequence[str], inside: range, edits: Iterable[_Edit]) -> list[str]:
+def _applied(old: Sequence[str], inside: range, edits: Iterable[Edit]) -> list[str]:
     """Some base tokens with the edits that belong to them done."""
     result: list[str] = []
     position = inside.start

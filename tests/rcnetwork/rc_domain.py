@@ -17,6 +17,7 @@ from typing import Any
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.difference import ChangeClass, Difference, Effect, ElementKey, Meaning, Version
 from urdfsync.domain import (
     Artifact,
     Conversion,
@@ -126,6 +127,27 @@ class RcNetwork:
             Order("package.order", ("Elements", target.name)),
             Order("Elements/package.order", (*records, *classes)),
         )
+
+    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
+        return {}
+
+    def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
+        return snapshot
+
+    def describe(
+        self, differences: Sequence[Difference], old: Version, new: Version, options: Options
+    ) -> Sequence[Meaning | None]:
+        units = {"ohm": "Ω", "farad": "F"}
+        meanings = []
+        for difference in differences:
+            _, *fields = map(str, difference.path)
+            is_number = bool(fields) and fields[-1] in units
+            reach = ChangeClass.PARAMETER if is_number else ChangeClass.STRUCTURAL
+            meanings.append(Meaning(tuple(fields) or ("network",), reach, units[fields[-1]] if is_number else ""))
+        return meanings
+
+    def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
+        return ()
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         nodes = {node for element in snapshot["elements"].values() for node in element["between"]}

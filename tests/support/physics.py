@@ -214,6 +214,7 @@ def compare(reference: Reference, motion: Motion, series: Series) -> Errors:
 
 def _relative(pairs: Sequence[tuple[Array, Array]]) -> float:
     got, expected = (np.concatenate([pair[k].ravel() for pair in pairs]) for k in (0, 1))
+    assert np.isfinite(got).all()
     if not expected.size:
         return 0.0
     return float(np.abs(got - expected).max() / max(1.0, np.abs(expected).max()))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from urdfsync.domain import Artifact, Import, Order, Role, Target
@@ -15,6 +15,9 @@ from urdfsync.urdf.skeleton import Skeleton
 
 LINK_MODEL = "link/model.mo.jinja"
 LINK_RECORD = "link/record.mo.jinja"
+JOINT_RECORD = "joint/record.mo.jinja"
+
+_Shapes = Sequence[Mapping[str, Any]]
 
 
 def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
@@ -77,42 +80,50 @@ def _package_file(path: str, **data: Any) -> Artifact:
 
 
 def _link(context: _Context, link: Link) -> Iterator[Artifact]:
-    identifier = context.skeleton.link(link.name)
-    data = {
+    identifier, owner = context.skeleton.link(link.name), f"link {link.name}"
+    found = shapes.link_shapes(link, context.imports, context.target, context.options)
+    names = {
         "within": f"{context.target.package}.Links",
         "type": identifier.type,
         "record": identifier.record,
-        **link_data(link, context.imports, context.target, context.options),
+        "title": f'link "{link.name}"',
     }
-    owner = f"link {link.name}"
-    yield Artifact(f"Links/{identifier.record}.mo", Role.RECORD, LINK_RECORD, data, owner)
-    yield Artifact(f"Links/{identifier.type}.mo", Role.MODEL, LINK_MODEL, data, owner)
+    record, model = link_record(link, *found), link_model(*found, context.options)
+    model |= {"replaceable": False, "note": notes.link_note(link)}
+    yield Artifact(f"Links/{identifier.record}.mo", Role.RECORD, LINK_RECORD, names | record, owner)
+    yield Artifact(f"Links/{identifier.type}.mo", Role.MODEL, LINK_MODEL, names | model, owner)
 
 
 def _joint(context: _Context, joint: Joint) -> Iterator[Artifact]:
-    identifier = context.skeleton.joint(joint.name)
-    data = {
+    identifier, owner = context.skeleton.joint(joint.name), f"joint {joint.name}"
+    names = {
         "within": f"{context.target.package}.Joints",
         "type": identifier.type,
         "record": identifier.record,
-        **joint_data(joint),
+        "title": notes.joint_title(joint),
+        "kind": joint.type.capitalize(),
     }
-    owner = f"joint {joint.name}"
-    yield Artifact(f"Joints/{identifier.record}.mo", Role.RECORD, "joint/record.mo.jinja", data, owner)
-    yield Artifact(f"Joints/{identifier.type}.mo", Role.MODEL, joint_model(joint), data, owner)
+    record, model = {"joint": joint_numbers(joint)}, joint_model(joint)
+    model |= {"replaceable": False, "note": notes.joint_note(joint)}
+    yield Artifact(f"Joints/{identifier.record}.mo", Role.RECORD, JOINT_RECORD, names | record, owner)
+    yield Artifact(f"Joints/{identifier.type}.mo", Role.MODEL, joint_template(joint), names | model, owner)
 
 
-def link_data(link: Link, imports: Mapping[str, Import], target: Target, options: Options) -> dict[str, Any]:
-    """What the templates of a link need beside the names of its classes."""
-    visuals, collisions = shapes.link_shapes(link, imports, target, options)
+def link_record(link: Link, visuals: _Shapes, collisions: _Shapes) -> dict[str, Any]:
+    """The numbers of a link, for its record."""
     return {
-        "replaceable": False,
         "name": link.name,
-        "title": f'link "{link.name}"',
-        "note": notes.link_note(link),
         "inertial": link.inertial,
-        "visuals": visuals,
-        "collisions": collisions,
+        "visuals": [shapes.numbers(shape) for shape in visuals],
+        "collisions": [shapes.numbers(shape) for shape in collisions],
+    }
+
+
+def link_model(visuals: _Shapes, collisions: _Shapes, options: Options) -> dict[str, Any]:
+    """The structure of a link, for its model: nothing in it depends on a number of the URDF."""
+    return {
+        "visuals": [shapes.structure(shape) for shape in visuals],
+        "collisions": [shapes.structure(shape) for shape in collisions],
         "contacts": shapes.contacts(collisions) if options.base == "floating" else [],
         "visualizer": options.visualizer,
         "top": max([100, *(shape["y"] + 20 for shape in visuals)]),
@@ -120,20 +131,12 @@ def link_data(link: Link, imports: Mapping[str, Import], target: Target, options
     }
 
 
-def joint_data(joint: Joint) -> dict[str, Any]:
-    """What the templates of a joint need beside the names of its classes."""
-    return {
-        "kind": joint.type.capitalize(),
-        "replaceable": False,
-        "title": notes.joint_title(joint),
-        "note": notes.joint_note(joint),
-        "dynamics": joint.dynamics is not None,
-        "assertion_level": "warning",
-        "joint": joint_numbers(joint),
-    }
+def joint_model(joint: Joint) -> dict[str, Any]:
+    """The structure of a joint, for its model."""
+    return {"dynamics": joint.dynamics is not None, "assertion_level": "warning"}
 
 
-def joint_model(joint: Joint) -> str:
+def joint_template(joint: Joint) -> str:
     """The template of a joint's model."""
     return f"joint/{joint.type}.mo.jinja"
 

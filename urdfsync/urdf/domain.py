@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from urdfsync.difference import Difference, Effect, ElementKey, Meaning, Version
 from urdfsync.domain import Artifact, Conversion, Dependency, Import, Lookup, Order, Proposal, Reading, Snapshot, Target
 from urdfsync.urdf import naming
 from urdfsync.urdf.options import USES, Options
@@ -59,6 +60,32 @@ class UrdfDomain:
         from urdfsync.urdf.artifacts import artifacts
 
         return artifacts(from_snapshot(snapshot), imports, target, options)
+
+    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf import changes
+
+        return changes.renames(old, new)
+
+    def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf import changes
+
+        return changes.comparable(snapshot, renames)
+
+    def describe(
+        self, differences: Sequence[Difference], old: Version, new: Version, options: Options
+    ) -> Sequence[Meaning | None]:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf import changes
+
+        return changes.describe(differences, old, new, options)
+
+    def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf import changes
+
+        return changes.effects(old, new, renames)
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         """See `urdfsync.domain.Domain`."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator, Mapping
+from typing import Any
 
 from urdfsync.domain import Artifact, Import, Order, Role, Target
-from urdfsync.urdf.artifacts import LINK_MODEL, LINK_RECORD, joint_data, joint_model, link_data
+from urdfsync.urdf.artifacts import LINK_MODEL, LINK_RECORD, joint_model, joint_template, link_model, link_record
 from urdfsync.urdf.meshes.lookup import key
+from urdfsync.urdf.model.shapes import link_shapes
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,
@@ -58,24 +59,21 @@ def library_artifacts() -> Iterator[Artifact | Order]:
     for name, shape in zip(names, _SHAPES, strict=True):
         link = Link("", visuals=(Visual(shape),), collisions=(Collision(shape),))
         kind = type(shape).__name__.lower()
-        model = _link(name, f"{name}Parameters", link, f"Rigid body with a {kind} as visual and as collision.")
-        yield dataclasses.replace(model, path=f"Links/{name}Parameters.mo", role=Role.RECORD, template=LINK_RECORD)
-        yield model
+        yield _record(name, link)
+        yield _link(name, f"{name}Parameters", link, f"Rigid body with a {kind} as visual and as collision.")
     yield Order("Joints/package.order", tuple(kind.capitalize() for kind in _JOINT_NOTES))
     for kind, note in _JOINT_NOTES.items():
         yield _joint(kind, note)
 
 
+def _record(name: str, link: Link) -> Artifact:
+    data = link_record(link, *_shapes(link)) | _names("Links", name, f"{name}Parameters")
+    return Artifact(f"Links/{name}Parameters.mo", Role.RECORD, LINK_RECORD, data, name)
+
+
 def _link(name: str, record: str, link: Link, note: str) -> Artifact:
-    data = link_data(link, _IMPORTS, Target("UrdfSync", ""), Options())
-    data |= {
-        "within": "UrdfSync.Links",
-        "type": name,
-        "record": record,
-        "replaceable": True,
-        "title": "link" if name == "Link" else f"{name.removesuffix('Link').lower()} link",
-        "note": f"{note} {_RECORD_NOTE}",
-    }
+    data = link_model(*_shapes(link), Options()) | _names("Links", name, record)
+    data |= {"replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
     return Artifact(f"Links/{name}.mo", Role.MODEL, LINK_MODEL, data, name)
 
 
@@ -83,12 +81,17 @@ def _joint(kind: JointType, note: str) -> Artifact:
     name = kind.capitalize()
     moving = kind in MOTIONS or kind == "planar"
     joint = Joint("", kind, "", "", dynamics=Dynamics() if moving else None)
-    data = joint_data(joint) | {
-        "within": "UrdfSync.Joints",
-        "type": name,
-        "record": f"UrdfSync.Records.{name}Joint",
-        "replaceable": True,
-        "title": f"{kind} joint",
-        "note": f"{note} {_RECORD_NOTE}",
-    }
-    return Artifact(f"Joints/{name}.mo", Role.MODEL, joint_model(joint), data, name)
+    data = joint_model(joint) | _names("Joints", name, f"UrdfSync.Records.{name}Joint")
+    data |= {"kind": name, "replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
+    return Artifact(f"Joints/{name}.mo", Role.MODEL, joint_template(joint), data, name)
+
+
+def _names(package: str, name: str, record: str) -> dict[str, Any]:
+    word = package[:-1].lower()
+    kind = name.removesuffix("Link").lower()
+    title = f"{kind} {word}" if kind else word
+    return {"within": f"UrdfSync.{package}", "type": name, "record": record, "title": title}
+
+
+def _shapes(link: Link) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    return link_shapes(link, _IMPORTS, Target("UrdfSync", ""), Options())

@@ -8,7 +8,7 @@ import pytest
 import support.urdfs as urdfs
 from support.packages import read
 
-from urdfsync.difference import Element, Version
+from urdfsync.difference import ElementKey, Version
 from urdfsync.urdf.changes import effects
 
 
@@ -27,7 +27,7 @@ def joint(name: str, kind: str, parent: str, child: str, xyz: str = "0 0 0") -> 
     return urdfs.joint(name, kind, parent, child, xyz=xyz, rpy="0 0 0", axis="0 0 1", inside=limit)
 
 
-def values(old: Version, new: Version, renames: dict[Element, str] | None = None) -> dict[str, tuple[Any, Any]]:
+def values(old: Version, new: Version, renames: dict[ElementKey, str] | None = None) -> dict[str, tuple[Any, Any]]:
     return {" / ".join(effect.path): (effect.old, effect.new) for effect in effects(old, new, renames or {})}
 
 

@@ -112,7 +112,7 @@ CASES = [
      "", UNMODELLED),
     (put(*BASE, "visuals", 1, "material", value={"name": "red"}), "link base / visual 2 / material", ADDED, "",
      UNMODELLED),
-    (put(*BASE, "visuals", 0, "name", value="lid"), "link base / visual 1 / name", CHANGED, "", STRUCTURAL),
+    (put(*BASE, "visuals", 0, "name", value="lid"), "link base / visual 1 / name", CHANGED, "", PARAMETER),
     (drop(*BASE, "visuals", 1), "link base / visual 2", REMOVED, "", STRUCTURAL),
     (drop(*BASE, "collisions", 1), "link base / collision 2", REMOVED, "", STRUCTURAL),
     (put(*BASE, "collisions", 0, "geometry", "radius", value=0.2), "link base / collision 1 / geometry / radius",

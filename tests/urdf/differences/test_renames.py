@@ -16,7 +16,7 @@ from support.corpus import label, robots
 from support.packages import read
 
 from urdfsync.changes import compare, moves
-from urdfsync.difference import Element, Kind, Version
+from urdfsync.difference import ElementKey, Kind, Version
 from urdfsync.domain import Artifact, Role, Snapshot, Target
 from urdfsync.urdf import changes as urdf
 from urdfsync.urdf.changes import renames
@@ -54,7 +54,7 @@ ARM = (
 )
 
 
-def with_names(old: Snapshot, new: Mapping[Element, str]) -> Snapshot:
+def with_names(old: Snapshot, new: Mapping[ElementKey, str]) -> Snapshot:
     """The snapshot under new names, by an implementation of its own."""
     data = copy.deepcopy(dict(old))
     for part in ("links", "joints"):
@@ -78,7 +78,7 @@ def with_names(old: Snapshot, new: Mapping[Element, str]) -> Snapshot:
         {("link", "base"): "b", ("link", "upper"): "u", ("link", "lower"): "l"},
     ],
 )
-def test_links_joints_subtrees_and_whole_robots(names: Mapping[Element, str]) -> None:
+def test_links_joints_subtrees_and_whole_robots(names: Mapping[ElementKey, str]) -> None:
     old = snapshot(*ARM)
     new = with_names(old, names)
     assert renames(old, new) == names
@@ -140,7 +140,7 @@ def legs(*names: str, x: float = 0.0, foot: Mapping[str, float] | None = None) -
     return snapshot(*elements)
 
 
-def leg_names(**names: str) -> Mapping[Element, str]:
+def leg_names(**names: str) -> Mapping[ElementKey, str]:
     parts = (("link", "thigh"), ("link", "foot"), ("joint", "hip"), ("joint", "knee"))
     return {(kind, f"{old}_{part}"): f"{new}_{part}" for old, new in names.items() for kind, part in parts}
 
@@ -279,12 +279,12 @@ def owners(robot: Snapshot) -> Mapping[str, tuple[str, Role]]:
     return {file.path: (file.owner, file.role) for file in files if isinstance(file, Artifact)}
 
 
-def class_names(robot: Snapshot) -> Mapping[Element, str]:
+def class_names(robot: Snapshot) -> Mapping[ElementKey, str]:
     keys = [("link", name) for name in robot["links"]] + [("joint", name) for name in robot["joints"]]
     return {key: identifier.type for key, identifier in identify(keys, (TARGET.name,)).items()}
 
 
-def expected_moves(old: Snapshot, new: Snapshot, names: Mapping[Element, str]) -> Mapping[str, str]:
+def expected_moves(old: Snapshot, new: Snapshot, names: Mapping[ElementKey, str]) -> Mapping[str, str]:
     """By the rule of names: both files of each element whose class has another name now."""
     before, after = class_names(old), class_names(new)
     pairs = [(kind, before[kind, name], after.get((kind, names.get((kind, name), name)))) for kind, name in before]

@@ -7,14 +7,14 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from urdfsync.difference import Element
+from urdfsync.difference import ElementKey
 from urdfsync.domain import Snapshot
 
 _SUBJECT = re.compile(r"<[^>]*?\s(?:name|reference)=\"([^\"]*)\"")
 """The name in an element's first tag; in canonical XML the value of an attribute has no quotes."""
 
 
-def comparable(snapshot: Snapshot, renames: Mapping[Element, str]) -> Snapshot:
+def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
     """The snapshot with those links and joints renamed wherever it mentions them, and extensions keyed."""
     links, joints, extensions = snapshot["links"], snapshot["joints"], snapshot["extensions"]
     if renames:
@@ -29,14 +29,14 @@ def comparable(snapshot: Snapshot, renames: Mapping[Element, str]) -> Snapshot:
     }
 
 
-def _joint(joint: Mapping[str, Any], renames: Mapping[Element, str]) -> Mapping[str, Any]:
+def _joint(joint: Mapping[str, Any], renames: Mapping[ElementKey, str]) -> Mapping[str, Any]:
     ends = {end: renames.get(("link", joint[end]), joint[end]) for end in ("parent", "child")}
     if mimic := joint.get("mimic"):
         ends["mimic"] = {**mimic, "joint": renames.get(("joint", mimic["joint"]), mimic["joint"])}
     return {**joint, **ends}
 
 
-def _owner(owner: str, renames: Mapping[Element, str]) -> str:
+def _owner(owner: str, renames: Mapping[ElementKey, str]) -> str:
     kind, _, name = owner.partition(" ")
     return f"{kind} {renames[kind, name]}" if (kind, name) in renames else owner
 

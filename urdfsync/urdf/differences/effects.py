@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from urdfsync.difference import Effect, Element, Version
+from urdfsync.difference import Effect, ElementKey, Version
 from urdfsync.urdf.kinematics import compose, link_poses, pose
 from urdfsync.urdf.model.assembly import axis_numbers
 from urdfsync.urdf.naming import natural_key
@@ -14,7 +14,7 @@ from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 from urdfsync.urdf.snapshot import from_snapshot
 
 
-def effects(old: Version, new: Version, renames: Mapping[Element, str]) -> Sequence[Effect]:
+def effects(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
     """Mass and centre of mass of both versions, and the numbers of axes and frames that changed.
 
     The centre of mass is in metres, in the frame of the root link, with all joints at zero; it is None for a robot
@@ -58,7 +58,7 @@ def _frames(skeleton: Skeleton) -> Mapping[str, str]:
 
 
 def _renumbered(
-    kind: str, old: Mapping[str, str], new: Mapping[str, str], renames: Mapping[Element, str]
+    kind: str, old: Mapping[str, str], new: Mapping[str, str], renames: Mapping[ElementKey, str]
 ) -> Iterator[Effect]:
     """Connectors of elements that both versions connect, where they are not the same."""
     known = {renames.get((kind, name), name): connector for name, connector in old.items()}

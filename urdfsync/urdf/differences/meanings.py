@@ -83,8 +83,6 @@ class _Meanings:
         match inside:
             case [] | ["geometry", *_] if old != new:
                 return ChangeClass.STRUCTURAL
-            case ["name"]:
-                return ChangeClass.STRUCTURAL
             case ["material", "name" | "texture"]:
                 return ChangeClass.UNMODELLED
             case ["material"] if not self._is_coloured(link, index):

@@ -16,7 +16,7 @@ GROUPS: tuple[Group, ...] = ("visuals", "collisions")
 
 
 class Look(NamedTuple):
-    """What a model says of a shape, but for its name."""
+    """What a model says of a shape."""
 
     kind: str
     touches: bool

@@ -33,6 +33,16 @@ def link_shapes(
     return visuals, collisions
 
 
+def structure(shape: Mapping[str, Any]) -> dict[str, Any]:
+    """What of a shape a model can say: nothing that is a number or a name in the URDF."""
+    return {key: shape[key] for key in ("component", "type", "label", "is_collision", "y")}
+
+
+def numbers(shape: Mapping[str, Any]) -> dict[str, Any]:
+    """What of a shape a record can say."""
+    return {key: shape[key] for key in ("component", "type", "title", "origin", "numbers", "color", "opacity", "hull")}
+
+
 def contacts(collisions: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     """Template data of the ground contacts of a link: one per collision shape, a mesh by its outermost points.
 
@@ -59,11 +69,12 @@ def _numbered(
             continue
         is_collision = isinstance(shape, Collision)
         color, opacity = (PINK, 0.5) if isinstance(shape, Collision) else _color(shape.material)
-        title = f"{word.capitalize()} {number}" + (f': "{shape.name}"' if shape.name else "")
+        label = f"{word.capitalize()} {number}"
         yield {
             "component": f"{word}{number}",
             "type": type(shape.geometry).__name__,
-            "title": title,
+            "label": label,
+            "title": f'{label}: "{shape.name}"' if shape.name else label,
             "origin": shape.origin,
             "numbers": numbers,
             "color": color,

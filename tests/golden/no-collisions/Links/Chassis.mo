@@ -48,7 +48,7 @@ model Chassis "Link \"chassis\""
   UrdfSync.Visualizers.Box visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"tub\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Cylinder visual2(
@@ -60,7 +60,7 @@ model Chassis "Link \"chassis\""
   UrdfSync.Visualizers.Capsule visual3(
     parameters = parameters.visual3,
     animation = animation)
-    "Visual 3: \"bumper \"front\"\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
   UrdfSync.Visualizers.Sphere visual4(
@@ -72,13 +72,13 @@ model Chassis "Link \"chassis\""
   UrdfSync.Visualizers.Mesh visual5(
     parameters = parameters.visual5,
     animation = animation)
-    "Visual 5: \"wedge\""
+    "Visual 5"
     annotation (Placement(transformation(extent={{-40, 140}, {-20, 160}})));
 
   UrdfSync.Visualizers.Mesh visual7(
     parameters = parameters.visual7,
     animation = animation)
-    "Visual 7: \"ramp\""
+    "Visual 7"
     annotation (Placement(transformation(extent={{-40, 170}, {-20, 190}})));
 
 equation

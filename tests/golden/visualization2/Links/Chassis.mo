@@ -60,7 +60,7 @@ model Chassis "Link \"chassis\""
     height = parameters.visual1.size[3],
     color = parameters.visual1.color,
     transparency = 1 - parameters.visual1.opacity) if animation
-    "Visual 1: \"tub\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{0, 20}, {20, 40}})));
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation visual2Place(
@@ -98,7 +98,7 @@ model Chassis "Link \"chassis\""
     radius = parameters.visual3.radius,
     color = parameters.visual3.color,
     transparency = 1 - parameters.visual3.opacity) if animation
-    "Visual 3: \"bumper \"front\"\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{0, 80}, {20, 100}})));
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation visual4Place(
@@ -131,7 +131,7 @@ model Chassis "Link \"chassis\""
     overwriteColor = true,
     color = parameters.visual5.color,
     transparency = 1 - parameters.visual5.opacity) if animation
-    "Visual 5: \"wedge\""
+    "Visual 5"
     annotation (Placement(transformation(extent={{0, 140}, {20, 160}})));
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation visual7Place(
@@ -148,7 +148,7 @@ model Chassis "Link \"chassis\""
     overwriteColor = true,
     color = parameters.visual7.color,
     transparency = 1 - parameters.visual7.opacity) if animation
-    "Visual 7: \"ramp\""
+    "Visual 7"
     annotation (Placement(transformation(extent={{0, 170}, {20, 190}})));
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation collision1Place(
@@ -166,7 +166,7 @@ model Chassis "Link \"chassis\""
     height = parameters.collision1.size[3],
     color = parameters.collision1.color,
     transparency = 1 - parameters.collision1.opacity) if showCollisions
-    "Collision 1: \"tub\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{0, -40}, {20, -20}})));
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation collision2Place(
@@ -237,7 +237,7 @@ model Chassis "Link \"chassis\""
     overwriteColor = true,
     color = parameters.collision5.color,
     transparency = 1 - parameters.collision5.opacity) if showCollisions
-    "Collision 5: \"wedge\""
+    "Collision 5"
     annotation (Placement(transformation(extent={{0, -160}, {20, -140}})));
 
 equation

@@ -48,73 +48,73 @@ model Buoy "Link \"buoy\""
   UrdfSync.Visualizers.Cylinder visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"hull\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Cylinder visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"keel\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Sphere visual3(
     parameters = parameters.visual3,
     animation = animation)
-    "Visual 3: \"ballast\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
   UrdfSync.Visualizers.Box visual4(
     parameters = parameters.visual4,
     animation = animation)
-    "Visual 4: \"battery\""
+    "Visual 4"
     annotation (Placement(transformation(extent={{-40, 110}, {-20, 130}})));
 
   UrdfSync.Visualizers.Cylinder visual5(
     parameters = parameters.visual5,
     animation = animation)
-    "Visual 5: \"leg_1\""
+    "Visual 5"
     annotation (Placement(transformation(extent={{-40, 140}, {-20, 160}})));
 
   UrdfSync.Visualizers.Cylinder visual6(
     parameters = parameters.visual6,
     animation = animation)
-    "Visual 6: \"leg_2\""
+    "Visual 6"
     annotation (Placement(transformation(extent={{-40, 170}, {-20, 190}})));
 
   UrdfSync.Visualizers.Cylinder visual7(
     parameters = parameters.visual7,
     animation = animation)
-    "Visual 7: \"leg_3\""
+    "Visual 7"
     annotation (Placement(transformation(extent={{-40, 200}, {-20, 220}})));
 
   UrdfSync.Visualizers.Cylinder visual8(
     parameters = parameters.visual8,
     animation = animation)
-    "Visual 8: \"roof\""
+    "Visual 8"
     annotation (Placement(transformation(extent={{-40, 230}, {-20, 250}})));
 
   UrdfSync.Visualizers.Cylinder visual9(
     parameters = parameters.visual9,
     animation = animation)
-    "Visual 9: \"bell\""
+    "Visual 9"
     annotation (Placement(transformation(extent={{-40, 260}, {-20, 280}})));
 
   UrdfSync.Visualizers.Sphere visual10(
     parameters = parameters.visual10,
     animation = animation)
-    "Visual 10: \"lamp\""
+    "Visual 10"
     annotation (Placement(transformation(extent={{-40, 290}, {-20, 310}})));
 
   UrdfSync.Visualizers.Cylinder collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"hull\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
   UrdfSync.Visualizers.Sphere collision2(
     parameters = parameters.collision2,
     animation = showCollisions)
-    "Collision 2: \"ballast\""
+    "Collision 2"
     annotation (Placement(transformation(extent={{-40, -70}, {-20, -50}})));
 
 equation

@@ -48,19 +48,19 @@ model Clapper "Link \"clapper\""
   UrdfSync.Visualizers.Cylinder visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"rod\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Sphere visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"ball\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Sphere collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"ball\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
 equation

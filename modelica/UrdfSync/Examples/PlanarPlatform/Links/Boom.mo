@@ -48,25 +48,25 @@ model Boom "Link \"boom\""
   UrdfSync.Visualizers.Cylinder visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"hub\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Box visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"beam\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Cylinder visual3(
     parameters = parameters.visual3,
     animation = animation)
-    "Visual 3: \"weight\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
   UrdfSync.Visualizers.Box collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"beam\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
 equation

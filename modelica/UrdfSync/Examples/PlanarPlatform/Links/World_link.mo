@@ -48,7 +48,7 @@ model World_link "Link \"world\""
   UrdfSync.Visualizers.Box visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"table\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
 equation

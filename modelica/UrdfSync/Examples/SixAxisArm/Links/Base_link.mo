@@ -48,55 +48,55 @@ model Base_link "Link \"base_link\""
   UrdfSync.Visualizers.Box visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"foot\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Mesh visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"casting\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Box visual3(
     parameters = parameters.visual3,
     animation = animation)
-    "Visual 3: \"connector_panel\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
   UrdfSync.Visualizers.Cylinder visual4(
     parameters = parameters.visual4,
     animation = animation)
-    "Visual 4: \"bolt_1\""
+    "Visual 4"
     annotation (Placement(transformation(extent={{-40, 110}, {-20, 130}})));
 
   UrdfSync.Visualizers.Cylinder visual5(
     parameters = parameters.visual5,
     animation = animation)
-    "Visual 5: \"bolt_2\""
+    "Visual 5"
     annotation (Placement(transformation(extent={{-40, 140}, {-20, 160}})));
 
   UrdfSync.Visualizers.Cylinder visual6(
     parameters = parameters.visual6,
     animation = animation)
-    "Visual 6: \"bolt_3\""
+    "Visual 6"
     annotation (Placement(transformation(extent={{-40, 170}, {-20, 190}})));
 
   UrdfSync.Visualizers.Cylinder visual7(
     parameters = parameters.visual7,
     animation = animation)
-    "Visual 7: \"bolt_4\""
+    "Visual 7"
     annotation (Placement(transformation(extent={{-40, 200}, {-20, 220}})));
 
   UrdfSync.Visualizers.Box collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"foot\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
   UrdfSync.Visualizers.Cylinder collision2(
     parameters = parameters.collision2,
     animation = showCollisions)
-    "Collision 2: \"casting\""
+    "Collision 2"
     annotation (Placement(transformation(extent={{-40, -70}, {-20, -50}})));
 
 equation

@@ -48,31 +48,31 @@ model Carousel "Link \"carousel\""
   UrdfSync.Visualizers.Cylinder visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"turntable\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Mesh visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"body\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Cylinder visual3(
     parameters = parameters.visual3,
     animation = animation)
-    "Visual 3: \"turret_motor\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
   UrdfSync.Visualizers.Cylinder collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"turntable\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
   UrdfSync.Visualizers.Mesh collision2(
     parameters = parameters.collision2,
     animation = showCollisions)
-    "Collision 2: \"body\""
+    "Collision 2"
     annotation (Placement(transformation(extent={{-40, -70}, {-20, -50}})));
 
 equation

@@ -48,13 +48,13 @@ model Drive_pinion "Link \"drive_pinion\""
   UrdfSync.Visualizers.Mesh visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"gear\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Cylinder visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"shaft\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
 equation

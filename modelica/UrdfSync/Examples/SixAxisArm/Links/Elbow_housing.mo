@@ -48,37 +48,37 @@ model Elbow_housing "Link \"elbow_housing\""
   UrdfSync.Visualizers.Mesh visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"body\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Cylinder visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"bearing_ring\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Cylinder visual3(
     parameters = parameters.visual3,
     animation = animation)
-    "Visual 3: \"roll_motor\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
   UrdfSync.Visualizers.Cylinder visual4(
     parameters = parameters.visual4,
     animation = animation)
-    "Visual 4: \"pitch_motor\""
+    "Visual 4"
     annotation (Placement(transformation(extent={{-40, 110}, {-20, 130}})));
 
   UrdfSync.Visualizers.Box visual5(
     parameters = parameters.visual5,
     animation = animation)
-    "Visual 5: \"stripe\""
+    "Visual 5"
     annotation (Placement(transformation(extent={{-40, 140}, {-20, 160}})));
 
   UrdfSync.Visualizers.Box collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"body\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
 equation

@@ -48,37 +48,37 @@ model Finger_right "Link \"finger_right\""
   UrdfSync.Visualizers.Box visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"rack\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Box visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"carriage\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Mesh visual3(
     parameters = parameters.visual3,
     animation = animation)
-    "Visual 3: \"blade\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
   UrdfSync.Visualizers.Box visual4(
     parameters = parameters.visual4,
     animation = animation)
-    "Visual 4: \"pad\""
+    "Visual 4"
     annotation (Placement(transformation(extent={{-40, 110}, {-20, 130}})));
 
   UrdfSync.Visualizers.Box collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"carriage\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
   UrdfSync.Visualizers.Box collision2(
     parameters = parameters.collision2,
     animation = showCollisions)
-    "Collision 2: \"blade\""
+    "Collision 2"
     annotation (Placement(transformation(extent={{-40, -70}, {-20, -50}})));
 
 equation

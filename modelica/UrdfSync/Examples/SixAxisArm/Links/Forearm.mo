@@ -48,49 +48,49 @@ model Forearm "Link \"forearm\""
   UrdfSync.Visualizers.Mesh visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"tube\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Box visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"bridge\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Box visual3(
     parameters = parameters.visual3,
     animation = animation)
-    "Visual 3: \"fork_left\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
   UrdfSync.Visualizers.Box visual4(
     parameters = parameters.visual4,
     animation = animation)
-    "Visual 4: \"fork_right\""
+    "Visual 4"
     annotation (Placement(transformation(extent={{-40, 110}, {-20, 130}})));
 
   UrdfSync.Visualizers.Cylinder visual5(
     parameters = parameters.visual5,
     animation = animation)
-    "Visual 5: \"fork_cap_left\""
+    "Visual 5"
     annotation (Placement(transformation(extent={{-40, 140}, {-20, 160}})));
 
   UrdfSync.Visualizers.Cylinder visual6(
     parameters = parameters.visual6,
     animation = animation)
-    "Visual 6: \"fork_cap_right\""
+    "Visual 6"
     annotation (Placement(transformation(extent={{-40, 170}, {-20, 190}})));
 
   UrdfSync.Visualizers.Cylinder collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"tube\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
   UrdfSync.Visualizers.Box collision2(
     parameters = parameters.collision2,
     animation = showCollisions)
-    "Collision 2: \"fork\""
+    "Collision 2"
     annotation (Placement(transformation(extent={{-40, -70}, {-20, -50}})));
 
 equation

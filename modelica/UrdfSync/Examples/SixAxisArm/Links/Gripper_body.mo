@@ -48,31 +48,31 @@ model Gripper_body "Link \"gripper_body\""
   UrdfSync.Visualizers.Cylinder visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"adapter\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Box visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"housing\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Box visual3(
     parameters = parameters.visual3,
     animation = animation)
-    "Visual 3: \"cover_left\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
   UrdfSync.Visualizers.Box visual4(
     parameters = parameters.visual4,
     animation = animation)
-    "Visual 4: \"cover_right\""
+    "Visual 4"
     annotation (Placement(transformation(extent={{-40, 110}, {-20, 130}})));
 
   UrdfSync.Visualizers.Box collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"housing\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
 equation

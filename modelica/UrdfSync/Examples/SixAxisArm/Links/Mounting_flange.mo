@@ -48,19 +48,19 @@ model Mounting_flange "Link \"mounting_flange\""
   UrdfSync.Visualizers.Cylinder visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"plate\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Box visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"zero_mark\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Cylinder collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"plate\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
 equation

@@ -48,49 +48,49 @@ model Upper_arm "Link \"upper_arm\""
   UrdfSync.Visualizers.Mesh visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"side_left\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Mesh visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"side_right\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Box visual3(
     parameters = parameters.visual3,
     animation = animation)
-    "Visual 3: \"web\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
   UrdfSync.Visualizers.Cylinder visual4(
     parameters = parameters.visual4,
     animation = animation)
-    "Visual 4: \"shoulder_cap\""
+    "Visual 4"
     annotation (Placement(transformation(extent={{-40, 110}, {-20, 130}})));
 
   UrdfSync.Visualizers.Cylinder visual5(
     parameters = parameters.visual5,
     animation = animation)
-    "Visual 5: \"elbow_cap\""
+    "Visual 5"
     annotation (Placement(transformation(extent={{-40, 140}, {-20, 160}})));
 
   UrdfSync.Visualizers.Box collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"beam\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
   UrdfSync.Visualizers.Cylinder collision2(
     parameters = parameters.collision2,
     animation = showCollisions)
-    "Collision 2: \"shoulder_end\""
+    "Collision 2"
     annotation (Placement(transformation(extent={{-40, -70}, {-20, -50}})));
 
   UrdfSync.Visualizers.Cylinder collision3(
     parameters = parameters.collision3,
     animation = showCollisions)
-    "Collision 3: \"elbow_end\""
+    "Collision 3"
     annotation (Placement(transformation(extent={{-40, -100}, {-20, -80}})));
 
 equation

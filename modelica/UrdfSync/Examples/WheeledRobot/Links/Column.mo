@@ -48,19 +48,19 @@ model Column "Link \"column\""
   UrdfSync.Visualizers.Box visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"profile\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Cylinder visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"top_plate\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Box collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"profile\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
   UrdfSync.Contacts.Box contact1(

@@ -48,25 +48,25 @@ model Lidar_mast "Link \"lidar_mast\""
   UrdfSync.Visualizers.Cylinder visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"foot\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Cylinder visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"post\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Cylinder visual3(
     parameters = parameters.visual3,
     animation = animation)
-    "Visual 3: \"motor\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
   UrdfSync.Visualizers.Cylinder collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"mast\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
   UrdfSync.Contacts.Cylinder contact1(

@@ -48,37 +48,37 @@ model Wheel_right "Link \"wheel_right\""
   UrdfSync.Visualizers.Mesh visual1(
     parameters = parameters.visual1,
     animation = animation)
-    "Visual 1: \"tyre\""
+    "Visual 1"
     annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
 
   UrdfSync.Visualizers.Cylinder visual2(
     parameters = parameters.visual2,
     animation = animation)
-    "Visual 2: \"rim\""
+    "Visual 2"
     annotation (Placement(transformation(extent={{-40, 50}, {-20, 70}})));
 
   UrdfSync.Visualizers.Box visual3(
     parameters = parameters.visual3,
     animation = animation)
-    "Visual 3: \"spoke_1\""
+    "Visual 3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
   UrdfSync.Visualizers.Box visual4(
     parameters = parameters.visual4,
     animation = animation)
-    "Visual 4: \"spoke_2\""
+    "Visual 4"
     annotation (Placement(transformation(extent={{-40, 110}, {-20, 130}})));
 
   UrdfSync.Visualizers.Box visual5(
     parameters = parameters.visual5,
     animation = animation)
-    "Visual 5: \"spoke_3\""
+    "Visual 5"
     annotation (Placement(transformation(extent={{-40, 140}, {-20, 160}})));
 
   UrdfSync.Visualizers.Cylinder collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
-    "Collision 1: \"tyre\""
+    "Collision 1"
     annotation (Placement(transformation(extent={{-40, -40}, {-20, -20}})));
 
   UrdfSync.Contacts.Cylinder contact1(
