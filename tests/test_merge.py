@@ -111,6 +111,7 @@ def test_both_survive(mine: Edit, generated: Edit) -> None:
         pytest.param(("1.05", "1.06"), ('"Of the drive"', '"Of it"'), id="value, the description after it"),
         pytest.param(("      mass = 1.2,\n", ""), ("1.2", "1.25"), id="line removed, value in it"),
         pytest.param(("mass, a", "mass, r = 1, a"), ("mass, a", "mass, s = 2, a"), id="two items at one place"),
+        pytest.param(("false)", "false, r = 1)"), ("false)", "false, s = 2)"), id="two items at the end"),
         pytest.param(("min(a", "min(x"), ("b)", "y)"), id="two arguments"),
         pytest.param(("  Body", "  Real x;\n  Body"), ("  Body", "  Real y;\n  Body"), id="two lines at one place"),
         pytest.param(("mass, a", "mass, r = 1, a"), (", animation = false", ""), id="item added, the next one removed"),
@@ -119,6 +120,11 @@ def test_both_survive(mine: Edit, generated: Edit) -> None:
             ("2 * a + 2 * a", "2 * a"), ("sum(2", "sum(3"), id="one of two equal terms removed, the other changed"
         ),
         pytest.param(("1.05\n", "1.05 // mine\n"), (" = 1.05", ""), id="comment, its value removed"),
+        pytest.param(
+            ("iyy = 0.029335,", "iyy = 0.029335, // mine"),
+            ("ixx = 0.005953,\n        iyy = 0.029335,", "ixx = 0.005953, // approximate"),
+            id="comment, its line removed and a comment on the line before",
+        ),
         pytest.param(("a);\n", "a); // mine\n"), ("a);\n ", "a);"), id="comment that would swallow what follows"),
         pytest.param(REWRITTEN, ("parameters.mass", "5"), id="declaration rewritten, value in it"),
     ],
@@ -137,16 +143,26 @@ def test_edits_of_one_side_are_judged_one_by_one() -> None:
     assert merge(RECORD, changed(*comments), changed(*generated)).text == expected
 
 
+def test_a_line_removed_by_one_side_is_apart_from_the_value_above() -> None:
+    comment = ("ixx = 0.005953,", "ixx = 0.005953, // a guess")
+    generated = ("ixx = 0.005953,\n        iyy = 0.029335,\n", "ixx = 1,\n")
+    expected = changed(("ixx = 0.005953,", "ixx = 1, // a guess"), ("        iyy = 0.029335,\n", ""))
+    assert merge(RECORD, changed(comment), changed(generated)).text == expected
+
+
 def test_alike_on_both_sides_is_done_once() -> None:
     mine, generated = changed(("1.2", "1.3"), ("1.05", "1.1 // tuned")), changed(("1.2", "1.3"), ("1.05", "1.1"))
+    assert merge(RECORD, mine, generated).text == mine
+    mine, generated = changed(("inertia(", "// full\n      tensor(")), changed(("inertia(", "tensor("))
     assert merge(RECORD, mine, generated).text == mine
 
 
 def test_what_was_taken_over_by_hand_is_not_there_twice() -> None:
     generated = changed(("1.2,\n", "1.2,\n      load = 3,\n"))
-    result = merge(RECORD, changed(("1.2", "1.3"), text=generated), generated)
-    assert result.text is None
-    assert result.conflicts[0].base == range(8, 9)
+    mine = changed(("1.2", "1.3"), text=generated)
+    assert merge(RECORD, mine, generated).text == mine
+    elsewhere = changed(("      mass = 1.2", "      load = 3,\n      mass = 1.3"))
+    assert merge(RECORD, elsewhere, generated).text is None
 
 
 def test_numbers_are_never_mixed() -> None:
@@ -185,6 +201,16 @@ def test_a_conflict_can_be_a_place_between_lines() -> None:
     assert result.conflicts[0].mine == range(2, 3)
 
 
+@pytest.mark.parametrize(("length", "clean"), [(200, True), (201, False)])
+def test_a_rewrite_is_left_to_people(length: int, clean: bool) -> None:
+    base, mine, generated, both = (
+        "".join(f"  x{number} = {value};{comment}\n" for number in range(length))
+        for value in (1, 2)
+        for comment in ("", " // mine")
+    )
+    assert merge(base, mine, generated).text == (both if clean else None)
+
+
 DOCUMENT = (
     'model A\n  annotation (Documentation(info="<html>\n<p>one</p>\n<p>two</p>\n<p>three</p>\n</html>"));\nend A;\n'
 )
@@ -219,6 +245,7 @@ def test_a_quote_in_a_comment_begins_no_string() -> None:
         pytest.param("a\nb\nc\n", "a\nb\nc", "a\nb\nx\n", "a\nb\nx", id="last line without end, new value"),
         pytest.param("a\nb\nc", "a\nb\nc", "a\nb\nc\nd", "a\nb\nc\nd", id="lines after one without end"),
         pytest.param("a\nb\n", "a\nb", "a\nb\nc\n", None, id="last line without end, but more to come"),
+        pytest.param("a;\nb;\n", "a;\nb;", "a;\nb;\nc;\n", None, id="last line without end, but one more to come"),
         pytest.param("a\r\nb\r\nc\r\n", "a\r\nb\r\nx\r\n", "y\nb\nc\n", "y\r\nb\r\nx\r\n", id="CRLF is kept"),
         pytest.param("a\nb\nc\n", "a\r\nb\r\nc\r\n", "a\nb\nc\nd\n", "a\r\nb\r\nc\r\nd\r\n", id="CRLF is no change"),
         pytest.param("a\nb\nc\n", "a\nb\nc\n", "a\r\nb\r\nd\r\n", "a\nb\nd\n", id="CRLF is not taken over"),

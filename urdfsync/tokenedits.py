@@ -13,8 +13,8 @@ from collections.abc import Iterator, Sequence
 from urdfsync.myers import diff
 from urdfsync.tokens import NEWLINE, is_trivia, is_word
 
-_MAX_WORK = 50_000
-"""What comparing the tokens of one conflict may cost (see `urdfsync.myers`): enough for some 300 edits."""
+_MAX_WORK = 150_000
+"""What comparing the tokens of one conflict may cost (see `urdfsync.myers`): enough for some 500 edits."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -31,9 +31,19 @@ class Edit:
     """Nothing but whole lines are inserted or deleted."""
 
     @property
+    def adds(self) -> bool:
+        """Nothing is deleted but comments and white space."""
+        return all(map(is_trivia, self.deleted))
+
+    @property
+    def removes(self) -> bool:
+        """Nothing is inserted but comments and white space."""
+        return all(map(is_trivia, self.inserted))
+
+    @property
     def trivia(self) -> bool:
         """Only comments and white space change."""
-        return all(map(is_trivia, self.inserted + self.deleted))
+        return self.adds and self.removes
 
     @property
     def weight(self) -> int:
@@ -62,30 +72,31 @@ def _replaced(
     stop = start + len(deleted)
     rest = tuple(old[stop:ceiling])
     ending = rest[: rest.index(NEWLINE) + 1] if NEWLINE in rest else ()
-    place = _find(ending, inserted if NEWLINE not in deleted else deleted if NEWLINE not in inserted else ())
-    if place is None:
-        yield from _noted(start, deleted, inserted)
-    elif NEWLINE in inserted:
-        yield from _noted(start, deleted, inserted[:place])
-        lines = inserted[place + len(ending) :] + ending
+    added, removed = _find(ending, inserted, deleted), _find(ending, deleted, inserted)
+    if added:
+        yield from _noted(start, deleted, inserted[:added])
+        lines = inserted[added + len(ending) :] + ending
         yield _placed(stop + len(ending), (), lines, old, range(stop + len(ending), ceiling))
-    else:
-        yield from _noted(start, deleted[:place], inserted)
-        lines = deleted[place + len(ending) :] + ending
-        first = start + place + len(ending)
+    elif removed is not None:
+        yield from _noted(start, deleted[:removed], inserted)
+        lines = deleted[removed + len(ending) :] + ending
+        first = start + removed + len(ending)
         yield _placed(first, lines, (), old, range(first, ceiling))
+    else:
+        yield from _noted(start, deleted, inserted)
 
 
-def _find(part: tuple[str, ...], run: tuple[str, ...]) -> int | None:
-    """Where a part that is not empty begins in a run, after its first token; None if it does not."""
-    places = range(1, len(run) - len(part) + 1) if part else ()
-    return next((place for place in places if run[place : place + len(part)] == part), None)
+def _find(ending: tuple[str, ...], run: tuple[str, ...], other: tuple[str, ...]) -> int | None:
+    """Where the end of a line first occurs in the run of several lines, if the other one is part of a single line."""
+    if not ending or NEWLINE in other:
+        return None
+    return next((place for place in range(len(run)) if run[place : place + len(ending)] == ending), None)
 
 
 def _noted(start: int, deleted: tuple[str, ...], inserted: tuple[str, ...]) -> Iterator[Edit]:
     """A replacement; comments and white space that come with it, before or after, are edits of their own."""
     stop = start + len(deleted)
-    code = [place for place, token in enumerate(inserted) if not is_trivia(token)]
+    code = [place for place, token in enumerate(inserted) if deleted and not is_trivia(token)]
     head = code[0] if code and not is_trivia(deleted[0]) else 0
     tail = code[-1] + 1 if code and not is_trivia(deleted[-1]) else len(inserted)
     if head:

@@ -65,16 +65,6 @@ class _Chunk(NamedTuple):
         return self.edits[-1].high
 
     @property
-    def inserts(self) -> bool:
-        """Nothing is deleted."""
-        return not any(edit.deleted for edit in self.edits)
-
-    @property
-    def deletes(self) -> bool:
-        """Nothing is inserted."""
-        return not any(edit.inserted for edit in self.edits)
-
-    @property
     def trivia(self) -> bool:
         return self.edits[0].trivia
 
@@ -157,39 +147,34 @@ def _twice(chunks: Sequence[_Chunk]) -> Iterator[tuple[int, int]]:
 
 def _apart(first: _Chunk, second: _Chunk, old: Sequence[str]) -> bool:
     """Whether edits of the two sides, in order, have nothing to do with each other."""
-    if first.high > second.low:
+    before, after = first.edits[-1], second.edits[0]
+    gap = old[before.stop : after.start]
+    if first.high > second.low or (not gap and not before.deleted and not after.deleted):
         return False
-    gap = old[first.stop : second.start]
     if any(map(is_word, gap)):
         return True
-    if first.trivia or second.trivia:
-        return any(token == NEWLINE or not is_trivia(token) for token in gap) or _may_touch(first, second)
-    if ";" in gap and NEWLINE in gap:
+    if before.trivia or after.trivia:
+        return any(token == NEWLINE or not is_trivia(token) for token in gap) or _may_touch(before, after)
+    return (";" in gap and NEWLINE in gap) or _are_items(before, after, old)
+
+
+def _may_touch(before: Edit, after: Edit) -> bool:
+    """Whether edits, one of them trivia, may stand side by side: if what they are about remains."""
+    if before.trivia and after.trivia:
         return True
-    return _are_items(first, second, old)
+    note, code = (before, after) if before.trivia else (after, before)
+    return bool(note.deleted and note.inserted) if code.adds else not code.removes
 
 
-def _may_touch(first: _Chunk, second: _Chunk) -> bool:
-    """Whether edits, one of them trivia, may stand side by side: if both remain, and in an order that is clear."""
-    if first.trivia and second.trivia:
-        return not (first.inserts and second.inserts)
-    note, code = (first, second) if first.trivia else (second, first)
-    if code.inserts:
-        return not note.inserts and not note.deletes
-    return not code.deletes
-
-
-def _are_items(first: _Chunk, second: _Chunk, old: Sequence[str]) -> bool:
+def _are_items(before: Edit, after: Edit, old: Sequence[str]) -> bool:
     """Whether a separator stands between edits, one of which is in an item with a name or adds or removes items."""
-    gap = old[first.stop : second.start]
-    if not gap and first.inserts and second.inserts:
+    if (before.adds and after.removes) or (before.removes and after.adds):
         return False
-    if (first.inserts and second.deletes) or (first.deletes and second.inserts):
-        return False
-    if "," in gap and (_is_named(reversed(old[: first.start])) or _is_named(old[second.start :])):
+    gap = old[before.stop : after.start]
+    if "," in gap and (_is_named(reversed(old[: before.start])) or _is_named(old[after.start :])):
         return True
-    before, after = _item(first), _item(second)
-    return bool(before or after) and not SEPARATORS.isdisjoint([*gap, *before[-1:], *after[:1]])
+    left, right = _item(before), _item(after)
+    return bool(left or right) and not SEPARATORS.isdisjoint([*gap, *left[-1:], *right[:1]])
 
 
 def _is_named(run: Iterable[str]) -> bool:
@@ -197,22 +182,13 @@ def _is_named(run: Iterable[str]) -> bool:
     return next((mark == "=" for mark in run if mark == "=" or mark in _BOUNDS), False)
 
 
-def _item(chunk: _Chunk) -> list[str]:
-    """The significant tokens of a chunk that adds or removes whole list items or declarations; none for others."""
-    if not (chunk.inserts or chunk.deletes) or len(chunk.edits) > 1:
+def _item(edit: Edit) -> list[str]:
+    """The significant tokens of an edit that adds or removes whole list items or declarations; none for others."""
+    if not (edit.adds or edit.removes):
         return []
-    run = [token for token in chunk.edits[0].inserted + chunk.edits[0].deleted if not is_trivia(token)]
-    named = "=" in run and (run[0] == "," or run[-1] == ",")
-    return run if (named or run[-1] == ";") and _balanced(run) else []
-
-
-def _balanced(run: Iterable[str]) -> bool:
-    depth = 0
-    for mark in run:
-        depth += (mark in _OPENING) - (mark in _CLOSING)
-        if depth < 0:
-            return False
-    return depth == 0
+    run = [token for token in edit.inserted + edit.deleted if not is_trivia(token)]
+    named = "=" in run and "," in (run[0], run[-1])
+    return run if named or run[-1] == ";" else []
 
 
 def _pieces(old: Sequence[str], edits: Sequence[Sequence[Edit]], clashes: Sequence[tuple[int, int]]) -> Iterator[Piece]:
@@ -239,7 +215,7 @@ def _applied(old: Sequence[str], inside: range, edits: Iterable[Edit]) -> list[s
     """Some base tokens with the edits that belong to them done."""
     result: list[str] = []
     position = inside.start
-    for edit in sorted(edits, key=lambda edit: (edit.start, edit.stop)):
+    for edit in sorted(edits, key=lambda edit: (edit.start, edit.stop, edit.inserted)):
         result += [*old[position : edit.start], *edit.inserted]
         position = edit.stop
     return [*result, *old[position : inside.stop]]

@@ -21,7 +21,7 @@ model Ground "Horizontal ground: one per simulated model, declared as inner"
   parameter Real friction(unit = "1", min = 0) = 0.8
     "Coefficient of friction";
 
-  parameter Modelica.Units.SI.Velocity slipSpeed(min = Modelica.Constants.eps) = 0.01
+  parameter Modelica.Units.SI.Velocity slipSpeed(min = Modelica.Constants.eps) = 0.001
     "Speed of sliding at which friction reaches 70 % of its limit";
 
   parameter Boolean animation = true
