@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from urdfsync import config, files
+from urdfsync import config, files, operations
 from urdfsync.build import Request, build
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.plan import Kind
@@ -202,6 +202,90 @@ def test_another_package_moves_everything(project: Path) -> None:
     assert (project / "modelica/Filter/Filter.mo").exists()
 
 
+def test_a_package_that_moves_leaves_what_is_the_users(project: Path) -> None:
+    run()
+    (project / LADDER / "Bench.mo").write_text("within Ladder;\nmodel Bench\nend Bench;\n")
+    edit(project / LADDER / "package.order", "Ladder\n", "Bench\nLadder\n")
+    edit(project / LADDER / "Elements/R1.mo", "end R1;", "// mine\nend R1;")
+    configure(project, package='"Filter"')
+    result = run()
+    left = {path.relative_to(project / LADDER).as_posix() for path in (project / LADDER).rglob("*.*")}
+    assert left == {
+        *("package.mo", "package.order", "Bench.mo"),
+        *("Elements/package.mo", "Elements/R1.mo", "Elements/R1Parameters.mo"),
+    }
+    assert (project / LADDER / "package.order").read_text() == "Bench\n"
+    assert [str(found).replace("\\", "/") for found in result.diagnostics] == [
+        "urdfsync.toml:1: warning: the package moved from modelica/Ladder to modelica/Filter; what you wrote or "
+        "edited, and what that needs, stayed behind: modelica/Ladder/Bench.mo, modelica/Ladder/Elements/R1.mo, "
+        "modelica/Ladder/Elements/R1Parameters.mo, 3 more; "
+        "take over what you need, then delete the old folder [left-behind]"
+    ]
+    assert run().in_step
+    assert run().diagnostics == ()
+
+
+def test_a_package_that_cant_move_stays(project: Path, snapshot_of: Snapshot) -> None:
+    run()
+    foreign = project / "modelica/Filter/Ladder.mo"
+    foreign.parent.mkdir()
+    foreign.write_text("mine")
+    configure(project, package='"Filter"', **{"class": '"Ladder"'})
+    before = snapshot_of(project / LADDER)
+    for _ in range(2):
+        assert exit_code([run()]) is Exit.CONFLICT
+        assert snapshot_of(project / LADDER) == before
+    foreign.unlink()
+    assert exit_code([run()]) is Exit.IN_STEP
+    assert not (project / LADDER).exists()
+
+
+def rename_robot(project: Path, name: str = "filter") -> None:
+    edit(project / "urdfsync.toml", "[robots.ladder]", f"[robots.{name}]")
+
+
+def test_a_robot_with_another_name_takes_its_state_along(project: Path) -> None:
+    run()
+    edit(project / LADDER / "Elements/R1.mo", "end R1;", "// mine\nend R1;")
+    edit(project / "ladder.json", "4.7e-6", "1e-5")
+    rename_robot(project)
+    assert [found.code for found in run(dry=True).diagnostics] == ["renamed-robot"]
+    result = run()
+    assert kinds(result) == {"Elements/R1.mo": Kind.KEEP, "Elements/C2Parameters.mo": Kind.UPDATE}
+    assert [str(found) for found in result.diagnostics] == [
+        "urdfsync.toml:1: note: robot `filter` was called `ladder`; "
+        "what urdfsync recorded of it goes with the new name [renamed-robot]"
+    ]
+    states = {path.name for path in (project / ".urdfsync/robots").iterdir()}
+    assert states == {"filter.toml", "filter.json"}
+    assert run().diagnostics == ()
+
+
+def test_a_renamed_robot_without_changes_takes_its_state_along(project: Path) -> None:
+    run()
+    rename_robot(project)
+    assert kinds(run()) == {}
+    assert {path.name for path in (project / ".urdfsync/robots").iterdir()} == {"filter.toml", "filter.json"}
+
+
+def test_state_of_robots_that_are_gone_is_mentioned_once_and_kept(project: Path) -> None:
+    run()
+    rename_robot(project)
+    configure_text = (project / "urdfsync.toml").read_text().replace('"Ladder"', '"Filter"')
+    (project / "urdfsync.toml").write_text(
+        configure_text + '[robots.third]\nsource = "ladder.json"\npackage = "Third"\ndomain = "rcnetwork"\n'
+    )
+    for _ in range(2):
+        first, second = run_all()
+        assert [str(found).replace("\\", "/") for found in first.diagnostics] == [
+            "urdfsync.toml: note: the state of `ladder` is still there, but the configuration has no such robot; "
+            "bring the robot back, or delete .urdfsync/robots/ladder.* and what is left of its package [stray-state]"
+        ]
+        assert second.diagnostics == ()
+        assert (project / ".urdfsync/robots/ladder.toml").exists()
+        assert (project / LADDER / "package.mo").exists()
+
+
 def test_the_manifest_says_what_was_built(project: Path) -> None:
     run()
     recorded = manifest_of(project)
@@ -355,6 +439,27 @@ def test_an_edited_file_that_is_no_longer_generated_is_kept(project: Path) -> No
     assert kinds(run()) == {}
 
 
+def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: Path) -> None:
+    run()
+    elements = project / LADDER / "Elements"
+    edit(elements / "R2.mo", "end R2;", "// mine\nend R2;")
+    edit(project / "ladder.json", '"R2"', '"R3"')
+    orphans = {"Elements/R2.mo": Kind.ORPHAN, "Elements/R2Parameters.mo": Kind.NEEDED}
+    assert kinds(run()).items() >= orphans.items()
+    assert "R2Parameters" in (elements / "R2.mo").read_text()
+    assert (elements / "R2Parameters.mo").exists()
+    assert (elements / "package.order").read_text().split() == [
+        *("C1Parameters", "C2Parameters", "R1Parameters", "R3Parameters"),
+        *("C1", "C2", "R1", "R3"),
+    ]
+    for request in ({}, {"full": True}):
+        assert kinds(run(**request)) == orphans
+        assert run(**request).in_step
+    (elements / "R2.mo").unlink()
+    assert kinds(run()) == {"Elements/R2.mo": Kind.FORGET, "Elements/R2Parameters.mo": Kind.DELETE}
+    assert kinds(run()) == {}
+
+
 def test_a_crash_before_the_manifest_heals(project: Path, snapshot_of: Snapshot) -> None:
     run()
     recorded = (project / ".urdfsync/robots/ladder.toml").read_bytes()
@@ -500,26 +605,79 @@ def test_what_is_in_the_way_is_left_alone(project: Path, tmp_path: Path, place: 
     assert not (project / ".urdfsync").exists()
 
 
-@pytest.mark.parametrize("error", [errno.ENOSPC, errno.EACCES])
+@pytest.mark.parametrize(
+    ("error", "hint"),
+    [
+        (errno.ENOSPC, "free some space on the disk"),
+        (errno.EACCES, "check the permissions of the file and of its folder"),
+    ],
+)
 def test_a_disk_that_refuses_changes_nothing(
-    project: Path, monkeypatch: pytest.MonkeyPatch, snapshot_of: Snapshot, error: int
+    project: Path, monkeypatch: pytest.MonkeyPatch, snapshot_of: Snapshot, error: int, hint: str
 ) -> None:
     run()
     before = snapshot_of(project)
     edit(project / "ladder.json", '"R2"', '"R3"')
-    real = Path.open
+    real = operations.place
 
-    def refuse(path: Path, *arguments: Any, **options: Any) -> Any:
-        if path.name.startswith(".R3.mo"):
-            raise OSError(error, os.strerror(error), str(path))
-        return real(path, *arguments, **options)
+    def refuse(path: Path, target: Path) -> None:
+        if target.name == "R3.mo":
+            raise OSError(error, os.strerror(error), str(path), None, str(target))
+        real(path, target)
 
-    monkeypatch.setattr(Path, "open", refuse)
-    message = failure()
-    assert message.startswith(str(project / LADDER / "Elements" / "R3.mo"))
-    assert os.strerror(error) in message
+    monkeypatch.setattr(operations, "place", refuse)
+    place = Path(LADDER) / "Elements" / "R3.mo"
+    reason = f"it can't be written: {os.strerror(error)}"
+    assert failure() == f"{place}: error: {reason}; {hint}; then build again [output-not-writable]"
     monkeypatch.undo()
-    assert {path for path, entry in snapshot_of(project).items() if before.get(path) != entry} == {"ladder.json"}
+    changed = {path for path, entry in snapshot_of(project).items() if before.get(path) != entry}
+    assert changed == {"ladder.json", ".urdfsync/lock"}
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes on this system")
+@pytest.mark.parametrize(
+    ("place", "words"),
+    [
+        ("ladder.json", "urdfsync.toml:2: error: robot `ladder`: the source ladder.json is no regular file"),
+        (f"{LADDER}/Ladder.mo", "no regular file is where urdfsync would write a file"),
+        (f"{LADDER}/package.order", "no regular file is where urdfsync would write a file"),
+        (f"{LADDER}/Resources/step.txt", "no regular file is where urdfsync would write a file"),
+        (".urdfsync/robots/ladder.toml", "no regular file is where urdfsync would write a file"),
+        (".urdfsync/robots/ladder.json", "no regular file is where urdfsync would write a file"),
+    ],
+)
+def test_a_pipe_does_not_stop_the_build_for_ever(project: Path, place: str, words: str) -> None:
+    run()
+    (project / place).unlink()
+    os.mkfifo(project / place)
+    message = failure().replace("\\", "/")
+    assert words in message
+    assert message.count("error: ") == 1
+
+
+def test_a_pipe_for_a_dependency_counts_as_not_found(project: Path) -> None:
+    (project / "step.csv").unlink()
+    (project / "step.csv").mkdir()
+    assert [found.code for found in run().diagnostics] == ["table-not-found"]
+
+
+@pytest.mark.parametrize("name", ["", "robots", "robots/ladder.toml", "robots/ladder.json"])
+def test_state_behind_a_link_is_refused(project: Path, tmp_path: Path, snapshot_of: Snapshot, name: str) -> None:
+    run()
+    path = project / ".urdfsync" / name
+    path.rename(tmp_path / "elsewhere")
+    path.symlink_to(tmp_path / "elsewhere")
+    before = snapshot_of(tmp_path)
+    assert "a symbolic link is where " in failure()
+    assert snapshot_of(tmp_path) == before
+
+
+def test_a_gitignore_of_the_user_stays(project: Path) -> None:
+    ignore = project / ".urdfsync/.gitignore"
+    ignore.parent.mkdir()
+    ignore.write_bytes(b"svg/\n\xff")
+    run()
+    assert ignore.read_bytes() == b"svg/\n\xff"
 
 
 def test_a_broken_source_changes_nothing(project: Path, snapshot_of: Snapshot) -> None:

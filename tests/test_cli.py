@@ -71,7 +71,7 @@ def test_conflict(edited: Path, capsys: Capture) -> None:
         assert headline == "ladder: 1 conflict, 5 changes waiting for that"
         model = Path("modelica/Ladder/Ladder.mo")
         assert place == f"  conflict   {model}  you edited it, and what it is made from changed too"
-        assert "move the file away and build again" in " ".join(advice)
+        assert "move the file out of the package and build again" in " ".join(advice)
 
 
 def test_check_writes_nothing_and_exits_with_1_if_out_of_step(
@@ -255,14 +255,47 @@ def test_version(capsys: Capture) -> None:
     assert capsys.readouterr().out == f"urdfsync {urdfsync.__version__}\n"
 
 
-def test_library(capsys: Capture) -> None:
-    assert cli.main(["library"]) == 0
-    folder, line = capsys.readouterr().out.splitlines()
-    assert (Path(folder) / "UrdfSync").is_dir()
-    assert "MODELICAPATH=" in line
-    assert folder in line
+def test_library(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     assert cli.main(["library", "--json"]) == 0
-    assert document(capsys)["folder"] == folder
+    told = document(capsys)
+    assert (Path(told["folder"]) / "UrdfSync").is_dir()
+    assert cli.main(["library"]) == 0
+    assert capsys.readouterr().out == f"{told['line']}\n"
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stdout", screen)
+    assert cli.main(["library"]) == 0
+    assert screen.getvalue() == f"{told['folder']}\n{told['line']}\n"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX shell")
+@pytest.mark.parametrize("name", ["plain", "two words", "a'b\"c", "$HOME `id` \\n"])
+@pytest.mark.parametrize(("before", "after"), [("", ""), ("/lib one:/two", ":/lib one:/two")])
+def test_the_line_of_library_is_for_eval(
+    tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch, name: str, before: str, after: str
+) -> None:
+    monkeypatch.setattr(config, "library_folder", lambda: tmp_path / name)
+    cli.main(["library"])
+    script = 'eval "$1"; printf %s "$MODELICAPATH"'
+    command = ["bash", "-c", script, "bash", capsys.readouterr().out]
+    environment = os.environ | {"MODELICAPATH": before}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout == f"{tmp_path / name}{after}"
+
+
+def test_options_are_spelled_out(capsys: Capture) -> None:
+    assert cli.main(["build", "--dry"]) == 2
+    assert "unrecognized arguments: --dry" in capsys.readouterr().err
+
+
+def test_a_working_folder_that_is_gone(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    def gone() -> Path:
+        raise FileNotFoundError(2, "No such file or directory")
+
+    monkeypatch.setattr(Path, "cwd", gone)
+    for command in ("build", "init"):
+        assert cli.main([command]) == 2
+        message = "error: the working folder does not exist any more; change to a folder that exists [no-folder]\n"
+        assert capsys.readouterr().err == message
 
 
 def test_as_a_module() -> None:
@@ -296,12 +329,58 @@ def test_a_terminal_gets_colours_unless_they_are_not_wanted(project: Path, monke
             assert "✓" in screen.getvalue()
 
 
+@pytest.mark.parametrize("variable", ["NO_COLOR", "TERM"])
+def test_no_escape_sequence_reaches_a_terminal_that_wants_none(
+    project: Path, monkeypatch: pytest.MonkeyPatch, variable: str
+) -> None:
+    monkeypatch.setenv("TERM", "xterm-256color")
+    monkeypatch.setenv(variable, "dumb")
+    (project / "step.csv").unlink()
+    for arguments in (["build", "--explain"], ["build"], ["build", "--full"], ["build", "nobody"]):
+        screen, errors = Terminal(), Terminal()
+        monkeypatch.setattr(sys, "stdout", screen)
+        monkeypatch.setattr(sys, "stderr", errors)
+        cli.main(arguments)
+        assert screen.getvalue() + errors.getvalue()
+        assert "\x1b" not in screen.getvalue() + errors.getvalue()
+
+
+def test_colours_can_be_had_in_a_pipe(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TERM", "xterm-256color")
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    for _ in ("fresh", "nothing to do"):
+        cli.main(["build"])
+        assert "\x1b[32m" in capsys.readouterr().out
+
+
+EVIL = "a\x1b[31m\x07\u202eb\x9b2J\ud800"
+
+
+def test_text_of_others_can_not_command_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TERM", "dumb")
+    errors = Terminal()
+    monkeypatch.setattr(sys, "stderr", errors)
+    found = Diagnostic(Severity.ERROR, "x", f"it says `{EVIL}`", f"{EVIL}.urdf", 3, hint=f"not {EVIL}")
+    Report().problems("build", [found])
+    safe = "a\\x1b[31m\\x07\\u202eb\\x9b2J\\ud800"
+    assert errors.getvalue() == f"{safe}.urdf:3: error: it says `{safe}`; not {safe} [x]\n"
+
+
+def test_arguments_can_not_command_a_terminal(project: Path, capsys: Capture) -> None:
+    evil = EVIL.replace("\ud800", "\udcff")  # how Python reads an argument that is not UTF-8
+    for arguments in (["build", evil], ["build", f"--{evil}"], [evil], ["build", "--config", f"{evil}.toml"]):
+        assert cli.main(arguments) == 2
+        streams = capsys.readouterr()
+        assert all(line.isprintable() for line in (streams.out + streams.err).splitlines())
+        assert "a\\x1b" in streams.err
+
+
 def test_many_findings_of_one_kind_are_folded(capsys: Capture) -> None:
     many = [Diagnostic(Severity.WARNING, "mesh-not-found", f"mesh {n} not found", "a.urdf", n) for n in range(1, 10)]
     Report().problems("build", many)
     lines = capsys.readouterr().err.splitlines()
     assert lines[:4] == [f"a.urdf:{n}: warning: mesh {n} not found [mesh-not-found]" for n in range(1, 5)]
-    assert lines[4:] == ["… and 5 more like these [mesh-not-found]; --verbose shows them"]
+    assert lines[4:] == ["and 5 more like these [mesh-not-found]; --verbose shows them"]
     Report(verbose=True).problems("build", many)
     assert len(capsys.readouterr().err.splitlines()) == 9
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import msgspec
@@ -116,7 +117,7 @@ def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> Non
         ),
         pytest.param(
             "[robots.arm]\ndomain = 'rcnetwork'\nsource = 'a'",
-            "urdfsync.toml:1: error: robot `arm` has no `package` [missing-key]",
+            "urdfsync.toml:1: error: robot `arm` has no `package`; add a line `package = …` [missing-key]",
             id="missing key",
         ),
         pytest.param(
@@ -141,7 +142,7 @@ def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> Non
         ),
         pytest.param(
             "[robots.arm]\nsource = 'a'\npackage = 'Arm'\nbase = 'floatin'",
-            'urdfsync.toml:4: error: `base` must be "fixed" or "floating", not \'floatin\' [wrong-value]',
+            'urdfsync.toml:4: error: `base` must be "fixed" or "floating", not "floatin" [wrong-value]',
             id="none of the choices",
         ),
         pytest.param(
@@ -160,7 +161,9 @@ def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> Non
             id="empty",
         ),
         pytest.param(
-            robot() + "x = ", "urdfsync.toml:5: error: invalid value [toml-syntax]", id="syntax, end of document"
+            robot() + "x = ",
+            "urdfsync.toml:5: error: invalid value; strings stand in quotes [toml-syntax]",
+            id="syntax, end of document",
         ),
         pytest.param(
             "[robots\n",
@@ -189,6 +192,106 @@ def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> Non
 )
 def test_mistakes_are_one_line_each(text: str, message: str) -> None:
     assert failures(text) == [message]
+
+
+@pytest.mark.parametrize(
+    "package", ["Modelica.Arm", "Plant.real.Arm", "Plant.sin.Arm", "Plant.Aux.Arm", "com1", "Plant.UrdfSync.Arm",
+                "UrdfSync", "urdfsync.Arm", "visualization2", "Plant.time", "Plant.Resources.Arm", "Complex"]
+)  # fmt: skip
+def test_packages_that_would_hide_what_models_refer_to(package: str) -> None:
+    (message,) = failures(robot('class = "Robot1"', package=package))
+    assert message.startswith("urdfsync.toml:3: error: `package`: `")
+    assert "has a use for the name; choose another name, for example `" in message
+    proposed = message.rpartition("example `")[2].partition("`")[0]
+    assert parse(robot(package=proposed)).robots
+
+
+@pytest.mark.parametrize("package", ["UrdfSync.Examples.Arm", "Plant.Sum.Arm", "Plant.Links.Arm", "Plant.World"])
+def test_packages_that_hide_nothing(package: str) -> None:
+    assert parse(robot(package=package)).robots[0].target.package == package
+
+
+@pytest.mark.parametrize("name", ["Package", "Aux", "Complex", "Joints", "Visualization2"])
+def test_classes_that_clash_with_files_or_other_classes_are_told_at_their_line(name: str) -> None:
+    (message,) = failures(robot(f'class = "{name}"'))
+    assert message.startswith(f"urdfsync.toml:5: error: `{name}` can't be the class of a robot model; set `class`")
+
+
+def test_a_keyword_in_a_package_gets_a_name_that_can_be_used() -> None:
+    assert failures(robot(package="Plant.end")) == [
+        "urdfsync.toml:3: error: `package`: `end` is a keyword of Modelica; "
+        "choose another name, for example `EndRobot` [modelica-name]"
+    ]
+
+
+@pytest.mark.parametrize("output", [".urdfsync", "x/../.urdfsync/deep", ".URDFSYNC", (ROOT / ".urdfsync").as_posix()])
+def test_the_state_folder_is_no_output(output: str) -> None:
+    assert failures(robot(f"output = '{output}'")) == [
+        "urdfsync.toml:5: error: `output` can't be in .urdfsync: that is where urdfsync keeps its own files; "
+        "name another folder [wrong-value]"
+    ]
+
+
+@pytest.mark.parametrize("output", [".", "..", ".urdfsync2", "a/.urdfsync"])
+def test_outputs_beside_the_state_folder(output: str) -> None:
+    (arm,) = parse(robot(f"output = '{output}'")).robots
+    assert arm.output == Path(os.path.normpath(ROOT / output))
+
+
+def test_an_empty_output_is_refused() -> None:
+    (message,) = failures(robot('output = ""'))
+    assert message.startswith('urdfsync.toml:5: error: `output` must name a folder; write "." for the folder')
+
+
+@pytest.mark.parametrize(
+    "line",
+    ['output = "a\\u0000b"', 'templates = "a\\nb"', 'package_paths = ["a", "\\u001b"]', '"a\\u007f" = 1'],
+)
+def test_control_characters_are_refused_wherever_they_are(line: str) -> None:
+    (message,) = failures(robot(line))
+    assert message.startswith("urdfsync.toml:5: error: there is a control character in '")
+    assert message.isprintable()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        robot("x = " + "[" * 5000 + "]" * 5000),
+        robot("x = " + "[" * 200 + "]" * 200),
+        ".".join(["a"] * 5000) + " = 1",
+        robot("x = " + "{a=" * 300 + "1" + "}" * 300),
+    ],
+)
+def test_tables_nested_without_reason_are_refused(text: str) -> None:
+    assert failures(text) == ["urdfsync.toml: error: tables and lists are nested more than 50 deep [toml-syntax]"]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a = 1\na = 2\n[b]\n", "2: error: `a` is set twice; remove one of them"),
+        ("[robots.a]\nx.y = 1\nx.y = 2", "3: error: `x.y` is set twice; remove one of them"),
+        ("[robots.a]\n[robots.a]\n", "2: error: the table `robots.a` is there twice; put the keys of both into one"),
+        ("[robots.a]\nsource = arm.urdf\n", "2:10: error: invalid value; strings stand in quotes"),
+        ("a = 1\n<<<<<<< ours\n", "2: error: unresolved merge markers; settle the merge"),
+        ("a = " + "1" * 5000, " error: a number has too many digits"),
+    ],
+)
+def test_syntax_errors_say_what_to_do(text: str, words: str) -> None:
+    (message,) = failures(text)
+    assert message.startswith(f"urdfsync.toml:{words}")
+
+
+@pytest.mark.parametrize(
+    ("value", "words"), [("true", "true"), ("3", "3"), ("[1]", "a list"), ("{a = 1}", "a table"), ('"ä"', '"ä"')]
+)
+def test_a_wrong_choice_is_repeated_as_it_was_written(value: str, words: str) -> None:
+    found = failures(f"[robots.arm]\nsource = 'a'\npackage = 'Arm'\nbase = {value}")
+    assert found == [f'urdfsync.toml:4: error: `base` must be "fixed" or "floating", not {words} [wrong-value]']
+
+
+def test_lines_do_not_depend_on_separators_inside_of_strings() -> None:
+    assert failures("# \u2028 \x85\n" + robot("grund = true"))[0].startswith("urdfsync.toml:6: ")
 
 
 @pytest.mark.parametrize("package", ["", ".", "Arm.", ".Arm", "Arm.end", "A b", "Gelenk_ä", "../evil", 'a\\"b', "1A"])
@@ -241,13 +344,33 @@ def test_load_takes_a_byte_order_mark(tmp_path: Path) -> None:
     assert [arm.name for arm in config.load(file).robots] == ["arm"]
 
 
-@pytest.mark.parametrize("content", [None, b"\xff\xfe"])
-def test_load_names_a_file_that_it_cant_read(tmp_path: Path, content: bytes | None) -> None:
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (None, "urdfsync.toml: error: the configuration does not exist; write one with `urdfsync init SOURCE`"),
+        (b"\xff\xfe[", "urdfsync.toml:1: error: the configuration is not UTF-8; save it as UTF-8"),
+        (b"# a\n# B\xfccher\n", "urdfsync.toml:2: error: the configuration is not UTF-8; save it as UTF-8"),
+    ],
+)
+def test_load_names_a_file_that_it_cant_read(tmp_path: Path, content: bytes | None, words: str) -> None:
     file = tmp_path / "urdfsync.toml"
     if content is not None:
         file.write_bytes(content)
-    with pytest.raises(ConfigError, match=r"urdfsync\.toml: error: the configuration"):
+    with pytest.raises(ConfigError, match=re.escape(words)):
         config.load(file)
+
+
+def test_a_working_folder_that_is_gone_is_said_clearly(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert config.working_folder() == Path.cwd()
+
+    def gone() -> Path:
+        raise FileNotFoundError(2, "No such file or directory")
+
+    monkeypatch.setattr(Path, "cwd", gone)
+    with pytest.raises(ConfigError, match="the working folder does not exist any more; change to a folder"):
+        config.working_folder()
+    assert config.shown(tmp_path) == str(tmp_path)
 
 
 def test_select() -> None:

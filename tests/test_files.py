@@ -1,13 +1,15 @@
-"""Writing whole or not at all, and never through links."""
+"""Reading files, never through links; errors in words."""
 
 from __future__ import annotations
 
+import errno
+import os
 from pathlib import Path
 
 import pytest
 
 from urdfsync.diagnostics import OutputError
-from urdfsync.files import Tree, commit, digest, remove_empty, templates_digest, text_digest
+from urdfsync.files import Tree, digest, failure, templates_digest, text_digest
 
 
 def test_line_endings_are_normalised_in_texts_only() -> None:
@@ -15,39 +17,20 @@ def test_line_endings_are_normalised_in_texts_only() -> None:
     assert digest(b"a\r\n") != digest(b"a\n")
 
 
-def test_commit_writes_and_deletes(tmp_path: Path) -> None:
-    old, new = tmp_path / "old", tmp_path / "deep" / "new"
-    old.write_text("old")
-    commit({new: b"new"}, [old])
-    assert [path for path in tmp_path.rglob("*") if path.is_file()] == [new]
-    assert new.read_bytes() == b"new"
-
-
-def test_commit_keeps_the_permissions_of_a_file(tmp_path: Path) -> None:
-    file = tmp_path / "file"
-    file.write_text("old")
-    file.chmod(0o640)
-    commit({file: b"new"})
-    assert file.stat().st_mode & 0o777 == 0o640
-
-
-def test_commit_replaces_nothing_unless_all_can_be_written(tmp_path: Path) -> None:
-    first = tmp_path / "first"
-    first.write_text("old")
-    (tmp_path / "file").write_text("in the way")
-    with pytest.raises(OutputError, match="can't be written"):
-        commit({first: b"new", tmp_path / "file" / "second": b"new"})
-    assert first.read_text() == "old"
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "first"]
-
-
-def test_commit_does_not_write_through_what_an_interrupted_run_left(tmp_path: Path) -> None:
-    target, elsewhere = tmp_path / "target", tmp_path / "elsewhere"
-    elsewhere.write_text("precious")
-    (tmp_path / ".target.urdfsync-tmp").symlink_to(elsewhere)
-    commit({target: b"new"})
-    assert elsewhere.read_text() == "precious"
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["elsewhere", "target"]
+@pytest.mark.parametrize(
+    ("number", "hint"),
+    [
+        (errno.EACCES, "check the permissions of the file and of its folder; then build again"),
+        (errno.EROFS, "mount it for writing"),
+        (errno.ENOSPC, "free some space on the disk; then build again"),
+        (errno.EISDIR, "move away what is in its place; then build again"),
+        (errno.EIO, "then build again"),
+    ],
+)
+def test_the_hint_fits_the_error(number: int, hint: str) -> None:
+    (found,) = failure(OSError(number, os.strerror(number), "somewhere"), "Arm/Arm.mo").diagnostics
+    assert (found.file, found.message) == ("Arm/Arm.mo", f"it can't be written: {os.strerror(number)}")
+    assert hint in found.hint
 
 
 def test_a_tree_reads_what_is_inside(tmp_path: Path) -> None:
@@ -71,12 +54,13 @@ def test_a_tree_refuses_links_folders_and_what_is_outside(tmp_path: Path) -> Non
             tree.read(path)
 
 
-def test_empty_folders_go_as_far_as_they_are_empty(tmp_path: Path) -> None:
-    deep = tmp_path / "package" / "a" / "b"
-    deep.mkdir(parents=True)
-    (tmp_path / "package" / "file").touch()
-    remove_empty([deep, tmp_path / "gone"], tmp_path)
-    assert [path.name for path in (tmp_path / "package").iterdir()] == ["file"]
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes on this system")
+def test_a_tree_does_not_wait_for_a_pipe(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(OutputError, match="no regular file is where urdfsync would write a file"):
+        Tree(tmp_path).read(tmp_path / "pipe")
+    os.mkfifo(tmp_path / "pipe.jinja")
+    assert templates_digest([tmp_path]) == templates_digest([])
 
 
 def test_templates_count_by_name_and_content(tmp_path: Path) -> None:

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync import cli
-from urdfsync.diagnostics import OutputError
-from urdfsync.generate import check_paths
+from urdfsync import cli, registry
+from urdfsync.diagnostics import ConfigError, OutputError
+from urdfsync.domain import Target
+from urdfsync.generate import check_paths, generate
 
 
 @pytest.mark.parametrize(
@@ -52,6 +53,64 @@ def test_paths_that_are_one_where_case_is_folded(paths: list[str], words: str) -
 
 def test_paths_of_a_usual_package() -> None:
     check_paths(["package.mo", "Links/package.mo", "Links/A.mo", "Links/B.mo", "A.mo", "Resources/ä b.stl"])
+
+
+NETWORK = b'{"name": "n", "elements": [{"name": "R1", "between": ["in", "ground"], "ohm": 1}]}'
+
+
+def template_error(folder: Path) -> str:
+    """What is said of the templates in a folder."""
+    domain = registry.domain("rcnetwork")
+    options = domain.options()
+    snapshot = domain.read(NETWORK, "n.json", options).snapshot or {}
+    assert domain.templates is not None
+    with pytest.raises(ConfigError) as caught:
+        generate(domain, snapshot, {}, Target("N", "N"), options, [folder, domain.templates])
+    (found,) = caught.value.diagnostics
+    return str(found).replace("\\", "/")
+
+
+@pytest.fixture
+def own(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder for templates, below the working folder."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "own" / "element").mkdir(parents=True)
+    return tmp_path / "own"
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("<% include 'element/model.mo.jinja' %>", 1, "it includes or calls itself without end"),
+        ("<% macro a() %><< a() >><% endmacro %>\n<< a() >>", 1, "it includes or calls itself without end"),
+        ("one\n<< 'x' * 10**15 >>", 2, "it needs more memory than there is"),
+        ("one\n<< '\\ud800' >>", 0, "it gives '/ud800', which is no character"),
+        ("\n\n<< element.nme >>", 3, "has no attribute 'nme'"),
+        ("<< 1 | nofilter >>", 1, "No filter named 'nofilter'; correct"),
+        ("<% include 'element/nothing' %>", 1, "there is no template `element/nothing`"),
+        ("\n<% include ['a', 'b'] %>", 2, "there is no template `a` or `b`"),
+        ("<% for a in [1] %>" * 25 + "<% endfor %>" * 25, 0, "too many statically nested blocks"),
+    ],
+)
+def test_a_template_of_the_users_is_named_with_line_and_what_to_do(own: Path, text: str, line: int, words: str) -> None:
+    (own / "element/model.mo.jinja").write_text(text)
+    message = template_error(own)
+    place = f"own/element/model.mo.jinja:{line}" if line else "own/element/model.mo.jinja"
+    assert message.startswith(f"{place}: error: ")
+    assert words in message
+    assert message.endswith("; correct the template, or delete it to get that of urdfsync [template]")
+
+
+def test_a_template_that_is_not_utf8_is_named_even_if_another_includes_it(own: Path) -> None:
+    (own / "element/model.mo.jinja").write_text("<% include 'element/part.jinja' %>")
+    (own / "element/part.jinja").write_bytes(b"one\nB\xfccher")
+    assert template_error(own).startswith("own/element/part.jinja:2: error: the template is not UTF-8; correct")
+
+
+def test_a_template_that_misses_another_is_named(own: Path) -> None:
+    (own / "element/model.mo.jinja").write_text("<% include 'element/part.jinja' %>")
+    (own / "element/part.jinja").write_text("\n\n<% include 'gone' %>")
+    assert template_error(own).startswith("own/element/part.jinja:3: error: there is no template `gone`; correct")
 
 
 def test_a_compiler_reads_the_second_domain(project: Path) -> None:

@@ -18,7 +18,10 @@ MODULES = [name for name in OURS if not name.endswith("__init__") and not name.s
 
 IO = ("os", "io", "shutil", "subprocess", "tempfile", "socket", "glob", "urllib.request", "sys")
 HEAVY = ("jinja2", "rich", "lxml", "yourdfpy", "trimesh", "numpy", "collada", "deepdiff", "rumoca", "watchdog")
-SHELL = ("build", "config", "cli", "watch", "report", "store", "files", "imports", "decide", "parents", "init")
+SHELL = (
+    *("build", "planner", "config", "cli", "watch", "report", "store", "files", "imports", "decide", "parents", "init"),
+    *("operations", "batch", "transactions", "lock", "leftovers"),
+)
 SHELL_MODULES = tuple(f"urdfsync.{name}" for name in SHELL)
 
 FORBIDDEN: dict[str, tuple[str, ...]] = {
@@ -37,6 +40,12 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "tomlfile": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "tables": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "build": ("rich", "watchdog", "urdfsync.report", "urdfsync.cli"),
+    "planner": ("rich", "watchdog", "urdfsync.report", "urdfsync.cli"),
+    "journal": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    "operations": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
+    "batch": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
+    "transactions": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
+    "lock": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
     "decide": ("rich", "watchdog", "urdfsync.build", "urdfsync.report", "urdfsync.cli"),
     "config": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "watch": ("rich", "urdfsync.urdf"),
@@ -50,7 +59,20 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
 }
 """Per module: what it must not import, at whatever place in the file."""
 
-LIGHT = ("cli", "config", "registry", "build", "report", "manifest", "plan", "store", "urdf/domain")
+LIGHT = (
+    "cli",
+    "config",
+    "registry",
+    "build",
+    "planner",
+    "transactions",
+    "lock",
+    "report",
+    "manifest",
+    "plan",
+    "store",
+    "urdf/domain",
+)
 """Modules on the way of a build that has nothing to do: no heavy library, not even through others."""
 
 NO_IO_CALLS = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 import tomllib
 from pathlib import Path
 
@@ -91,6 +92,70 @@ def test_without_sources_all_below_are_taken(bare: Path, capsys: Capture) -> Non
         ("2nd_stage_old", "b/2nd-stage (old).v2.rcnetwork", "Robot2ndStageOld"),
         ("ladder2", "b/ladder.RCNETWORK", "Ladder2"),
     ]
+
+
+def test_a_broken_source_is_passed_over_if_nobody_named_it(bare: Path, capsys: Capture) -> None:
+    (bare / "good.rcnetwork").write_bytes((bare / "ladder.json").read_bytes())
+    (bare / "bad.rcnetwork").write_text("{")
+    (bare / ".hidden.rcnetwork").write_text("{")
+    assert init() == 0
+    streams = capsys.readouterr()
+    (line,) = streams.err.splitlines()
+    assert line.startswith("bad.rcnetwork:1: warning: ")
+    assert line.endswith("; passed over; put it right and add it, or run `urdfsync init bad.rcnetwork` [json]")
+    assert [robot.name for robot in config.load(bare / "urdfsync.toml").robots] == ["good"]
+
+
+def test_nothing_but_broken_sources_is_an_error(bare: Path, capsys: Capture) -> None:
+    (bare / "bad.rcnetwork").write_text("{")
+    assert init() == 2
+    assert capsys.readouterr().err.startswith("bad.rcnetwork:1: error: ")
+    assert not (bare / "urdfsync.toml").exists()
+
+
+def test_a_source_that_is_named_twice_is_one_robot(bare: Path) -> None:
+    (bare / "other.json").write_bytes((bare / "ladder.json").read_bytes())
+    assert init("ladder.json", "./other.json", str(bare / "ladder.json"), "../project/ladder.json") == 0
+    assert [robot.name for robot in config.load(bare / "urdfsync.toml").robots] == ["ladder", "other"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such names")
+@pytest.mark.parametrize("name", ["a\udcff.json", "a\n[x].json", "a\x1b.json"])
+def test_a_source_whose_name_no_configuration_can_hold(bare: Path, capsys: Capture, name: str) -> None:
+    (bare / name).write_bytes((bare / "ladder.json").read_bytes())
+    assert init(name) == 2
+    streams = capsys.readouterr()
+    assert "the name of the source can't be written into a configuration; rename it [source-name]" in streams.err
+    assert streams.err.rstrip("\n").isprintable()
+    assert not (bare / "urdfsync.toml").exists()
+
+
+def test_long_and_taken_names_give_a_configuration_that_is_right(bare: Path) -> None:
+    names = ["x" * 200, "modelica", "aux", "real", "links", "Package", "urdfsync", "visualization2", "3d"]
+    for name in names:
+        (bare / f"{name}.json").write_bytes((bare / "ladder.json").read_bytes())
+    assert init(*(f"{name}.json" for name in names)) == 0
+    assert len(config.load(bare / "urdfsync.toml").robots) == len(names)
+
+
+@pytest.mark.parametrize("failing", ["write_bytes", "replace"])
+def test_a_disk_that_is_full_leaves_no_configuration_behind(
+    bare: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch, failing: str
+) -> None:
+    def refuse(path: Path, *_: object) -> None:
+        raise OSError(28, "No space left on device", str(path))
+
+    monkeypatch.setattr(Path, failing, refuse)
+    before = sorted(bare.iterdir())
+    assert init("ladder.json") == 2
+    message = "urdfsync.toml: error: the configuration can't be written: No space left on device; check the folder's"
+    assert capsys.readouterr().err.startswith(message)
+    assert sorted(bare.iterdir()) == before
+
+
+def test_a_folder_that_does_not_exist_is_not_made(bare: Path, capsys: Capture) -> None:
+    assert init("ladder.json", "--config", "gone/own.toml") == 2
+    assert "the configuration can't be written: No such file or directory" in capsys.readouterr().err
 
 
 def test_without_sources_and_none_below(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:

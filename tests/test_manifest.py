@@ -39,7 +39,7 @@ MANIFEST = Manifest(
         "modelica/Plant/Arm/Links/Base_link.mo": FileRecord("link base link", Role.MODEL, "ab", State.EDITED),
         "modelica/Plant/Arm/Arm.mo": FileRecord("robot", Role.MODEL, "cd"),
         "modelica/Plant/Arm/New.mo": FileRecord("robot", Role.MODEL, None, State.WAITING),
-        "modelica/Old/Left.mo": FileRecord("joint left", Role.RECORD, "ef", State.ORPHAN),
+        "modelica/Plant/Arm/Joints/Left.mo": FileRecord("joint left", Role.RECORD, "ef", State.ORPHAN),
     },
 )
 
@@ -53,7 +53,6 @@ def test_text_is_for_people() -> None:
     assert text.startswith("# What urdfsync last built for this robot.")
     entry = '[files."Links/Base_link.mo"]\nowner = "link base link"\nrole = "model"\nbase = "ab"\nstate = "edited"\n'
     assert entry in text
-    assert '[files."../../Old/Left.mo"]' in text
     assert '"../package.order" = [\n    "Arm",\n]' in text
 
 
@@ -122,7 +121,7 @@ def test_a_newer_format_is_refused() -> None:
     [
         ("revision = 3", 'revision = "3"', "revision ="),
         ('role = "record"', 'role = "recrod"', 'role = "recrod"'),
-        ('owner = "joint left"', "", '[files."../../Old/Left.mo"]'),
+        ('owner = "joint left"', "", '[files."Joints/Left.mo"]'),
         ('"Arm",', "5,", '"../package.order"'),
         ('hash = "5a"', "", "[source]"),
         ('package = "Plant.Arm"', "", ""),
@@ -136,6 +135,93 @@ def test_garbage_is_refused_with_its_line(old: str, new: str, line: str) -> None
     place = next((n for n, found in enumerate(text.splitlines(), 1) if line and found.startswith(line)), 0)
     assert message.startswith(f"arm.toml:{place}:" if place else "arm.toml: ")
     assert "restore it from version control" in message
+
+
+@pytest.mark.parametrize("folder", ["Plant/Arm", "../lib/Plant/Arm", "../../a b/Plant/Arm", "ä.x/Plant/Arm"])
+def test_packages_may_be_beside_the_configuration(folder: str) -> None:
+    files = {f"{folder}/Links/Base_link.mo": FileRecord("link base link", Role.MODEL, "ab")}
+    parent = folder.rpartition("/")[0]
+    orders = {f"{parent}/package.order": ("Arm",), f"{folder}/Links/package.order": ("Base_link",)}
+    beside = msgspec.structs.replace(MANIFEST, folder=folder, files=files, orders=orders)
+    assert '[files."Links/Base_link.mo"]' in dumps(beside)
+    assert loads(dumps(beside), "arm.toml") == beside
+
+
+def test_what_lies_outside_of_the_package_is_not_recorded() -> None:
+    outside = {"modelica/Old/Left.mo": FileRecord("joint left", Role.RECORD, "ef", State.ORPHAN)}
+    orders = {"modelica/package.order": ("Plant",), "modelica/Plant/ArmX/package.order": ("A",)}
+    more = msgspec.structs.replace(MANIFEST, files={**MANIFEST.files, **outside}, orders={**MANIFEST.orders, **orders})
+    assert dumps(more) == dumps(MANIFEST)
+
+
+PLACES = [
+    "../../victim.txt",
+    "../package.mo",
+    "..",
+    ".",
+    "",
+    "/etc/passwd",
+    "C:/victim.txt",
+    "Links/../../victim.txt",
+    "Links/../Arm.mo",
+    "./Arm.mo",
+    "Links//Arm.mo",
+    "Links/",
+    "Links\\..\\..\\victim.txt",
+    "a\0b.mo",
+    "a\nb.mo",
+    "a\x1b[2J.mo",
+]
+
+
+def quoted(text: str) -> str:
+    return "".join(char if char.isprintable() and char != "\\" else f"\\u{ord(char):04x}" for char in text)
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_files_outside_of_the_package_are_refused_with_their_line(place: str) -> None:
+    text = dumps(MANIFEST) + f'\n[files."{quoted(place)}"]\nowner = "x"\nrole = "model"\nbase = "ab"\n'
+    line = text[: text.rindex("[files")].count("\n") + 1
+    message = failure(text)
+    assert message.startswith(f"arm.toml:{line}: error: the recorded path {place!r} does not belong to the package")
+    assert "`Plant.Arm`; restore the state from version control, or delete it" in message
+    assert message.isprintable()
+
+
+@pytest.mark.parametrize("place", [*PLACES, "../../package.order", "Links/Arm.mo"])
+def test_orders_are_those_of_the_package_and_of_its_parent(place: str) -> None:
+    text = dumps(MANIFEST).replace('"../package.order" =', f'"{quoted(place)}" =')
+    line = text[: text.index(f'"{quoted(place)}" =')].count("\n") + 1
+    assert failure(text).startswith(f"arm.toml:{line}: error: the recorded path {place!r} does not belong")
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_copies_of_dependencies_lie_in_the_package(place: str) -> None:
+    text = dumps(MANIFEST).replace('"Resources/lost.stl"', f'"{quoted(place)}"')
+    line = text[: text.index(f'target = "{quoted(place)}"')].count("\n") + 1
+    assert failure(text).startswith(f"arm.toml:{line}: error: the recorded path {place!r} does not belong")
+
+
+@pytest.mark.parametrize(
+    "folder", [*PLACES, "modelica/Plant", "modelica/Other/Arm", "/modelica/Plant/Arm", "a/../Plant/Arm", "XPlant/Arm"]
+)
+def test_the_folder_is_that_of_the_package(folder: str) -> None:
+    text = dumps(MANIFEST).replace('folder = "modelica/Plant/Arm"', f'folder = "{quoted(folder)}"')
+    line = text[: text.index("folder = ")].count("\n") + 1
+    assert failure(text).startswith(f"arm.toml:{line}: error: the recorded path {folder!r} does not belong")
+
+
+def test_a_source_with_control_characters_is_refused() -> None:
+    text = dumps(MANIFEST).replace('path = "cad/arm.urdf"', 'path = "cad/\\u0000arm.urdf"')
+    assert "the recorded path 'cad/\\x00arm.urdf' does not belong" in failure(text)
+
+
+@pytest.mark.parametrize("number", [0, -1])
+def test_a_format_that_never_was_is_refused(number: int) -> None:
+    text = dumps(MANIFEST).replace("format = 1", f"format = {number}")
+    assert failure(text).startswith(f"arm.toml:4: error: this is no state of urdfsync: there is no format {number}")
+    with pytest.raises(StateError, match="there is no format"):
+        load_model(f'{{"snapshot": {{}}, "imports": {{}}, "format": {number}}}', "arm.json")
 
 
 SNAPSHOT = {"name": "arm", "links": {"b": {"m": 1.0}, "a": {"m": 0.1, "rgba": None}}}
@@ -154,7 +240,10 @@ def test_a_snapshot_is_used_as_it_will_come_back() -> None:
     assert plain({"a": (1, 2)}) == {"a": [1, 2]}
 
 
-@pytest.mark.parametrize("text", ["", "[]", '{"snapshot": 1}', "<<<<<<< HEAD\n{}\n"])
+DEEP = '{"snapshot": {"a":' + "[" * 100_000 + "]" * 100_000 + '}, "imports": {}}'
+
+
+@pytest.mark.parametrize("text", ["", "[]", '{"snapshot": 1}', "<<<<<<< HEAD\n{}\n", DEEP], ids=lambda text: text[:9])
 def test_a_broken_model_is_refused(text: str) -> None:
     with pytest.raises(StateError, match=r"arm\.json.*restore it"):
         load_model(text, "arm.json")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 import tarfile
@@ -62,6 +63,7 @@ def test_installed_wheel_builds_a_robot(distributions: Path, tmp_path: Path) -> 
     urdfsync("init", ARM)
     assert "files written" in urdfsync("build")
     assert "in step" in urdfsync("build", "--check")
-    library = Path(urdfsync("library").splitlines()[0])
+    assert "MODELICAPATH=" in urdfsync("library")
+    library = Path(json.loads(urdfsync("library", "--json"))["folder"])
     assert (library / "UrdfSync" / "package.mo").is_file()
     assert environment in library.parents

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -20,6 +22,7 @@ from urdfsync.plan import (
     hold,
     numbers_only,
     plan,
+    spare,
 )
 
 ABSENT = Found()
@@ -107,6 +110,46 @@ def test_plan_covers_wanted_and_recorded_files() -> None:
         ("new", Kind.CREATE, "link c"),
         ("stays", Kind.UPDATE, "link b"),
     ]
+
+
+def spared(*actions: Action, classes: tuple[str, ...] = ()) -> dict[str, Kind]:
+    """What happens to each file, where the folders hold these classes."""
+
+    def stays(path: str, gone: Collection[str]) -> bool:
+        folder = path.removesuffix("package.mo")
+        return any(name.startswith(folder) and name != path and name not in gone for name in classes)
+
+    return {action.path: action.kind for action in spare(actions, stays)}
+
+
+def test_an_edited_model_keeps_its_record() -> None:
+    model = Action("Links/Hand.mo", Kind.ORPHAN, Role.MODEL, "link hand", "old")
+    record = Action("Links/HandParameters.mo", Kind.DELETE, Role.RECORD, "link hand", "old")
+    other = Action("Links/ArmParameters.mo", Kind.DELETE, Role.RECORD, "link arm", "old")
+    assert spared(model, record, other) == {
+        "Links/Hand.mo": Kind.ORPHAN,
+        "Links/HandParameters.mo": Kind.NEEDED,
+        "Links/ArmParameters.mo": Kind.DELETE,
+    }
+    gone = Action("Links/Hand.mo", Kind.FORGET, Role.MODEL, "link hand", "old")
+    assert spared(gone, record)["Links/HandParameters.mo"] is Kind.DELETE
+
+
+def test_a_package_stays_as_long_as_there_are_classes_in_it() -> None:
+    files = ("Old/package.mo", "Old/Links/package.mo", "Old/Links/Hand.mo")
+    roles = (Role.PACKAGE, Role.PACKAGE, Role.MODEL)
+    actions = [Action(path, Kind.DELETE, role, "robot", "old") for path, role in zip(files, roles, strict=True)]
+    assert set(spared(*actions, classes=files).values()) == {Kind.DELETE}
+    assert spared(*actions, classes=(*files, "Old/Links/Mine.mo")) == {
+        "Old/package.mo": Kind.NEEDED,
+        "Old/Links/package.mo": Kind.NEEDED,
+        "Old/Links/Hand.mo": Kind.DELETE,
+    }
+
+
+def test_what_is_needed_is_remembered_with_its_base() -> None:
+    needed = Action("a", Kind.NEEDED, Role.RECORD, "link hand", "old")
+    assert after([needed]) == {"a": FileRecord("link hand", Role.RECORD, "old", State.ORPHAN)}
 
 
 CONFLICT = Action("Arm.mo", Kind.CONFLICT, Role.MODEL, "robot", "old", "new")

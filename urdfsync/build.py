@@ -1,295 +1,124 @@
-"""Builds: reads the source, decides, writes, records. What a dry run plans is what a build does."""
+"""Builds: plans every robot, and writes what the plan says, all of it or nothing.
+
+Nothing is locked to find out that nothing is to be done. Whoever has something to write takes the
+build lock, makes sure that the plan still holds, and keeps the lock until all robots are built.
+"""
 
 from __future__ import annotations
 
 import dataclasses
-import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-import msgspec
-
-from urdfsync import imports, manifest, packages, parents, registry
-from urdfsync.config import Config, RobotConfig, shown, templates_folder
-from urdfsync.decide import Decision, Disk, decide, encode
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, StateError, UrdfsyncError
-from urdfsync.domain import Dependency, Domain, Import, Lookup, Reading, Role, Snapshot
-from urdfsync.files import commit, digest, remove_empty, templates_digest, text_digest
-from urdfsync.manifest import Generator, Manifest
+from urdfsync import leftovers
+from urdfsync.batch import SavedError
+from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
+from urdfsync.lock import Lock, LockedError
 from urdfsync.outcome import Result
-from urdfsync.plan import CONFLICTS, Kind, State, Wanted
+from urdfsync.planner import Planner, Progress, Request, Work
 from urdfsync.store import Store
+from urdfsync.transactions import Transactions, UnfinishedError
 
-if TYPE_CHECKING:
-    from urdfsync.generate import Generated
+__all__ = ["Progress", "Request", "build"]
 
-Progress = Callable[[str, int, int], None]
-"""Told of a step of the work: what it is, how much of it is done, and of how much."""
-
-
-@dataclasses.dataclass(frozen=True, slots=True)
-class Request:
-    """How to build."""
-
-    full: bool = False
-    """Look at everything again, even if nothing changed."""
-    dry: bool = False
-    """Write nothing."""
-    draw: bool = False
-    """Also draw the main model's diagram into the state folder."""
-    package_paths: tuple[Path, ...] = ()
-    """Where to look for packages after the configured folders."""
-    progress: Progress = lambda _what, _done, _total: None
+_ATTEMPTS = 5
+"""How often a plan is made anew because somebody saved a file in between."""
 
 
 def build(config: Config, robots: Sequence[RobotConfig], request: Request) -> Iterator[Result]:
     """Build robots one after the other; one that fails does not stop the others."""
-    for count, robot in enumerate(robots):
-        request.progress(robot.name, count, len(robots))
-        yield build_robot(config, robot, request)
+    with Lock(config.root / STATE_FOLDER / "lock", request.wait, shown) as lock:
+        builder = _Builder(config, request, lock)
+        for count, robot in enumerate(robots):
+            request.progress(robot.name, count, len(robots))
+            result = builder.build(robot)
+            said = builder.said()
+            yield dataclasses.replace(result, diagnostics=(*said, *result.diagnostics)) if said else result
 
 
-def build_robot(config: Config, robot: RobotConfig, request: Request) -> Result:
-    """Build one robot. Whatever is wrong with it comes back as diagnostics, and then nothing has been written."""
-    result = Result(robot.name, robot.target.package, robot.folder, config.root, dry=request.dry)
-    try:
-        return _Build(config, robot, request).run(result)
-    except UrdfsyncError as error:
-        return dataclasses.replace(result, diagnostics=error.diagnostics, failed=True)
-    except OSError as error:
-        message = f"{error.strerror or error}"
-        found = Diagnostic(Severity.ERROR, "system", message, str(error.filename or robot.folder))
-        return dataclasses.replace(result, diagnostics=(found,), failed=True)
+class _Builder:
+    """The robots of one command."""
+
+    def __init__(self, config: Config, request: Request, lock: Lock) -> None:
+        self._config, self._request, self._lock = config, request, lock
+        self._transactions = Transactions(config.root, config.root / STATE_FOLDER, shown)
+        self._said: list[Diagnostic] = []
+        self._first = True
+
+    def build(self, robot: RobotConfig) -> Result:
+        """Build one robot. Whatever is wrong comes back as diagnostics, with what has become of the files."""
+        result = Result(robot.name, robot.target.package, robot.folder, self._config.root, dry=self._request.dry)
+        try:
+            return self._run(robot, result)
+        except UrdfsyncError as error:
+            locked, unfinished = isinstance(error, LockedError), isinstance(error, UnfinishedError)
+            found = error.diagnostics
+        except OSError as error:
+            locked = unfinished = False
+            place = Path(error.filename) if isinstance(error.filename, str) else robot.folder
+            found = (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), shown(place)),)
+        return dataclasses.replace(result, diagnostics=found, failed=True, locked=locked, unfinished=unfinished)
+
+    def said(self) -> list[Diagnostic]:
+        """What there is to say that belongs to no robot of this command, each only once."""
+        if self._first:
+            stray = leftovers.strays(Store(self._config.root, shown), self._config)
+            self._said += [stray] if stray else []
+            self._first = False
+        said, self._said = self._said, []
+        return said
+
+    def _run(self, robot: RobotConfig, result: Result) -> Result:
+        """Plan, and write unless the run is dry; again if that has been overtaken by other builds or by the user."""
+        saved = robot.folder
+        for _ in range(_ATTEMPTS):
+            self._settle()
+            planner = Planner(self._config, robot, self._request)
+            work = planner.work()
+            if self._request.dry:
+                if self._is_current(planner):
+                    return _done(result, work)
+                continue
+            changes, emptied = planner.changes(work)
+            if changes:
+                self._lock.acquire(waiting=self._wait)
+                if not self._is_current(planner):
+                    continue
+                try:
+                    self._transactions.apply(robot.name, changes, emptied)
+                except SavedError as error:
+                    saved = error.path
+                    continue
+            return dataclasses.replace(_done(result, work), drawing=planner.drawing(work))
+        message = "it changes all the time while urdfsync builds"
+        hint = "close what writes to it, then build again"
+        raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
+
+    def _is_current(self, planner: Planner) -> bool:
+        """Whether no other build has written, or begun to, since the plan was made."""
+        return not self._transactions.pending() and planner.stands()
+
+    def _settle(self) -> None:
+        """Wait for a build that is writing; finish or undo what one has left that was killed."""
+        if not self._transactions.pending():
+            return
+        if self._request.dry:
+            with Lock(self._config.root / STATE_FOLDER / "lock", self._request.wait, shown) as lock:
+                lock.acquire(shared=True, waiting=self._wait)
+            if self._transactions.pending():
+                message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes or undoes it"
+                place = shown(self._config.root / STATE_FOLDER)
+                raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, place, hint=hint))
+            return
+        self._lock.acquire(waiting=self._wait)
+        robots = self._config.robots
+        note = self._transactions.recover([robot.output for robot in robots], [robot.folder for robot in robots])
+        self._said += [note] if note else []
+
+    def _wait(self) -> None:
+        self._request.progress("waiting for another build", 0, 1)
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class _Work:
-    """What there is to do for one robot."""
-
-    decision: Decision
-    manifest: str
-    model: str | None
-    """None if the recorded one stays."""
-    contents: Mapping[str, bytes] = dataclasses.field(default_factory=dict)
-    diagnostics: tuple[Diagnostic, ...] = ()
-    drawing: str | None = None
-
-
-class _Build:
-    """One build of one robot."""
-
-    def __init__(self, config: Config, robot: RobotConfig, request: Request) -> None:
-        self._config, self._robot, self._request = config, robot, request
-        self._domain = registry.domain(robot.domain)
-        self._parents = parents.check(config, robot, self._domain.uses)
-        self._store = Store(config.root, shown)
-        self._state = self._store.load(robot.name)
-        self._disk = Disk(config, robot)
-        self._folder = self._disk.key(robot.folder)
-        self._templates = _templates(config, robot, self._domain)
-        self._content = _read_source(config, robot)
-        self._generator = Generator(robot.domain, self._domain.revision, self._fingerprint())
-        self._check_revision()
-
-    def run(self, result: Result) -> Result:
-        """Decide, and write unless the run is dry."""
-        work = self._if_unchanged() or self._afresh()
-        drawing = None
-        if not self._request.dry:
-            self._apply(work)
-            drawing = self._draw(work)
-        actions, diagnostics = work.decision.actions, work.diagnostics
-        return dataclasses.replace(result, actions=actions, diagnostics=diagnostics, drawing=drawing)
-
-    def _fingerprint(self) -> str:
-        facts = {
-            "class": self._robot.target.name,
-            "options": msgspec.to_builtins(self._robot.options),
-            "package": self._robot.target.package,
-            "revision": self._domain.revision,
-            "templates": templates_digest(self._templates),
-        }
-        return digest(json.dumps(facts, sort_keys=True).encode())
-
-    def _check_revision(self) -> None:
-        recorded = self._state.manifest.generator if self._state else self._generator
-        if recorded.domain == self._robot.domain and recorded.revision > self._domain.revision:
-            message = f"a newer urdfsync built robot `{self._robot.name}`; this one would undo its improvements"
-            file = shown(self._store.folder / "robots" / f"{self._robot.name}.toml")
-            raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, hint="update urdfsync"))
-
-    def _if_unchanged(self) -> _Work | None:
-        """The work if the recorded state still holds and no file needs to be written; None if it has to be redone.
-
-        Nothing that reads sources or renders templates is imported on this way.
-        """
-        state = self._state
-        if state is None or state.model is None or not state.intact or self._request.full or self._request.draw:
-            return None
-        recorded = state.manifest
-        if self._heading(recorded.source.snapshot) != _heading_of(recorded) or self._parents.created:
-            return None
-        if any(record.state in (State.CONFLICT, State.WAITING) for record in recorded.files.values()):
-            return None
-        dependencies = self._dependencies(state.model.snapshot, {})
-        if not imports.unchanged(dependencies, recorded.dependencies, self._domain.converter):
-            return None
-        wanted = {
-            key: Wanted(record.role, record.owner, record.base)
-            for key, record in recorded.files.items()
-            if record.base is not None and record.state is not State.ORPHAN
-        }
-        decision = decide(self._disk, recorded, wanted, recorded.orders, {}, self._parents)
-        if any(action.writes or action.kind in CONFLICTS for action in decision.actions):
-            return None
-        renewed = msgspec.structs.replace(recorded, files=decision.files, orders=decision.orders)
-        return _Work(decision, manifest.dumps(renewed), None)
-
-    def _heading(self, snapshot: str) -> Manifest:
-        """The manifest of this build without the lists in it."""
-        robot = self._robot
-        source = manifest.Source(robot.source_text, digest(self._content), snapshot)
-        target = robot.target
-        return Manifest(
-            package=target.package, class_=target.name, folder=self._folder, source=source, generator=self._generator
-        )
-
-    def _dependencies(self, snapshot: Snapshot, lines: Mapping[str, int]) -> Sequence[Dependency]:
-        lookup = Lookup(self._robot.source, self._robot.package_paths + self._request.package_paths)
-        found = self._domain.dependencies(snapshot, lookup, self._robot.options, lines)
-        if imports.all_found(found):
-            return found
-        lookup = dataclasses.replace(lookup, packages=packages.find(lookup.package_paths, lookup.source))
-        return self._domain.dependencies(snapshot, lookup, self._robot.options, lines)
-
-    def _afresh(self) -> _Work:
-        """Read, import, render and plan."""
-        from urdfsync.generate import generate
-
-        robot, domain = self._robot, self._domain
-        reading = self._read()
-        snapshot = manifest.plain(reading.snapshot or {})
-        imported = self._import(snapshot, reading)
-        generated = generate(domain, snapshot, imported.imports, robot.target, robot.options, self._templates)
-        texts = {self._key(path): output.content for path, output in generated.files.items()}
-        wanted, orders = self._wanted(generated, imported)
-        recorded = self._state.manifest if self._state else None
-        decision = decide(self._disk, recorded, wanted, orders, texts, self._parents)
-        model = manifest.dump_model(snapshot, imported.imports)
-        renewed = msgspec.structs.replace(
-            self._heading(manifest.text_hash(model)),
-            names=domain.names(snapshot, robot.target),
-            dependencies=imported.records,
-            orders=decision.orders,
-            files=decision.files,
-        )
-        contents = texts | {self._key(path): content for path, content in imported.contents.items()}
-        contents |= {key: encode(text) for key, text in decision.texts.items()}
-        said = [*reading.diagnostics, *imported.diagnostics, *self._parents.diagnostics, *self._left_behind()]
-        said.sort(key=lambda found: (found.file, found.line))
-        drawing = self._drawing(snapshot, imported.imports)
-        return _Work(decision, manifest.dumps(renewed), model, contents, tuple(said), drawing)
-
-    def _wanted(
-        self, generated: Generated, imported: imports.Imported
-    ) -> tuple[dict[str, Wanted], dict[str, tuple[str, ...]]]:
-        """All files that the package should have, and the names in every `package.order`, the parent's included."""
-        wanted = {
-            self._key(path): Wanted(output.role, output.owner, text_digest(output.content))
-            for path, output in generated.files.items()
-        }
-        for key, entry in imported.imports.items():
-            wanted[self._key(entry.target)] = Wanted(Role.IMPORT, key, entry.target_hash)
-        orders = {self._key(path): names for path, names in generated.orders.items()}
-        folder = self._robot.folder
-        if folder.parent != self._robot.output:
-            orders[self._disk.key(folder.parent / "package.order")] = (folder.name,)
-        return wanted, orders
-
-    def _read(self) -> Reading:
-        reading = self._domain.read(self._content, shown(self._robot.source), self._robot.options)
-        if reading.snapshot is None or any(d.severity is Severity.ERROR for d in reading.diagnostics):
-            raise SourceError(*reading.diagnostics)
-        return reading
-
-    def _import(self, snapshot: Snapshot, reading: Reading) -> imports.Imported:
-        state, name = self._state, self._robot.name
-        files = state.manifest.files if state else {}
-        recorded = imports.Recorded(
-            records=state.manifest.dependencies if state else {},
-            facts=state.model.imports if state and state.model else {},
-            copy=lambda target: self._disk.read(self._old_key(target)),
-            base=lambda target: record.base if (record := files.get(self._old_key(target))) else None,
-            moved=state is not None and state.manifest.folder != self._folder,
-        )
-        return imports.bring_in(
-            self._domain,
-            self._dependencies(snapshot, reading.lines),
-            recorded,
-            shown(self._robot.source),
-            self._request.full,
-            lambda done, total: self._request.progress(f"{name}: imports", done, total),
-        )
-
-    def _key(self, path: str) -> str:
-        return f"{self._folder}/{path}"
-
-    def _old_key(self, path: str) -> str:
-        return f"{self._state.manifest.folder}/{path}" if self._state else self._key(path)
-
-    def _left_behind(self) -> list[Diagnostic]:
-        """A note if the package was somewhere that urdfsync does not touch any more."""
-        if self._state is None or self._disk.reaches(f"{self._state.manifest.folder}/package.mo"):
-            return []
-        message = f"the package of the last build, {self._state.manifest.folder}, is outside of the output folder now"
-        file, line = shown(self._config.file), self._robot.lines[""]
-        return [Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint="delete it by hand")]
-
-    def _apply(self, work: _Work) -> None:
-        writing = [action for action in work.decision.actions if action.writes]
-        paths = {action.path: self._disk.path(action.path) for action in writing}
-        deletes = [paths[action.path] for action in writing if action.kind is Kind.DELETE]
-        writes = {paths[a.path]: work.contents[a.path] for a in writing if a.kind is not Kind.DELETE}
-        commit(writes, deletes)
-        if self._state:
-            above = self._disk.path(self._state.manifest.folder).parent
-            remove_empty([path.parent for path in deletes], above)
-        self._store.save(self._robot.name, work.manifest, work.model)
-
-    def _drawing(self, snapshot: Snapshot, imported: Mapping[str, Import]) -> str | None:
-        if not self._request.draw:
-            return None
-        return self._domain.drawing(snapshot, imported, self._robot.target, self._robot.options)
-
-    def _draw(self, work: _Work) -> Path | None:
-        if work.drawing is None:
-            return None
-        path = self._store.drawing(self._robot.name)
-        commit({path: work.drawing.encode()})
-        return path
-
-
-def _heading_of(recorded: Manifest) -> Manifest:
-    return msgspec.structs.replace(recorded, names={}, dependencies={}, orders={}, files={})
-
-
-def _templates(config: Config, robot: RobotConfig, domain: Domain) -> list[Path]:
-    """The robot's template folders, best first. Raises ConfigError for one that does not exist."""
-    folders = [robot.templates] if robot.templates else []
-    for folder in folders:
-        if not folder.is_dir():
-            message = f"robot `{robot.name}`: the template folder {shown(folder)} does not exist"
-            line = robot.lines.get("templates", 0)
-            raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line))
-    return [*folders, templates_folder(domain)]
-
-
-def _read_source(config: Config, robot: RobotConfig) -> bytes:
-    try:
-        return robot.source.read_bytes()
-    except OSError as error:
-        reason = "does not exist" if isinstance(error, FileNotFoundError) else f"can't be read: {error.strerror}"
-        message = f"robot `{robot.name}`: the source {shown(robot.source)} {reason}"
-        line = robot.lines.get("source", 0)
-        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(config.file), line)) from None
+def _done(result: Result, work: Work) -> Result:
+    return dataclasses.replace(result, actions=work.decision.actions, diagnostics=work.diagnostics)

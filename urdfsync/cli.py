@@ -7,31 +7,42 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, NoReturn, TypeAlias
 
-from urdfsync import __version__
+from urdfsync import __version__, streams
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit, exit_code
 from urdfsync.report import Report
 
-_CODES = "exit codes: 0 in step, 1 out of step (--check), 2 error, 3 conflict, 130 interrupted"
+_CODES = "exit codes: 0 in step, 1 out of step (--check), 2 error, 3 conflict, 4 locked, 130 interrupted"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; returns the exit code. Whatever a user can cause is one line, never a traceback."""
+    with streams.guarded() as output:
+        code = _main(sys.argv[1:] if arguments is None else list(arguments))
+        if output.trouble:
+            found = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {output.trouble}")
+            Report().problems("", [found])
+            code = Exit.ERROR
+    return code
+
+
+def _main(arguments: list[str]) -> int:
     try:
         options = _parser().parse_args(arguments)
     except SystemExit as stop:
         return stop.code if isinstance(stop.code, int) else Exit.ERROR
+    except _UsageError as error:
+        command = error.program.partition(" ")[2]
+        found = Diagnostic(Severity.ERROR, "usage", str(error), hint=f"`{error.program} --help` says more")
+        Report("--json" in arguments).bad_usage(command, error.usage, found)
+        return Exit.ERROR
     report = Report(options.json, options.quiet, options.verbose, getattr(options, "explain", False))
     try:
-        code: int = options.run(options, report)
-        sys.stdout.flush()
+        return int(options.run(options, report))
     except UrdfsyncError as error:
         report.problems(options.command, error.diagnostics)
-        return Exit.ERROR
-    except BrokenPipeError:  # the reader has seen enough; Python would complain once more at exit
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return Exit.ERROR
     except OSError as error:
         found = Diagnostic(Severity.ERROR, "system", error.strerror or str(error), str(error.filename or ""))
@@ -41,15 +52,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         found = Diagnostic(Severity.ERROR, "interrupted", "interrupted; run the command again to finish the work")
         report.problems(options.command, [found], Exit.INTERRUPTED)
         return Exit.INTERRUPTED
-    return code
 
 
 def _build(options: argparse.Namespace, report: Report) -> int:
-    from urdfsync import config
+    from urdfsync import advice, config
     from urdfsync.build import Request, build
 
-    configuration = config.load(options.config or config.find(Path.cwd()))
+    folder = config.working_folder()
+    configuration = config.load(options.config or config.find(folder))
     robots = configuration.select([*options.robots, *(options.robot or [])])
+    report.warnings(advice.warnings(configuration, robots))
     request = Request(
         full=options.full,
         dry=options.dry_run or options.check,
@@ -69,7 +81,7 @@ def _build(options: argparse.Namespace, report: Report) -> int:
 def _init(options: argparse.Namespace, report: Report) -> int:
     from urdfsync import config, init
 
-    file = (options.config or Path(config.FILE_NAME)).absolute()
+    file = config.working_folder() / (options.config or config.FILE_NAME)
     draft = init.draft(file, options.sources, options.domain)
     init.write(draft)
     report.draft(draft)
@@ -83,8 +95,26 @@ def _library(_options: argparse.Namespace, report: Report) -> int:
     return Exit.IN_STEP
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+class _UsageError(Exception):
+    """Arguments that no command takes."""
+
+    def __init__(self, message: str, usage: str, program: str) -> None:
+        super().__init__(message)
+        self.usage, self.program = usage, program
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser that leaves to `Report` what to say of bad arguments."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__(allow_abbrev=False, **options)
+
+    def error(self, message: str) -> NoReturn:
+        raise _UsageError(message, self.format_usage(), self.prog)
+
+
+def _parser() -> _Parser:
+    parser = _Parser(
         prog="urdfsync",
         description="Keeps Modelica models in step with URDF files, and leaves alone what you edited.",
         epilog=f"Begin with `urdfsync init robot.urdf`, then `urdfsync build`.\n\n{_CODES}",
@@ -98,7 +128,7 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
+Commands: TypeAlias = "argparse._SubParsersAction[_Parser]"
 
 
 def _add_init(commands: Commands) -> None:
@@ -138,8 +168,9 @@ def _add_library(commands: Commands) -> None:
     library = commands.add_parser(
         "library",
         help="print where the Modelica library is",
-        description="Print the folder of the Modelica library, and the line that puts it on MODELICAPATH.",
-        epilog='example: eval "$(urdfsync library | tail -n 1)"',
+        description="Print the folder of the Modelica library, and the line that puts it on MODELICAPATH. "
+        "Into a pipe or a file goes the line alone.",
+        epilog='example: eval "$(urdfsync library)"',
     )
     library.set_defaults(run=_library)
     _add_common(library)

@@ -24,8 +24,10 @@ FILE_NAME = "urdfsync.toml"
 OWN_KEYS = ("source", "package", "class")
 """Keys that make no sense as defaults."""
 
+STATE_FOLDER = ".urdfsync"
+"""Holds what urdfsync remembers; beside the configuration."""
+
 _SAFE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,99}", re.ASCII)
-_DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 
 
 class Keys(msgspec.Struct, frozen=True):
@@ -91,7 +93,17 @@ class Config:
 
 def is_robot_name(name: str) -> bool:
     """Whether a robot's name can be a file's name on every system."""
-    return bool(_SAFE_NAME.fullmatch(name)) and not _DEVICES.fullmatch(name) and not name.endswith(".")
+    device = name.partition(".")[0].lower() in modelica.DEVICES
+    return bool(_SAFE_NAME.fullmatch(name)) and not device and not name.endswith(".")
+
+
+def working_folder() -> Path:
+    """The working folder. Raises ConfigError if somebody has deleted it."""
+    try:
+        return Path.cwd()
+    except FileNotFoundError:
+        message, hint = "the working folder does not exist any more", "change to a folder that exists"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-folder", message, hint=hint)) from None
 
 
 def find(start: Path) -> Path:
@@ -113,10 +125,15 @@ def load(file: Path) -> Config:
         message = "the configuration does not exist"
         hint = "write one with `urdfsync init SOURCE`"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-config", message, name, hint=hint)) from None
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
-        message = f"the configuration can't be read: {reason}"
-        raise ConfigError(Diagnostic(Severity.ERROR, "unreadable-config", message, name)) from None
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        message = "the configuration is not UTF-8"
+        hint = "save it as UTF-8"
+        raise ConfigError(Diagnostic(Severity.ERROR, "unreadable-config", message, name, line, hint=hint)) from None
+    except OSError as error:
+        message = f"the configuration can't be read: {error.strerror}"
+        hint = "name a file that you may read"
+        raise ConfigError(Diagnostic(Severity.ERROR, "unreadable-config", message, name, hint=hint)) from None
     return parse(text, file.absolute(), name)
 
 
@@ -127,7 +144,8 @@ def parse(text: str, file: Path, name: str, domains: Callable[[str], Domain] = r
     """
     document = tomlfile.parse(text, name, ConfigError)
     reader = _Reader(text, document, name, file.parent, domains)
-    robots = tuple(reader.robots())
+    reader.check_characters()
+    robots = () if reader.problems else tuple(reader.robots())
     reader.check_clashes(robots)
     if reader.problems:
         raise ConfigError(*sorted(reader.problems, key=lambda problem: problem.line))
@@ -145,6 +163,13 @@ class _Reader:
         self._lines = tomlfile.lines(text)
         self._domains = domains
         self._option_names: set[str] = set()
+
+    def check_characters(self) -> None:
+        """No name, path or option has a use for a control character, and some systems stop at one."""
+        for path, text in tomlfile.strings(self._document):
+            if any(ord(char) < 32 or ord(char) == 127 for char in text):
+                message = f"there is a control character in {text!r}"
+                self._report("control-character", path, message, "write it without")
 
     def robots(self) -> Iterator[RobotConfig]:
         """Every robot whose table is right."""
@@ -182,7 +207,7 @@ class _Reader:
         chosen, wrong_options = tables.read(merged, domain.options)
         problems += wrong_keys + wrong_options
         if keys is not None:
-            problems += _check_names(merged, keys)
+            problems += _check_names(merged, keys) + _check_paths(merged, keys, self._root)
         self.problems += problems
         return None if problems else self._resolve(name, keys, chosen, merged)
 
@@ -260,25 +285,46 @@ _DEFAULT_NAMES = _KEY_NAMES - set(OWN_KEYS)
 
 
 def _check_names(table: tables.Table, keys: Keys) -> list[Diagnostic]:
+    parts = keys.package.split(".")
     found = []
-    for key, name in [*(("package", part) for part in keys.package.split(".")), ("class", keys.class_)]:
-        if key == "package" and not name:
-            message = f"`package` must be a full class name, not {keys.package!r}"
-        elif not name or modelica.is_identifier(name):
-            continue
-        elif name in modelica.KEYWORDS:
-            message = f"`{key}`: `{name}` is a keyword of Modelica"
-        else:
-            message = f"`{key}`: {name!r} is no Modelica identifier"
+    for key, name in [*(("package", part) for part in parts), *([("class", keys.class_)] if keys.class_ else [])]:
         hint = "use letters, digits and `_`, a letter first"
+        if not name:
+            message = f"`package` must be a full class name, not {keys.package!r}"
+        elif name in modelica.KEYWORDS:
+            message, hint = f"`{key}`: `{name}` is a keyword of Modelica", _instead(name)
+        elif not modelica.is_identifier(name):
+            message = f"`{key}`: {name!r} is no Modelica identifier"
+        else:
+            continue
         found.append(table.problem("modelica-name", key, message, hint))
+    for index, part in enumerate(parts if not found else []):
+        own_library = part == modelica.LIBRARY and index == 0 and len(parts) > 1  # `parents` looks whether it is there
+        if not modelica.is_package_name(part) and not own_library:
+            message = f"`package`: `{part}` can't be a package: Modelica, Windows or urdfsync has a use for the name"
+            found.append(table.problem("modelica-name", "package", message, _instead(part)))
     name = _class_name(keys)
     if not found and not modelica.is_class_name(name):
         message = f"`{name}` can't be the class of a robot model"
         hint = "set `class` to a name with a capital first that neither Modelica nor urdfsync has a use for"
         found.append(table.problem("modelica-name", "class" if keys.class_ else "package", message, hint))
+    return found
+
+
+def _instead(name: str) -> str:
+    return f"choose another name, for example `{modelica.class_name(f'{name} robot')}`"
+
+
+def _check_paths(table: tables.Table, keys: Keys, root: Path) -> list[Diagnostic]:
+    found = []
     if not keys.source:
-        found.append(table.problem("wrong-value", "source", "`source` must name a file"))
+        found.append(table.problem("wrong-value", "source", "`source` must name a file", "give the path of the source"))
+    if not keys.output:
+        hint = 'write "." for the folder of the configuration itself'
+        found.append(table.problem("wrong-value", "output", "`output` must name a folder", hint))
+    if f"{_folded(_absolute(root / keys.output))}{os.sep}".startswith(f"{_folded(root / STATE_FOLDER)}{os.sep}"):
+        message = f"`output` can't be in {STATE_FOLDER}: that is where urdfsync keeps its own files"
+        found.append(table.problem("wrong-value", "output", message, "name another folder"))
     return found
 
 
@@ -298,7 +344,10 @@ def _folded(path: Path) -> str:
 
 def shown(path: Path) -> str:
     """A path as people see it: relative to the working folder if it is inside it."""
-    current = Path.cwd()
+    try:
+        current = Path.cwd()
+    except FileNotFoundError:  # somebody has deleted it
+        return str(path)
     return str(path.relative_to(current) if path.is_relative_to(current) else path)
 
 

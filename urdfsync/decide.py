@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from urdfsync import order
@@ -13,7 +13,7 @@ from urdfsync.domain import Role
 from urdfsync.files import Tree, digest, text_digest
 from urdfsync.manifest import Manifest
 from urdfsync.parents import Parents
-from urdfsync.plan import CONFLICTS, Action, FileRecord, Found, Kind, Wanted, after, hold, numbers_only, plan
+from urdfsync.plan import CONFLICTS, Action, FileRecord, Found, Kind, Wanted, after, hold, numbers_only, plan, spare
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -33,6 +33,7 @@ class Disk:
     def __init__(self, config: Config, robot: RobotConfig) -> None:
         self._root = config.root
         self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
+        self._seen: dict[str, str | None] = {}
 
     def key(self, path: Path) -> str:
         """How a file is called in manifest and plan."""
@@ -56,7 +57,9 @@ class Disk:
         """What is there in the place of a file."""
         content = self.read(key)
         if content is not None:
-            return Found(digest(content) if role is Role.IMPORT else text_digest(content))
+            seen = self._see(key, content)
+            return Found(seen if role is Role.IMPORT or b"\r" not in content else text_digest(content))
+        self._seen.setdefault(key, None)
         path = self.path(key)
         is_class = path.suffix == ".mo" and path.name != "package.mo"
         return Found(as_folder=is_class and (path.with_suffix("") / "package.mo").is_file())
@@ -64,7 +67,32 @@ class Disk:
     def text(self, key: str) -> str | None:
         """The file as text; bytes that are not UTF-8 survive, see `encode`."""
         content = self.read(key)
-        return None if content is None else content.decode(errors="surrogateescape")
+        if content is None:
+            self._seen.setdefault(key, None)
+            return None
+        self._see(key, content)
+        return content.decode(errors="surrogateescape")
+
+    def seen(self, key: str) -> str | None:
+        """SHA-256 (hex) of what `found` or `text` first saw in the place of a file; None if that was no file."""
+        return self._seen[key]
+
+    def has_classes(self, key: str, gone: Collection[str]) -> bool:
+        """Whether the folder of a `package.mo` has other classes than it, and than those of the files in `gone`."""
+        folder = self.path(key).parent
+        for path in folder.iterdir():
+            single = path.suffix == ".mo" and path.name != "package.mo" and path.is_file()
+            whole = path / "package.mo"
+            if single and self.key(path) not in gone:
+                return True
+            if not single and whole.is_file() and self.key(whole) not in gone:
+                return True
+        return False
+
+    def _see(self, key: str, content: bytes) -> str:
+        found = digest(content)
+        self._seen.setdefault(key, found)
+        return found
 
     def _tree(self, path: Path) -> Tree | None:
         return next((tree for tree in self._trees if tree.root in path.parents), None)
@@ -91,7 +119,8 @@ def decide(
     recorded = {key: r for key, r in manifest.files.items() if disk.reaches(key)} if manifest else {}
     owned = {key: n for key, n in manifest.orders.items() if disk.reaches(key)} if manifest else {}
     roles = {key: record.role for key, record in recorded.items()} | {key: w.role for key, w in wanted.items()}
-    actions = plan(recorded, wanted, {key: disk.found(key, role) for key, role in roles.items()})
+    planned = plan(recorded, wanted, {key: disk.found(key, role) for key, role in roles.items()})
+    actions = spare(planned, disk.has_classes)
     order_actions, order_texts = _plan_orders(disk, owned, orders)
     extra, extra_texts = _plan_parents(disk, parents)
     everything = (*actions, *order_actions, *extra)
@@ -125,6 +154,7 @@ def _plan_orders(
 def _plan_parents(disk: Disk, parents: Parents) -> tuple[list[Action], dict[str, str]]:
     actions, texts = [], {}
     for path, content in parents.created.items():
+        disk.found(disk.key(path), Role.PACKAGE)
         actions.append(Action(disk.key(path), Kind.CREATE, Role.PACKAGE, "parent package"))
         texts[disk.key(path)] = content.decode()
     for path, name in parents.entered.items():

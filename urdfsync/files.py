@@ -1,18 +1,26 @@
-"""Reading and writing the files of a package: hashes, refusal of links, and writes that are whole or not at all."""
+"""Reading files: hashes, refusal of links and of whatever is no file, and errors in words."""
 
 from __future__ import annotations
 
-import contextlib
+import errno
 import hashlib
 import os
 import stat
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 
 TEMPORARY = ".urdfsync-tmp"
 """Suffix of the files that are written before they replace their targets."""
+
+_HINTS = {
+    **dict.fromkeys((errno.EACCES, errno.EPERM), "check the permissions of the file and of its folder"),
+    errno.EROFS: "the file system can't be written to: mount it for writing, or name another output folder",
+    **dict.fromkeys((errno.ENOSPC, errno.EDQUOT), "free some space on the disk"),
+    **dict.fromkeys((errno.EISDIR, errno.ENOTDIR, errno.EEXIST, errno.ENOTEMPTY), "move away what is in its place"),
+    **dict.fromkeys((errno.ENAMETOOLONG, errno.EINVAL), "choose a shorter or plainer name for it"),
+}
 
 
 def digest(content: bytes) -> str:
@@ -31,14 +39,22 @@ def templates_digest(folders: Sequence[Path]) -> str:
     """SHA-256 (hex) over the templates in use, by name and content; an earlier folder hides names of a later one."""
     templates: dict[str, Path] = {}
     for folder in reversed(folders):
-        templates |= {path.relative_to(folder).as_posix(): path for path in folder.rglob("*.jinja")}
+        found = (path for path in folder.rglob("*.jinja") if path.is_file())
+        templates |= {path.relative_to(folder).as_posix(): path for path in found}
     lines = [f"{name}\0{text_digest(path.read_bytes())}\n" for name, path in sorted(templates.items())]
     return digest("".join(lines).encode())
 
 
-def refuse(code: str, path: Path, message: str, hint: str = "") -> OutputError:
-    """The error for a target that can't be used."""
-    return OutputError(Diagnostic(Severity.ERROR, code, message, str(path), hint=hint))
+def failure(error: OSError, name: str, what: str = "it can't be written") -> OutputError:
+    """What the system says of the file that messages call `name`, with what to do about it."""
+    hint = "; ".join(filter(None, [_HINTS.get(error.errno or 0, ""), "then build again"]))
+    message = f"{what}: {error.strerror or error}"
+    return OutputError(Diagnostic(Severity.ERROR, "output-not-writable", message, name, hint=hint))
+
+
+def kind_of(mode: int) -> str:
+    """What a thing is that is no regular file, in words; `mode` is that of `os.lstat`."""
+    return "a symbolic link" if stat.S_ISLNK(mode) else "a folder" if stat.S_ISDIR(mode) else "no regular file"
 
 
 class Tree:
@@ -63,9 +79,10 @@ class Tree:
         except (FileNotFoundError, NotADirectoryError):
             return None
         except OSError as error:
-            raise self._refusal("output-unreadable", path, f"it can't be read: {error.strerror}") from None
-        what = "a symbolic link" if stat.S_ISLNK(mode) else "a folder" if stat.S_ISDIR(mode) else "no regular file"
-        raise self._refusal("output-in-the-way", path, f"{what} is where urdfsync would write a file", "move it away")
+            hint = _HINTS.get(error.errno or 0, "")
+            raise self._refusal("output-unreadable", path, f"it can't be read: {error.strerror}", hint) from None
+        message = f"{kind_of(mode)} is where urdfsync would write a file"
+        raise self._refusal("output-in-the-way", path, message, "move it away")
 
     def check_folder(self, folder: Path) -> bool:
         """Whether a folder below the root exists. Raises OutputError if it is a file, a link, or not below the root."""
@@ -87,65 +104,3 @@ class Tree:
 
     def _refusal(self, code: str, path: Path, message: str, hint: str = "") -> OutputError:
         return OutputError(Diagnostic(Severity.ERROR, code, message, self._shown(path), hint=hint))
-
-
-def commit(writes: Mapping[Path, bytes], deletes: Iterable[Path] = ()) -> None:
-    """Write and delete files; each is replaced as a whole, and none before all are on disk under other names.
-
-    Raises OutputError if that is not possible; before the first replacement, nothing has changed then.
-    """
-    staged: dict[Path, Path] = {}
-    try:
-        for target, content in writes.items():
-            staged[target] = _stage(target, content)
-        if staged:
-            _sync(staged.values())
-        for target, temporary in staged.items():
-            temporary.replace(target)
-        for target in deletes:
-            target.unlink(missing_ok=True)
-    except OSError as error:
-        place = Path(str(error.filename2 or error.filename or "")) if error.filename else next(iter(writes), Path())
-        name = place.with_name(place.name.removesuffix(TEMPORARY).removeprefix(".")) if place.name else place
-        hint = "check its permissions and the space on the disk, then build again"
-        raise refuse("output-not-writable", name, f"it can't be written: {error.strerror}", hint) from None
-    finally:
-        for temporary in staged.values():
-            temporary.unlink(missing_ok=True)
-
-
-def remove_empty(folders: Iterable[Path], stop: Path) -> None:
-    """Remove these folders and those above them, as far as they are empty and below `stop`."""
-    for folder in sorted(set(folders), key=lambda path: len(path.parts), reverse=True):
-        current = folder
-        while stop in current.parents:
-            try:
-                current.rmdir()
-            except OSError:  # it is not empty, gone already, or not ours to remove: all fine
-                break
-            current = current.parent
-
-
-def _stage(target: Path, content: bytes) -> Path:
-    target.parent.mkdir(parents=True, exist_ok=True)
-    temporary = target.with_name(f".{target.name}{TEMPORARY}")
-    temporary.unlink(missing_ok=True)
-    try:
-        with temporary.open("xb") as file:
-            file.write(content)
-        with contextlib.suppress(FileNotFoundError):
-            temporary.chmod(stat.S_IMODE(target.stat().st_mode))
-    except OSError:
-        temporary.unlink(missing_ok=True)
-        raise
-    return temporary
-
-
-def _sync(paths: Iterable[Path]) -> None:
-    """Bring everything written so far to the disk: one call for all, since one per file takes 1.5 ms each."""
-    if hasattr(os, "sync"):
-        os.sync()
-        return
-    for path in paths:
-        with path.open("rb+") as file:
-            os.fsync(file.fileno())

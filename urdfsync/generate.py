@@ -5,10 +5,14 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Import, Order, Role, Snapshot, Target
+
+if TYPE_CHECKING:
+    from urdfsync.render import Renderer
 
 _FORBIDDEN = frozenset('\\:*?"<>|')
 """Characters that a path can't have on every system."""
@@ -92,37 +96,74 @@ def _problem(code: str, message: str) -> Diagnostic:
 
 
 def _render(artifacts: Sequence[Artifact], folders: Sequence[Path]) -> list[bytes]:
-    import jinja2
-
     from urdfsync.render import Renderer
 
     renderer = Renderer(folders)
-    contents = []
-    for artifact in artifacts:
-        try:
-            text = renderer.render(artifact.template, artifact.data)
-        except jinja2.TemplateSyntaxError as error:
-            name = error.filename or error.name or artifact.template
-            raise ConfigError(_template_problem(str(error.message), name, error.lineno)) from None
-        except jinja2.TemplateNotFound as error:
-            raise ConfigError(_template_problem(f"there is no template `{error.name}`", "", 0)) from None
-        except (jinja2.TemplateError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
-            message = f"the template can't be rendered for `{artifact.path}`: {error}"
-            raise ConfigError(_template_problem(message, *_place(error, artifact.template))) from None
-        contents.append(text.replace("\r\n", "\n").encode())
-    return contents
+    return [_content(renderer, artifact, folders) for artifact in artifacts]
 
 
-def _template_problem(message: str, file: str, line: int) -> Diagnostic:
-    return Diagnostic(Severity.ERROR, "template", message, file, line)
+def _content(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> bytes:
+    """One rendered file; whatever a template of the user's can do wrong is a ConfigError at its line."""
+    import jinja2
+
+    try:
+        return renderer.render(artifact.template, artifact.data).replace("\r\n", "\n").encode()
+    except jinja2.TemplateSyntaxError as error:
+        place = error.filename or error.name or artifact.template, error.lineno
+        raise _template_error(str(error.message).rstrip("."), place, folders) from None
+    except jinja2.TemplateNotFound as error:
+        names = error.templates if isinstance(error, jinja2.TemplatesNotFound) else [error.name]
+        message = f"there is no template {' or '.join(f'`{name}`' for name in names)}"
+        raise _template_error(message, _place(error, artifact.template, folders), folders) from None
+    except UnicodeDecodeError as error:
+        raise _template_error("the template is not UTF-8", _undecodable(error, folders), folders) from None
+    except _RENDERING as error:
+        message = f"the template can't be rendered for `{artifact.path}`: {_reason(error)}"
+        raise _template_error(message, _place(error, artifact.template, folders), folders) from None
+    except jinja2.TemplateError as error:
+        message = f"the template can't be rendered for `{artifact.path}`: {error}"
+        raise _template_error(message, _place(error, artifact.template, folders), folders) from None
 
 
-def _place(error: Exception, template: str) -> tuple[str, int]:
+_RENDERING = (
+    *(ArithmeticError, AssertionError, AttributeError, LookupError, MemoryError, NameError, RuntimeError),
+    *(SyntaxError, TypeError, ValueError),
+)
+"""What expressions in a template can raise."""
+
+
+def _reason(error: Exception) -> str:
+    if isinstance(error, RecursionError):
+        return "it includes or calls itself without end"
+    if isinstance(error, MemoryError):
+        return "it needs more memory than there is"
+    if isinstance(error, UnicodeEncodeError):
+        return f"it gives {error.object[error.start]!r}, which is no character"
+    return str(error) or type(error).__name__
+
+
+def _template_error(message: str, place: tuple[str, int], folders: Sequence[Path]) -> ConfigError:
+    file, line = place
+    own = any(folder in Path(file).parents for folder in folders[:-1])
+    hint = "correct the template, or delete it to get that of urdfsync" if own else "install urdfsync again"
+    name = shown(Path(file)) if Path(file).is_absolute() else file
+    return ConfigError(Diagnostic(Severity.ERROR, "template", message, name, line, hint=hint))
+
+
+def _place(error: Exception, template: str, folders: Sequence[Path]) -> tuple[str, int]:
     """File and line of the innermost template that the error passed through; Jinja names them in the traceback."""
-    file, line, frame = template, 0, error.__traceback__
+    file = next((str(folder / template) for folder in folders if (folder / template).is_file()), template)
+    line, frame = 0, error.__traceback__
     while frame is not None:
         name = frame.tb_frame.f_code.co_filename
-        if name.endswith(".jinja"):
+        if any(folder in Path(name).parents for folder in folders):
             file, line = name, frame.tb_lineno
         frame = frame.tb_next
     return file, line
+
+
+def _undecodable(error: UnicodeDecodeError, folders: Sequence[Path]) -> tuple[str, int]:
+    """File and line of the template whose bytes could not be decoded; the error has nothing but the bytes."""
+    files = (path for folder in folders for path in sorted(folder.rglob("*")) if path.is_file())
+    name = next((str(path) for path in files if path.read_bytes() == error.object), "")
+    return name, error.object.count(b"\n", 0, error.start) + 1

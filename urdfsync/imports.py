@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import dataclasses
 import os
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+
+import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import
 from urdfsync.files import digest
 from urdfsync.manifest import DependencyRecord, Facts
+
+_POINTER = b"version https://git-lfs"
+"""How a file begins that Git LFS has not replaced by its content yet."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -46,9 +52,22 @@ def unchanged(dependencies: Sequence[Dependency], records: Mapping[str, Dependen
         if (record.uri, record.target) != (dependency.uri, dependency.target):
             return False
         found = _find(dependency)
-        if found and (record.source_hash, record.converter) != (digest(found[1]), converter):
+        known = {(record.source_hash, record.converter), (record.unreadable, record.unreadable_by)}
+        if found and (digest(found[1]), converter) not in known:
             return False
     return True
+
+
+def reminder(
+    dependencies: Sequence[Dependency], records: Mapping[str, DependencyRecord], source: str
+) -> tuple[Diagnostic, ...]:
+    """One note on what `bring_in` has left out, for a build that finds nothing to do and so imports nothing."""
+    nouns = Counter(d.noun for d in dependencies if d.key in records and records[d.key].target_hash is None)
+    if not nouns:
+        return ()
+    parts = [f"{count} {noun}{'' if count == 1 else 's'}" for noun, count in nouns.items()]
+    message, hint = f"{' and '.join(parts)} left out", "`urdfsync build --full` says which, and why"
+    return (Diagnostic(Severity.NOTE, "left-out", message, source, hint=hint),)
 
 
 def bring_in(
@@ -116,20 +135,46 @@ def _convert(
     result: Imported,
 ) -> None:
     path, content = found
+    if content.startswith(_POINTER):
+        _refuse(domain, dependency, content, recorded, result, _pointer(dependency, source))
+        return
     try:
         conversion = domain.convert(dependency, path, content)
     except SourceError as error:
-        (found_wrong,) = error.diagnostics
-        _keep(dependency, recorded, result, dataclasses.replace(found_wrong, file=source, code="unreadable"))
+        trouble = dataclasses.replace(error.diagnostics[0], file=source, code="unreadable")
+        _refuse(domain, dependency, content, recorded, result, trouble)
         return
     result.contents[dependency.target] = conversion.content
     hashes = digest(content), digest(conversion.content)
     _add(dependency, Import(dependency.target, *hashes, domain.converter, conversion.facts), result)
 
 
+def _refuse(
+    domain: Domain,
+    dependency: Dependency,
+    content: bytes,
+    recorded: Recorded,
+    result: Imported,
+    trouble: Diagnostic,
+) -> None:
+    """Do without a file that can't be read, and remember it, so that it is tried again only if it changes."""
+    _keep(dependency, recorded, result, trouble)
+    seen = {"unreadable": digest(content), "unreadable_by": domain.converter}
+    result.records[dependency.key] = msgspec.structs.replace(result.records[dependency.key], **seen)
+
+
+def _pointer(dependency: Dependency, source: str) -> Diagnostic:
+    message = f"{dependency.noun} `{dependency.uri}` can't be read: it is a Git LFS pointer"
+    hint = "get the file itself with `git lfs pull`"
+    return Diagnostic(Severity.WARNING, "unreadable", message, source, hint=hint)
+
+
 def _not_found(dependency: Dependency, source: str) -> Diagnostic:
     message = f"{dependency.noun} `{dependency.uri}` not found"
     hint = "add the folder that holds it to `package_paths`"
+    if dependency.uri.strip().lower().startswith(("http:", "https:", "ftp:")):
+        message = f"{dependency.noun} `{dependency.uri}` is on the network, where urdfsync does not look"
+        hint = "download it, and let the source refer to the file"
     return Diagnostic(Severity.WARNING, "not-found", message, source, hint=hint)
 
 

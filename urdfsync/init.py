@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import os
 import re
@@ -31,6 +32,9 @@ output = "modelica"  # the folder that the packages go into
 # templates = "templates"  # a folder with templates that replace single ones of urdfsync
 """
 
+_LONGEST = 80
+"""A longer stem is cut: robots and packages become names of files."""
+
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Guess:
@@ -56,50 +60,90 @@ class Draft:
 def draft(file: Path, sources: Sequence[Path], domain_name: str) -> Draft:
     """The configuration `file` for these sources, or for those that are below its folder if none is given.
 
-    Raises ConfigError if the file exists or if there is no source, SourceError if one can't be read.
+    A source that is named twice counts once. Raises ConfigError if the file exists or if there is no source,
+    SourceError if one that is named can't be read, or none of those that were found.
     """
     if file.exists():
-        hint = "add a table `[robots.NAME]` to it, or name another file with --config"
-        raise ConfigError(
-            Diagnostic(Severity.ERROR, "config-exists", "the file exists already", shown(file), hint=hint)
-        )
+        raise _exists(file)
     domain = registry.domain(domain_name)
-    sources = sources or list(_search(file.parent, f".{domain.name}"))
-    if not sources:
-        message, hint = f"no *.{domain.name} below {file.parent}", "name the sources: `urdfsync init SOURCE`"
+    found = [] if sources else list(_search(file.parent, f".{domain.name}"))
+    if not sources and not found:
+        message, hint = f"no *.{domain.name} below {shown(file.parent)}", "name the sources: `urdfsync init SOURCE`"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-source", message, hint=hint))
     guesses: list[Guess] = []
     said: list[Diagnostic] = []
-    for source in sources:
-        options, diagnostics = _propose(domain, source)
+    broken: list[Diagnostic] = []
+    for source in _once(sources or found):
+        try:
+            options, diagnostics = _propose(domain, source)
+        except SourceError as error:
+            if sources:
+                raise
+            broken += error.diagnostics
+            said.append(_passed_over(source, error))
+            continue
         said += diagnostics
         guesses.append(_guess(file.parent, source, options, guesses))
+    if not guesses:
+        raise SourceError(*broken)
     return Draft(file, _text(guesses, domain), tuple(guesses), tuple(said))
 
 
 def write(proposal: Draft) -> None:
-    """Write a draft. Raises ConfigError if that is not possible, or if the file exists by now."""
+    """Write a draft, as a whole or not at all. Raises ConfigError if that fails, or if the file exists by now."""
+    file = proposal.file
+    temporary = file.with_name(f".{file.name}.urdfsync-tmp")
     try:
-        with proposal.file.open("x", encoding="utf-8", newline="\n") as file:
-            file.write(proposal.text)
+        content = proposal.text.encode()
+        temporary.write_bytes(content)
+        if file.exists():
+            raise _exists(file)
+        temporary.replace(file)
     except OSError as error:
         message = f"the configuration can't be written: {error.strerror}"
-        raise ConfigError(Diagnostic(Severity.ERROR, "config-not-written", message, shown(proposal.file))) from None
+        hint = "check the folder's permissions and the space on the disk, or name another file with --config"
+        raise ConfigError(Diagnostic(Severity.ERROR, "config-not-written", message, shown(file), hint=hint)) from None
+    finally:
+        with contextlib.suppress(OSError):  # what could not be made can't be removed
+            temporary.unlink(missing_ok=True)
+
+
+def _exists(file: Path) -> ConfigError:
+    hint = "add a table `[robots.NAME]` to it, or name another file with --config"
+    return ConfigError(Diagnostic(Severity.ERROR, "config-exists", "the file exists already", shown(file), hint=hint))
 
 
 def _search(folder: Path, suffix: str) -> Iterator[Path]:
-    """Files with this suffix below `folder`, hidden folders left out, sorted."""
+    """Files with this suffix below `folder`, hidden files and folders left out, sorted."""
     for parent, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
-        yield from (Path(parent, name) for name in sorted(files) if name.lower().endswith(suffix))
+        found = [name for name in sorted(files) if name.lower().endswith(suffix) and not name.startswith(".")]
+        yield from (Path(parent, name) for name in found)
+
+
+def _once(sources: Sequence[Path]) -> list[Path]:
+    """The sources without those that are the same file as one before."""
+    unique: dict[str, Path] = {}
+    for source in sources:
+        unique.setdefault(os.path.realpath(source), source)
+    return list(unique.values())
+
+
+def _passed_over(source: Path, error: SourceError) -> Diagnostic:
+    first = next(found for found in error.diagnostics if found.severity is Severity.ERROR)
+    message, hint = f"{first.message}; passed over", f"put it right and add it, or run `urdfsync init {shown(source)}`"
+    return dataclasses.replace(first, severity=Severity.WARNING, message=message, hint=hint)
 
 
 def _propose(domain: Domain, source: Path) -> tuple[tuple[Proposal, ...], list[Diagnostic]]:
+    if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(source)):
+        message, hint = "the name of the source can't be written into a configuration", "rename it"
+        raise SourceError(Diagnostic(Severity.ERROR, "source-name", message, shown(source), hint=hint))
     try:
         content = source.read_bytes()
     except OSError as error:
-        message = f"the source can't be read: {error.strerror}"
-        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(source))) from None
+        message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
+        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(source), hint=hint)) from None
     reading = domain.read(content, shown(source), domain.options())
     errors = [found for found in reading.diagnostics if found.severity is Severity.ERROR]
     if errors or reading.snapshot is None:
@@ -108,7 +152,7 @@ def _propose(domain: Domain, source: Path) -> tuple[tuple[Proposal, ...], list[D
 
 
 def _guess(root: Path, source: Path, options: tuple[Proposal, ...], taken: Sequence[Guess]) -> Guess:
-    stem = source.name.partition(".")[0]
+    stem = source.name.partition(".")[0][:_LONGEST]
     count = "" if _is_free(stem, "", taken) else next(str(n) for n in range(2, 10_000) if _is_free(stem, str(n), taken))
     path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
     return Guess(_robot_name(stem) + count, path.as_posix(), modelica.class_name(stem) + count, options)

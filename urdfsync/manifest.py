@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import posixpath
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import msgspec
@@ -29,6 +29,9 @@ _HEADER = """\
 # base is the hash of the text that a file last took into account, line endings normalised.
 
 """
+_ORDER = "package.order"
+_PARENT = "../package.order"
+"""The parent package's order file, as it stands in the text."""
 _REPAIR = "restore it from version control (in a merge: take one side), then build again"
 
 
@@ -57,6 +60,9 @@ class DependencyRecord(msgspec.Struct, frozen=True, omit_defaults=True):
     source_hash: str | None = None
     target_hash: str | None = None
     converter: int | None = None
+    unreadable: str | None = None
+    """Hash of the source that was found last, if `unreadable_by` (the converter's version) could not read it."""
+    unreadable_by: int | None = None
 
 
 class Manifest(msgspec.Struct, frozen=True, kw_only=True):
@@ -64,7 +70,8 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True):
 
     The keys of `files` and `orders` are POSIX paths relative to the configuration's folder, like
     `folder`, the package's own; in the text they are relative to `folder`. `orders` has the names
-    that urdfsync owns in each `package.order` file.
+    that urdfsync owns in each `package.order` file. What lies outside of the package is not recorded,
+    but for the parent's `package.order`: a later build must not touch it.
     """
 
     format: int = FORMAT
@@ -100,25 +107,31 @@ def dumps(manifest: Manifest) -> str:
     document: dict[str, Any] = msgspec.to_builtins(manifest)
     document["names"] = {kind: dict(sorted(names.items())) for kind, names in sorted(manifest.names.items()) if names}
     document["dependencies"] = dict(sorted(document["dependencies"].items()))
+    above = _order_above(manifest.folder)
     for key in ("orders", "files"):
-        document[key] = _rekeyed(document[key], lambda path: posixpath.relpath(path, manifest.folder))
+        inside = {path: entry for path, entry in document[key].items() if path.startswith(f"{manifest.folder}/")}
+        if key == "orders" and above in document[key]:
+            inside[above] = document[key][above]
+        document[key] = _rekeyed(inside, lambda path: _PARENT if path == above else path[len(manifest.folder) + 1 :])
     return _HEADER + tomli_w.dumps({key: value for key, value in document.items() if value != {}})
 
 
 def loads(text: str, file: str) -> Manifest:
     """The manifest in `text`, which errors call `file`.
 
-    Raises StateError with file and line for text that is no manifest or that a newer urdfsync wrote.
+    Raises StateError with file and line for text that is no manifest, that names files outside of its package, or
+    that a newer urdfsync wrote.
     """
     data = tomlfile.parse(text, file, StateError, _REPAIR)
-    _check_format(data.get("format"), file, tomlfile.nearest(tomlfile.lines(text), "format"))
+    _check_format(data.get("format"), file, text)
     try:
         manifest = msgspec.convert(data, Manifest)
     except msgspec.ValidationError as error:
         raise StateError(_broken(str(error), data, text, file)) from None
+    _check_places(manifest, text, file)
 
     def from_root(path: str) -> str:
-        return posixpath.normpath(posixpath.join(manifest.folder, path))
+        return _order_above(manifest.folder) if path == _PARENT else f"{manifest.folder}/{path}"
 
     files, orders = _rekeyed(manifest.files, from_root), _rekeyed(manifest.orders, from_root)
     return msgspec.structs.replace(manifest, files=files, orders=orders)
@@ -135,11 +148,11 @@ def load_model(text: str, file: str) -> Model:
     """The model in the JSON file's text. Raises StateError if it is none, or a newer urdfsync wrote it."""
     try:
         model = msgspec.json.decode(text, type=Model)
-    except msgspec.DecodeError as error:
+    except (msgspec.DecodeError, RecursionError) as error:
         line = tomlfile.marker_line(text)
         message = "unresolved merge markers" if line else f"this is no state of urdfsync: {error}"
         raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_REPAIR)) from None
-    _check_format(model.format, file, 0)
+    _check_format(model.format, file)
     return model
 
 
@@ -154,10 +167,59 @@ def text_hash(text: str) -> str:
     return hashlib.sha256(text.replace("\r\n", "\n").encode()).hexdigest()
 
 
-def _check_format(value: object, file: str, line: int) -> None:
-    if isinstance(value, int) and value > FORMAT:
+def _check_format(value: object, file: str, text: str = "") -> None:
+    """Refuse a format that this program does not know; `text` is the TOML that it is in."""
+    if not isinstance(value, int) or 1 <= value <= FORMAT:
+        return
+    line = tomlfile.nearest(tomlfile.lines(text), "format")
+    if value > FORMAT:
         message = f"a newer urdfsync wrote this state (format {value}; this one knows {FORMAT})"
         raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, line, hint="update urdfsync"))
+    message = f"this is no state of urdfsync: there is no format {value}"
+    raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_REPAIR))
+
+
+def _check_places(manifest: Manifest, text: str, file: str) -> None:
+    """Refuse every path that could lead a build to a file that is not of the package; keys are those of the text."""
+    for fine, path, place in _places(manifest):
+        if not fine:
+            line = tomlfile.nearest(tomlfile.lines(text), *place)
+            message = f"the recorded path {path!r} does not belong to the package `{manifest.package}`"
+            hint = "restore the state from version control, or delete it: a build then adopts what is as it would be"
+            raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=hint))
+
+
+def _places(manifest: Manifest) -> Iterator[tuple[bool, str, tuple[str, ...]]]:
+    """Every path in the text: whether it is fine, the path, and the keys that lead to it."""
+    folder, steps = manifest.folder, manifest.package.split(".")
+    yield _is_normal(folder) and folder.split("/")[-len(steps) :] == steps, folder, ("folder",)
+    yield _is_text(manifest.source.path), manifest.source.path, ("source", "path")
+    for path in manifest.files:
+        yield _is_inside(path), path, ("files", path)
+    for path in manifest.orders:
+        own = path == _PARENT or _is_inside(path)
+        yield own and posixpath.basename(path) == _ORDER, path, ("orders", path)
+    for key, dependency in manifest.dependencies.items():
+        yield _is_inside(dependency.target), dependency.target, ("dependencies", key, "target")
+
+
+def _is_text(path: str) -> bool:
+    return not any(ord(char) < 32 or ord(char) == 127 for char in path)
+
+
+def _is_normal(path: str) -> bool:
+    """Whether a path is relative, with forward slashes, without detours and control characters."""
+    absolute = path.startswith("/") or re.match(r"[A-Za-z]:", path) is not None
+    return not absolute and _is_text(path) and "\\" not in path and posixpath.normpath(path) == path
+
+
+def _is_inside(path: str) -> bool:
+    """Whether a path from a folder is that of a file below it."""
+    return _is_normal(path) and path.split("/")[0] not in (".", "..")
+
+
+def _order_above(folder: str) -> str:
+    return posixpath.join(posixpath.dirname(folder), _ORDER)
 
 
 def _broken(error: str, data: Mapping[str, Any], text: str, file: str) -> Diagnostic:

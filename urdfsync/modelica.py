@@ -14,13 +14,34 @@ KEYWORDS = frozenset(
 )
 """Modelica's reserved words (language specification 3.6, section 2.3.3)."""
 
+LIBRARY = "UrdfSync"
+"""The library that urdfsync brings along."""
+
 RESERVED_CLASSES = frozenset(
     """
-    assertionlevel boolean clock connections externalobject integer links joints modelica modelicaservices real
-    resources stateselect string urdfsync
+    assertionlevel boolean clock complex connections externalobject integer modelica modelicaservices real resources
+    stateselect string urdfsync visualization2
     """.split()
 )
-"""Classes, folded to lower case, that a class of these names would hide from generated models."""
+"""Types and libraries, folded to lower case, that a class of these names would hide from generated models."""
+
+FUNCTIONS = frozenset(
+    """
+    abs acos activeState actualStream array asin atan atan2 backSample cardinality cat ceil change cos cosh cross delay
+    diagonal div edge exp fill firstTick floor getInstanceName hold homotopy identity initialState inStream interval
+    inverse linspace ln log log10 matrix max min mod ndims noClock noEvent ones outerProduct pre previous product
+    promote reinit rem rooted sample scalar semiLinear shiftSample sign sin sinh size skew smooth spatialDistribution
+    sqrt subSample sum superSample symmetric tan tanh terminal terminate ticksInState time timeInState transition
+    transpose vector zeros
+    """.split()
+)
+"""Functions and operators of the language, and its variable `time`: names in enclosing packages hide them."""
+
+DEVICES = frozenset(["con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))])
+"""Names, folded to lower case, that Windows gives to no file or folder, whatever its suffix."""
+
+_GENERATED_CLASSES = frozenset({"joints", "links", "package"})
+"""Files and folders, folded to lower case, that stand beside a robot's model."""
 
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
 
@@ -32,7 +53,13 @@ def is_identifier(name: str) -> bool:
 
 def is_class_name(name: str) -> bool:
     """Whether `name` can be the name of a robot's model: a capital first, since what begins small is a component."""
-    return is_identifier(name) and name[:1].isupper() and name.lower() not in RESERVED_CLASSES
+    free = name.lower() not in RESERVED_CLASSES | DEVICES | _GENERATED_CLASSES
+    return free and is_identifier(name) and name[:1].isupper()
+
+
+def is_package_name(name: str) -> bool:
+    """Whether an identifier can name a package around generated models: it hides nothing that they refer to."""
+    return name not in FUNCTIONS and name.lower() not in RESERVED_CLASSES | DEVICES
 
 
 def class_name(text: str, fallback: str = "Robot") -> str:

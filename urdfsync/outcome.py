@@ -18,6 +18,7 @@ class Exit(enum.IntEnum):
     OUT_OF_STEP = 1
     ERROR = 2
     CONFLICT = 3
+    LOCKED = 4
     INTERRUPTED = 130
 
 
@@ -33,6 +34,10 @@ class Result:
     actions: tuple[Action, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
     failed: bool = False
+    locked: bool = False
+    """It failed because another process is building."""
+    unfinished: bool = False
+    """It failed half way, and what was begun could not be put back: the next build does that."""
     dry: bool = False
     """Nothing was written, whatever the actions say."""
     drawing: Path | None = None
@@ -45,15 +50,17 @@ class Result:
     @property
     def in_step(self) -> bool:
         """Whether every file is what it should be, edits apart."""
-        fine = {Kind.UNCHANGED, Kind.KEEP, Kind.ORPHAN, Kind.FORGET}
+        fine = {Kind.UNCHANGED, Kind.KEEP, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
         return not self.failed and all(action.kind in fine for action in self.actions)
 
 
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:
-    """The worst of all: an error before a conflict before being out of step, which counts only if `check`."""
+    """The worst of all: an error, a lock, a conflict, being out of step; the last counts only if `check`."""
     results = list(results)
-    if any(result.failed for result in results):
+    if any(result.failed and not result.locked for result in results):
         return Exit.ERROR
+    if any(result.locked for result in results):
+        return Exit.LOCKED
     if any(result.conflicts for result in results):
         return Exit.CONFLICT
     return Exit.OUT_OF_STEP if check and not all(result.in_step for result in results) else Exit.IN_STEP

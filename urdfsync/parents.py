@@ -1,4 +1,8 @@
-"""The packages around a generated one: they must exist, or be made if the configuration says so."""
+"""The packages around a generated one: they must exist, or be made if the configuration says so.
+
+A `package.order` has to name every class of its package, and classes inside of a `package.mo` can't be told without a
+Modelica parser. So urdfsync enters its names into files that exist, and makes such a file only with the package.
+"""
 
 from __future__ import annotations
 
@@ -20,6 +24,8 @@ class Parents:
     """`package.mo` of every parent that does not exist yet."""
     entered: Mapping[Path, str]
     """`package.order` files above the parent's, and the created package that each has to name."""
+    listed: bool = True
+    """Whether the parent's `package.order` has to name the robot's package: if it is there, or made with the parent."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
@@ -30,9 +36,10 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
     """
     file = shown(config.file)
     _check_output(config, robot, file)
+    parts = robot.target.package.split(".")
+    _check_library(robot, parts, file)
     created: dict[Path, bytes] = {}
     entered: dict[Path, str] = {}
-    parts = robot.target.package.split(".")
     for depth in range(1, len(parts) + 1):
         folder, name = robot.output.joinpath(*parts[:depth]), ".".join(parts[:depth])
         single = folder.with_name(f"{folder.name}.mo")
@@ -46,9 +53,22 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
             hint = "create it, or set `create_parents = true`"
             raise OutputError(_problem("no-parent", message, "package", robot, file, hint))
         created[folder / "package.mo"] = _package(name, uses)
-        if depth > 1:
+        if depth > 1 and _is_ordered(folder.parent, created):
             entered[folder.parent / "package.order"] = parts[depth - 1]
-    return Parents(created, entered, tuple(_check_uses(robot, parts, uses)))
+    return Parents(created, entered, _is_ordered(robot.folder.parent, created), tuple(_check_uses(robot, parts, uses)))
+
+
+def _is_ordered(package: Path, created: Mapping[Path, bytes]) -> bool:
+    """Whether a package has a `package.order`, or gets one because urdfsync makes the package."""
+    return package / "package.mo" in created or (package / "package.order").is_file()
+
+
+def _check_library(robot: RobotConfig, parts: Sequence[str], file: str) -> None:
+    """Only the library's own output folder may hold a package of its name: it would hide the library from tools."""
+    if parts[0] == modelica.LIBRARY and not (robot.output / modelica.LIBRARY / "package.mo").is_file():
+        message = f"`{modelica.LIBRARY}` is the library that models need; a package of that name would hide it"
+        hint = f"choose another top-level package than `{modelica.LIBRARY}`"
+        raise OutputError(_problem("modelica-name", message, "package", robot, file, hint))
 
 
 def _check_output(config: Config, robot: RobotConfig, file: str) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses
 import enum
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 
 import msgspec
 
@@ -29,6 +29,7 @@ class Kind(enum.StrEnum):
     UNOWNED = "unowned-conflict"
     DELETE = "delete"
     ORPHAN = "orphan"
+    NEEDED = "needed"
     FORGET = "forget"
 
 
@@ -48,6 +49,7 @@ _REASONS = {
     Kind.UNOWNED: "urdfsync did not write the file that is there",
     Kind.DELETE: "no longer generated",
     Kind.ORPHAN: "no longer generated, but you edited it; kept",
+    Kind.NEEDED: "no longer generated, but something of yours needs it; kept",
     Kind.FORGET: "no longer generated, and already gone",
 }
 
@@ -148,6 +150,23 @@ def plan(
     return tuple(actions)
 
 
+def spare(actions: Iterable[Action], stays: Callable[[str, Collection[str]], bool]) -> tuple[Action, ...]:
+    """Keep what the user's files need: the record of an edited model, the `package.mo` of a folder with classes.
+
+    `stays(path, gone)` says whether the folder of the `package.mo` at `path` has other classes than those
+    of the files in `gone`.
+    """
+    actions = tuple(actions)
+    owners = {action.owner for action in actions if action.kind is Kind.ORPHAN and action.role is Role.MODEL}
+    gone = {action.path: action for action in actions if action.kind is Kind.DELETE}
+    kept = {path for path, action in gone.items() if action.role is Role.RECORD and action.owner in owners}
+    packages = [path for path, action in gone.items() if action.role is Role.PACKAGE]
+    for path in sorted(packages, key=lambda path: path.count("/"), reverse=True):
+        if stays(path, gone.keys() - kept):
+            kept.add(path)
+    return tuple(dataclasses.replace(a, kind=Kind.NEEDED) if a.path in kept else a for a in actions)
+
+
 def hold(actions: Iterable[Action], numbers_only: Collection[str]) -> tuple[Action, ...]:
     """Structural changes of a robot are all or nothing: with a conflict, they wait.
 
@@ -188,7 +207,7 @@ def _after(action: Action) -> FileRecord | None:
         state = State.CONFLICT
     elif action.kind is Kind.KEEP:
         state = State.EDITED
-    elif action.kind is Kind.ORPHAN:
+    elif action.kind in (Kind.ORPHAN, Kind.NEEDED):
         state = State.ORPHAN
     elif action.generated is None:
         return None

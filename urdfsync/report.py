@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import sys
 import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, Literal
 
 from urdfsync import wording
 from urdfsync.config import shown
@@ -42,11 +43,14 @@ _KINDS = {
     Kind.DELETE: "magenta",
     Kind.KEEP: "cyan",
     Kind.ORPHAN: "yellow",
+    Kind.NEEDED: "yellow",
     Kind.CONFLICT: "bold red",
     Kind.UNOWNED: "bold red",
 }
+_LISTED = CONFLICTS | {Kind.ORPHAN, Kind.NEEDED}
+"""What is named file by file even if nobody asks."""
 _ADVICE = (
-    "  Your file stays as it is. To settle a conflict, move the file away and build again,",
+    "  Your file stays as it is. To settle a conflict, move the file out of the package and build again,",
     "  then put your edits into the file that urdfsync has written.",
 )
 
@@ -61,6 +65,7 @@ class Report:
         self._begin = time.monotonic()
         self._bar: tuple[Progress, TaskID] | None = None
         self._results: list[Result] = []
+        self._warnings: Sequence[Diagnostic] = ()
 
     def progress(self, what: str, done: int, total: int) -> None:
         """Show a step of the work, once the work takes long enough for anybody to wonder."""
@@ -74,6 +79,12 @@ class Report:
             bar.start()
         self._bar[0].update(self._bar[1], description=what, completed=done, total=total)
 
+    def warnings(self, diagnostics: Sequence[Diagnostic]) -> None:
+        """Findings that concern the whole command and do not stop it."""
+        self._warnings = diagnostics
+        if not self._json:
+            self._findings(diagnostics)
+
     def result(self, result: Result) -> None:
         """Show what was done with one robot."""
         self._stop_bar()
@@ -84,7 +95,7 @@ class Report:
         if self._quiet and not result.conflicts:
             return
         if result.in_step and not (self._explain or self._verbose or result.drawing):
-            _plain(f"{result.robot}: {wording.summary(result)}")
+            _plain(result.robot, wording.summary(result))
             return
         console = _console(sys.stderr if result.failed else sys.stdout)
         for line in self._lines(result, console):
@@ -94,16 +105,23 @@ class Report:
         """The end of a build: the JSON document, if one is asked for."""
         self._stop_bar()
         if self._json:
-            self._document(command, code, {"robots": [wording.robot(result) for result in self._results]})
+            robots = [wording.robot(result) for result in self._results]
+            self._document(command, code, {"robots": robots}, self._warnings)
 
     def problems(self, command: str, diagnostics: Sequence[Diagnostic], code: Exit = Exit.ERROR) -> None:
         """Findings that stopped the whole command."""
         self._stop_bar()
         if self._json:
             robots = [wording.robot(result) for result in self._results]
-            self._document(command, code, {"robots": robots}, diagnostics)
+            self._document(command, code, {"robots": robots}, [*self._warnings, *diagnostics])
         else:
             self._findings(diagnostics)
+
+    def bad_usage(self, command: str, usage: str, found: Diagnostic) -> None:
+        """Say what is wrong with the arguments of a command, and how it is called."""
+        if not self._json:
+            sys.stderr.write(usage)
+        self.problems(command, [found])
 
     def draft(self, draft: Draft) -> None:
         """Show the configuration that `init` wrote."""
@@ -127,23 +145,25 @@ class Report:
                 console.print(line, soft_wrap=True)
 
     def library(self, folder: Path) -> None:
-        """Show where the Modelica library is, and how a Modelica tool finds it."""
+        """Show where the Modelica library is, and how a Modelica tool finds it; to `eval`, only the latter."""
         if os.name == "nt":
             line = f"set MODELICAPATH={folder};%MODELICAPATH%"
         else:
-            line = f'export MODELICAPATH="{folder}${{MODELICAPATH:+:$MODELICAPATH}}"'
+            line = f'export MODELICAPATH={shlex.quote(str(folder))}"${{MODELICAPATH:+:$MODELICAPATH}}"'
         if self._json:
             self._document("library", Exit.IN_STEP, {"folder": str(folder), "line": line})
+        elif sys.stdout.isatty():
+            sys.stdout.write(f"{wording.visible(str(folder))}\n{wording.visible(line)}\n")
         else:
-            sys.stdout.write(f"{folder}\n{line}\n")
+            sys.stdout.write(f"{line}\n")
 
     def _lines(self, result: Result, console: Console) -> Iterator[Text]:
         yield _headline(result, console)
         if self._explain or self._verbose:
             yield from _explanation(result, console, everything=self._explain)
-        elif result.conflicts or any(action.kind is Kind.ORPHAN for action in result.actions):
+        else:
             for action in result.actions:
-                if action.kind in CONFLICTS or action.kind is Kind.ORPHAN:
+                if action.kind in _LISTED:
                     yield _text(("  ", ""), *_verdict(action, _place(result, action)))
         if result.conflicts:
             yield from (_text((line, "dim")) for line in _ADVICE)
@@ -155,7 +175,7 @@ class Report:
     ) -> None:
         findings = [wording.finding(diagnostic) for diagnostic in diagnostics]
         document = {"version": VERSION, "command": command, "exit": int(code), **values, "diagnostics": findings}
-        sys.stdout.write(json.dumps(document, indent=2, ensure_ascii=False) + "\n")
+        sys.stdout.write(json.dumps(document, indent=2) + "\n")
 
     def _findings(self, diagnostics: Sequence[Diagnostic]) -> None:
         if self._quiet:
@@ -167,9 +187,8 @@ class Report:
         for found in findings:
             console.print(_finding(found), soft_wrap=True)
         for code, number in more.items():
-            console.print(
-                _text((f"… and {number} more like these [{code}]; --verbose shows them", "dim")), soft_wrap=True
-            )
+            more_words = f"and {number} more like these [{code}]; --verbose shows them"
+            console.print(_text((more_words, "dim")), soft_wrap=True)
 
     def _stop_bar(self) -> None:
         if self._bar is not None:
@@ -181,27 +200,42 @@ class Report:
 def _console(stream: IO[str]) -> Console:
     from rich.console import Console
 
-    return Console(file=stream, highlight=False)
+    system: Literal["auto"] | None = "auto" if _is_styled(stream) else None
+    return Console(file=stream, highlight=False, force_terminal=_is_terminal(stream), color_system=system)
+
+
+def _is_terminal(stream: IO[str]) -> bool:
+    return stream.isatty() or bool(os.environ.get("FORCE_COLOR"))
+
+
+def _is_styled(stream: IO[str]) -> bool:
+    """Whether colours and bold letters are understood and wanted."""
+    plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") in ("dumb", "unknown")
+    return _is_terminal(stream) and not plain
+
+
+def _has_marks(stream: IO[str]) -> bool:
+    return _is_terminal(stream) and str(getattr(stream, "encoding", "")).lower().startswith("utf")
 
 
 def _text(*parts: tuple[str, str]) -> Text:
+    """One line. Nothing in it can move the cursor or turn the writing round."""
     from rich.text import Text
 
-    return Text.assemble(*parts)
+    return Text.assemble(*((wording.visible(text), style) for text, style in parts))
 
 
-def _plain(line: str) -> None:
+def _plain(name: str, summary: str) -> None:
     """A headline without rich; it looks as `_headline` does."""
-    if sys.stdout.isatty() and sys.platform != "win32" and os.environ.get("TERM") != "dumb":
-        name, _, rest = line.partition(":")
-        green, bold, off = ("", "", "") if os.environ.get("NO_COLOR") else ("\x1b[32m", "\x1b[1m", "\x1b[0m")
-        line = f"{green}✓{off} {bold}{name}{off}:{rest}"
-    sys.stdout.write(line + "\n")
+    styled = _is_styled(sys.stdout) and sys.platform != "win32"
+    green, bold, off = ("\x1b[32m", "\x1b[1m", "\x1b[0m") if styled else ("", "", "")
+    mark = f"{green}✓ {off}" if _has_marks(sys.stdout) else ""
+    sys.stdout.write(f"{mark}{bold}{name}{off}: {summary}\n")
 
 
 def _headline(result: Result, console: Console) -> Text:
     mark, style = ("✗", "bold red") if result.failed else ("!", "yellow") if result.conflicts else ("✓", "green")
-    marks = [(f"{mark} ", style)] if console.is_terminal and console.encoding.startswith("utf") else []
+    marks = [(f"{mark} ", style)] if _has_marks(console.file) else []
     return _text(*marks, (result.robot, "bold"), (f": {wording.summary(result)}", ""))
 
 

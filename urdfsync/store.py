@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from urdfsync import manifest
+from urdfsync.config import STATE_FOLDER
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
-from urdfsync.files import commit
+from urdfsync.files import Tree, digest
 from urdfsync.manifest import Manifest, Model
+from urdfsync.transactions import Change
 
-FOLDER = ".urdfsync"
 _IGNORE = """\
 # Written by urdfsync. robots/ belongs into version control, everything else is safe to lose.
 /*
@@ -33,15 +35,25 @@ class State:
 
 
 class Store:
-    """The state folder of one configuration."""
+    """The state folder of one configuration, as one build sees it."""
 
     def __init__(self, root: Path, shown: Callable[[Path], str] = str) -> None:
-        self.folder = root / FOLDER
+        self.folder = root / STATE_FOLDER
         self._shown = shown
+        self._tree = Tree(root, shown)
+        self._seen: dict[Path, bytes | None] = {}
+
+    def names(self) -> list[str]:
+        """The robots that have a state, by their names."""
+        try:
+            files = os.listdir(self.folder / "robots")  # noqa: PTH208 - a fifth of the time, on the way of every build
+        except OSError:  # there is none; that it can't be read is what `load` says
+            return []
+        return sorted(name.removesuffix(".toml") for name in files if name.endswith(".toml"))
 
     def load(self, robot: str) -> State | None:
-        """The robot's state, None if it was never built. Raises StateError if it can't be used."""
-        path, beside = self._paths(robot)
+        """The robot's state, None if it was never built. Raises StateError or OutputError if it can't be used."""
+        path, beside = self.paths(robot)
         text = self._read(path)
         if text is None:
             return None
@@ -52,32 +64,50 @@ class Store:
         model = manifest.load_model(content, self._shown(beside))
         return State(recorded, model, intact=manifest.text_hash(content) == recorded.source.snapshot)
 
-    def save(self, robot: str, recorded: str, model: str | None) -> None:
-        """Write the robot's files, as far as they changed, the manifest last; None leaves the model as it is.
+    def stands(self) -> bool:
+        """Whether all files still are as they were when they were loaded."""
+        return all(self._tree.read(path) == content for path, content in self._seen.items())
 
-        Raises OutputError if that is not possible.
+    def changes(self, robot: str, recorded: str, model: str | None, former: str | None) -> Iterator[Change]:
+        """How the new state gets to the disk, the manifest last; `model` is None if it stays.
+
+        `former` is the name that the robot had in the state that was loaded, if it has another one now.
         """
-        path, beside = self._paths(robot)
-        for file, text in ((self.folder / ".gitignore", _IGNORE), (beside, model), (path, recorded)):
+        path, beside = self.paths(robot)
+        ignore = self.folder / ".gitignore"
+        if self._bytes(ignore) is None:
+            yield self._change(ignore, _IGNORE.encode())
+        for file in self.paths(former) if former else ():
+            if self._bytes(file) is not None:
+                yield self._change(file, None)
+        for file, text in ((beside, model), (path, recorded)):
             if text is not None and self._read(file) != text:
-                commit({file: text.encode()})
+                yield self._change(file, text.encode())
 
-    def drawing(self, robot: str) -> Path:
-        """Where the robot's diagram goes."""
-        return self.folder / "svg" / f"{robot}.svg"
+    def drawing(self, robot: str, text: str) -> tuple[Path, list[Change]]:
+        """Where the robot's diagram goes, and how it gets there."""
+        path = self.folder / "svg" / f"{robot}.svg"
+        return path, [self._change(path, text.encode())] if self._bytes(path) != text.encode() else []
 
-    def _paths(self, robot: str) -> tuple[Path, Path]:
+    def paths(self, robot: str) -> tuple[Path, Path]:
+        """The robot's manifest, and its model."""
         folder = self.folder / "robots"
         return folder / f"{robot}.toml", folder / f"{robot}.json"
 
+    def _change(self, path: Path, content: bytes | None) -> Change:
+        old = self._seen.get(path)
+        return Change(path, content, None if old is None else digest(old))
+
+    def _bytes(self, path: Path) -> bytes | None:
+        if path not in self._seen:
+            self._seen[path] = self._tree.read(path)
+        return self._seen[path]
+
     def _read(self, path: Path) -> str | None:
+        content = self._bytes(path)
         try:
-            return path.read_bytes().decode().replace("\r\n", "\n")
-        except (FileNotFoundError, NotADirectoryError):
-            return None
-        except (OSError, UnicodeDecodeError) as error:
-            reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
-            hint = "restore it from version control"
-            message = f"the recorded state can't be read: {reason}"
+            return None if content is None else content.decode().replace("\r\n", "\n")
+        except UnicodeDecodeError:
+            message, hint = "the recorded state can't be read: it is not UTF-8", "restore it from version control"
             found = Diagnostic(Severity.ERROR, "broken-state", message, self._shown(path), hint=hint)
             raise StateError(found) from None

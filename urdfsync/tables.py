@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
+import json
 import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Literal, get_args, get_origin
@@ -66,7 +67,7 @@ def read(table: Table, struct: type[Any]) -> tuple[Any, list[Diagnostic]]:
                 message = _in_words(key, table.values[key], field.type, str(error))
                 found.append(table.problem("wrong-value", key, message))
         elif field.required:
-            found.append(table.problem("missing-key", "", f"{table.name} has no `{key}`"))
+            found.append(table.problem("missing-key", "", f"{table.name} has no `{key}`", f"add a line `{key} = …`"))
     if found:
         return None, found
     try:
@@ -83,10 +84,17 @@ def choices(kind: Any) -> tuple[Any, ...]:
 def _in_words(key: str, value: Any, kind: Any, error: str) -> str:
     allowed = [f'"{choice}"' if isinstance(choice, str) else str(choice) for choice in choices(kind)]
     if allowed:
-        return f"`{key}` must be {' or '.join(allowed)}, not {value!r}"
+        return f"`{key}` must be {' or '.join(allowed)}, not {_as_written(value)}"
     match = _EXPECTED.match(error)
     if match is None:
         return f"`{key}`: {error[0].lower()}{error[1:]}"
     names = [_WORDS.get(name.strip(), name.strip()) for name in match["type"].split("|") if name.strip() != "null"]
     got = f", not {_WORDS.get(match['got'], match['got'])}" if match["got"] else ""
     return f"`{key}`{match['at'] or ''} must be {' or '.join(names)}{got}"
+
+
+def _as_written(value: Any) -> str:
+    """A value as TOML writes it, or what it is if it is no short one."""
+    if isinstance(value, dict | list):
+        return _WORDS["object" if isinstance(value, dict) else "array"]
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str | bool) else str(value)

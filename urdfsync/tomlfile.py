@@ -4,42 +4,93 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Iterator
 from typing import Any, TypeAlias
 
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+
+DEEPEST = 50
+"""Tables and lists within each other; nothing that urdfsync reads needs more than a few."""
 
 _PLACE = re.compile(r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$")
 _PART = re.compile(r"""\s*(?:"((?:[^"\\]|\\.)*)"|'([^']*)'|([A-Za-z0-9_-]+))\s*(\.)?""")
 _HEADER = re.compile(r"\s*\[\[?")
 _MARKER = re.compile(r"^(<{7}|={7}|>{7})(\s|$)")
+_TWICE = re.compile(r"Cannot declare \((.*)\) twice")
+_WORD = re.compile(r"'([^']*)'")
 
 
 def marker_line(text: str) -> int:
     """The first line that is a merge marker of a version control system, counted from 1; 0 if there is none."""
-    lines = enumerate(text.splitlines(), start=1)
+    lines = enumerate(text.split("\n"), start=1)
     return next((number for number, line in lines if _MARKER.match(line)), 0)
 
 
 def parse(text: str, file: str, error: type[UrdfsyncError], hint: str = "") -> dict[str, Any]:
-    """The document as nested dictionaries. Raises `error` with file, line and column if it is not TOML."""
+    """The document as nested dictionaries, no deeper than `DEEPEST`.
+
+    Raises `error` with file, line and column if it is not TOML; `hint` is what to do about that, if nothing more
+    exact is known.
+    """
+    line = column = 0
     try:
-        return tomllib.loads(text)
+        document = tomllib.loads(text)
     except tomllib.TOMLDecodeError as problem:
-        message, line, column = _explain(problem, text)
-        found = Diagnostic(Severity.ERROR, "toml-syntax", message, file, line, column, hint)
-        raise error(found) from None
+        message, line, column, better = _explain(problem, text)
+        hint = hint or better
+    except RecursionError:
+        message = _TOO_DEEP
+    except ValueError:  # from int(), which refuses to read thousands of digits
+        message = "a number has too many digits"
+    else:
+        if all(len(path) <= DEEPEST for path, _ in _walk(document)):
+            return document
+        message = _TOO_DEEP
+    raise error(Diagnostic(Severity.ERROR, "toml-syntax", message, file, line, column, hint)) from None
 
 
-def _explain(problem: tomllib.TOMLDecodeError, text: str) -> tuple[str, int, int]:
+_TOO_DEEP = f"tables and lists are nested more than {DEEPEST} deep"
+
+
+def strings(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Every key and every string of a document, with its path."""
+    for path, value in _walk(document):
+        yield path, path[-1]
+        if isinstance(value, str):
+            yield path, value
+
+
+def _walk(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], Any]]:
+    """Every value that is not the document itself, with its path; a list's items count by their number."""
+    waiting: list[tuple[tuple[str, ...], Any]] = [((), document)]
+    while waiting:
+        path, value = waiting.pop()
+        if path:
+            yield path, value
+        if len(path) <= DEEPEST and isinstance(value, dict | list):
+            items = value.items() if isinstance(value, dict) else enumerate(value)
+            waiting += [((*path, str(key)), item) for key, item in items]
+
+
+def _explain(problem: tomllib.TOMLDecodeError, text: str) -> tuple[str, int, int, str]:
+    """Message, line, column and hint."""
     if marker := marker_line(text):
-        return "unresolved merge markers", marker, 0
+        return "unresolved merge markers", marker, 0, "settle the merge"
     message = str(problem)
     place = _PLACE.search(message)
     if place is None:
-        return message, 0, 0
-    line, column = place.groups()
+        return message, 0, 0, ""
+    lines = text.rstrip().split("\n")
+    line, column = int(place[1] or len(lines)), int(place[2] or 0)
     message = message[: place.start()].replace("\n", " ")
-    return message[0].lower() + message[1:], int(line or len(text.splitlines())), int(column or 0)
+    if message == "Cannot overwrite a value":
+        key = ".".join(_keys(lines[line - 1])) if line <= len(lines) else ""
+        return f"`{key}` is set twice" if key else "a key is set twice", line, 0, "remove one of them"
+    if table := _TWICE.match(message):
+        name = ".".join(_WORD.findall(table[1]))
+        return f"the table `{name}` is there twice", line, 0, "put the keys of both into one table"
+    hint = "strings stand in quotes" if message == "Invalid value" else ""
+    return message[0].lower() + message[1:], line, column, hint
 
 
 Lines: TypeAlias = dict[tuple[str, ...], int]
@@ -50,13 +101,13 @@ def lines(text: str) -> Lines:
     """The line of every key and of every table."""
     found: Lines = {}
     header: tuple[str, ...] = ()
-    for number, line in enumerate(text.splitlines(), start=1):
-        opening = _HEADER.match(line)
-        keys = _keys(line, opening.end() if opening else 0)
-        if opening:
-            header = keys
-        path = keys if opening else header + keys
-        for length in range(1, len(path) + 1):
+    for number, line in enumerate(text.split("\n"), start=1):
+        keys = _keys(line)
+        if _HEADER.match(line):
+            path = header = keys
+        else:
+            path = header + keys
+        for length in range(1, min(len(path), DEEPEST) + 1):
             found.setdefault(path[:length], number)
     return found
 
@@ -67,13 +118,22 @@ def nearest(found: Lines, *path: str) -> int:
     return next((found[prefix] for prefix in paths if prefix in found), 0)
 
 
-def _keys(line: str, start: int) -> tuple[str, ...]:
-    """The dotted key that begins at `start`; empty if nothing there is one."""
+def _keys(line: str) -> tuple[str, ...]:
+    """The dotted key that a line sets, or the table that it opens; empty if it does neither."""
+    opening = _HEADER.match(line)
+    start = opening.end() if opening else 0
     keys = []
     while part := _PART.match(line, start):
         quoted, literal, bare, more = part.groups()
-        keys.append(next(text for text in (quoted, literal, bare) if text is not None))
+        keys.append(_unescaped(quoted) if quoted is not None else bare if literal is None else literal)
         start = part.end()
         if not more:
             return tuple(keys) if line[start : start + 1] in ("=", "]") else ()
     return ()
+
+
+def _unescaped(quoted: str) -> str:
+    try:
+        return str(tomllib.loads(f'key = "{quoted}"')["key"]) if "\\" in quoted else quoted
+    except tomllib.TOMLDecodeError:
+        return quoted

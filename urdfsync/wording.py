@@ -19,7 +19,8 @@ def summary(result: Result) -> str:
     """What happened to a robot's package (in a dry run: what would), as the rest of a line that names the robot."""
     if result.failed:
         errors = sum(found.severity is Severity.ERROR for found in result.diagnostics)
-        return f"{_number(errors, 'error')}, nothing was changed"
+        end = "the next build finishes or undoes what was begun" if result.unfinished else "nothing was changed"
+        return f"{_number(errors, 'error')}, {end}"
     parts = [_phrase(kind, number, result.dry) for kind, number in _counts(result) if number]
     waiting = sum(action.held for action in result.actions)
     if waiting:
@@ -34,7 +35,7 @@ def _counts(result: Result) -> list[tuple[Kind, int]]:
     kinds = Counter(action.kind for action in result.actions if not action.held)
     written = kinds.pop(Kind.CREATE, 0) + kinds.pop(Kind.UPDATE, 0)
     conflicts = kinds.pop(Kind.CONFLICT, 0) + kinds.pop(Kind.UNOWNED, 0)
-    order = (Kind.RESTORE, Kind.DELETE, Kind.ADOPT, Kind.KEEP, Kind.ORPHAN)
+    order = (Kind.RESTORE, Kind.DELETE, Kind.ADOPT, Kind.KEEP, Kind.ORPHAN, Kind.NEEDED)
     return [(Kind.UPDATE, written), *((kind, kinds[kind]) for kind in order), (Kind.CONFLICT, conflicts)]
 
 
@@ -47,6 +48,7 @@ def _phrase(kind: Kind, number: int, dry: bool) -> str:
         Kind.ADOPT: f"{number} already as wanted",
         Kind.KEEP: f"{number} kept because you edited {them}",
         Kind.ORPHAN: f"{number} no longer generated but kept because you edited {them}",
+        Kind.NEEDED: f"{number} no longer generated but kept because your files need {them}",
         Kind.CONFLICT: _number(number, "conflict"),
     }[kind]
 
@@ -68,6 +70,13 @@ def folded(diagnostics: Sequence[Diagnostic]) -> tuple[list[Diagnostic], dict[st
         else:
             more[found.code] += 1
     return shown, dict(more)
+
+
+def visible(text: str) -> str:
+    """The text with everything escaped that a terminal would obey instead of showing it."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def finding(diagnostic: Diagnostic) -> dict[str, Any]:

@@ -1,0 +1,135 @@
+"""Crashes, errors and the user's saves at any one of the file operations that a build consists of."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import os
+import shutil
+import signal
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from urdfsync import config, operations
+from urdfsync.build import Request, build
+from urdfsync.outcome import Result
+
+NAMES = ("make_folder", "remove_folder", "write", "keep", "exchange", "replace", "place", "remove", "sync")
+ALL = "URDFSYNC_CRASHES"
+"""Environment variable that asks for all, if it is set to anything."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Operation:
+    """The call of an operation: its place in the order of all, its name and its paths."""
+
+    number: int
+    name: str
+    paths: tuple[Path, ...]
+
+    @property
+    def kind(self) -> tuple[str, ...]:
+        """What is the same for all operations that differ in the file only."""
+        places = ("journal", "undo", "robots") if self.paths[-1:] else ()
+        return (self.name, *(next((p for p in places if p in path.parts), path.suffix) for path in self.paths))
+
+
+Hook = Callable[[Operation], None]
+
+
+@contextlib.contextmanager
+def before_each(hook: Hook) -> Iterator[None]:
+    """Call `hook` before each operation."""
+    count = 0
+    real = {name: getattr(operations, name) for name in NAMES}
+
+    def wrapped(name: str) -> Callable[..., Any]:
+        def call(*arguments: Any) -> Any:
+            nonlocal count
+            count += 1
+            hook(Operation(count, name, tuple(path for path in arguments if isinstance(path, Path))))
+            return real[name](*arguments)
+
+        return call
+
+    try:
+        for name in NAMES:
+            setattr(operations, name, wrapped(name))
+        yield
+    finally:
+        for name, function in real.items():
+            setattr(operations, name, function)
+
+
+def run(project: Path, **request: Any) -> Result:
+    """Build the only robot of a project."""
+    loaded = config.load(project / "urdfsync.toml")
+    (result,) = build(loaded, loaded.robots, Request(**request))
+    return result
+
+
+def recorded(project: Path) -> list[Operation]:
+    """Build, and return what that consisted of."""
+    found: list[Operation] = []
+    with before_each(found.append):
+        assert not run(project).failed
+    return found
+
+
+def sample(found: Sequence[Operation]) -> list[Operation]:
+    """The first and the last operation of each kind, or all if the environment asks for that."""
+    if os.environ.get(ALL):
+        return list(found)
+    kinds: dict[tuple[str, ...], list[Operation]] = {}
+    for operation in found:
+        kinds.setdefault(operation.kind, []).append(operation)
+    chosen = {op for ops in kinds.values() for op in (ops[0], ops[-1])}
+    return sorted(chosen, key=lambda operation: operation.number)
+
+
+def killed(project: Path, number: int, half: bool = False) -> bool:
+    """Build in a process that kills itself before an operation, or with `half` of the content written.
+
+    Returns whether it came to that; otherwise the process has built without an error.
+    """
+
+    def hook(operation: Operation) -> None:
+        if operation.number == number:
+            if half and operation.name == "write":
+                operation.paths[0].write_bytes(b'{"robot": "cut sh')
+            os.kill(os.getpid(), signal.SIGKILL)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # the test runner's threads do not matter to the child
+        child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            with before_each(hook):
+                code = int(run(project).failed)
+        finally:
+            os._exit(code)
+    _, status = os.waitpid(child, 0)
+    if os.WIFSIGNALED(status):
+        assert os.WTERMSIG(status) == signal.SIGKILL
+        return True
+    assert status == 0
+    return False
+
+
+def copy(project: Path, to: Path) -> Path:
+    """The project at a place where nothing is left of another one."""
+    if to.exists():
+        shutil.rmtree(to)
+    return shutil.copytree(project, to)
+
+
+def contents(project: Path) -> Mapping[str, bytes | None]:
+    """All files and folders of a project, but for the lock and an empty journal; folders have no content."""
+    found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
+    found.pop(".urdfsync/lock", None)
+    if not any(name.startswith(".urdfsync/journal/") for name in found):
+        found.pop(".urdfsync/journal", None)
+    return {name: path.read_bytes() if path.is_file() else None for name, path in sorted(found.items())}

@@ -1,0 +1,197 @@
+"""The build lock: one writer at a time, and nobody waits for the dead."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+import urdfsync
+from urdfsync import config
+from urdfsync.build import Request, build
+from urdfsync.diagnostics import OutputError
+from urdfsync.lock import Lock, LockedError
+from urdfsync.outcome import Exit, Result, exit_code
+
+HOLD = """
+import sys
+from pathlib import Path
+from urdfsync.lock import Lock
+with Lock(Path(sys.argv[1]), 0) as lock:
+    lock.acquire()
+    print("held", flush=True)
+    sys.stdin.read()
+"""
+
+
+@contextmanager
+def holder(path: Path) -> Iterator[subprocess.Popen[str]]:
+    """Another process that holds the lock."""
+    environment = os.environ | {"PYTHONPATH": str(Path(urdfsync.__file__).parents[1])}
+    command = [sys.executable, "-c", HOLD, str(path)]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, env=environment) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "held\n"
+        try:
+            yield process
+        finally:
+            process.kill()
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "state" / "lock"
+
+
+def test_one_at_a_time(path: Path) -> None:
+    first, second = Lock(path, 0), Lock(path, 0)
+    first.acquire()
+    first.acquire()
+    with pytest.raises(LockedError):
+        second.acquire()
+    first.release()
+    second.acquire()
+    assert second.held
+    second.release()
+
+
+def test_the_holder_is_named(path: Path) -> None:
+    with holder(path) as process, pytest.raises(LockedError) as caught:
+        Lock(path, 0.1, lambda path: path.name).acquire()
+    assert str(caught.value) == (
+        f"lock: error: process {process.pid} is building here, and did not finish within 0.1 s; "
+        "wait for it or end it, then build again [locked]"
+    )
+
+
+def test_a_killed_holder_blocks_nobody(path: Path) -> None:
+    with holder(path) as process:
+        process.kill()
+        process.wait()
+        with Lock(path, 10) as lock:
+            lock.acquire()
+            assert path.read_text() == f"{os.getpid()}\n"
+
+
+def test_waiting_ends_when_the_holder_does(path: Path) -> None:
+    waited = 0
+
+    def wait() -> None:
+        nonlocal waited
+        waited += 1
+        if waited == 2:
+            process.kill()
+
+    with holder(path) as process, Lock(path, 60) as lock:
+        lock.acquire(waiting=wait)
+        assert lock.held
+        assert waited >= 2
+
+
+def test_patience_ends_once_for_all(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pauses: list[float] = []
+    monkeypatch.setattr(time, "sleep", pauses.append)
+    with Lock(path, 0) as other:
+        other.acquire()
+        lock = Lock(path, 0.01)
+        with pytest.raises(LockedError):
+            lock.acquire()
+        pauses.clear()
+        with pytest.raises(LockedError):
+            lock.acquire()
+        assert pauses == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no shared locks on this system")
+def test_readers_wait_for_writers_only(path: Path) -> None:
+    with Lock(path, 0) as writer:
+        writer.acquire()
+        with pytest.raises(LockedError):
+            Lock(path, 0).acquire(shared=True)
+    with Lock(path, 0) as one, Lock(path, 0) as two:
+        one.acquire(shared=True)
+        two.acquire(shared=True)
+
+
+def test_a_lock_file_that_cant_be_one(path: Path) -> None:
+    path.mkdir(parents=True)
+    with pytest.raises(OutputError, match="it can't be written"):
+        Lock(path, 0).acquire()
+
+
+# Builds
+
+
+def run(project: Path, **request: object) -> Result:
+    loaded = config.load(project / "urdfsync.toml")
+    (result,) = build(loaded, loaded.robots, Request(wait=0.1, **request))  # type: ignore[arg-type]
+    return result
+
+
+def test_a_build_with_something_to_write_waits_and_then_gives_up(
+    project: Path, snapshot_of: Callable[[Path], dict[str, tuple[int, bytes]]]
+) -> None:
+    lock = project / ".urdfsync/lock"
+    with holder(lock) as process:
+        before = snapshot_of(project)
+        result = run(project)
+        assert [found.code for found in result.diagnostics] == ["locked"]
+        assert f"process {process.pid}" in result.diagnostics[0].message
+        assert exit_code([result]) is Exit.LOCKED
+        assert snapshot_of(project) == before
+        assert not run(project, dry=True).failed
+    assert not run(project).failed
+    with holder(lock):
+        assert run(project).in_step, "to find that nothing is to be done takes no lock"
+
+
+def test_a_dry_run_waits_for_a_build_that_is_writing(project: Path) -> None:
+    journal = project / ".urdfsync/journal/apply.json"
+    journal.parent.mkdir(parents=True)
+    journal.write_text("{}")
+    with holder(project / ".urdfsync/lock"):
+        (found,) = run(project, dry=True).diagnostics
+        assert found.code == "locked"
+    (found,) = run(project, dry=True).diagnostics
+    assert (found.code, found.hint) == ("interrupted", "run `urdfsync build`, which finishes or undoes it")
+
+
+def test_the_lock_belongs_to_the_whole_command(project: Path) -> None:
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    loaded = config.load(project / "urdfsync.toml")
+    with holder(project / ".urdfsync/lock"):
+        results = list(build(loaded, loaded.robots, Request(wait=0)))
+    assert [result.locked for result in results] == [True, True]
+    results = []
+    for result in build(loaded, loaded.robots, Request()):
+        results.append(result)
+        with pytest.raises(LockedError):
+            Lock(project / ".urdfsync/lock", 0).acquire()
+    assert exit_code(results) is Exit.IN_STEP
+    Lock(project / ".urdfsync/lock", 0).acquire()
+
+
+def test_three_builds_at_once_equal_one(project: Path, rc_site: Path) -> None:
+    run(project)
+    rc_folder = Path(sys.modules["rc_domain"].__file__ or "").parent
+    folders = (Path(urdfsync.__file__).parents[1], rc_site, rc_folder)
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, folders))}
+    source = project / "ladder.json"
+    source.write_text(source.read_text().replace('"R2"', '"R3"'))
+    command = [sys.executable, "-m", "urdfsync", "build", "--json"]
+    pipe = subprocess.PIPE
+    processes = [subprocess.Popen(command, cwd=project, env=environment, stdout=pipe, stderr=pipe) for _ in range(3)]
+    outputs = [process.communicate() for process in processes]
+    assert [process.returncode for process in processes] == [0, 0, 0], outputs
+    assert sum(b'"action": "delete"' in out for out, _ in outputs) == 1
+    assert run(project).in_step
+    assert run(project, full=True).in_step
+    assert not list(project.rglob("*.urdfsync-tmp"))

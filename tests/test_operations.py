@@ -1,0 +1,112 @@
+"""The operations that files change by, on systems that can do much and on those that can't."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from urdfsync import operations
+
+
+def refusing(number: int) -> Callable[..., None]:
+    def refuse(*paths: object, **options: object) -> None:
+        raise OSError(number, os.strerror(number))
+
+    return refuse
+
+
+@pytest.fixture(params=["links", "no links", "other file system"])
+def system(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
+    if request.param == "no links":
+        monkeypatch.setattr(os, "link", refusing(errno.EPERM))
+    if request.param == "other file system":
+        monkeypatch.setattr(os, "link", refusing(errno.EXDEV))
+        real = Path.replace
+
+        def replace(path: Path, target: Path) -> Path:
+            if path.parent != target.parent:
+                raise OSError(errno.EXDEV, os.strerror(errno.EXDEV))
+            return real(path, target)
+
+        monkeypatch.setattr(Path, "replace", replace)
+    return str(request.param)
+
+
+@pytest.fixture
+def old(tmp_path: Path) -> Path:
+    (tmp_path / "a").mkdir()
+    (tmp_path / "b").mkdir()
+    path = tmp_path / "a" / "old"
+    path.write_bytes(b"old")
+    path.chmod(0o640)
+    return path
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_a_written_file_is_new(tmp_path: Path, old: Path) -> None:
+    link = tmp_path / "link"
+    link.symlink_to(old)
+    operations.write(link, b"new", like=old)
+    assert (link.read_bytes(), old.read_bytes()) == (b"new", b"old")
+    assert not link.is_symlink()
+    assert link.stat().st_mode == old.stat().st_mode
+
+
+def test_what_is_kept_outlives_its_name(system: str, old: Path, tmp_path: Path) -> None:
+    copy = tmp_path / "b" / "copy"
+    copy.write_bytes(b"of a run that was killed")
+    operations.keep(old, copy)
+    mode = old.stat().st_mode
+    operations.remove(old)
+    assert (copy.read_bytes(), copy.stat().st_mode) == (b"old", mode)
+
+
+def test_a_place_must_be_free(system: str, old: Path, tmp_path: Path) -> None:
+    target = tmp_path / "b" / "target"
+    operations.place(old, target)
+    assert (names(old.parent), target.read_bytes()) == ([], b"old")
+    old.write_bytes(b"newer")
+    with pytest.raises(FileExistsError):
+        operations.place(old, target)
+    assert (old.read_bytes(), target.read_bytes()) == (b"newer", b"old")
+
+
+def test_a_replacement_takes_the_place(system: str, old: Path, tmp_path: Path) -> None:
+    target = tmp_path / "b" / "target"
+    target.write_bytes(b"target")
+    operations.replace(old, target)
+    assert (names(old.parent), names(target.parent), target.read_bytes()) == ([], ["target"], b"old")
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux can")
+def test_two_files_are_swapped(old: Path) -> None:
+    other = old.with_name("other")
+    other.write_bytes(b"other")
+    assert operations.exchange(old, other)
+    assert (old.read_bytes(), other.read_bytes()) == (b"other", b"old")
+    with pytest.raises(FileNotFoundError):
+        operations.exchange(old, old.with_name("none"))
+
+
+def test_folders_go_only_if_they_are_empty(old: Path, tmp_path: Path) -> None:
+    for name in ("a", "b", "none"):
+        operations.remove_folder(tmp_path / name)
+    assert names(tmp_path) == ["a"]
+    operations.remove(old / "below a file")
+
+
+@pytest.mark.parametrize("many", [False, True])
+def test_a_few_files_are_synced_alone_and_many_together(old: Path, monkeypatch: pytest.MonkeyPatch, many: bool) -> None:
+    calls: list[str] = []
+    monkeypatch.setattr(os, "fsync", lambda descriptor: calls.append("one"))
+    monkeypatch.setattr(os, "sync", lambda: calls.append("all"), raising=False)
+    operations.sync([old, old.parent] * (operations.FEW if many else 1))
+    assert calls == (["all"] if many else ["one", "one"])

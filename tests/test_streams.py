@@ -1,0 +1,137 @@
+"""Whatever is wrong with the standard streams, the work is done, and nothing crashes."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import urdfsync
+from urdfsync import streams
+
+MESH = '<visual><geometry><mesh filename="gone.stl"/></geometry></visual>'
+URDF = f'<robot name="arm"><link name="base">{MESH}</link></robot>'
+
+posix = pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX shell")
+full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "arm.urdf").write_text(URDF)
+    robots = "".join(f'[robots.r{n}]\nsource = "arm.urdf"\npackage = "R{n}"\n' for n in range(3))
+    (tmp_path / "urdfsync.toml").write_text("[defaults]\ncross_check = false\n" + robots)
+    return tmp_path
+
+
+def shell(folder: Path, line: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    """Run a line of shell in which `urdfsync` is this program, and `$?` of a pipe is that of its first part."""
+    program = f'urdfsync() {{ {shlex.quote(sys.executable)} -m urdfsync "$@"; }}; '
+    path = os.pathsep.join(filter(None, [str(Path(urdfsync.__file__).parents[1]), os.environ.get("PYTHONPATH", "")]))
+    variables = {key: value for key, value in os.environ.items() if key != "PYTHONUTF8"}
+    return subprocess.run(
+        ["bash", "-c", program + line],
+        cwd=folder,
+        env=variables | {"PYTHONPATH": path} | environment,
+        capture_output=True,
+        encoding="utf-8",
+        errors="replace",
+        check=False,
+    )
+
+
+def built(folder: Path) -> list[str]:
+    return sorted(path.name for path in (folder / "modelica").iterdir())
+
+
+@posix
+@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"])
+def test_closed_streams(folder: Path, closed: str) -> None:
+    done = shell(folder, f"urdfsync build {closed}")
+    assert done.returncode == 0
+    assert "Traceback" not in done.stderr
+    assert built(folder) == ["R0", "R1", "R2"]
+
+
+@posix
+@pytest.mark.parametrize("options", ["--explain", "--json", "--verbose --svg"])
+def test_a_reader_that_goes_away_stops_no_work(folder: Path, options: str) -> None:
+    done = shell(folder, f"urdfsync build {options} 2>errors | head -n 1; exit ${{PIPESTATUS[0]}}")
+    assert done.returncode == 0
+    assert len(done.stdout.splitlines()) == 1
+    assert "Traceback" not in (folder / "errors").read_text()
+    assert "Exception ignored" not in (folder / "errors").read_text()
+    assert built(folder) == ["R0", "R1", "R2"]
+
+
+@posix
+def test_the_exit_code_is_that_of_the_work_even_if_nobody_reads(folder: Path) -> None:
+    (folder / "arm.urdf").write_text("<robot")
+    assert shell(folder, "urdfsync build --json 2>&1 | true; exit ${PIPESTATUS[0]}").returncode == 2
+
+
+@posix
+@full
+@pytest.mark.parametrize("command", ["build", "build --json", "library", "--help", "library --json"])
+def test_a_full_disk_is_told_on_the_error_stream(folder: Path, command: str) -> None:
+    done = shell(folder, f"urdfsync {command} > /dev/full")
+    assert done.returncode == 2
+    assert done.stderr.splitlines()[-1] == "error: the output can't be written: No space left on device [output]"
+    assert "Traceback" not in done.stderr
+
+
+@posix
+@full
+def test_an_error_stream_that_is_full_stops_nothing(folder: Path) -> None:
+    assert shell(folder, "urdfsync build 2> /dev/full").returncode == 0
+    assert built(folder) == ["R0", "R1", "R2"]
+
+
+@posix
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "latin-1"])
+def test_characters_that_an_encoding_lacks_are_escaped(folder: Path, encoding: str) -> None:
+    (folder / "urdfsync.toml").write_text('[robots.arm]\nsource = "Größe – 腕.urdf"\npackage = "Arm"\n')
+    done = shell(folder, "urdfsync build 2>&1", PYTHONIOENCODING=encoding, PYTHONUTF8="0")
+    assert done.returncode == 2
+    assert "\\u8155.urdf does not exist" in done.stdout
+    done = shell(folder, "urdfsync build --json", PYTHONIOENCODING=encoding)
+    assert "腕.urdf does not exist" in json.loads(done.stdout)["robots"][0]["diagnostics"][0]["message"]
+
+
+class Broken(io.StringIO):
+    def __init__(self, error: OSError) -> None:
+        super().__init__()
+        self._error = error
+
+    def write(self, text: str) -> int:
+        raise self._error
+
+
+@pytest.mark.parametrize(
+    ("error", "trouble"),
+    [(BrokenPipeError(32, "Broken pipe"), ""), (OSError(28, "No space left on device"), "No space left on device")],
+)
+def test_only_trouble_that_matters_is_told(error: OSError, trouble: str) -> None:
+    stream = streams.Stream(Broken(error))
+    assert stream.trouble == ""
+    assert stream.write("text") == 4
+    assert stream.error is error
+    assert stream.trouble == trouble
+
+
+def test_the_streams_are_put_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    mine = io.StringIO()
+    monkeypatch.setattr(sys, "stdout", mine)
+    monkeypatch.setattr(sys, "stderr", None)
+    with streams.guarded() as output:
+        sys.stdout.write("one")
+        sys.stderr.write("nobody reads this")
+        assert output.error is None
+    assert (sys.stdout, sys.stderr) == (mine, None)
+    assert mine.getvalue() == "one"

@@ -1,0 +1,249 @@
+"""One batch of writes on disk: its temporary files, the changes one by one, the way back, and its traces.
+
+In the state folder, `journal/<phase>.json` says what the batch is, and `undo/<number>` is what stood
+in the place of a target. In which phase a batch is, only the disk says: it can be asked at any time,
+by the process that writes or by the next one.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import stat
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+from urdfsync import operations
+from urdfsync.files import TEMPORARY, digest, failure
+from urdfsync.journal import Journal, Phase, Step
+
+_OTHER = "no regular file"
+"""Stands for the hash of a folder, a link or a device."""
+
+
+class SavedError(Exception):
+    """Somebody else changed a target after it was planned; nothing of that is lost."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(str(path))
+        self.path = path
+
+
+class Batch:
+    """The files of one journal; `root` is the configuration's folder, `folder` the state folder."""
+
+    def __init__(self, root: Path, folder: Path, journal: Journal, shown: Callable[[Path], str]) -> None:
+        self._root, self._folder, self._shown = root, folder, shown
+        self.journal = journal
+        self._targets = [Path(os.path.normpath(root / step.path)) for step in journal.steps]
+
+    @property
+    def targets(self) -> Sequence[Path]:
+        """The files that change, in the order of the steps."""
+        return self._targets
+
+    @property
+    def folders(self) -> Sequence[Path]:
+        """The folders that come or go."""
+        return [Path(os.path.normpath(self._root / path)) for path in (*self.journal.made, *self.journal.emptied)]
+
+    def prepare(self, contents: Sequence[bytes | None]) -> None:
+        """Write the journal and all temporary files. Raises OutputError; no target has changed then."""
+        for folder in (self._folder, self._folder / "journal", self._folder / "undo"):
+            with self._about(folder):
+                operations.make_folder(folder)
+        first = self._file(Phase.PREPARE)
+        with self._about(first):
+            operations.write(first, self.journal.dumps())
+        for path in self.journal.made:
+            with self._about(self._root / path):
+                operations.make_folder(self._root / path)
+        written = [first]
+        for number, content in enumerate(contents):
+            if content is not None:
+                with self._about(self._targets[number]):
+                    operations.write(self._temporary(number), content, self._targets[number])
+                written.append(self._temporary(number))
+        with self._about(self._folder):
+            operations.sync(written)
+
+    def apply(self, resumed: bool = False) -> None:
+        """Change the targets, the last one when all others are as they should be.
+
+        `resumed` stands for a batch that another run has begun, and that can be finished. Raises SavedError
+        if somebody else changed a target, OutputError if it can't be done.
+        """
+        self._enter(Phase.APPLY)
+        *others, last = range(len(self._targets))
+        for number in others:
+            self._change(number, resumed)
+        for number in others:
+            self._check_kept(number)
+        self._change(last, resumed)
+        self._check_kept(last)
+        with self._about(self._folder):
+            operations.sync(sorted({path.parent for path in self._targets if path.parent.is_dir()}))
+        self._enter(Phase.DONE)
+
+    def can_be_finished(self) -> bool:
+        """Whether every target has changed or still can, as it was planned."""
+        return all(self._is_sound(number) for number in range(len(self._targets)))
+
+    def put_back(self) -> None:
+        """Change the targets back, as far as nobody else has changed them since. Raises OSError or OutputError."""
+        self._enter(Phase.UNDO)
+        for number in reversed(range(len(self._targets))):
+            target, step, temporary = self._targets[number], self._step(number), self._temporary(number)
+            theirs = self._hash(temporary) not in (None, step.new, step.old)  # taken away by a run that was killed then
+            source = temporary if theirs else self._undo(number)
+            current = self._hash(target)
+            if current is None and (theirs or step.new is None):
+                with contextlib.suppress(FileNotFoundError, FileExistsError):
+                    operations.place(source, target)
+            elif current == step.new and os.path.lexists(source):
+                self._swap(source, target, step.new)
+            elif current == step.new and step.old is None:
+                self._take(target, temporary, step.new)
+
+    def discard(self) -> None:
+        """Remove all traces of a batch that did not happen. Raises OSError if that can't be done."""
+        for number in range(len(self._targets)):
+            operations.remove(self._temporary(number))
+        for path in reversed(self.journal.made):
+            operations.remove_folder(self._root / path)
+        self._remove_traces()
+
+    def tidy(self) -> None:
+        """Remove all traces of a batch that is done, and the folders it has emptied. Raises OSError if it can't."""
+        for number in range(len(self._targets)):
+            operations.remove(self._temporary(number))
+        for path in self.journal.emptied:
+            operations.remove_folder(self._root / path)
+        self._remove_traces()
+
+    def _remove_traces(self) -> None:
+        for number in range(len(self._targets)):
+            operations.remove(self._undo(number))
+        operations.remove_folder(self._folder / "undo")
+        if phase := find_phase(self._folder):
+            operations.remove(self._file(phase))
+        operations.remove_folder(self._folder / "journal")
+
+    def _change(self, number: int, resumed: bool) -> None:
+        target, step, temporary = self._targets[number], self._step(number), self._temporary(number)
+        with self._about(target):
+            current = self._hash(target)
+            if current == step.new or (resumed and current != step.old and self._hash(temporary) != step.new):
+                return  # done by the run that was killed; it may have been edited since
+            if current != step.old:
+                raise SavedError(target)
+            try:
+                if not self._replace(number):
+                    raise SavedError(target)
+            except (FileNotFoundError, FileExistsError) as error:
+                raise SavedError(target) from error
+
+    def _replace(self, number: int) -> bool:
+        """Change one target. Returns False, and leaves it alone, if it is not what was planned with."""
+        target, step, temporary = self._targets[number], self._step(number), self._temporary(number)
+        if step.old is None:
+            operations.place(temporary, target)
+            return True
+        operations.keep(target, self._undo(number))
+        if self._hash(self._undo(number)) != step.old:
+            return False
+        if step.new is None:
+            return self._take(target, temporary, step.old)
+        return self._swap(temporary, target, step.old)
+
+    def _swap(self, source: Path, target: Path, expected: str | None) -> bool:
+        """Put a file in the place of another. Returns False, and leaves both, if the other is not as expected.
+
+        Where files can't be swapped, a save within the microseconds after the last look is lost.
+        """
+        if not operations.exchange(source, target):
+            if self._hash(target) != expected:
+                return False
+            operations.replace(source, target)
+            return True
+        if self._hash(source) != expected:
+            operations.exchange(source, target)
+            return False
+        operations.remove(source)
+        return True
+
+    def _take(self, target: Path, aside: Path, expected: str | None) -> bool:
+        """Remove a file by way of another name. Returns False, and leaves it, if it is not as expected."""
+        operations.replace(target, aside)
+        if self._hash(aside) != expected:
+            operations.place(aside, target)
+            return False
+        operations.remove(aside)
+        return True
+
+    def _check_kept(self, number: int) -> None:
+        """Make sure that nobody has written to the old file while the new one took its place."""
+        undo = self._undo(number)
+        if self._hash(undo) not in (None, self._step(number).old):
+            raise SavedError(self._targets[number])
+
+    def _is_sound(self, number: int) -> bool:
+        step, current = self._step(number), self._hash(self._targets[number])
+        temporary = self._hash(self._temporary(number))
+        kept = (self._hash(self._undo(number)), temporary if temporary != step.new else None)
+        if any(found not in (None, step.old) for found in kept):
+            return False  # somebody saved in the instant of the change
+        if current == step.new:
+            return True
+        if current == step.old:
+            return step.new is None or temporary == step.new
+        edited = current is not None and current != _OTHER
+        return edited and step.new is not None and temporary != step.new
+
+    def _enter(self, phase: Phase) -> None:
+        """Rename the journal, unless it has the phase's name already."""
+        target = self._file(phase)
+        now = find_phase(self._folder)
+        if now is None or now is phase:
+            return
+        with self._about(target):
+            operations.replace(self._file(now), target)
+            if phase is Phase.APPLY:
+                operations.sync([target.parent])
+
+    def _hash(self, path: Path) -> str | None:
+        try:
+            if not stat.S_ISREG(path.lstat().st_mode):
+                return _OTHER
+            return digest(path.read_bytes())
+        except (FileNotFoundError, NotADirectoryError):
+            return None
+
+    def _step(self, number: int) -> Step:
+        return self.journal.steps[number]
+
+    def _temporary(self, number: int) -> Path:
+        return self._targets[number].with_name(f".{self.journal.token}-{number}{TEMPORARY}")
+
+    def _undo(self, number: int) -> Path:
+        return self._folder / "undo" / str(number)
+
+    def _file(self, phase: Phase) -> Path:
+        return self._folder / "journal" / f"{phase}.json"
+
+    @contextlib.contextmanager
+    def _about(self, path: Path) -> Iterator[None]:
+        """Turn what the system says into an error about a file."""
+        try:
+            yield
+        except OSError as error:
+            raise failure(error, self._shown(path)) from None
+
+
+def find_phase(folder: Path) -> Phase | None:
+    """The phase of the batch that a state folder has, None if it has none."""
+    try:
+        names = os.listdir(folder / "journal")  # noqa: PTH208 - a fifth of the time, on the way of every build
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    return next((phase for phase in reversed(Phase) if f"{phase}.json" in names), None)
