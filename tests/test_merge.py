@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.merge import Merge, merge, merge_lines, split_lines
-from urdfsync.tokens import is_word, tokens
+from urdfsync.merging.tokens import is_word, tokens
 
 EXAMPLES = Path(__file__).parents[1] / "modelica" / "UrdfSync" / "Examples"
 

@@ -2,8 +2,8 @@
 
 Whole lines are merged first, with the result that `git merge-file` has: what only one side changed is taken
 from it, what both changed alike is taken once, and changes that overlap or touch are a conflict. Each conflict
-is then tried again by tokens (see `urdfsync.tokenmerge`), so that a comment and a new value on one line survive
-together. Two texts that have very little in common are compared coarsely (see `urdfsync.myers`): then there
+is then tried again by tokens (see `urdfsync.merging.rules`), so that a comment and a new value on one line survive
+together. Two texts that have very little in common are compared coarsely (see `urdfsync.merging.myers`): then there
 may be a conflict where git finds none.
 """
 
@@ -13,9 +13,9 @@ import dataclasses
 from collections.abc import Iterator, Sequence, Set
 from typing import NamedTuple
 
-from urdfsync.myers import Change, diff
-from urdfsync.tokenmerge import Lines, Piece, merge_tokens
-from urdfsync.tokens import NEWLINE, inner_lines
+from urdfsync.merging.myers import Change, diff
+from urdfsync.merging.rules import Lines, Piece, merge_tokens
+from urdfsync.merging.tokens import NEWLINE, inner_lines
 
 _MAX_LINES = 200
 """Length of a conflict above which it is a rewrite rather than an edit, and not tried again by tokens."""

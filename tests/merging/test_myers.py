@@ -15,7 +15,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.myers import Change, diff
+from urdfsync.merging.myers import Change, diff
 
 items = st.lists(st.integers(0, 3), max_size=14)
 

@@ -25,8 +25,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import accumulate, groupby, pairwise
 from typing import NamedTuple, TypeAlias
 
-from urdfsync.tokenedits import Edit, edits_between
-from urdfsync.tokens import NEWLINE, SEPARATORS, is_telling, is_trivia, is_word, tokens
+from urdfsync.merging.edits import Edit, edits_between
+from urdfsync.merging.tokens import NEWLINE, SEPARATORS, is_telling, is_trivia, is_word, tokens
 
 _OPENING, _CLOSING = frozenset("([{"), frozenset(")]}")
 _BOUNDS = _OPENING | _CLOSING | SEPARATORS

@@ -10,11 +10,11 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator, Sequence
 
-from urdfsync.myers import diff
-from urdfsync.tokens import NEWLINE, is_trivia, is_word
+from urdfsync.merging.myers import diff
+from urdfsync.merging.tokens import NEWLINE, is_trivia, is_word
 
 _MAX_WORK = 150_000
-"""What comparing the tokens of one conflict may cost (see `urdfsync.myers`): enough for some 500 edits."""
+"""What comparing the tokens of one conflict may cost (see `urdfsync.merging.myers`): enough for some 500 edits."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.tokens import inner_lines, is_comment, is_telling, is_trivia, is_word, tokens
+from urdfsync.merging.tokens import inner_lines, is_comment, is_telling, is_trivia, is_word, tokens
 
 
 @pytest.mark.parametrize(
