@@ -17,6 +17,7 @@ import pytest
 
 from urdfsync import config, files, operations
 from urdfsync.build import Request, build
+from urdfsync.files import text_digest
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.plan import Kind
 
@@ -690,12 +691,28 @@ def test_a_broken_source_changes_nothing(project: Path, snapshot_of: Snapshot) -
 
 def test_a_missing_source(project: Path) -> None:
     (project / "ladder.json").unlink()
-    assert failure() == "urdfsync.toml:2: error: robot `ladder`: the source ladder.json does not exist [no-source]"
+    assert failure() == (
+        "urdfsync.toml:2: error: robot `ladder`: the source ladder.json does not exist; "
+        "correct `source`, or export the file again [no-source]"
+    )
 
 
 def test_a_missing_template_folder(project: Path) -> None:
     configure(project, templates='"own"')
-    assert failure() == "urdfsync.toml:5: error: robot `ladder`: the template folder own does not exist [no-templates]"
+    assert failure() == (
+        "urdfsync.toml:5: error: robot `ladder`: the template folder own does not exist; "
+        "create it, or take `templates` out [no-templates]"
+    )
+
+
+def test_a_recorded_model_of_the_wrong_shape_is_read_again(project: Path) -> None:
+    run()
+    model = project / ".urdfsync/robots/ladder.json"
+    state = project / ".urdfsync/robots/ladder.toml"
+    recorded = text_digest(model.read_bytes())
+    model.write_text('{"format": 1, "imports": {}, "snapshot": {"elements": 3}}\n')
+    edit(state, recorded, text_digest(model.read_bytes()))
+    assert run().in_step
 
 
 @pytest.mark.parametrize(

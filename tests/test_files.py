@@ -71,7 +71,14 @@ def test_templates_count_by_name_and_content(tmp_path: Path) -> None:
     before = templates_digest([ours])
     assert templates_digest([own, ours]) == before
     (own / "a.jinja").write_text("a")
-    (own / "notes.txt").write_text("no template")
+    (own / ".a.jinja.swp").write_text("of an editor")
     assert templates_digest([own, ours]) == before
     (own / "a.jinja").write_text("b")
     assert templates_digest([own, ours]) != before
+
+
+def test_a_file_that_a_template_may_include_counts_whatever_its_name(tmp_path: Path) -> None:
+    (tmp_path / "header.txt").write_text("old")
+    before = templates_digest([tmp_path])
+    (tmp_path / "header.txt").write_text("new")
+    assert templates_digest([tmp_path]) != before

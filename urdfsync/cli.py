@@ -68,6 +68,7 @@ def _build(options: argparse.Namespace, report: Report) -> int:
         draw=options.svg,
         package_paths=config.ros_package_path(os.environ),
         progress=report.progress,
+        wait=options.wait,
     )
     results = []
     for result in build(configuration, robots, request):
@@ -158,6 +159,7 @@ def _add_build(commands: Commands) -> None:
     mode.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
+    build.add_argument("--wait", type=float, default=60, metavar="S", help="seconds to wait for another build (60)")
     build.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
     build.add_argument("--explain", action="store_true", help="list each file, what happens to it and why")
     build.set_defaults(run=_build)

@@ -119,6 +119,9 @@ def find(start: Path) -> Path:
 def load(file: Path) -> Config:
     """Read a configuration file. Raises ConfigError with everything that is wrong in it."""
     name = shown(file)
+    if file.exists() and not file.is_file():
+        message, hint = "the configuration is no regular file", f"name a {FILE_NAME}"
+        raise ConfigError(Diagnostic(Severity.ERROR, "unreadable-config", message, name, hint=hint))
     try:
         text = file.read_text(encoding="utf-8-sig")
     except FileNotFoundError:

@@ -39,7 +39,7 @@ def templates_digest(folders: Sequence[Path]) -> str:
     """SHA-256 (hex) over the templates in use, by name and content; an earlier folder hides names of a later one."""
     templates: dict[str, Path] = {}
     for folder in reversed(folders):
-        found = (path for path in folder.rglob("*.jinja") if path.is_file())
+        found = (path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
         templates |= {path.relative_to(folder).as_posix(): path for path in found}
     lines = [f"{name}\0{text_digest(path.read_bytes())}\n" for name, path in sorted(templates.items())]
     return digest("".join(lines).encode())

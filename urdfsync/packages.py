@@ -43,8 +43,9 @@ def _below(top: Path) -> Iterator[tuple[str, Path]]:
 
 
 def _package_name(folder: Path) -> str | None:
+    file = folder / "package.xml"
     try:
-        match = _NAME.search((folder / "package.xml").read_bytes())
+        match = _NAME.search(file.read_bytes()) if file.is_file() else None
     except OSError:
         return None
     return match[1].decode(errors="replace") if match else None

@@ -140,7 +140,10 @@ class Planner:
             return None
         if any(record.state in (State.CONFLICT, State.WAITING) for record in recorded.files.values()):
             return None
-        dependencies = self._dependencies(state.model.snapshot, {})
+        try:
+            dependencies = self._dependencies(state.model.snapshot, {})
+        except (KeyError, TypeError, AttributeError, ValueError):
+            return None  # the recorded snapshot is not the domain's: the source is read again
         if not imports.unchanged(dependencies, recorded.dependencies, self._domain.converter):
             return None
         wanted = {
@@ -152,7 +155,8 @@ class Planner:
         if any(action.writes or action.kind in CONFLICTS for action in decision.actions):
             return None
         renewed = msgspec.structs.replace(recorded, files=decision.files, orders=decision.orders)
-        return Work(decision, manifest.dumps(renewed), None)
+        left_out = imports.reminder(dependencies, recorded.dependencies, shown(self._robot.source))
+        return Work(decision, manifest.dumps(renewed), None, diagnostics=left_out)
 
     def _heading(self, snapshot: str) -> Manifest:
         """The manifest of this build without the lists in it."""
@@ -273,8 +277,8 @@ def _templates(config: Config, robot: RobotConfig, domain: Domain) -> list[Path]
     for folder in folders:
         if not folder.is_dir():
             message = f"robot `{robot.name}`: the template folder {shown(folder)} does not exist"
-            line = robot.lines.get("templates", 0)
-            raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line))
+            line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
+            raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line, hint=hint))
     return [*folders, templates_folder(domain)]
 
 
@@ -287,4 +291,5 @@ def _read_source(config: Config, robot: RobotConfig) -> bytes:
         reason = "does not exist" if isinstance(error, FileNotFoundError) else f"can't be read: {error.strerror}"
     message = f"robot `{robot.name}`: the source {shown(robot.source)} {reason}"
     line = robot.lines.get("source", 0)
-    raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(config.file), line))
+    hint = "correct `source`, or export the file again"
+    raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(config.file), line, hint=hint))

@@ -91,6 +91,7 @@ def robot(result: Result) -> dict[str, Any]:
         "package": result.package,
         "folder": str(result.folder),
         "failed": result.failed,
+        "locked": result.locked,
         "in_step": result.in_step,
         "summary": summary(result),
         "drawing": str(result.drawing) if result.drawing else None,
