@@ -60,18 +60,23 @@ def test_build_in_words(project: Path, capsys: Capture) -> None:
 def test_build_of_what_was_edited(edited: Path, capsys: Capture) -> None:
     change(edited)
     assert cli.main(["build"]) == 0
-    assert capsys.readouterr().out == "ladder: 1 file written, 1 kept because you edited it\n"
+    assert capsys.readouterr().out.splitlines() == [
+        "ladder: 1 file written, 1 kept because you edited it",
+        "  R2 / ohm: 220.5 → 330 Ω (+49.7 %)",
+    ]
 
 
 def test_conflict(edited: Path, capsys: Capture) -> None:
     change(edited, '"R2"', '"R3"')
     for arguments in (["build"], ["build", "--check"], ["build", "--quiet"], ["build", "--dry-run"]):
         assert cli.main(arguments) == 3
-        headline, place, *advice = capsys.readouterr().out.splitlines()
+        said, _, advice = capsys.readouterr().out.partition("\n  Your file")
+        headline, *changes, place = said.splitlines()
+        assert "move the file out of the package and build again" in advice
         assert headline == "ladder: 1 conflict, 5 changes waiting for that"
+        assert changes in ([], ["  R2: removed", "  R3: added"])
         model = Path("modelica/Ladder/Ladder.mo")
         assert place == f"  conflict   {model}  you edited it, and what it is made from changed too"
-        assert "move the file out of the package and build again" in " ".join(advice)
 
 
 def test_check_writes_nothing_and_exits_with_1_if_out_of_step(

@@ -16,7 +16,9 @@ from urdfsync.plan import Kind
 from urdfsync.report import VERSION
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
-BUILD, MISTAKE, INIT, LIBRARY = (json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL))
+BUILD, CHANGED, MISTAKE, INIT, LIBRARY = (
+    json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)
+)
 
 URDF = """<robot name="arm">
   <link name="base"/>
@@ -70,6 +72,9 @@ def test_init(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_build(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     cli.main(["init", "arm.urdf"])
     assert matches(BUILD, printed(capsys, folder, "build"))
+    moved = '<child link="tip"/><origin xyz="0 0 0.1"/>'
+    (folder / "arm.urdf").write_text(URDF.replace('<child link="tip"/>', moved))
+    assert matches(CHANGED, printed(capsys, folder, "build"))
     (folder / "urdfsync.toml").write_text("\n[robots.arm]\nsource = 'arm.urdf'\nsorce = 'x'\npackage = 'Arm'\n")
     assert matches(MISTAKE, printed(capsys, folder, "build"))
 
@@ -81,7 +86,7 @@ def test_library(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_tables_name_every_key_and_no_other() -> None:
     cells = re.findall(r"^\| (`[^|]*) \|", PAGE, re.MULTILINE)
     named = {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
-    assert named == keys([BUILD, MISTAKE, INIT, LIBRARY])
+    assert named == keys([BUILD, CHANGED, MISTAKE, INIT, LIBRARY])
 
 
 def test_values_that_are_one_of_a_few_are_all_named() -> None:

@@ -9,8 +9,11 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
+from urdfsync import wording
 from urdfsync.build import Request, build
 from urdfsync.config import load
+from urdfsync.difference import ChangeClass
+from urdfsync.domain import Role
 from urdfsync.outcome import Result
 
 SAMPLES = Path(__file__).parents[1] / "modelica" / "UrdfSync" / "Resources" / "robots"
@@ -137,3 +140,49 @@ def test_an_edited_file_survives_every_build(arm: Path) -> None:
     source.unlink()
     run(arm)
     assert edited.read_bytes() == mine
+
+
+def change(project: Path, old: str, new: str) -> None:
+    source = project / "ws/src/six_axis_arm/six_axis_arm.urdf"
+    text = source.read_text()
+    assert old in text
+    source.write_text(text.replace(old, new, 1))
+
+
+def test_a_build_says_what_changed_since_the_last_one(arm: Path) -> None:
+    assert run(arm).changes is None
+    change(arm, 'upper="1.222" effort="130" velocity="5"', 'upper="1.3" effort="143" velocity="5.0000001"')
+    result = run(arm)
+    assert result.changes is not None
+    assert wording.changes(result.changes) == [
+        "joint elbow / limit / effort: 130 → 143 N·m (+10 %)",
+        "joint elbow / limit / upper: 1.222 → 1.3 rad (70.02° → 74.48°)",
+        "joint elbow / limit / velocity: 5 → 5.0000001 rad/s (rounding)",
+    ]
+    assert result.changes.change_class is ChangeClass.PARAMETER
+    assert {action.role for action in result.actions if action.writes} == {Role.RECORD}
+    assert run(arm).changes is None
+
+
+def test_what_is_not_modelled_is_told_and_writes_nothing(arm: Path) -> None:
+    run(arm)
+    change(arm, '<transmission name="turret_transmission"', '<transmission name="gear"')
+    result = run(arm)
+    assert result.changes is not None
+    assert wording.changes(result.changes) == [
+        "robot / transmission gear: added (not modelled)",
+        "robot / transmission turret_transmission: removed (not modelled)",
+    ]
+    assert result.in_step
+
+
+def test_a_rename_and_a_template_are_told_as_such(arm: Path) -> None:
+    run(arm)
+    change(arm, '<joint name="elbow"', '<joint name="knee"')
+    renamed = run(arm).changes
+    assert renamed is not None
+    assert wording.changes(renamed) == ["joint elbow: renamed to knee"]
+    (arm / "urdfsync.toml").write_text(CONFIGURATION + "collisions = false\n")
+    other = run(arm).changes
+    assert other is not None
+    assert wording.changes(other)[0] == "a template, an option or urdfsync itself changed"

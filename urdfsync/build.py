@@ -121,4 +121,6 @@ class _Builder:
 
 
 def _done(result: Result, work: Work) -> Result:
-    return dataclasses.replace(result, actions=work.decision.actions, diagnostics=work.diagnostics)
+    return dataclasses.replace(
+        result, actions=work.decision.actions, diagnostics=work.diagnostics, changes=work.changes
+    )

@@ -6,9 +6,13 @@ import dataclasses
 import enum
 from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.plan import CONFLICTS, Action, Kind
+
+if TYPE_CHECKING:
+    from urdfsync.changes import Changes
 
 
 class Exit(enum.IntEnum):
@@ -41,6 +45,8 @@ class Result:
     dry: bool = False
     """Nothing was written, whatever the actions say."""
     drawing: Path | None = None
+    changes: Changes | None = None
+    """What changed in the model since the last build; None if nothing did, or there is none to compare with."""
 
     @property
     def conflicts(self) -> list[Action]:

@@ -18,6 +18,7 @@ from urdfsync import imports, leftovers, manifest, packages, parents, registry
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.decide import Decision, Disk, decide, encode
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, StateError
+from urdfsync.difference import Version
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Reading, Role, Snapshot
 from urdfsync.files import digest, kind_of, templates_digest, text_digest
 from urdfsync.manifest import Generator, Manifest
@@ -26,6 +27,7 @@ from urdfsync.store import Store
 from urdfsync.transactions import Change
 
 if TYPE_CHECKING:
+    from urdfsync.changes import Changes
     from urdfsync.generate import Generated
 
 Progress = Callable[[str, int, int], None]
@@ -60,6 +62,7 @@ class Work:
     contents: Mapping[str, bytes] = dataclasses.field(default_factory=dict)
     diagnostics: tuple[Diagnostic, ...] = ()
     drawing: str | None = None
+    changes: Changes | None = None
 
 
 class Planner:
@@ -204,7 +207,28 @@ class Planner:
         if recorded and recorded.folder != self._folder and any(action.held for action in decision.actions):
             # the record of the old place is needed until the package can move
             return Work(decision, None, None, contents, tuple(said), drawing)
-        return Work(decision, manifest.dumps(renewed), model, contents, tuple(said), drawing)
+        changes = self._changes(snapshot, imported.imports)
+        return Work(decision, manifest.dumps(renewed), model, contents, tuple(said), drawing, changes)
+
+    def _changes(self, snapshot: Snapshot, imported: Mapping[str, Import]) -> Changes | None:
+        """What is new in the model since the last build; None if nothing is, or nothing is known of that build."""
+        if self._state is None or self._state.model is None or not self._state.intact:
+            return None
+        from urdfsync.changes import compare
+
+        recorded, model = self._state.manifest, self._state.model
+        before = {
+            key: Import(record.target, facts.source_hash, record.target_hash or "", facts.converter, facts.facts)
+            for key, facts in model.imports.items()
+            if (record := recorded.dependencies.get(key)) is not None
+        }
+        old = Version(model.snapshot, before, recorded.generator.fingerprint)
+        new = Version(snapshot, imported, self._generator.fingerprint)
+        try:
+            found = compare(old, new, self._domain, self._robot.options)
+        except (KeyError, TypeError, AttributeError, ValueError):
+            return None  # what is recorded is no model of the domain
+        return found if found.changes or found.generator else None
 
     def _moved(self, decision: Decision) -> list[Diagnostic]:
         """What there is to say if robot or package had another name in the last build."""

@@ -49,6 +49,8 @@ _KINDS = {
 }
 _LISTED = CONFLICTS | {Kind.ORPHAN, Kind.NEEDED}
 """What is named file by file even if nobody asks."""
+_CHANGES = 12
+"""So many changes of a model are shown at most, unless somebody asks."""
 _ADVICE = (
     "  Your file stays as it is. To settle a conflict, move the file out of the package and build again,",
     "  then put your edits into the file that urdfsync has written.",
@@ -94,7 +96,7 @@ class Report:
         self._findings(result.diagnostics)
         if self._quiet and not result.conflicts:
             return
-        if result.in_step and not (self._explain or self._verbose or result.drawing):
+        if result.in_step and not (self._explain or self._verbose or result.drawing or result.changes):
             _plain(result.robot, wording.summary(result))
             return
         console = _console(sys.stderr if result.failed else sys.stdout)
@@ -159,6 +161,12 @@ class Report:
 
     def _lines(self, result: Result, console: Console) -> Iterator[Text]:
         yield _headline(result, console)
+        if result.changes:
+            lines = wording.changes(result.changes)
+            few = len(lines) if self._verbose or len(lines) <= _CHANGES else _CHANGES - 1
+            yield from (_text((f"  {line}", "")) for line in lines[:few])
+            if few < len(lines):
+                yield _text((f"  … and {len(lines) - few} more changes; --verbose shows them", "dim"))
         if self._explain or self._verbose:
             yield from _explanation(result, console, everything=self._explain)
         else:

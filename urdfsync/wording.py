@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import dataclasses
+import json
+import math
 from collections import Counter
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from urdfsync import difference
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Result
 from urdfsync.plan import Action, Kind
 
+if TYPE_CHECKING:
+    from urdfsync.changes import Change, Changes
+
+_WIDTH = 40
 FEW = 5
 """So many warnings of one kind are shown; of more, only the first ones and their number."""
 
@@ -72,11 +79,59 @@ def folded(diagnostics: Sequence[Diagnostic]) -> tuple[list[Diagnostic], dict[st
     return shown, dict(more)
 
 
+def changes(found: Changes) -> list[str]:
+    """What changed in the model, one line each: `joint elbow / limit / effort: 54 → 60 N.m (+11 %)`."""
+    lines = ["a template, an option or urdfsync itself changed"] if found.generator else []
+    return lines + [_change(change) for change in found.changes]
+
+
+def _change(change: Change) -> str:
+    match change.kind:
+        case difference.Kind.CHANGED:
+            what = f"{_value(change.old)} → {_value(change.new)} {change.unit}".rstrip() + _relation(change)
+        case difference.Kind.RENAMED:
+            what = f"renamed to {change.new}"
+        case kind:
+            what = str(kind)
+    unmodelled = " (not modelled)" if change.change_class is difference.ChangeClass.UNMODELLED else ""
+    return f"{change}: {what}{unmodelled}"
+
+
+def _value(value: object) -> str:
+    """A value in few characters; numbers with all digits that they have, up to ten."""
+    if isinstance(value, float):
+        return f"{value:.10g}"
+    text = value if isinstance(value, str) else json.dumps(value)
+    return text if len(text) <= _WIDTH else f"{text[: _WIDTH - 1]}…"
+
+
+def _relation(change: Change) -> str:
+    """How a number's new value stands to its old one."""
+    if change.noise:
+        return " (rounding)"
+    if change.unit == "rad":
+        return f" ({math.degrees(change.old):.4g}° → {math.degrees(change.new):.4g}°)"
+    return "" if change.percent is None else f" ({change.percent:+.3g} %)"
+
+
 def visible(text: str) -> str:
     """The text with everything escaped that a terminal would obey instead of showing it."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def change(found: Change) -> dict[str, Any]:
+    """A change of the model as plain data."""
+    return {
+        "change": str(found),
+        "kind": found.kind,
+        "class": found.change_class,
+        "old": found.old,
+        "new": found.new,
+        "unit": found.unit,
+        "noise": found.noise,
+    }
 
 
 def finding(diagnostic: Diagnostic) -> dict[str, Any]:
@@ -95,6 +150,8 @@ def robot(result: Result) -> dict[str, Any]:
         "in_step": result.in_step,
         "summary": summary(result),
         "drawing": str(result.drawing) if result.drawing else None,
+        "class": result.changes.change_class if result.changes else difference.ChangeClass.NONE,
+        "changes": [change(found) for found in result.changes.changes] if result.changes else [],
         "actions": [_action(action) for action in result.actions],
         "diagnostics": [finding(diagnostic) for diagnostic in result.diagnostics],
     }
