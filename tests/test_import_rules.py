@@ -37,6 +37,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "wording": (*SHELL_MODULES, *IO, *HEAVY),
     "modelica": ("urdfsync", *IO, *HEAVY),
     "literals": ("urdfsync", *IO, *HEAVY),
+    "merge": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "tomlfile": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "tables": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "build": ("rich", "watchdog", "urdfsync.report", "urdfsync.cli"),
@@ -93,7 +94,7 @@ PURE = (
         "modelica",
         "literals",
     ),
-    *(name for name in MODULES if name.startswith("urdf/")),
+    *(name for name in MODULES if name == "merge" or name.startswith(("urdf/", "merging/"))),
 )
 
 
