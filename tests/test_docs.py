@@ -1,0 +1,37 @@
+"""What the documentation shows is what urdfsync does."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from urdfsync.domain import Target
+from urdfsync.urdf.domain import DOMAIN
+from urdfsync.urdf.options import Options
+
+REPOSITORY = Path(__file__).parents[1]
+ARM = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
+PAGES = [REPOSITORY / "README.md", REPOSITORY / "CHANGELOG.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
+
+
+def test_the_picture_of_the_arm_is_the_diagram_of_the_example() -> None:
+    options = Options(cross_check=False)
+    snapshot = DOMAIN.read(ARM.read_bytes(), ARM.name, options).snapshot
+    assert snapshot is not None
+    drawing = DOMAIN.drawing(snapshot, {}, Target("UrdfSync.Examples.SixAxisArm", "SixAxisArm"), options)
+    assert (REPOSITORY / "docs/images/six_axis_arm.svg").read_text(encoding="utf-8") == drawing, (
+        "run `urdfsync build six_axis_arm --svg` and copy .urdfsync/svg/six_axis_arm.svg"
+    )
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_between_pages_lead_somewhere(page: Path) -> None:
+    targets = re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8"))
+    assert [target for target in targets if "://" not in target and not (page.parent / target).exists()] == []
+
+
+def test_every_option_of_a_robot_is_documented() -> None:
+    text = (REPOSITORY / "docs/configuration.md").read_text(encoding="utf-8")
+    assert [name for name in Options.__struct_fields__ if f"| `{name}` |" not in text] == []
