@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     from urdfsync.changes import Changes
     from urdfsync.generate import Generated
 
+NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
+"""What a domain raises for a recorded snapshot that is none of its own."""
+
 Progress = Callable[[str, int, int], None]
 """Told of a step of the work: what it is, how much of it is done, and of how much."""
 
@@ -145,7 +148,7 @@ class Planner:
             return None
         try:
             dependencies = self._dependencies(state.model.snapshot, {})
-        except (KeyError, TypeError, AttributeError, ValueError):
+        except NO_MODEL:
             return None  # the recorded snapshot is not the domain's: the source is read again
         if not imports.unchanged(dependencies, recorded.dependencies, self._domain.converter):
             return None
@@ -226,7 +229,7 @@ class Planner:
         new = Version(snapshot, imported, self._generator.fingerprint)
         try:
             found = compare(old, new, self._domain, self._robot.options)
-        except (KeyError, TypeError, AttributeError, ValueError):
+        except NO_MODEL:
             return None  # what is recorded is no model of the domain
         return found if found.changes or found.generator else None
 

@@ -11,26 +11,10 @@ import hashlib
 import re
 from collections.abc import Iterable, Mapping
 
-from urdfsync.modelica import KEYWORDS
+from urdfsync.modelica import DEVICES, FUNCTIONS, KEYWORDS, RESERVED_CLASSES
 
 Key = tuple[str, str]
 """Kind (`link` or `joint`) and URDF name."""
-
-BUILT_IN = frozenset(
-    """
-    abs acos activestate actualstream array asin assertionlevel atan atan2 backsample boolean cardinality cat
-    ceil change clock complex connections cos cosh cross delay diagonal div edge exp externalobject fill
-    firsttick floor getinstancename hold homotopy identity initialstate instream integer interval inverse
-    linspace ln log log10 matrix max min mod ndims noclock noevent ones outerproduct pre previous product
-    promote real reinit rem rooted sample scalar semilinear shiftsample sign sin sinh size skew smooth
-    spatialdistribution sqrt stateselect string subsample sum supersample symmetric tan tanh terminal terminate
-    ticksinstate time timeinstate transition transpose vector zeros
-    """.split()
-)
-"""Functions, types and operators of the language, folded to lower case."""
-
-LIBRARIES = frozenset({"modelica", "modelicaservices", "urdfsync", "visualization2"})
-"""Libraries that generated text refers to, folded to lower case."""
 
 GENERATED = frozenset(
     "animation checklimits connectionmatrix fixedstart frame_a frame_b ground joints links m moveablejoints name "
@@ -39,9 +23,6 @@ GENERATED = frozenset(
     "world".split()
 )
 """Names, folded to lower case, that models and records of robots use beside those of links and joints."""
-
-DEVICES = frozenset(["con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))])
-"""Names that Windows gives to no file, whatever its suffix."""
 
 LONGEST = 100
 """A longer spelling is cut, since file systems end at 255 bytes."""
@@ -52,7 +33,7 @@ RESERVED_SUFFIXES = ("parameters", "run", "test")
 DERIVED_SUFFIXES = ("", "axis", "frame", "mimic")
 """Endings, folded to lower case, of the names in the robot model that come with a link or joint."""
 
-_RESERVED = KEYWORDS | BUILT_IN | LIBRARIES | DEVICES
+_RESERVED = KEYWORDS | {name.lower() for name in FUNCTIONS} | RESERVED_CLASSES | DEVICES
 _DIGITS = 8
 
 
