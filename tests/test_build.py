@@ -15,11 +15,12 @@ from typing import Any
 
 import pytest
 
-from urdfsync import config, files, operations
+from urdfsync import config, files
 from urdfsync.build import Request, build
 from urdfsync.files import text_digest
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.plan import Kind
+from urdfsync.state import operations
 
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
 

@@ -17,8 +17,9 @@ import pytest
 from support import crashes
 from support.crashes import Operation, before_each, contents, killed, recorded, run, sample
 
-from urdfsync import operations, render
-from urdfsync.batch import find_phase
+from urdfsync import render
+from urdfsync.state import operations
+from urdfsync.state.batch import find_phase
 
 LADDER = "modelica/Ladder"
 RECORD = f"{LADDER}/Elements/C2Parameters.mo"

@@ -10,15 +10,15 @@ import dataclasses
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import leftovers
-from urdfsync.batch import SavedError
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
-from urdfsync.lock import Lock, LockedError
 from urdfsync.outcome import Result
 from urdfsync.planner import Planner, Progress, Request, Work
-from urdfsync.store import Store
-from urdfsync.transactions import Transactions, UnfinishedError
+from urdfsync.state import leftovers
+from urdfsync.state.batch import SavedError
+from urdfsync.state.lock import Lock, LockedError
+from urdfsync.state.store import Store
+from urdfsync.state.transactions import Transactions, UnfinishedError
 
 __all__ = ["Progress", "Request", "build"]
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync import imports, leftovers, manifest, packages, parents, registry
+from urdfsync import imports, manifest, packages, parents, registry
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.decide import Decision, Disk, decide, encode
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, StateError
@@ -23,8 +23,9 @@ from urdfsync.domain import Dependency, Domain, Import, Lookup, Reading, Role, S
 from urdfsync.files import digest, kind_of, templates_digest, text_digest
 from urdfsync.manifest import Generator, Manifest
 from urdfsync.plan import CONFLICTS, Kind, State, Wanted
-from urdfsync.store import Store
-from urdfsync.transactions import Change
+from urdfsync.state import leftovers
+from urdfsync.state.store import Store
+from urdfsync.state.transactions import Change
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes

@@ -12,9 +12,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from urdfsync import config, operations
+from urdfsync import config
 from urdfsync.build import Request, build
 from urdfsync.outcome import Result
+from urdfsync.state import operations
 
 NAMES = ("make_folder", "remove_folder", "write", "keep", "exchange", "replace", "place", "remove", "sync")
 ALL = "URDFSYNC_CRASHES"

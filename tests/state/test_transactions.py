@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync import operations
-from urdfsync.batch import SavedError
 from urdfsync.diagnostics import OutputError
 from urdfsync.files import digest
-from urdfsync.transactions import Change, Transactions, UnfinishedError
+from urdfsync.state import operations
+from urdfsync.state.batch import SavedError
+from urdfsync.state.transactions import Change, Transactions, UnfinishedError
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync import operations
+from urdfsync.state import operations
 
 
 def refusing(number: int) -> Callable[..., None]:

@@ -16,13 +16,13 @@ import urdfsync
 from urdfsync import config
 from urdfsync.build import Request, build
 from urdfsync.diagnostics import OutputError
-from urdfsync.lock import Lock, LockedError
 from urdfsync.outcome import Exit, Result, exit_code
+from urdfsync.state.lock import Lock, LockedError
 
 HOLD = """
 import sys
 from pathlib import Path
-from urdfsync.lock import Lock
+from urdfsync.state.lock import Lock
 with Lock(Path(sys.argv[1]), 0) as lock:
     lock.acquire()
     print("held", flush=True)

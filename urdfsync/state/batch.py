@@ -13,9 +13,9 @@ import stat
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import operations
 from urdfsync.files import TEMPORARY, digest, failure
-from urdfsync.journal import Journal, Phase, Step
+from urdfsync.state import operations
+from urdfsync.state.journal import Journal, Phase, Step
 
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""

@@ -7,11 +7,11 @@ import os
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
-from urdfsync import operations
-from urdfsync.batch import Batch, SavedError, find_phase
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree, digest
-from urdfsync.journal import FORMAT, Journal, Phase, Step
+from urdfsync.state import operations
+from urdfsync.state.batch import Batch, SavedError, find_phase
+from urdfsync.state.journal import FORMAT, Journal, Phase, Step
 
 
 class UnfinishedError(OutputError):

@@ -11,7 +11,7 @@ from urdfsync.decide import Disk
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.manifest import Manifest
 from urdfsync.plan import Action, Kind
-from urdfsync.store import Store
+from urdfsync.state.store import Store
 
 _FEW = 3
 """So many files are named; of more, only their number."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.journal import Journal, Phase, Step
+from urdfsync.state.journal import Journal, Phase, Step
 
 hashes = st.none() | st.text("0123456789abcdef", min_size=64, max_size=64)
 steps = st.builds(Step, st.text(), hashes, hashes)

@@ -12,7 +12,7 @@ from urdfsync.config import STATE_FOLDER
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree, digest
 from urdfsync.manifest import Manifest, Model
-from urdfsync.transactions import Change
+from urdfsync.state.transactions import Change
 
 _IGNORE = """\
 # Written by urdfsync. robots/ belongs into version control, everything else is safe to lose.

@@ -1,0 +1,79 @@
+"""What the commands of the command line share."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+from typing import Any, NoReturn, TypeAlias
+
+from urdfsync import config
+from urdfsync.planner import Request
+from urdfsync.report import Report
+
+CODES = "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, 4 locked, 130 interrupted"
+
+
+class UsageError(Exception):
+    """Arguments that no command takes."""
+
+    def __init__(self, message: str, usage: str, program: str) -> None:
+        super().__init__(message)
+        self.usage, self.program = usage, program
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that leaves to `Report` what to say of bad arguments."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__(allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, **options)
+
+    def error(self, message: str) -> NoReturn:
+        """Raise UsageError."""
+        raise UsageError(message, self.format_usage(), self.prog)
+
+
+Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
+
+
+def add_common(parser: Parser) -> None:
+    """The options that every command has."""
+    group = parser.add_argument_group("common options")
+    group.add_argument("--config", type=Path, metavar="PATH", help="default: urdfsync.toml, here or in a folder above")
+    group.add_argument("--json", action="store_true", help="one JSON document on the standard output")
+    group.add_argument("-q", "--quiet", action="store_true", help="only errors and conflicts")
+    group.add_argument(
+        "-v", "--verbose", action="store_true", help="all warnings, and files that are not just unchanged"
+    )
+
+
+def add_robots(parser: Parser) -> None:
+    """The choice of robots, as arguments or options."""
+    parser.add_argument("robots", nargs="*", metavar="ROBOT", help="robots of urdfsync.toml (default: all)")
+    add_robot_option(parser)
+
+
+def add_robot_option(parser: Parser) -> None:
+    """The choice of robots by options alone."""
+    parser.add_argument("--robot", action="append", metavar="ROBOT", help="only this robot; may be repeated")
+
+
+def add_wait(parser: Parser) -> None:
+    """How long to wait for another build."""
+    parser.add_argument("--wait", type=float, default=60, metavar="S", help="seconds to wait for another build (60)")
+
+
+def configuration(options: argparse.Namespace) -> config.Config:
+    """The configuration that the options name, or the nearest one. Raises ConfigError."""
+    return config.load(options.config or config.find(config.working_folder()))
+
+
+def default_file(options: argparse.Namespace) -> Path:
+    """Where a new configuration goes."""
+    return config.working_folder() / (options.config or config.FILE_NAME)
+
+
+def request(options: argparse.Namespace, report: Report, **wishes: Any) -> Request:
+    """How to build, with what is the same for all commands."""
+    wait = getattr(options, "wait", 60.0)
+    return Request(package_paths=config.ros_package_path(os.environ), progress=report.progress, wait=wait, **wishes)

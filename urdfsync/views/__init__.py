@@ -1,0 +1,1 @@
+"""How results look; with `report`, the only place that knows rich."""

@@ -1,0 +1,102 @@
+"""How the result of a build looks, line by line."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from urdfsync import wording
+from urdfsync.config import shown
+from urdfsync.outcome import Result
+from urdfsync.plan import CONFLICTS, Action, Kind
+from urdfsync.views.terminal import has_marks, is_styled, text
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.text import Text
+
+_KINDS = {
+    Kind.CREATE: "green",
+    Kind.RESTORE: "green",
+    Kind.ADOPT: "green",
+    Kind.UPDATE: "green",
+    Kind.DELETE: "magenta",
+    Kind.KEEP: "cyan",
+    Kind.ORPHAN: "yellow",
+    Kind.NEEDED: "yellow",
+    Kind.CONFLICT: "bold red",
+    Kind.UNOWNED: "bold red",
+}
+_LISTED = CONFLICTS | {Kind.ORPHAN, Kind.NEEDED}
+"""What is named file by file even if nobody asks."""
+_CHANGES = 12
+"""So many changes of a model are shown at most, unless somebody asks."""
+_ADVICE = (
+    "  Your file stays as it is. To settle a conflict, move the file out of the package and build again,",
+    "  then put your edits into the file that urdfsync has written.",
+)
+
+
+def lines(result: Result, console: Console, verbose: bool, explain: bool) -> Iterator[Text]:
+    """Everything that there is to say about one robot; `explain` names every file."""
+    yield _headline(result, console)
+    if result.changes:
+        lines = wording.changes(result.changes)
+        few = len(lines) if verbose or len(lines) <= _CHANGES else _CHANGES - 1
+        yield from (text((f"  {line}", "")) for line in lines[:few])
+        if few < len(lines):
+            yield text((f"  … and {len(lines) - few} more changes; --verbose shows them", "dim"))
+    if explain or verbose:
+        yield from _explanation(result, console, everything=explain)
+    else:
+        for action in result.actions:
+            if action.kind in _LISTED:
+                yield text(("  ", ""), *_verdict(action, _place(result, action)))
+    if result.conflicts:
+        yield from (text((line, "dim")) for line in _ADVICE)
+    if result.drawing:
+        yield text((f"  diagram: {shown(result.drawing)}", ""))
+
+
+def plain(name: str, summary: str) -> None:
+    """A headline without rich; it looks as `headline` does."""
+    styled = is_styled(sys.stdout) and sys.platform != "win32"
+    green, bold, off = ("\x1b[32m", "\x1b[1m", "\x1b[0m") if styled else ("", "", "")
+    mark = f"{green}✓ {off}" if has_marks(sys.stdout) else ""
+    sys.stdout.write(f"{mark}{bold}{name}{off}: {summary}\n")
+
+
+def _headline(result: Result, console: Console) -> Text:
+    mark, style = ("✗", "bold red") if result.failed else ("!", "yellow") if result.conflicts else ("✓", "green")
+    marks = [(f"{mark} ", style)] if has_marks(console.file) else []
+    return text(*marks, (result.robot, "bold"), (f": {wording.summary(result)}", ""))
+
+
+def _explanation(result: Result, console: Console, everything: bool) -> Iterator[Text]:
+    """Each file, what happens to it and why: below its folder on a terminal, else one path per line."""
+    actions = [action for action in result.actions if everything or action.kind is not Kind.UNCHANGED]
+    actions.sort(key=lambda action: action.path.rpartition("/"))
+    folder = None
+    width = max((len(Path(action.path).name) for action in actions), default=0)
+    for action in actions:
+        place = _place(result, action)
+        if not console.is_terminal:
+            yield text(("  ", ""), *_verdict(action, place))
+            continue
+        if place.parent != folder:
+            folder = place.parent
+            yield text((f"  {folder}/", "bold blue"))
+        yield text(("    ", ""), *_verdict(action, Path(place.name), width))
+
+
+def _place(result: Result, action: Action) -> Path:
+    return Path(shown(Path(os.path.normpath(result.root / action.path))))
+
+
+def _verdict(action: Action, path: Path, width: int = 0) -> tuple[tuple[str, str], ...]:
+    word = "waiting" if action.held else action.kind.value.removeprefix("unowned-")
+    style = "yellow" if action.held else _KINDS.get(action.kind, "dim")
+    return (f"{word:<9}  ", style), (f"{path!s:<{width}}", ""), (f"  {action.reason}", "dim")
