@@ -204,24 +204,25 @@ def test_another_package_moves_everything(project: Path) -> None:
     assert (project / "modelica/Filter/Filter.mo").exists()
 
 
-def test_a_package_that_moves_leaves_what_is_the_users(project: Path) -> None:
+def test_a_package_that_moves_takes_edits_along_and_leaves_what_is_the_users(project: Path) -> None:
     run()
     (project / LADDER / "Bench.mo").write_text("within Ladder;\nmodel Bench\nend Bench;\n")
     edit(project / LADDER / "package.order", "Ladder\n", "Bench\nLadder\n")
     edit(project / LADDER / "Elements/R1.mo", "end R1;", "// mine\nend R1;")
+    edit(project / LADDER / "Ladder.mo", "end Ladder;", "// mine, too\nend Ladder;")
     configure(project, package='"Filter"')
     result = run()
     left = {path.relative_to(project / LADDER).as_posix() for path in (project / LADDER).rglob("*.*")}
-    assert left == {
-        *("package.mo", "package.order", "Bench.mo"),
-        *("Elements/package.mo", "Elements/R1.mo", "Elements/R1Parameters.mo"),
-    }
+    assert left == {"package.mo", "package.order", "Bench.mo"}
+    moved = (project / "modelica/Filter/Elements/R1.mo").read_text()
+    assert moved.startswith("within Filter.Elements;\n")
+    assert moved.endswith("// mine\nend R1;\n")
+    assert (project / "modelica/Filter/Filter.mo").read_text().endswith("// mine, too\nend Filter;\n")
     assert (project / LADDER / "package.order").read_text() == "Bench\n"
     assert [str(found).replace("\\", "/") for found in result.diagnostics] == [
         "urdfsync.toml:1: warning: the package moved from modelica/Ladder to modelica/Filter; what you wrote or "
-        "edited, and what that needs, stayed behind: modelica/Ladder/Bench.mo, modelica/Ladder/Elements/R1.mo, "
-        "modelica/Ladder/Elements/R1Parameters.mo, 3 more; "
-        "take over what you need, then delete the old folder [left-behind]"
+        "edited, and what that needs, stayed behind: modelica/Ladder/Bench.mo, modelica/Ladder/package.mo, "
+        "modelica/Ladder/package.order; take over what you need, then delete the old folder [left-behind]"
     ]
     assert run().in_step
     assert run().diagnostics == ()
@@ -432,6 +433,7 @@ def test_an_edited_file_that_is_no_longer_generated_is_kept(project: Path) -> No
     record = project / LADDER / "Elements/R2Parameters.mo"
     edit(record, "220.5", "330")
     edit(project / "ladder.json", '"R2"', '"R3"')
+    edit(project / "ladder.json", "220.5", "330")
     result = run()
     assert kinds(result)["Elements/R2Parameters.mo"] is Kind.ORPHAN
     assert "330" in record.read_text()
@@ -446,6 +448,7 @@ def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: P
     elements = project / LADDER / "Elements"
     edit(elements / "R2.mo", "end R2;", "// mine\nend R2;")
     edit(project / "ladder.json", '"R2"', '"R3"')
+    edit(project / "ladder.json", "220.5", "330")
     orphans = {"Elements/R2.mo": Kind.ORPHAN, "Elements/R2Parameters.mo": Kind.NEEDED}
     assert kinds(run()).items() >= orphans.items()
     assert "R2Parameters" in (elements / "R2.mo").read_text()

@@ -69,8 +69,23 @@ def changed(project: Path) -> Path:
     (project / LADDER / "Bench.mo").write_text("within Ladder;\nmodel Bench\nend Bench;\n")
     edit(project / LADDER / "package.order", "Ladder\n", "Bench\nLadder\n")
     edit(project / "ladder.json", '"R2"', '"R3"')
+    edit(project / "ladder.json", "220.5", "330")
     edit(project / "ladder.json", "4.7e-6", "1e-5")
     edit(project / "step.csv", "0.1,5", "0.1,7")
+    return project
+
+
+@pytest.fixture
+def renamed(project: Path) -> Path:
+    """A network with a conflict that the user has settled by hand, and an edited element that has another name now."""
+    run(project)
+    record = project / LADDER / "Elements/R1Parameters.mo"
+    edit(record, "100", "101")
+    edit(project / "ladder.json", "100", "150")
+    assert run(project).conflicts
+    edit(record, "101", "150")
+    edit(project / LADDER / "Elements/C1.mo", "end C1;", "// mine\nend C1;")
+    edit(project / "ladder.json", '"C1"', '"Tank"')
     return project
 
 
@@ -90,7 +105,7 @@ def moved(project: Path) -> Path:
     return project
 
 
-@pytest.fixture(params=["changed", "first", "moved"])
+@pytest.fixture(params=["changed", "first", "moved", "renamed"])
 def scenario(request: pytest.FixtureRequest) -> Path:
     path: Path = request.getfixturevalue(request.param)
     return path

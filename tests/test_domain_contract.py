@@ -139,6 +139,10 @@ def test_a_conversion_is_repeatable(case: Case) -> None:
     assert (one.content, dict(one.facts)) == (two.content, dict(two.facts))
 
 
+def texts(package: generate.Generated) -> dict[str, bytes]:
+    return {path: package.content(path) for path in package.artifacts}
+
+
 def test_artifacts_are_inside_the_package_and_apart(case: Case) -> None:
     artifacts = case.artifacts()
     generate.check_paths([artifact.path for artifact in artifacts] + [case.dependency.target])
@@ -151,33 +155,35 @@ def test_artifacts_are_inside_the_package_and_apart(case: Case) -> None:
 
 
 def test_artifacts_follow_from_their_input_alone(case: Case) -> None:
-    assert case.generated() == make(case.domain.name).generated()
+    one, two = case.generated(), make(case.domain.name).generated()
+    assert (one.artifacts, one.orders) == (two.artifacts, two.orders)
+    assert texts(one) == texts(two)
 
 
 def test_imports_show_in_the_text_only_while_they_are_there(case: Case) -> None:
     with_import = case.generated()
     without = dataclasses.replace(case, imports={}).generated()
     target = case.dependency.target.encode()
-    assert any(target in output.content for output in with_import.files.values())
-    assert not any(target in output.content for output in without.files.values())
+    assert any(target in text for text in texts(with_import).values())
+    assert not any(target in text for text in texts(without).values())
 
 
 def test_every_folder_is_a_package_with_a_complete_order(case: Case) -> None:
     generated = case.generated()
-    for folder in {str(Path(path).parent) for path in generated.files}:
+    for folder in {str(Path(path).parent) for path in generated.artifacts}:
         prefix = "" if folder == "." else f"{folder}/"
-        assert f"{prefix}package.mo" in generated.files
-        inside = [path.removeprefix(prefix) for path in generated.files if path.startswith(prefix)]
+        assert f"{prefix}package.mo" in generated.artifacts
+        inside = [path.removeprefix(prefix) for path in generated.artifacts if path.startswith(prefix)]
         classes = {path.removesuffix(".mo").partition("/")[0] for path in inside} - {"package"}
         names = generated.orders[f"{prefix}package.order"]
         assert sorted(names) == sorted(classes)
 
 
 def test_every_class_says_where_it_is(case: Case) -> None:
-    for path, output in case.generated().files.items():
+    for path, content in texts(case.generated()).items():
         *folders, name = path.removesuffix(".mo").split("/")
         parts = [TARGET.package, *folders, *([] if name == "package" else [name])]
-        text = output.content.decode()
+        text = content.decode()
         assert text.startswith(within(".".join(parts))), path
         assert text.endswith(f"end {parts[-1].rpartition('.')[2]};\n"), path
         assert "\r" not in text
@@ -189,6 +195,15 @@ def test_names_are_identifiers_and_reversible(case: Case) -> None:
     for names in case.domain.names(case.snapshot, TARGET).values():
         assert all(map(is_identifier, names.values()))
         assert len(set(names.values())) == len(names)
+
+
+def test_records_as_generated_agree_with_each_other(case: Case) -> None:
+    generated = case.generated()
+    found = [artifact.path for artifact in generated.artifacts.values() if artifact.role is Role.RECORD]
+    assert found
+    records = {path: generated.content(path).decode() for path in found}
+    assert list(case.domain.echoes(records, TARGET)) == []
+    assert list(case.domain.echoes(dict.fromkeys(found, "record"), TARGET)) == []
 
 
 def test_proposals_are_options(case: Case) -> None:

@@ -65,7 +65,9 @@ def template_error(folder: Path) -> str:
     snapshot = domain.read(NETWORK, "n.json", options).snapshot or {}
     assert domain.templates is not None
     with pytest.raises(ConfigError) as caught:
-        generate(domain, snapshot, {}, Target("N", "N"), options, [folder, domain.templates])
+        package = generate(domain, snapshot, {}, Target("N", "N"), options, [folder, domain.templates])
+        for path in package.artifacts:
+            package.content(path)
     (found,) = caught.value.diagnostics
     return str(found).replace("\\", "/")
 

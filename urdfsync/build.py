@@ -13,12 +13,14 @@ from pathlib import Path
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.outcome import Result
-from urdfsync.planner import Planner, Progress, Request, Work
+from urdfsync.planner import plan
+from urdfsync.situation import Progress, Request
 from urdfsync.state import leftovers
 from urdfsync.state.batch import SavedError
 from urdfsync.state.lock import Lock, LockedError
 from urdfsync.state.store import Store
 from urdfsync.state.transactions import Transactions, UnfinishedError
+from urdfsync.work import Work
 
 __all__ = ["Progress", "Request", "build"]
 
@@ -74,30 +76,28 @@ class _Builder:
         saved = robot.folder
         for _ in range(_ATTEMPTS):
             self._settle()
-            planner = Planner(self._config, robot, self._request)
-            work = planner.work()
+            work = plan(self._config, robot, self._request)
             if self._request.dry:
-                if self._is_current(planner):
+                if self._is_current(work):
                     return _done(result, work)
                 continue
-            changes, emptied = planner.changes(work)
-            if changes:
+            if work.writes:
                 self._lock.acquire(waiting=self._wait)
-                if not self._is_current(planner):
+                if not self._is_current(work):
                     continue
                 try:
-                    self._transactions.apply(robot.name, changes, emptied)
+                    self._transactions.apply(robot.name, work.writes, work.emptied)
                 except SavedError as error:
                     saved = error.path
                     continue
-            return dataclasses.replace(_done(result, work), drawing=planner.drawing(work))
+            return _done(result, work)
         message = "it changes all the time while urdfsync builds"
         hint = "close what writes to it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
 
-    def _is_current(self, planner: Planner) -> bool:
+    def _is_current(self, work: Work) -> bool:
         """Whether no other build has written, or begun to, since the plan was made."""
-        return not self._transactions.pending() and planner.stands()
+        return not self._transactions.pending() and Store(self._config.root, shown).stands(work.witness)
 
     def _settle(self) -> None:
         """Wait for a build that is writing; finish or undo what one has left that was killed."""
@@ -122,5 +122,10 @@ class _Builder:
 
 def _done(result: Result, work: Work) -> Result:
     return dataclasses.replace(
-        result, actions=work.decision.actions, diagnostics=work.diagnostics, changes=work.changes
+        result,
+        actions=work.decision.actions,
+        diagnostics=work.diagnostics,
+        changes=work.changes,
+        standoffs=work.decision.standoffs,
+        drawing=work.drawing,
     )

@@ -12,7 +12,7 @@ from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Protocol
 
 from urdfsync.difference import ChangeClass, Difference, ElementKey, Kind, Meaning, Version
-from urdfsync.domain import Artifact, Import, Order, Role, Snapshot
+from urdfsync.domain import Artifact, Import, Order, Snapshot
 
 NOISE = 1e-6
 """Relative change of a number that an exporter's rounding explains."""
@@ -150,16 +150,16 @@ def stale(old: Iterable[Artifact | Order], new: Iterable[Artifact | Order]) -> S
 
 
 def moves(
-    old: Mapping[str, tuple[str, Role]], new: Mapping[str, tuple[str, Role]], renames: Mapping[ElementKey, str]
+    old: Mapping[str, tuple[str, str]], new: Mapping[str, tuple[str, str]], renames: Mapping[ElementKey, str]
 ) -> Mapping[str, str]:
     """Old path → new path of each file that belongs to the same element as before, but is at another place.
 
-    Both mappings have the owner and the role of files by their path. A file moves with its element's new name, or with
-    an identifier that had to give way to another element's. Where an element has several files of a role that moved,
-    nothing is matched.
+    Both mappings have the owner and the template of files by their path. A file moves with its element's new name, or
+    with an identifier that had to give way to another element's. Where an element has several files of one template
+    that moved, nothing is matched.
     """
     owners = {f"{kind} {name}": f"{kind} {renamed}" for (kind, name), renamed in renames.items()}
-    leaving = {path: (owners.get(owner, owner), role) for path, (owner, role) in old.items()}
+    leaving = {path: (owners.get(owner, owner), template) for path, (owner, template) in old.items()}
     staying = {path for path, key in leaving.items() if new.get(path) == key}
     sources = _by_value((path, key) for path, key in leaving.items() if path not in staying)
     targets = _by_value((path, key) for path, key in new.items() if path not in staying)

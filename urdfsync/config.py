@@ -12,7 +12,7 @@ import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 
@@ -41,6 +41,7 @@ class Keys(msgspec.Struct, frozen=True):
     templates: str = ""
     package_paths: tuple[str, ...] = ()
     create_parents: bool = False
+    on_conflict: Literal["keep", "merge"] = "keep"
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -57,6 +58,8 @@ class RobotConfig:
     templates: Path | None
     package_paths: tuple[Path, ...]
     create_parents: bool
+    merging: bool
+    """Whether a file that both sides changed gets their merge, if that is without doubt."""
     options: Any
     lines: Mapping[str, int]
     """Line of every key in the configuration; of the robot's table for `""`."""
@@ -226,6 +229,7 @@ class _Reader:
             templates=_absolute(self._root / keys.templates) if keys.templates else None,
             package_paths=tuple(_absolute(self._root / path) for path in keys.package_paths),
             create_parents=keys.create_parents,
+            merging=keys.on_conflict == "merge",
             options=options,
             lines={key: table.line(key) for key in ("", *table.values)},
         )

@@ -6,6 +6,7 @@ import dataclasses
 import os
 from collections.abc import Collection, Mapping
 from pathlib import Path
+from typing import Protocol
 
 from urdfsync import order
 from urdfsync.config import Config, RobotConfig, shown
@@ -13,7 +14,22 @@ from urdfsync.domain import Role
 from urdfsync.files import Tree, digest, text_digest
 from urdfsync.manifest import Manifest
 from urdfsync.parents import Parents
-from urdfsync.plan import CONFLICTS, Action, FileRecord, Found, Kind, Wanted, after, hold, numbers_only, plan, spare
+from urdfsync.plan import (
+    CONFLICTS,
+    DISPUTED,
+    Action,
+    FileRecord,
+    Found,
+    Kind,
+    Wanted,
+    after,
+    hold,
+    numbers_only,
+    plan,
+    remembered,
+    spare,
+)
+from urdfsync.standoff import Choice, Standoff
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -22,9 +38,11 @@ class Decision:
 
     actions: tuple[Action, ...]
     texts: Mapping[str, str]
-    """New text of every `package.order`, and of parent packages that have to be made."""
+    """New text of every `package.order`, of parent packages that have to be made, and of merged files."""
     files: Mapping[str, FileRecord]
     orders: Mapping[str, tuple[str, ...]]
+    standoffs: tuple[Standoff, ...] = ()
+    """The texts of the files that conflict."""
 
 
 class Disk:
@@ -103,36 +121,87 @@ def encode(text: str) -> bytes:
     return text.encode(errors="surrogateescape")
 
 
-def decide(
-    disk: Disk,
-    manifest: Manifest | None,
-    wanted: Mapping[str, Wanted],
-    orders: Mapping[str, tuple[str, ...]],
-    texts: Mapping[str, bytes],
-    parents: Parents,
-) -> Decision:
-    """Plan every file of a robot.
+@dataclasses.dataclass(frozen=True, slots=True)
+class Aim:
+    """What a robot's package should be, and what the user wants where that is in doubt; paths as in the manifest."""
 
-    `wanted` and `orders` are what the package should have, `texts` the content of the wanted text
-    files as far as it is known (it decides whether a record may be renewed while models wait).
-    """
+    wanted: Mapping[str, Wanted]
+    orders: Mapping[str, tuple[str, ...]]
+    parents: Parents
+    moves: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    """New and old path of files whose element has another name."""
+    choices: Mapping[str, Choice] = dataclasses.field(default_factory=dict)
+    merging: bool = False
+    """Whether clean merges are welcome without being asked for."""
+
+
+class Texts(Protocol):
+    """The texts that a decision may need; each is rendered at most once, and only if asked for."""
+
+    def generated(self, key: str) -> str:
+        """What would be written to a file."""
+        ...
+
+    def base(self, key: str, digest: str) -> str | None:
+        """What was written last to a file, by its hash; None if that is lost."""
+        ...
+
+
+def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None) -> Decision:
+    """Plan every file of a robot; without texts, nothing that both sides changed is settled."""
     recorded = {key: r for key, r in manifest.files.items() if disk.reaches(key)} if manifest else {}
     owned = {key: n for key, n in manifest.orders.items() if disk.reaches(key)} if manifest else {}
-    roles = {key: record.role for key, record in recorded.items()} | {key: w.role for key, w in wanted.items()}
-    planned = plan(recorded, wanted, {key: disk.found(key, role) for key, role in roles.items()})
-    actions = spare(planned, disk.has_classes)
-    order_actions, order_texts = _plan_orders(disk, owned, orders)
-    extra, extra_texts = _plan_parents(disk, parents)
+    roles = {key: record.role for key, record in recorded.items()} | {key: w.role for key, w in aim.wanted.items()}
+    planned = plan(recorded, aim.wanted, {key: disk.found(key, role) for key, role in roles.items()}, aim.moves)
+    choices = {**remembered(recorded, planned), **aim.choices}
+    aim = dataclasses.replace(aim, choices=choices)
+    actions, standoffs, merged = _settle(disk, planned, aim, texts) if texts else (planned, {}, {})
+    actions = spare(actions, disk.has_classes)
+    order_actions, order_texts = _plan_orders(disk, owned, aim.orders)
+    extra, extra_texts = _plan_parents(disk, aim.parents)
     everything = (*actions, *order_actions, *extra)
-    held = hold(everything, _renewable(disk, everything, texts))
+    held = hold(everything, _renewable(disk, everything, texts, merged))
     waits = {action.path for action in held if action.held}
-    names = {key: owned.get(key, ()) if key in waits else orders.get(key, ()) for key in owned.keys() | orders.keys()}
+    keys = owned.keys() | aim.orders.keys()
+    names = {key: owned.get(key, ()) if key in waits else aim.orders.get(key, ()) for key in keys}
+    conflicts = {action.path for action in held if action.kind in CONFLICTS}
     return Decision(
         actions=tuple(sorted(held, key=lambda action: action.path)),
-        texts=order_texts | extra_texts,
+        texts=order_texts | extra_texts | merged,
         files=after(held[: len(actions)]),
         orders={key: entry for key, entry in names.items() if entry},
+        standoffs=tuple(standoff for path, standoff in sorted(standoffs.items()) if path in conflicts),
     )
+
+
+def _settle(
+    disk: Disk, planned: tuple[Action, ...], aim: Aim, texts: Texts
+) -> tuple[tuple[Action, ...], dict[str, Standoff], dict[str, str]]:
+    """The actions after what both sides changed is settled as far as it can be, its texts, and the merged ones."""
+    from urdfsync.settle import settle  # not at the top: a build that has nothing to do does not merge
+
+    disputed = [action for action in planned if action.kind in DISPUTED and action.role is not Role.IMPORT]
+    standoffs = {action.path: s for action in disputed if (s := _standoff(disk, action, texts)) is not None}
+    actions, merged = [], {}
+    for action, text in settle(planned, standoffs, aim.choices, aim.merging):
+        if text is None:
+            actions.append(action)
+        else:
+            merged[action.path] = text
+            actions.append(dataclasses.replace(action, result=text_digest(encode(text))))
+    return tuple(actions), standoffs, merged
+
+
+def _standoff(disk: Disk, action: Action, texts: Texts) -> Standoff | None:
+    """The texts of a file that both sides changed; None if the user made something else than a file of it."""
+    from urdfsync.settle import stand_off
+
+    place = action.origin or action.path
+    mine = disk.text(place)
+    if mine is None:
+        return None
+    base = texts.base(place, action.base) if action.base else None
+    return stand_off(action, base, mine, texts.generated(action.path))
 
 
 def _plan_orders(
@@ -167,9 +236,9 @@ def _plan_parents(disk: Disk, parents: Parents) -> tuple[list[Action], dict[str,
     return actions, texts
 
 
-def _renewable(disk: Disk, actions: tuple[Action, ...], texts: Mapping[str, bytes]) -> set[str]:
+def _renewable(disk: Disk, actions: tuple[Action, ...], texts: Texts | None, merged: Mapping[str, str]) -> set[str]:
     """The records of which only numbers change; looked for only if something conflicts."""
-    if not any(action.kind in CONFLICTS for action in actions):
+    if texts is None or not any(action.kind in CONFLICTS for action in actions):
         return set()
-    updates = [a.path for a in actions if a.kind is Kind.UPDATE and a.role is Role.RECORD and a.path in texts]
-    return {path for path in updates if numbers_only(disk.text(path) or "", texts[path].decode())}
+    updates = [a.path for a in actions if a.kind in (Kind.UPDATE, Kind.MERGE) and a.role is Role.RECORD]
+    return {path for path in updates if numbers_only(disk.text(path) or "", merged.get(path) or texts.generated(path))}

@@ -1,15 +1,15 @@
-"""A model to the files of its package, as bytes in memory."""
+"""A model to the files of its package; each text is rendered when somebody asks for it, and once."""
 
 from __future__ import annotations
 
-import dataclasses
+import functools
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.domain import Artifact, Domain, Import, Order, Role, Snapshot, Target
+from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target
 
 if TYPE_CHECKING:
     from urdfsync.render import Renderer
@@ -18,21 +18,27 @@ _FORBIDDEN = frozenset('\\:*?"<>|')
 """Characters that a path can't have on every system."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Output:
-    """One generated text file."""
-
-    role: Role
-    owner: str
-    content: bytes
-
-
-@dataclasses.dataclass(frozen=True, slots=True)
 class Generated:
     """The package: text files by their path, and the names for each `package.order`; POSIX, below the package."""
 
-    files: Mapping[str, Output]
-    orders: Mapping[str, tuple[str, ...]]
+    def __init__(self, artifacts: Iterable[Artifact | Order], folders: Sequence[Path]) -> None:
+        artifacts = list(artifacts)
+        self.artifacts: Mapping[str, Artifact] = {a.path: a for a in artifacts if isinstance(a, Artifact)}
+        self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in artifacts if isinstance(a, Order)}
+        self._folders = folders
+        self._contents: dict[str, bytes] = {}
+
+    def content(self, path: str) -> bytes:
+        """The text of one file. Raises ConfigError for a template that can't be used."""
+        if path not in self._contents:
+            self._contents[path] = _content(self._renderer, self.artifacts[path], self._folders)
+        return self._contents[path]
+
+    @functools.cached_property
+    def _renderer(self) -> Renderer:
+        from urdfsync.render import Renderer
+
+        return Renderer(self._folders)
 
 
 def generate(
@@ -43,18 +49,13 @@ def generate(
     options: Any,
     folders: Sequence[Path],
 ) -> Generated:
-    """Render every artifact with the templates in `folders`, best first.
+    """The package of a model, to be rendered with the templates in `folders`, best first.
 
-    Raises ConfigError for a template that can't be used, OutputError for paths that can't be written.
+    Raises OutputError for paths that can't be written.
     """
     artifacts = domain.artifacts(snapshot, imports, target, options)
     check_paths([artifact.path for artifact in artifacts] + [entry.target for entry in imports.values()])
-    texts = [artifact for artifact in artifacts if isinstance(artifact, Artifact)]
-    contents = _render(texts, folders)
-    return Generated(
-        {text.path: Output(text.role, text.owner, content) for text, content in zip(texts, contents, strict=True)},
-        {order.path: order.names for order in artifacts if isinstance(order, Order)},
-    )
+    return Generated(artifacts, folders)
 
 
 def check_paths(paths: Iterable[str]) -> None:
@@ -93,13 +94,6 @@ def _clash(one: str, two: str) -> Diagnostic:
 
 def _problem(code: str, message: str) -> Diagnostic:
     return Diagnostic(Severity.ERROR, code, message, hint="rename the element, the package or the class")
-
-
-def _render(artifacts: Sequence[Artifact], folders: Sequence[Path]) -> list[bytes]:
-    from urdfsync.render import Renderer
-
-    renderer = Renderer(folders)
-    return [_content(renderer, artifact, folders) for artifact in artifacts]
 
 
 def _content(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> bytes:

@@ -95,10 +95,15 @@ class Facts(msgspec.Struct, frozen=True):
 
 
 class Model(msgspec.Struct, frozen=True):
-    """The JSON file: the model, and the facts of every import."""
+    """The JSON file: the model, the facts of every import, and the base of files that wait or conflict.
+
+    Other bases follow from the model: what it would be rendered to is what was written. `bases` are texts by path
+    below the package's folder.
+    """
 
     snapshot: dict[str, Any]
     imports: dict[str, Facts]
+    bases: dict[str, str] = {}
     format: int = FORMAT
 
 
@@ -107,6 +112,9 @@ def dumps(manifest: Manifest) -> str:
     document: dict[str, Any] = msgspec.to_builtins(manifest)
     document["names"] = {kind: dict(sorted(names.items())) for kind, names in sorted(manifest.names.items()) if names}
     document["dependencies"] = dict(sorted(document["dependencies"].items()))
+    for entry in document["files"].values():
+        if "origin" in entry:
+            entry["origin"] = entry["origin"][len(manifest.folder) + 1 :]
     above = _order_above(manifest.folder)
     for key in ("orders", "files"):
         inside = {path: entry for path, entry in document[key].items() if path.startswith(f"{manifest.folder}/")}
@@ -134,13 +142,17 @@ def loads(text: str, file: str) -> Manifest:
         return _order_above(manifest.folder) if path == _PARENT else f"{manifest.folder}/{path}"
 
     files, orders = _rekeyed(manifest.files, from_root), _rekeyed(manifest.orders, from_root)
+    files = {
+        path: msgspec.structs.replace(record, origin=from_root(record.origin)) if record.origin else record
+        for path, record in files.items()
+    }
     return msgspec.structs.replace(manifest, files=files, orders=orders)
 
 
-def dump_model(snapshot: Snapshot, imports: Mapping[str, Import]) -> str:
+def dump_model(snapshot: Snapshot, imports: Mapping[str, Import], bases: Mapping[str, str] | None = None) -> str:
     """The JSON file's text."""
     facts = {key: Facts(i.source_hash, i.converter, dict(i.facts)) for key, i in imports.items()}
-    encoded = msgspec.json.encode(Model(dict(snapshot), facts), order="sorted")
+    encoded = msgspec.json.encode(Model(dict(snapshot), facts, dict(bases or {})), order="sorted")
     return msgspec.json.format(encoded, indent=1).decode() + "\n"
 
 
@@ -194,8 +206,10 @@ def _places(manifest: Manifest) -> Iterator[tuple[bool, str, tuple[str, ...]]]:
     folder, steps = manifest.folder, manifest.package.split(".")
     yield _is_normal(folder) and folder.split("/")[-len(steps) :] == steps, folder, ("folder",)
     yield _is_text(manifest.source.path), manifest.source.path, ("source", "path")
-    for path in manifest.files:
+    for path, record in manifest.files.items():
         yield _is_inside(path), path, ("files", path)
+        if record.origin is not None:
+            yield _is_inside(record.origin), record.origin, ("files", path, "origin")
     for path in manifest.orders:
         own = path == _PARENT or _is_inside(path)
         yield own and posixpath.basename(path) == _ORDER, path, ("orders", path)

@@ -13,6 +13,7 @@ from urdfsync.plan import CONFLICTS, Action, Kind
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
+    from urdfsync.standoff import Standoff
 
 
 class Exit(enum.IntEnum):
@@ -47,6 +48,8 @@ class Result:
     drawing: Path | None = None
     changes: Changes | None = None
     """What changed in the model since the last build; None if nothing did, or there is none to compare with."""
+    standoffs: tuple[Standoff, ...] = ()
+    """The texts of the files that conflict, in the order of their paths."""
 
     @property
     def conflicts(self) -> list[Action]:
@@ -56,7 +59,7 @@ class Result:
     @property
     def in_step(self) -> bool:
         """Whether every file is what it should be, edits apart."""
-        fine = {Kind.UNCHANGED, Kind.KEEP, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
+        fine = {Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
         return not self.failed and all(action.kind in fine for action in self.actions)
 
 

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import dataclasses
 import enum
+import hashlib
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 
 import msgspec
 
 from urdfsync.domain import Role
+from urdfsync.standoff import Choice
 
 
 class Kind(enum.StrEnum):
@@ -30,13 +32,21 @@ class Kind(enum.StrEnum):
     DELETE = "delete"
     ORPHAN = "orphan"
     NEEDED = "needed"
+    INCLUDED = "included"
+    MERGE = "merge"
+    MOVE = "move"
+    LEAVE = "leave"
     FORGET = "forget"
 
 
-WRITES = frozenset({Kind.CREATE, Kind.RESTORE, Kind.UPDATE, Kind.DELETE})
+WRITES = frozenset({Kind.CREATE, Kind.RESTORE, Kind.UPDATE, Kind.DELETE, Kind.MERGE, Kind.MOVE, Kind.LEAVE})
 """Actions that change a file."""
+DELETES = frozenset({Kind.DELETE, Kind.LEAVE})
+"""Actions that take a file away."""
 CONFLICTS = frozenset({Kind.CONFLICT, Kind.UNOWNED})
 """Actions that leave a file alone although something else should be in it."""
+DISPUTED = CONFLICTS | {Kind.MOVE}
+"""Actions on which the texts decide, or the user."""
 
 _REASONS = {
     Kind.UNCHANGED: "nothing to do",
@@ -51,6 +61,10 @@ _REASONS = {
     Kind.ORPHAN: "no longer generated, but you edited it; kept",
     Kind.NEEDED: "no longer generated, but something of yours needs it; kept",
     Kind.FORGET: "no longer generated, and already gone",
+    Kind.INCLUDED: "you edited it, and it already has what is new",
+    Kind.MERGE: "your edits and what is new, merged",
+    Kind.MOVE: "its element has another name; your edits move with it",
+    Kind.LEAVE: "its element has another name; your edits go to its new file",
 }
 
 
@@ -72,6 +86,12 @@ class FileRecord(msgspec.Struct, frozen=True, omit_defaults=True):
     role: Role
     base: str | None = None
     state: State = State.GENERATED
+    origin: str | None = None
+    """Path of the user's file, if its element has another name now and the file waits to go there."""
+    choice: Choice | None = None
+    """What the user chose for the file, while that waits for another conflict to be resolved."""
+    chosen_for: str | None = None
+    """Hash over the hashes of both sides: the choice holds as long as neither changes."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -101,6 +121,14 @@ class Action:
     owner: str = ""
     base: str | None = None
     generated: str | None = None
+    origin: str | None = None
+    """Where the user's file is, if its element has another name now; None if it is at `path`."""
+    choice: Choice | None = None
+    """What the user chose for it."""
+    mine: str | None = None
+    """Hash of the file on disk; None if there is none."""
+    result: str | None = None
+    """Hash of the text that merges the user's edits with what is new; None if nothing is merged."""
     held: bool = False
     """Put off until the robot's conflicts are resolved."""
 
@@ -133,21 +161,77 @@ def decide(base: str | None, mine: Found, generated: str | None) -> Kind:
 
 
 def plan(
-    recorded: Mapping[str, FileRecord], wanted: Mapping[str, Wanted], found: Mapping[str, Found]
+    recorded: Mapping[str, FileRecord],
+    wanted: Mapping[str, Wanted],
+    found: Mapping[str, Found],
+    moves: Mapping[str, str] | None = None,
 ) -> tuple[Action, ...]:
-    """The actions for all files of a robot, by path; `found` leaves out what is not on disk."""
+    """The actions for all files of a robot, by path; `found` leaves out what is not on disk.
+
+    `moves` are new and old path of files whose element has another name. A file that the user edited goes
+    to the new path (MOVE, and LEAVE at the old one); whether it can, its text has yet to show. A file that the
+    user has moved there already is compared with what was written at the old path.
+    """
+    moves = moves or {}
+    edited = _edited(recorded, found, moves)
+    left = set(edited.values())
+    moved_by_hand = {new: old for new, old in moves.items() if old in recorded and found.get(old, Found()).hash is None}
     actions = []
     for path in sorted(wanted.keys() | recorded.keys()):
         record, target = recorded.get(path), wanted.get(path)
-        base = record.base if record else None
-        generated = target.hash if target else None
-        kind = decide(base, found.get(path, Found()), generated)
-        if kind is Kind.FORGET and base is None:
-            continue  # it only waited to be written
         known = target or record
         role, owner = (known.role, known.owner) if known else (Role.MODEL, "")
-        actions.append(Action(path, kind, role, owner, base, generated))
+        base, mine = record.base if record else None, found.get(path, Found())
+        generated = target.hash if target else None
+        if target and path in edited:
+            base, origin = _base(recorded, path, edited[path]), edited[path]
+            actions.append(Action(path, Kind.MOVE, role, owner, base, generated, origin, mine=found[origin].hash))
+            continue
+        if path in left and target is None:
+            actions.append(Action(path, Kind.LEAVE, role, owner, base))
+            continue
+        if path in left:
+            base, mine = None, Found()
+        elif record is None and path in moved_by_hand:
+            base = recorded[moved_by_hand[path]].base
+        kind = decide(base, mine, generated)
+        if kind is Kind.FORGET and (base is None or (record and record.origin)):
+            continue  # it only waited to be written
+        actions.append(Action(path, kind, role, owner, base, generated, mine=mine.hash))
     return tuple(actions)
+
+
+def _edited(recorded: Mapping[str, FileRecord], found: Mapping[str, Found], moves: Mapping[str, str]) -> dict[str, str]:
+    """The moves of files that the user edited, to places where nothing of the user's is, or will not be."""
+
+    def is_theirs(path: str, base: str | None) -> bool:
+        mine = found.get(path, Found()).hash
+        return mine is not None and mine != base
+
+    edited = {
+        new: old
+        for new, old in moves.items()
+        if (base := _base(recorded, new, old)) is not None and is_theirs(old, base)
+    }
+    while True:
+        left = set(edited.values())
+        occupied = [
+            path
+            for path in edited
+            if path not in left and is_theirs(path, recorded[path].base if path in recorded else None)
+        ]
+        if not occupied:
+            return edited
+        for path in occupied:
+            del edited[path]
+
+
+def _base(recorded: Mapping[str, FileRecord], new: str, old: str) -> str | None:
+    """The base of a file that goes from its old path to a new one."""
+    record = recorded.get(new)
+    if record is None or record.origin != old:
+        record = recorded.get(old)
+    return record.base if record else None
 
 
 def spare(actions: Iterable[Action], stays: Callable[[str, Collection[str]], bool]) -> tuple[Action, ...]:
@@ -158,8 +242,12 @@ def spare(actions: Iterable[Action], stays: Callable[[str, Collection[str]], boo
     """
     actions = tuple(actions)
     owners = {action.owner for action in actions if action.kind is Kind.ORPHAN and action.role is Role.MODEL}
-    gone = {action.path: action for action in actions if action.kind is Kind.DELETE}
-    kept = {path for path, action in gone.items() if action.role is Role.RECORD and action.owner in owners}
+    gone = {action.path: action for action in actions if action.kind in DELETES}
+    kept = {
+        path
+        for path, action in gone.items()
+        if action.kind is Kind.DELETE and action.role is Role.RECORD and action.owner in owners
+    }
     packages = [path for path, action in gone.items() if action.role is Role.PACKAGE]
     for path in sorted(packages, key=lambda path: path.count("/"), reverse=True):
         if stays(path, gone.keys() - kept):
@@ -187,7 +275,7 @@ def _harmless(action: Action, numbers_only: Collection[str]) -> bool:
         return action.kind is not Kind.DELETE
     if action.kind is Kind.RESTORE:
         return action.role is not Role.ORDER and action.base == action.generated
-    return action.kind is Kind.UPDATE and action.role is Role.RECORD and action.path in numbers_only
+    return action.kind in (Kind.UPDATE, Kind.MERGE) and action.role is Role.RECORD and action.path in numbers_only
 
 
 def after(actions: Iterable[Action]) -> dict[str, FileRecord]:
@@ -207,13 +295,34 @@ def _after(action: Action) -> FileRecord | None:
         state = State.CONFLICT
     elif action.kind is Kind.KEEP:
         state = State.EDITED
+    elif action.kind is Kind.INCLUDED or (action.result or action.generated) != action.generated:
+        state, base = State.EDITED, action.generated
     elif action.kind in (Kind.ORPHAN, Kind.NEEDED):
         state = State.ORPHAN
     elif action.generated is None:
         return None
     else:
         state, base = State.GENERATED, action.generated
-    return FileRecord(action.owner, action.role, base, state)
+    waits = state in (State.WAITING, State.CONFLICT)
+    chosen_for = both(action.mine, action.generated) if waits and action.choice else None
+    choice = action.choice if waits else None
+    return FileRecord(action.owner, action.role, base, state, action.origin if waits else None, choice, chosen_for)
+
+
+def both(mine: str | None, generated: str | None) -> str:
+    """One hash for the texts of both sides, from theirs."""
+    return hashlib.sha256(f"{mine} {generated}".encode()).hexdigest()
+
+
+def remembered(recorded: Mapping[str, FileRecord], actions: Iterable[Action]) -> dict[str, Choice]:
+    """The recorded choices that still hold."""
+    return {
+        action.path: record.choice
+        for action in actions
+        if (record := recorded.get(action.path)) is not None
+        and record.choice is not None
+        and record.chosen_for == both(action.mine, action.generated)
+    }
 
 
 _LITERAL = re.compile(

@@ -10,7 +10,7 @@ import io
 import json
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,7 @@ from urdfsync.domain import (
     Artifact,
     Conversion,
     Dependency,
+    Echo,
     Import,
     Lookup,
     Order,
@@ -129,10 +130,14 @@ class RcNetwork:
         )
 
     def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-        return {}
+        before = _only_ones(snapshot for name, snapshot in old["elements"].items() if name not in new["elements"])
+        after = _only_ones(snapshot for name, snapshot in new["elements"].items() if name not in old["elements"])
+        return {("element", before[key]): after[key] for key in before if key in after}
 
     def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-        return snapshot
+        names = {name: renames.get(("element", name), name) for name in snapshot["elements"]}
+        elements = {names[name]: {**element, "name": names[name]} for name, element in snapshot["elements"].items()}
+        return {**snapshot, "elements": elements}
 
     def describe(
         self, differences: Sequence[Difference], old: Version, new: Version, options: Options
@@ -149,6 +154,9 @@ class RcNetwork:
     def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
         return ()
 
+    def echoes(self, records: Mapping[str, str], target: Target) -> Sequence[Echo]:
+        return ()  # each number is in one record only
+
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         nodes = {node for element in snapshot["elements"].values() for node in element["between"]}
         has = GROUND in nodes
@@ -159,6 +167,14 @@ class RcNetwork:
     ) -> str | None:
         texts = [f'<text y="{20 * (y + 1)}">{name}</text>' for y, name in enumerate(sorted(snapshot["elements"]))]
         return f'<svg xmlns="http://www.w3.org/2000/svg">{"".join(texts)}</svg>\n'
+
+
+def _only_ones(elements: Iterable[Mapping[str, Any]]) -> Mapping[tuple[Any, ...], str]:
+    """Names of elements by all that they are but their names; those that are alike are left out."""
+    alike: dict[tuple[Any, ...], list[str]] = {}
+    for element in elements:
+        alike.setdefault((*element["between"], element["ohm"], element["farad"]), []).append(element["name"])
+    return {key: names[0] for key, names in alike.items() if len(names) == 1}
 
 
 def _element(element: Mapping[str, Any], common: Mapping[str, Any]) -> Iterator[Artifact]:

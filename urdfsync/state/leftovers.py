@@ -10,7 +10,7 @@ from urdfsync.config import Config, shown
 from urdfsync.decide import Disk
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.manifest import Manifest
-from urdfsync.plan import Action, Kind
+from urdfsync.plan import DELETES, Action
 from urdfsync.state.store import Store
 
 _FEW = 3
@@ -40,7 +40,7 @@ def left_behind(
     if not disk.reaches(f"{recorded.folder}/package.mo"):
         message += ", and the old folder is none of urdfsync's any more"
         return [Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint="delete it by hand")]
-    gone = {disk.path(action.path) for action in actions if action.kind is Kind.DELETE}
+    gone = {disk.path(action.path) for action in actions if action.kind in DELETES}
     new = disk.path(folder)
     rest = [path for path in _files(old) if path not in gone and new not in path.parents]
     if not rest:

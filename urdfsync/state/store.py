@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from typing import TypeAlias
 
 from urdfsync import manifest
 from urdfsync.config import STATE_FOLDER
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree, digest
 from urdfsync.manifest import Manifest, Model
+from urdfsync.state.bases import Bases
 from urdfsync.state.transactions import Change
 
 _IGNORE = """\
@@ -21,6 +23,9 @@ _IGNORE = """\
 !/robots/
 .*-tmp
 """
+
+Witness: TypeAlias = Mapping[Path, str | None]
+"""Files of the state, and the hashes of their bytes when they were loaded; None for a file that was not there."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -64,9 +69,37 @@ class Store:
         model = manifest.load_model(content, self._shown(beside))
         return State(recorded, model, intact=manifest.text_hash(content) == recorded.source.snapshot)
 
-    def stands(self) -> bool:
-        """Whether all files still are as they were when they were loaded."""
-        return all(self._tree.read(path) == content for path, content in self._seen.items())
+    def witness(self) -> Witness:
+        """What all files were when they were loaded."""
+        return {path: None if content is None else digest(content) for path, content in self._seen.items()}
+
+    def stands(self, witness: Witness) -> bool:
+        """Whether all files still are as they were then."""
+        found = ((self._tree.read(path), before) for path, before in witness.items())
+        return all((None if content is None else digest(content)) == before for content, before in found)
+
+    def has_bases(self, robot: str) -> bool:
+        """Whether the texts that were written last are kept."""
+        return self._base_file(robot).is_file()
+
+    def bases(self, robot: str) -> Bases:
+        """The texts that were written last, as far as they are kept."""
+        return Bases.loads(self._bytes(self._base_file(robot)))
+
+    def keep_bases(self, robot: str, bases: Bases, former: str | None) -> Iterator[Change]:
+        """How the texts that are written now are kept; `former` as in `changes`."""
+        if former and self._bytes(self._base_file(former)) is not None:
+            yield self._change(self._base_file(former), None)
+        if self._bytes(self._base_file(robot)) != (content := bases.dumps()):
+            yield self._change(self._base_file(robot), content)
+
+    def conflicts(self, robot: str, contents: Mapping[str, bytes]) -> list[Change]:
+        """How files get to the robot's folder of conflicts, by their path below it, and how all others go."""
+        folder = self.folder / "conflicts" / robot
+        there = sorted(path for path in folder.rglob("*") if not path.is_dir())
+        wanted = {folder / path: content for path, content in contents.items()}
+        gone = [self._change(path, None) for path in there if path not in wanted and self._bytes(path) is not None]
+        return gone + [self._change(path, text) for path, text in wanted.items() if self._bytes(path) != text]
 
     def changes(self, robot: str, recorded: str, model: str | None, former: str | None) -> Iterator[Change]:
         """How the new state gets to the disk, the manifest last; `model` is None if it stays.
@@ -93,6 +126,9 @@ class Store:
         """The robot's manifest, and its model."""
         folder = self.folder / "robots"
         return folder / f"{robot}.toml", folder / f"{robot}.json"
+
+    def _base_file(self, robot: str) -> Path:
+        return self.folder / "base" / f"{robot}.json"
 
     def _change(self, path: Path, content: bytes | None) -> Change:
         old = self._seen.get(path)

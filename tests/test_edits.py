@@ -1,0 +1,446 @@
+"""What becomes of hand edits, build after build: merged, moved, kept, never lost."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from urdfsync import config
+from urdfsync.build import Request, build
+from urdfsync.outcome import Exit, Result, exit_code
+from urdfsync.plan import Kind
+from urdfsync.standoff import Choice
+
+Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
+
+LADDER = "modelica/Ladder"
+R1 = f"{LADDER}/Elements/R1.mo"
+RECORD = f"{LADDER}/Elements/R1Parameters.mo"
+ASIDE = ".urdfsync/conflicts/ladder/Elements"
+
+
+def run(**request: Any) -> Result:
+    """Build the robot `ladder` of the working folder."""
+    loaded = config.load(Path("urdfsync.toml"))
+    (result,) = build(loaded, loaded.robots, Request(**request))
+    assert not result.failed, result.diagnostics
+    return result
+
+
+def edit(path: str, old: str, new: str) -> None:
+    text = Path(path).read_bytes().decode()
+    assert old in text
+    Path(path).write_bytes(text.replace(old, new).encode())
+
+
+def source(old: str, new: str) -> None:
+    edit("ladder.json", old, new)
+
+
+def kinds(result: Result) -> dict[str, Kind]:
+    return {a.path: a.kind for a in result.actions if a.kind is not Kind.UNCHANGED and not a.held}
+
+
+def as_rc_pair() -> None:
+    """Make a capacitor of the resistor R1: its model is another, its record, too."""
+    source('"R1", "between": ["in", "middle"], "ohm": 100', '"R1", "between": ["in", "middle"], "farad": 1e-9')
+
+
+def merging() -> None:
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('on_conflict = "merge"\n')
+
+
+@pytest.fixture
+def conflict(project: Path) -> Path:
+    """A project in which the user and the source changed the model of R1, at different places."""
+    run()
+    edit(R1, "end R1;", "  annotation (Documentation);\nend R1;")
+    as_rc_pair()
+    return project
+
+
+# Conflicts and what settles them
+
+
+def test_base_generated_and_merge_are_put_aside(conflict: Path) -> None:
+    before = (conflict / R1).read_bytes()
+    assert exit_code([run()]) is Exit.CONFLICT
+    assert (conflict / R1).read_bytes() == before
+    base, generated = ((conflict / ASIDE / f"R1.{name}.mo").read_text() for name in ("base", "generated"))
+    assert "parameters.R*i" in base
+    assert "parameters.C*der(v)" in generated
+    merge = (conflict / ASIDE / "R1.merge.mo").read_text()
+    assert "annotation (Documentation);" in merge
+    assert "parameters.C*der(v)" in merge
+    assert run().standoffs[0].base == base
+
+
+def test_a_merge_with_markers_is_not_put_aside_as_modelica(project: Path) -> None:
+    run()
+    edit(RECORD, "100", "101")
+    source('"ohm": 100', '"ohm": 150')
+    run()
+    assert "<<<<<<< mine" in (project / ASIDE / "R1Parameters.merge.txt").read_text()
+    assert not (project / ASIDE / "R1Parameters.merge.mo").exists()
+
+
+def test_what_is_put_aside_goes_when_the_conflict_is_settled(conflict: Path) -> None:
+    run()
+    run(choices={R1: Choice.KEEP})
+    assert not (conflict / ".urdfsync/conflicts").exists()
+
+
+def test_what_is_put_aside_comes_back_if_somebody_deletes_it(conflict: Path, snapshot_of: Snapshot) -> None:
+    run()
+    before = snapshot_of(conflict)
+    shutil.rmtree(conflict / ".urdfsync/conflicts")
+    run()
+    assert {path: text for path, (_, text) in snapshot_of(conflict).items()} == {p: t for p, (_, t) in before.items()}
+
+
+def test_a_conflict_that_stays_writes_nothing_again(conflict: Path, snapshot_of: Snapshot) -> None:
+    run()
+    before = snapshot_of(conflict)
+    run()
+    assert snapshot_of(conflict) == before
+
+
+def test_keep_is_remembered_until_something_new_would_be_written(conflict: Path) -> None:
+    run()
+    mine = (conflict / R1).read_bytes()
+    kept = run(choices={R1: Choice.KEEP})
+    assert kinds(kept)[R1] is Kind.KEEP
+    assert not kept.conflicts
+    assert kinds(run()) == {R1: Kind.KEEP}
+    assert (conflict / R1).read_bytes() == mine
+    source('"farad": 1e-9', '"ohm": 7')
+    assert kinds(run())[R1] is Kind.CONFLICT
+
+
+def test_take_replaces_the_users_text(conflict: Path) -> None:
+    run()
+    run(choices={R1: Choice.TAKE})
+    assert "Documentation" not in (conflict / R1).read_text()
+    assert run().in_step
+    assert kinds(run()) == {}
+
+
+def test_settling_one_conflict_releases_what_waited(conflict: Path) -> None:
+    waited = run()
+    held = {action.path for action in waited.actions if action.held}
+    assert RECORD in held, "its parameter has another name"
+    done = run(choices={R1: Choice.TAKE})
+    assert not any(action.held for action in done.actions)
+    assert "Capacitance" in (conflict / RECORD).read_text() or "C" in (conflict / RECORD).read_text()
+
+
+def test_a_choice_for_what_does_not_conflict_changes_nothing(project: Path, snapshot_of: Snapshot) -> None:
+    run()
+    edit(R1, "end R1;", "// mine\nend R1;")
+    run()
+    before = snapshot_of(project)
+    run(choices={R1: Choice.TAKE, RECORD: Choice.KEEP})
+    assert snapshot_of(project) == before
+
+
+def test_a_file_that_was_there_before_can_be_kept_or_taken(project: Path) -> None:
+    Path(R1).parent.mkdir(parents=True)
+    Path(R1).write_text("within Ladder.Elements;\nmodel R1\nend R1;\n")
+    assert kinds(run())[R1] is Kind.UNOWNED
+    assert run(choices={R1: Choice.MERGE}).conflicts, "there is no base to merge with"
+    assert not run(choices={R1: Choice.KEEP}).conflicts
+    assert Path(R1).read_text() == "within Ladder.Elements;\nmodel R1\nend R1;\n"
+    assert kinds(run()) == {R1: Kind.KEEP}
+
+
+def test_an_orphan_can_be_let_go_or_deleted(project: Path) -> None:
+    run()
+    orphans = [f"{LADDER}/Elements/{name}.mo" for name in ("R1", "C1")]
+    for path in orphans:
+        edit(path, "equation", "// mine\nequation")
+    text = json.loads(Path("ladder.json").read_text())
+    text["elements"] = [e for e in text["elements"] if e["name"] not in ("R1", "C1")]
+    Path("ladder.json").write_text(json.dumps(text))
+    assert [kinds(run())[path] for path in orphans] == [Kind.ORPHAN, Kind.ORPHAN]
+    run(choices={orphans[0]: Choice.KEEP, orphans[1]: Choice.TAKE})
+    assert Path(orphans[0]).exists()
+    assert not Path(orphans[1]).exists()
+    assert kinds(run()) == {}
+
+
+# Merges
+
+
+def test_a_record_with_an_edit_elsewhere_merges(project: Path) -> None:
+    merging()
+    run()
+    edit(RECORD, "end R1", "  // measured in May\nend R1")
+    source('"ohm": 100', '"ohm": 150')
+    result = run()
+    assert kinds(result)[RECORD] is Kind.MERGE
+    text = Path(RECORD).read_text()
+    assert "// measured in May" in text
+    assert "150" in text
+    assert kinds(run()) == {RECORD: Kind.KEEP}
+    source('"ohm": 150', '"ohm": 100')
+    run()
+    assert "// measured in May" in Path(RECORD).read_text()
+    assert "150" not in Path(RECORD).read_text()
+
+
+def test_merge_by_name_does_the_same(project: Path) -> None:
+    run()
+    edit(RECORD, "end R1", "  // measured in May\nend R1")
+    source('"ohm": 100', '"ohm": 150')
+    assert kinds(run())[RECORD] is Kind.CONFLICT
+    assert kinds(run(choices={RECORD: Choice.MERGE}))[RECORD] is Kind.MERGE
+    assert "150" in Path(RECORD).read_text()
+
+
+def test_contradicting_edits_are_never_merged(project: Path) -> None:
+    merging()
+    run()
+    edit(RECORD, "100", "101")
+    source('"ohm": 100', '"ohm": 150')
+    assert kinds(run())[RECORD] is Kind.CONFLICT
+    assert kinds(run(choices={RECORD: Choice.MERGE}))[RECORD] is Kind.CONFLICT
+    assert "101" in Path(RECORD).read_text()
+
+
+def test_who_writes_the_new_value_himself_has_no_conflict(project: Path, snapshot_of: Snapshot) -> None:
+    run()
+    edit(RECORD, "100", "150")
+    edit(RECORD, "end R1", "  // measured in May\nend R1")
+    source('"ohm": 100', '"ohm": 150')
+    mine = Path(RECORD).read_bytes()
+    assert kinds(run())[RECORD] is Kind.INCLUDED
+    assert Path(RECORD).read_bytes() == mine
+    before = snapshot_of(project)
+    assert kinds(run()) == {RECORD: Kind.KEEP}
+    assert snapshot_of(project) == before
+
+
+def test_edits_of_a_file_with_other_line_endings_survive(project: Path) -> None:
+    merging()
+    run()
+    edit(RECORD, "end R1", "  // measured in May\nend R1")
+    edit(RECORD, "\n", "\r\n")
+    source('"ohm": 100', '"ohm": 150')
+    run()
+    text = Path(RECORD).read_bytes()
+    assert b"150" in text
+    assert text.count(b"\r\n") == text.count(b"\n")
+
+
+# Renames
+
+
+def rename(old: str, new: str) -> None:
+    source(f'"{old}"', f'"{new}"')
+
+
+def test_edits_move_with_their_elements_new_name(project: Path) -> None:
+    run()
+    edit(R1, "equation", "  // a sensor here\nequation")
+    rename("R1", "Shunt")
+    result = run()
+    new = f"{LADDER}/Elements/Shunt.mo"
+    assert kinds(result)[new] is Kind.MOVE
+    assert kinds(result)[R1] is Kind.LEAVE
+    assert not Path(R1).exists()
+    text = Path(new).read_text()
+    assert "// a sensor here" in text
+    assert "model Shunt" in text
+    assert "R1" not in text
+    assert kinds(run()) == {new: Kind.KEEP}
+
+
+def test_edits_that_contradict_the_new_name_wait_where_they_are(project: Path) -> None:
+    run()
+    edit(R1, "model R1", "model R1 // best of all")
+    edit(R1, "R1Parameters parameters", "MyParameters parameters")
+    mine = Path(R1).read_bytes()
+    rename("R1", "Shunt")
+    new = f"{LADDER}/Elements/Shunt.mo"
+    result = run()
+    assert kinds(result) == {new: Kind.CONFLICT}
+    assert result.standoffs[0].origin == R1
+    assert Path(R1).read_bytes() == mine
+    assert not Path(new).exists()
+    again = run()
+    assert kinds(again) == {new: Kind.CONFLICT}
+    assert again.standoffs == result.standoffs, "the base is recorded, although the model knows R1 no more"
+    recorded = tomllib.loads((project / ".urdfsync/robots/ladder.toml").read_text())
+    assert recorded["files"]["Elements/Shunt.mo"]["origin"] == "Elements/R1.mo"
+
+
+@pytest.mark.parametrize("choice", [Choice.KEEP, Choice.TAKE])
+def test_a_choice_lets_the_file_go_to_its_new_place(project: Path, choice: Choice) -> None:
+    run()
+    edit(R1, "R1Parameters parameters", "MyParameters parameters")
+    mine = Path(R1).read_text()
+    rename("R1", "Shunt")
+    run()
+    new = f"{LADDER}/Elements/Shunt.mo"
+    assert not run(choices={new: choice}).conflicts
+    assert not Path(R1).exists()
+    assert (Path(new).read_text() == mine) is (choice is Choice.KEEP)
+    assert run().in_step
+    assert f"{LADDER}/Elements/R1Parameters.mo" not in kinds(run())
+
+
+def test_a_second_rename_finds_the_file_that_still_waits(project: Path) -> None:
+    run()
+    edit(R1, "R1Parameters parameters", "MyParameters parameters")
+    rename("R1", "Shunt")
+    run()
+    rename("Shunt", "Branch")
+    result = run()
+    new = f"{LADDER}/Elements/Branch.mo"
+    assert kinds(result) == {new: Kind.CONFLICT}
+    assert result.standoffs[0].origin == R1
+    rename("Branch", "R1")
+    assert kinds(run()) == {R1: Kind.KEEP}, "the old name is back, and nothing is new for it"
+
+
+def test_a_file_that_the_user_renamed_himself_is_merged_in_its_place(project: Path) -> None:
+    merging()
+    run()
+    new = f"{LADDER}/Elements/Shunt.mo"
+    edit(R1, "equation", "  // a sensor here\nequation")
+    Path(R1).rename(new)
+    rename("R1", "Shunt")
+    assert kinds(run())[new] is Kind.MERGE
+    assert "model Shunt" in Path(new).read_text()
+    assert "// a sensor here" in Path(new).read_text()
+
+
+def test_a_file_of_the_users_at_the_new_place_is_left_alone(project: Path) -> None:
+    run()
+    new = f"{LADDER}/Elements/Shunt.mo"
+    edit(R1, "equation", "  // a sensor here\nequation")
+    mine = Path(R1).read_bytes()
+    Path(new).write_text('model Shunt "mine"\nend Shunt;\n')
+    rename("R1", "Shunt")
+    result = run()
+    assert kinds(result)[new] is Kind.UNOWNED
+    assert Path(R1).read_bytes() == mine
+
+
+# Bases that are lost
+
+
+def clone(project: Path, to: Path) -> Path:
+    """The project without what is not committed."""
+    shutil.copytree(project, to, ignore=shutil.ignore_patterns("base", "conflicts", "lock", "journal", "undo"))
+    return to
+
+
+@pytest.mark.parametrize("built", [False, True], ids=["before the conflict", "in the conflict"])
+def test_a_clone_reaches_the_same_result(
+    project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, built: bool
+) -> None:
+    run()
+    edit(RECORD, "end R1", "  // measured in May\nend R1")
+    edit(f"{LADDER}/Elements/C1.mo", "equation", "  // a sensor here\nequation")
+    source('"ohm": 100', '"ohm": 150')
+    rename("C1", "Filter")
+    if built:
+        run()
+        run()
+    other = clone(project, tmp_path / "clone")
+    first = run()
+    run(choices={RECORD: Choice.MERGE})
+    monkeypatch.chdir(other)
+    assert run().standoffs == first.standoffs
+    run(choices={RECORD: Choice.MERGE})
+
+    def files(folder: Path) -> dict[str, bytes]:
+        return {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+    assert files(other) == files(project)
+    assert "150" in (other / RECORD).read_text()
+
+
+def test_a_clone_keeps_bases_before_they_can_be_rendered_no_more(project: Path) -> None:
+    run()
+    shutil.rmtree(project / ".urdfsync/base")
+    assert run().in_step
+    assert (project / ".urdfsync/base/ladder.json").exists()
+    edit(R1, "equation", "  // a sensor here\nequation")
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('templates = "own"\n')
+    own = project / "own/element"
+    own.mkdir(parents=True)
+    from rc_domain import RcNetwork  # type: ignore[import-not-found]
+
+    text = (RcNetwork.templates / "element/model.mo.jinja").read_text()
+    (own / "model.mo.jinja").write_text(text.replace("end <<", "  annotation (Icon);\nend <<"))
+    (standoff,) = [s for s in run().standoffs if s.path == R1]
+    assert standoff.merge is not None
+    assert standoff.merge.text is not None
+
+
+def test_without_its_base_a_conflict_has_no_merge(project: Path) -> None:
+    run()
+    edit(RECORD, "end R1", "  // measured in May\nend R1")
+    source('"ohm": 100', '"ohm": 150')
+    shutil.rmtree(project / ".urdfsync/base")
+    (project / ".urdfsync/robots/ladder.json").unlink()
+    (standoff,) = run().standoffs
+    assert standoff.base is None
+    assert standoff.merge is None
+    assert sorted(path.name for path in (project / ASIDE).iterdir()) == ["R1Parameters.generated.mo"]
+
+
+def test_a_damaged_base_counts_as_lost(project: Path) -> None:
+    run()
+    kept = project / ".urdfsync/base/ladder.json"
+    texts = json.loads(kept.read_text())
+    kept.write_text(json.dumps({key: text.replace("R1", "XX") for key, text in texts.items()}))
+    edit(RECORD, "end R1", "  // measured in May\nend R1")
+    source('"ohm": 100', '"ohm": 150')
+    (standoff,) = run().standoffs
+    assert standoff.base is not None, "rendered again from what is recorded"
+    assert "XX" not in standoff.base
+
+
+# Choices that wait for others
+
+
+@pytest.fixture
+def two_conflicts(project: Path) -> tuple[str, str]:
+    """The records of R1 and R2 conflict."""
+    run()
+    other = RECORD.replace("R1", "R2")
+    for path, number in ((RECORD, "100"), (other, "220.5")):
+        edit(path, number, f"{number} + 1")
+    source('"ohm": 100', '"ohm": 150')
+    source('"ohm": 220.5', '"ohm": 300')
+    run()
+    return RECORD, other
+
+
+@pytest.mark.parametrize("choice", [Choice.KEEP, Choice.TAKE])
+def test_a_choice_holds_until_the_others_are_made(two_conflicts: tuple[str, str], choice: Choice) -> None:
+    one, two = two_conflicts
+    assert [action.path for action in run(choices={one: choice}).conflicts] == [two]
+    assert [action.path for action in run().conflicts] == [two]
+    assert not run(choices={two: choice}).conflicts
+    assert all(("+ 1" in Path(path).read_text()) is (choice is Choice.KEEP) for path in two_conflicts)
+    assert run().in_step
+
+
+def test_an_edit_after_a_choice_asks_again(two_conflicts: tuple[str, str]) -> None:
+    one, two = two_conflicts
+    run(choices={one: Choice.TAKE})
+    assert [action.path for action in run().conflicts] == [two]
+    edit(one, "end R1", "  // an afterthought\nend R1")
+    assert [action.path for action in run().conflicts] == [one, two]

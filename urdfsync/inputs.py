@@ -1,0 +1,36 @@
+"""What a robot is built from, as far as the configuration names it: the source's bytes and the templates."""
+
+from __future__ import annotations
+
+import stat
+from pathlib import Path
+
+from urdfsync.config import Config, RobotConfig, shown, templates_folder
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
+from urdfsync.domain import Domain
+from urdfsync.files import kind_of
+
+
+def read_source(config: Config, robot: RobotConfig) -> bytes:
+    """The content of the robot's source. Raises SourceError at the line of the configuration that names it."""
+    try:
+        if stat.S_ISREG(robot.source.stat().st_mode):
+            return robot.source.read_bytes()
+        reason = f"is {kind_of(robot.source.stat().st_mode)}"
+    except OSError as error:
+        reason = "does not exist" if isinstance(error, FileNotFoundError) else f"can't be read: {error.strerror}"
+    message = f"robot `{robot.name}`: the source {shown(robot.source)} {reason}"
+    line = robot.lines.get("source", 0)
+    hint = "correct `source`, or export the file again"
+    raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(config.file), line, hint=hint))
+
+
+def template_folders(config: Config, robot: RobotConfig, domain: Domain) -> list[Path]:
+    """The robot's template folders, best first. Raises ConfigError for one that does not exist."""
+    folders = [robot.templates] if robot.templates else []
+    for folder in folders:
+        if not folder.is_dir():
+            message = f"robot `{robot.name}`: the template folder {shown(folder)} does not exist"
+            line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
+            raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line, hint=hint))
+    return [*folders, templates_folder(domain)]
