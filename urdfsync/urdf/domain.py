@@ -6,7 +6,19 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from urdfsync.difference import Difference, Effect, ElementKey, Meaning, Version
-from urdfsync.domain import Artifact, Conversion, Dependency, Import, Lookup, Order, Proposal, Reading, Snapshot, Target
+from urdfsync.domain import (
+    Artifact,
+    Conversion,
+    Dependency,
+    Echo,
+    Import,
+    Lookup,
+    Order,
+    Proposal,
+    Reading,
+    Snapshot,
+    Target,
+)
 from urdfsync.urdf import naming
 from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import Robot
@@ -86,6 +98,12 @@ class UrdfDomain:
         from urdfsync.urdf import changes
 
         return changes.effects(old, new, renames)
+
+    def echoes(self, records: Mapping[str, str], target: Target) -> Sequence[Echo]:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf.echoes import echoes
+
+        return tuple(echoes(records, target))
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         """See `urdfsync.domain.Domain`."""

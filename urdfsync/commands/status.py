@@ -1,0 +1,55 @@
+"""`urdfsync status`: says how packages stand, file by file, and writes nothing."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+from collections.abc import Iterator
+
+from urdfsync import advice, records, status
+from urdfsync.build import build
+from urdfsync.commands import common
+from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.outcome import Result, exit_code
+from urdfsync.report import Report
+from urdfsync.situation import Request
+
+
+def add(commands: common.Commands) -> None:
+    """Add the command's parser."""
+    parser = commands.add_parser(
+        "status",
+        help="say which files are stale, edited, missing or in conflict",
+        description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict, and "
+        "where edited records no longer agree. Nothing is written.",
+        epilog="example: urdfsync status arm --verbose\n\n"
+        "exit codes: 0 it is told, in step or not; 2 error, 3 conflict, 4 locked, 130 interrupted",
+    )
+    common.add_robots(parser)
+    common.add_wait(parser)
+    parser.set_defaults(run=_run)
+    common.add_common(parser)
+
+
+def _run(options: argparse.Namespace, report: Report) -> int:
+    configuration = common.configuration(options)
+    robots = configuration.select([*options.robots, *(options.robot or [])])
+    report.warnings(advice.warnings(configuration, robots))
+    results = []
+    for robot, result in _results(configuration, robots, common.request(options, report, dry=True)):
+        report.status(status.of(result, shown(robot.source)))
+        results.append(result)
+    code = exit_code(results)
+    report.finish("status", code)
+    return code
+
+
+def _results(
+    configuration: Config, robots: tuple[RobotConfig, ...], request: Request
+) -> Iterator[tuple[RobotConfig, Result]]:
+    """What a build would do with each robot, and what its edited records no longer agree on."""
+    by_name = {robot.name: robot for robot in robots}
+    for result in build(configuration, robots, request):
+        robot = by_name[result.robot]
+        said = records.differing(configuration, robot, result)
+        yield robot, dataclasses.replace(result, diagnostics=(*result.diagnostics, *said)) if said else result
