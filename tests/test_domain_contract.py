@@ -14,8 +14,8 @@ import pytest
 from urdfsync import config, generate, manifest, registry
 from urdfsync.config import Keys
 from urdfsync.diagnostics import Severity
-from urdfsync.domain import Artifact, Dependency, Domain, Import, Lookup, Order, Role, Snapshot, Target
-from urdfsync.files import digest
+from urdfsync.domain import Artifact, Dependency, Domain, Import, Lookup, Order, Role, Snapshot, Target, Templates
+from urdfsync.files import digest, templates_digest
 from urdfsync.modelica import is_identifier, within
 
 URDF = b"""<robot name="two &quot;links&quot;">
@@ -64,8 +64,9 @@ class Case:
         return list(self.domain.artifacts(self.snapshot, self.imports, TARGET, self.options))
 
     def generated(self) -> generate.Generated:
-        folders = [config.templates_folder(self.domain)]
-        return generate.generate(self.domain, self.snapshot, self.imports, TARGET, self.options, folders)
+        folders = (config.templates_folder(self.domain),)
+        templates = Templates(folders, templates_digest(folders))
+        return generate.generate(self.domain, self.snapshot, self.imports, TARGET, self.options, templates)
 
 
 def make(name: str) -> Case:

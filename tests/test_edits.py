@@ -379,9 +379,7 @@ def test_a_clone_keeps_bases_before_they_can_be_rendered_no_more(project: Path) 
         file.write('templates = "own"\n')
     own = project / "own/element"
     own.mkdir(parents=True)
-    from rc_domain import RcNetwork  # type: ignore[import-not-found]
-
-    text = (RcNetwork.templates / "element/model.mo.jinja").read_text()
+    text = (Path(__file__).parent / "rcnetwork/templates/element/model.mo.jinja").read_text()
     (own / "model.mo.jinja").write_text(text.replace("end <<", "  annotation (Icon);\nend <<"))
     (standoff,) = [s for s in run().standoffs if s.path == R1]
     assert standoff.merge is not None

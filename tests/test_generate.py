@@ -8,7 +8,8 @@ import pytest
 
 from urdfsync import cli, registry
 from urdfsync.diagnostics import ConfigError, OutputError
-from urdfsync.domain import Target
+from urdfsync.domain import Target, Templates
+from urdfsync.files import templates_digest
 from urdfsync.generate import check_paths, generate
 
 
@@ -64,8 +65,10 @@ def template_error(folder: Path) -> str:
     options = domain.options()
     snapshot = domain.read(NETWORK, "n.json", options).snapshot or {}
     assert domain.templates is not None
+    folders = (folder, domain.templates)
+    templates = Templates(folders, templates_digest(folders))
     with pytest.raises(ConfigError) as caught:
-        package = generate(domain, snapshot, {}, Target("N", "N"), options, [folder, domain.templates])
+        package = generate(domain, snapshot, {}, Target("N", "N"), options, templates)
         for path in package.artifacts:
             package.content(path)
     (found,) = caught.value.diagnostics

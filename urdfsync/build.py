@@ -10,16 +10,18 @@ import dataclasses
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from urdfsync import shared
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
+from urdfsync.crew import Crew
+from urdfsync.decide import Disk
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.outcome import Result
-from urdfsync.planner import plan
 from urdfsync.situation import Progress, Request
 from urdfsync.state import leftovers
 from urdfsync.state.batch import SavedError
 from urdfsync.state.lock import Lock, LockedError
 from urdfsync.state.store import Store
-from urdfsync.state.transactions import Transactions, UnfinishedError
+from urdfsync.state.transactions import Change, Transactions, UnfinishedError
 from urdfsync.work import Work
 
 __all__ = ["Progress", "Request", "build"]
@@ -30,8 +32,8 @@ _ATTEMPTS = 5
 
 def build(config: Config, robots: Sequence[RobotConfig], request: Request) -> Iterator[Result]:
     """Build robots one after the other; one that fails does not stop the others."""
-    with Lock(config.root / STATE_FOLDER / "lock", request.wait, shown) as lock:
-        builder = _Builder(config, request, lock)
+    with Lock(config.root / STATE_FOLDER / "lock", request.wait, shown) as lock, Crew(config, robots, request) as crew:
+        builder = _Builder(config, request, lock, crew)
         for count, robot in enumerate(robots):
             request.progress(robot.name, count, len(robots))
             result = builder.build(robot)
@@ -42,8 +44,8 @@ def build(config: Config, robots: Sequence[RobotConfig], request: Request) -> It
 class _Builder:
     """The robots of one command."""
 
-    def __init__(self, config: Config, request: Request, lock: Lock) -> None:
-        self._config, self._request, self._lock = config, request, lock
+    def __init__(self, config: Config, request: Request, lock: Lock, crew: Crew) -> None:
+        self._config, self._request, self._lock, self._crew = config, request, lock, crew
         self._transactions = Transactions(config.root, config.root / STATE_FOLDER, shown)
         self._said: list[Diagnostic] = []
         self._first = True
@@ -76,17 +78,17 @@ class _Builder:
         saved = robot.folder
         for _ in range(_ATTEMPTS):
             self._settle()
-            work = plan(self._config, robot, self._request)
+            work = self._crew.plan(robot)
             if self._request.dry:
                 if self._is_current(work):
                     return _done(result, work)
                 continue
-            if work.writes:
+            if work.writes or any(action.writes for action in work.decision.actions):
                 self._lock.acquire(waiting=self._wait)
                 if not self._is_current(work):
                     continue
                 try:
-                    self._transactions.apply(robot.name, work.writes, work.emptied)
+                    self._transactions.apply(robot.name, [*self._around(robot, work), *work.writes], work.emptied)
                 except SavedError as error:
                     saved = error.path
                     continue
@@ -94,6 +96,11 @@ class _Builder:
         message = "it changes all the time while urdfsync builds"
         hint = "close what writes to it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
+
+    def _around(self, robot: RobotConfig, work: Work) -> list[Change]:
+        """What this robot needs of the files that it shares with others."""
+        around = shared.changes(work.decision.shared, Disk(self._config, robot).read_path)
+        return [*around, *Store(self._config.root, shown).ignoring()]
 
     def _is_current(self, work: Work) -> bool:
         """Whether no other build has written, or begun to, since the plan was made."""

@@ -29,6 +29,7 @@ from urdfsync.plan import (
     remembered,
     spare,
 )
+from urdfsync.shared import Shared
 from urdfsync.standoff import Choice, Standoff
 
 
@@ -43,6 +44,8 @@ class Decision:
     orders: Mapping[str, tuple[str, ...]]
     standoffs: tuple[Standoff, ...] = ()
     """The texts of the files that conflict."""
+    shared: tuple[Shared, ...] = ()
+    """What has to be done to files around the package."""
 
 
 class Disk:
@@ -67,7 +70,10 @@ class Disk:
 
     def read(self, key: str) -> bytes | None:
         """The file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
-        path = self.path(key)
+        return self.read_path(self.path(key))
+
+    def read_path(self, path: Path) -> bytes | None:
+        """The content of a file, by its absolute path."""
         tree = self._tree(path)
         return tree.read(path) if tree else None
 
@@ -128,6 +134,8 @@ class Aim:
     wanted: Mapping[str, Wanted]
     orders: Mapping[str, tuple[str, ...]]
     parents: Parents
+    folder: str
+    """The package's."""
     moves: Mapping[str, str] = dataclasses.field(default_factory=dict)
     """New and old path of files whose element has another name."""
     choices: Mapping[str, Choice] = dataclasses.field(default_factory=dict)
@@ -165,12 +173,18 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     keys = owned.keys() | aim.orders.keys()
     names = {key: owned.get(key, ()) if key in waits else aim.orders.get(key, ()) for key in keys}
     conflicts = {action.path for action in held if action.kind in CONFLICTS}
+    folders = [f"{folder}/" for folder in (aim.folder, manifest.folder if manifest else aim.folder)]
+    around = sorted(key for key in keys if not any(key.startswith(folder) for folder in folders))
+    shared = [Shared(disk.path(key), None, aim.orders.get(key, ()), owned.get(key, ())) for key in around]
+    shared += [Shared(path, content) for path, content in aim.parents.created.items()]
+    shared += [Shared(path, None, (name,)) for path, name in aim.parents.entered.items()]
     return Decision(
         actions=tuple(sorted(held, key=lambda action: action.path)),
         texts=order_texts | extra_texts | merged,
         files=after(held[: len(actions)]),
         orders={key: entry for key, entry in names.items() if entry},
         standoffs=tuple(standoff for path, standoff in sorted(standoffs.items()) if path in conflicts),
+        shared=tuple(file for file in shared if disk.key(file.path) not in waits),
     )
 
 
@@ -181,7 +195,7 @@ def _settle(
     from urdfsync.settle import settle  # not at the top: a build that has nothing to do does not merge
 
     disputed = [action for action in planned if action.kind in DISPUTED and action.role is not Role.IMPORT]
-    standoffs = {action.path: s for action in disputed if (s := _standoff(disk, action, texts)) is not None}
+    standoffs = {action.path: _standoff(disk, action, texts) for action in disputed}
     actions, merged = [], {}
     for action, text in settle(planned, standoffs, aim.choices, aim.merging):
         if text is None:
@@ -192,16 +206,19 @@ def _settle(
     return tuple(actions), standoffs, merged
 
 
-def _standoff(disk: Disk, action: Action, texts: Texts) -> Standoff | None:
-    """The texts of a file that both sides changed; None if the user made something else than a file of it."""
+def _standoff(disk: Disk, action: Action, texts: Texts) -> Standoff:
+    """The texts of a file that both sides changed; of a class that is a folder now, the user's is its `package.mo`."""
     from urdfsync.settle import stand_off
 
     place = action.origin or action.path
     mine = disk.text(place)
-    if mine is None:
-        return None
     base = texts.base(place, action.base) if action.base else None
-    return stand_off(action, base, mine, texts.generated(action.path))
+    generated = texts.generated(action.path)
+    if mine is not None:
+        return stand_off(action, base, mine, generated)
+    package = disk.text(f"{place.removesuffix('.mo')}/package.mo")
+    reason = "can't be written: you made a folder of the class"
+    return Standoff(action.path, action.owner, base, package or "", generated, None, rejected=reason)
 
 
 def _plan_orders(

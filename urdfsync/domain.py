@@ -12,7 +12,7 @@ import dataclasses
 import enum
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol, TypeAlias
+from typing import Any, NamedTuple, Protocol, TypeAlias
 
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.difference import Difference, Effect, ElementKey, Meaning, Version
@@ -48,6 +48,13 @@ class Artifact:
     data: Mapping[str, Any]
     owner: str
     """The element that it belongs to, in the domain's words: `link base_link`, `joint elbow`, `robot`."""
+
+
+class Templates(NamedTuple):
+    """Folders that templates are taken from, best first, and the hash of all that is in them."""
+
+    folders: tuple[Path, ...]
+    digest: str
 
 
 @dataclasses.dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target
+from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target, Templates
 
 if TYPE_CHECKING:
     from urdfsync.render import Renderer
@@ -21,24 +21,26 @@ _FORBIDDEN = frozenset('\\:*?"<>|')
 class Generated:
     """The package: text files by their path, and the names for each `package.order`; POSIX, below the package."""
 
-    def __init__(self, artifacts: Iterable[Artifact | Order], folders: Sequence[Path]) -> None:
+    def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates) -> None:
         artifacts = list(artifacts)
         self.artifacts: Mapping[str, Artifact] = {a.path: a for a in artifacts if isinstance(a, Artifact)}
         self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in artifacts if isinstance(a, Order)}
-        self._folders = folders
+        self._templates = templates
         self._contents: dict[str, bytes] = {}
 
     def content(self, path: str) -> bytes:
         """The text of one file. Raises ConfigError for a template that can't be used."""
         if path not in self._contents:
-            self._contents[path] = _content(self._renderer, self.artifacts[path], self._folders)
+            self._contents[path] = _content(_renderer(self._templates), self.artifacts[path], self._templates.folders)
         return self._contents[path]
 
-    @functools.cached_property
-    def _renderer(self) -> Renderer:
-        from urdfsync.render import Renderer
 
-        return Renderer(self._folders)
+@functools.lru_cache(maxsize=4)
+def _renderer(templates: Templates) -> Renderer:
+    """One renderer for all robots with the same templates, so that each is compiled once."""
+    from urdfsync.render import Renderer
+
+    return Renderer(templates.folders)
 
 
 def generate(
@@ -47,15 +49,15 @@ def generate(
     imports: Mapping[str, Import],
     target: Target,
     options: Any,
-    folders: Sequence[Path],
+    templates: Templates,
 ) -> Generated:
-    """The package of a model, to be rendered with the templates in `folders`, best first.
+    """The package of a model, to be rendered with these templates.
 
     Raises OutputError for paths that can't be written.
     """
     artifacts = domain.artifacts(snapshot, imports, target, options)
     check_paths([artifact.path for artifact in artifacts] + [entry.target for entry in imports.values()])
-    return Generated(artifacts, folders)
+    return Generated(artifacts, templates)
 
 
 def check_paths(paths: Iterable[str]) -> None:

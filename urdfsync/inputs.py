@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import stat
-from pathlib import Path
 
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
-from urdfsync.domain import Domain
-from urdfsync.files import kind_of
+from urdfsync.domain import Domain, Templates
+from urdfsync.files import kind_of, templates_digest
 
 
 def read_source(config: Config, robot: RobotConfig) -> bytes:
@@ -25,12 +24,13 @@ def read_source(config: Config, robot: RobotConfig) -> bytes:
     raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(config.file), line, hint=hint))
 
 
-def template_folders(config: Config, robot: RobotConfig, domain: Domain) -> list[Path]:
-    """The robot's template folders, best first. Raises ConfigError for one that does not exist."""
+def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
+    """The robot's templates, from its own folder before the domain's. Raises ConfigError if one does not exist."""
     folders = [robot.templates] if robot.templates else []
     for folder in folders:
         if not folder.is_dir():
             message = f"robot `{robot.name}`: the template folder {shown(folder)} does not exist"
             line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line, hint=hint))
-    return [*folders, templates_folder(domain)]
+    folders.append(templates_folder(domain))
+    return Templates(tuple(folders), templates_digest(folders))

@@ -201,25 +201,18 @@ def plan(
     return tuple(actions)
 
 
-def _edited(recorded: Mapping[str, FileRecord], found: Mapping[str, Found], moves: Mapping[str, str]) -> dict[str, str]:
-    """The moves of files that the user edited, to places where nothing of the user's is, or will not be."""
-
-    def is_theirs(path: str, base: str | None) -> bool:
-        mine = found.get(path, Found()).hash
-        return mine is not None and mine != base
-
-    edited = {
-        new: old
-        for new, old in moves.items()
-        if (base := _base(recorded, new, old)) is not None and is_theirs(old, base)
-    }
+def _edited(
+    recorded: Mapping[str, FileRecord], found: Mapping[str, Found], moves: Mapping[str, str]
+) -> dict[str, str]:
+    """The moves of files that the user edited, to places where nothing is, or nothing will be."""
+    edited = {}
+    for new, old in moves.items():
+        base, mine = _base(recorded, new, old), found.get(old, Found()).hash
+        if base is not None and mine is not None and mine != base:
+            edited[new] = old
     while True:
         left = set(edited.values())
-        occupied = [
-            path
-            for path in edited
-            if path not in left and is_theirs(path, recorded[path].base if path in recorded else None)
-        ]
+        occupied = [path for path in edited if path not in left and found.get(path, Found()) != Found()]
         if not occupied:
             return edited
         for path in occupied:

@@ -30,6 +30,11 @@ def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
     return work
 
 
+def plan_if_unchanged(config: Config, robot: RobotConfig, request: Request) -> Work | None:
+    """The same if that takes no reading and rendering, else None."""
+    return _if_unchanged(Situation(config, robot, request))
+
+
 def _if_unchanged(situation: Situation) -> Work | None:
     """The work if the recorded state still holds and no file needs to be written; None if it has to be redone.
 
@@ -68,7 +73,7 @@ def _kept(situation: Situation, recorded: Manifest) -> Decision | None:
         for key, record in recorded.files.items()
         if record.base is not None and record.state is not State.ORPHAN
     }
-    aim = Aim(wanted, recorded.orders, situation.parents)
+    aim = Aim(wanted, recorded.orders, situation.parents, situation.folder)
     decision = decide(situation.disk, recorded, aim, None)
     return None if any(a.writes or a.kind in CONFLICTS for a in decision.actions) else decision
 

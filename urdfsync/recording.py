@@ -63,10 +63,11 @@ class Recording:
         return moves and any(action.held for action in decision.actions)
 
     def _files(self, decision: Decision) -> Iterator[Change]:
-        """The changes of the package itself, and of the packages around it."""
+        """The changes of the package itself."""
         disk = self._situation.disk
+        shared = {disk.key(file.path) for file in decision.shared}
         for action in decision.actions:
-            if action.writes:
+            if action.writes and action.path not in shared:
                 content = None if action.kind in DELETES else self._content(decision, action.path, action.role)
                 yield Change(disk.path(action.path), content, disk.seen(action.path))
 

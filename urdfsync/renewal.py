@@ -141,6 +141,7 @@ class Renewal:
             wanted,
             orders,
             situation.parents,
+            situation.folder,
             self._moves(renames),
             situation.request.choices,
             situation.robot.merging,

@@ -6,12 +6,9 @@ import dataclasses
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from urdfsync.domain import Role
 from urdfsync.merge import merge
 from urdfsync.plan import CONFLICTS, Action, Kind
 from urdfsync.standoff import Choice, Standoff
-
-_ORPHANS: Mapping[Choice | None, Kind] = {Choice.KEEP: Kind.FORGET, Choice.TAKE: Kind.DELETE}
 
 
 class Settled(NamedTuple):
@@ -40,8 +37,10 @@ def settle(
 
 def _settled(action: Action, standoff: Standoff | None, choice: Choice | None, merging: bool) -> Settled:
     if action.kind is Kind.ORPHAN:
-        return Settled(_with(action, _ORPHANS.get(choice, Kind.ORPHAN)))
-    if action.kind is Kind.MOVE:
+        if choice is Choice.TAKE and action.mine is not None:
+            return Settled(_with(action, Kind.DELETE))
+        return Settled(_with(action, Kind.FORGET if choice is Choice.KEEP else Kind.ORPHAN))
+    if action.kind is Kind.MOVE and standoff:
         return _moved(action, standoff, choice)
     if action.kind not in CONFLICTS:
         return Settled(action)
@@ -51,21 +50,21 @@ def _settled(action: Action, standoff: Standoff | None, choice: Choice | None, m
     action = dataclasses.replace(action, choice=choice)
     if choice is Choice.KEEP:
         return Settled(dataclasses.replace(action, kind=Kind.KEEP, base=action.generated))
-    if choice is Choice.TAKE and (standoff or action.role is Role.IMPORT):
+    if choice is Choice.TAKE and action.mine is not None:
         return Settled(_with(action, Kind.UPDATE))
     if merged is not None and (choice is Choice.MERGE or merging):
         return Settled(_with(action, Kind.MERGE), merged)
     return Settled(action)
 
 
-def _moved(action: Action, standoff: Standoff | None, choice: Choice | None) -> Settled:
+def _moved(action: Action, standoff: Standoff, choice: Choice | None) -> Settled:
     """A file that goes with its element's new name: merged, unless the user wants one of the sides."""
     action = dataclasses.replace(action, choice=choice)
     if choice is Choice.TAKE:
         return Settled(action)
-    if standoff and choice is Choice.KEEP:
+    if choice is Choice.KEEP:
         return Settled(action, standoff.mine)
-    if standoff and standoff.merge and standoff.merge.text is not None:
+    if standoff.merge and standoff.merge.text is not None:
         return Settled(action, standoff.merge.text)
     return Settled(_with(action, Kind.CONFLICT))
 

@@ -17,7 +17,7 @@ from urdfsync.decide import Disk
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.difference import Version
 from urdfsync.domain import Dependency, Import, Lookup, Snapshot
-from urdfsync.files import digest, templates_digest
+from urdfsync.files import digest
 from urdfsync.manifest import Generator, Manifest
 from urdfsync.state import leftovers
 from urdfsync.state.store import State, Store
@@ -30,6 +30,10 @@ NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
 
 Progress = Callable[[str, int, int], None]
 """Told of a step of the work: what it is, how much of it is done, and of how much."""
+
+
+def in_silence(what: str, done: int, total: int) -> None:
+    """Tell nobody of the work."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -48,7 +52,9 @@ class Request:
     """Seconds to wait for another build to finish."""
     choices: Mapping[str, Choice] = dataclasses.field(default_factory=dict)
     """What the user wants of files that conflict, by their path in the manifest."""
-    progress: Progress = lambda _what, _done, _total: None
+    jobs: int | None = None
+    """How many processes may work at once; None for one per core."""
+    progress: Progress = in_silence
 
 
 class Situation:
@@ -69,7 +75,7 @@ class Situation:
         """The name that the robot had in the last build, if it has another one now."""
         if self.former:
             self.state = self.store.load(self.former)
-        self.templates = inputs.template_folders(config, robot, self.domain)
+        self.templates = inputs.templates(config, robot, self.domain)
         self.content = inputs.read_source(config, robot)
         self.generator = Generator(robot.domain, self.domain.revision, self._fingerprint())
         self._check_revision()
@@ -123,7 +129,7 @@ class Situation:
             "options": msgspec.to_builtins(self.robot.options),
             "package": self.robot.target.package,
             "revision": self.domain.revision,
-            "templates": templates_digest(self.templates),
+            "templates": self.templates.digest,
         }
         return digest(json.dumps(facts, sort_keys=True).encode())
 

@@ -25,6 +25,7 @@ def add(commands: common.Commands) -> None:
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
     common.add_wait(parser)
+    common.add_jobs(parser)
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
     parser.add_argument("--explain", action="store_true", help="list each file, what happens to it and why")
     parser.set_defaults(run=_run)

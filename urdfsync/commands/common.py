@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
 from urdfsync import config
-from urdfsync.situation import Request
 from urdfsync.report import Report
+from urdfsync.situation import Request
 
 CODES = "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, 4 locked, 130 interrupted"
 
@@ -63,6 +63,18 @@ def add_wait(parser: Parser) -> None:
     parser.add_argument("--wait", type=float, default=60, metavar="S", help="seconds to wait for another build (60)")
 
 
+def add_jobs(parser: Parser) -> None:
+    """How many processes may work at once."""
+    parser.add_argument("--jobs", type=_positive, metavar="N", help="processes for many robots (default: one per core)")
+
+
+def _positive(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise ValueError
+    return number
+
+
 def configuration(options: argparse.Namespace) -> config.Config:
     """The configuration that the options name, or the nearest one. Raises ConfigError."""
     return config.load(options.config or config.find(config.working_folder()))
@@ -75,5 +87,10 @@ def default_file(options: argparse.Namespace) -> Path:
 
 def request(options: argparse.Namespace, report: Report, **wishes: Any) -> Request:
     """How to build, with what is the same for all commands."""
-    wait = getattr(options, "wait", 60.0)
-    return Request(package_paths=config.ros_package_path(os.environ), progress=report.progress, wait=wait, **wishes)
+    return Request(
+        package_paths=config.ros_package_path(os.environ),
+        progress=report.progress,
+        wait=getattr(options, "wait", 60.0),
+        jobs=getattr(options, "jobs", None),
+        **wishes,
+    )

@@ -107,15 +107,17 @@ class Store:
         `former` is the name that the robot had in the state that was loaded, if it has another one now.
         """
         path, beside = self.paths(robot)
-        ignore = self.folder / ".gitignore"
-        if self._bytes(ignore) is None:
-            yield self._change(ignore, _IGNORE.encode())
         for file in self.paths(former) if former else ():
             if self._bytes(file) is not None:
                 yield self._change(file, None)
         for file, text in ((beside, model), (path, recorded)):
             if text is not None and self._read(file) != text:
                 yield self._change(file, text.encode())
+
+    def ignoring(self) -> list[Change]:
+        """How version control is told what is safe to lose, unless it has been told already."""
+        ignore = self.folder / ".gitignore"
+        return [self._change(ignore, _IGNORE.encode())] if self._bytes(ignore) is None else []
 
     def drawing(self, robot: str, text: str) -> tuple[Path, list[Change]]:
         """Where the robot's diagram goes, and how it gets there."""
