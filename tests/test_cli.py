@@ -68,15 +68,29 @@ def test_build_of_what_was_edited(edited: Path, capsys: Capture) -> None:
 
 def test_conflict(edited: Path, capsys: Capture) -> None:
     change(edited, '"R2"', '"R3"')
-    for arguments in (["build"], ["build", "--check"], ["build", "--quiet"], ["build", "--dry-run"]):
+    model = Path("modelica/Ladder/Ladder.mo")
+    for arguments in (["build", "--dry-run"], ["build", "--check"], ["build"], ["build", "--verbose"]):
         assert cli.main(arguments) == 3
-        said, _, advice = capsys.readouterr().out.partition("\n  Your file")
-        headline, *changes, place = said.splitlines()
-        assert "move the file out of the package and build again" in advice
-        assert headline == "ladder: 1 conflict, 5 changes waiting for that"
-        assert changes in ([], ["  R2: removed", "  R3: added"])
-        model = Path("modelica/Ladder/Ladder.mo")
-        assert place == f"  conflict   {model}  you edited it, and what it is made from changed too"
+        lines = capsys.readouterr().out.splitlines()
+        assert lines[0] == "ladder: 1 conflict, 5 changes waiting for that"
+        assert f"  conflict   {model}  network" in lines
+        assert '    generated  16    Elements.R3 elementR3 "Element R3";' in lines
+        assert f"    urdfsync resolve {model} --merge" in lines
+    assert cli.main(["build", "--quiet"]) == 3
+    assert capsys.readouterr().out.splitlines() == [
+        "ladder: 1 conflict, 5 changes waiting for that",
+        f"  conflict   {model}  the changes fit together: --merge takes both",
+        "",
+        "  urdfsync resolve --all --robot ladder --merge  merges it",
+    ]
+
+
+def test_edits_that_have_what_is_new_are_no_conflict(edited: Path, capsys: Capture) -> None:
+    for path in (edited / "ladder.json", edited / "modelica/Ladder/Ladder.mo"):
+        path.write_text(path.read_text().replace("two-stage", "small"))
+    assert cli.main(["build"]) == 0
+    headline = "ladder: 2 files written, 1 that you edited already has what is new"
+    assert capsys.readouterr().out.splitlines()[0] == headline
 
 
 def test_check_writes_nothing_and_exits_with_1_if_out_of_step(
@@ -249,7 +263,7 @@ def test_bad_usage(arguments: list[str], capsys: Capture) -> None:
     assert capsys.readouterr().err.startswith("usage: urdfsync")
 
 
-@pytest.mark.parametrize("command", ["init", "build", "library"])
+@pytest.mark.parametrize("command", ["init", "build", "resolve", "library"])
 def test_help_has_an_example(command: str, capsys: Capture) -> None:
     assert cli.main([command, "--help"]) == 0
     assert "example: " in capsys.readouterr().out

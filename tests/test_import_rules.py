@@ -20,7 +20,7 @@ IO = ("os", "io", "shutil", "subprocess", "tempfile", "socket", "glob", "urllib.
 HEAVY = ("jinja2", "rich", "lxml", "yourdfpy", "trimesh", "numpy", "collada", "deepdiff", "rumoca", "watchdog")
 SHELL = (
     *("build", "planner", "config", "cli", "watch", "report", "files", "imports", "decide", "parents", "init"),
-    *("commands", "views", "state"),
+    *("commands", "views", "state", "records", "differ", "versions", "revisions", "subjects"),
 )
 SHELL_MODULES = tuple(f"urdfsync.{name}" for name in SHELL)
 
@@ -34,11 +34,24 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "plan": ("pathlib", "urdfsync.manifest", "urdfsync.registry", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
     "order": ("urdfsync", "pathlib", *IO, *HEAVY),
     "outcome": (*SHELL_MODULES, *IO, *HEAVY),
+    "status": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
+    "records": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "resolution": (*SHELL_MODULES, *HEAVY),
+    "comparison": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
+    "outline": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
+    "revisions": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "subjects": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "versions": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "differ": ("urdfsync.report", "urdfsync.cli", "urdfsync.render", *HEAVY),
     "wording": (*SHELL_MODULES, *IO, *HEAVY),
     "documents": (*SHELL_MODULES, *IO, *HEAVY),
     "modelica": ("urdfsync", *IO, *HEAVY),
     "literals": ("urdfsync", *IO, *HEAVY),
     "merge": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    **{
+        f"merging/{name}": ("pathlib", "urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY)
+        for name in ("expressions", "grammar", "reading", "soundness")
+    },
     "tomlfile": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "tables": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "build": ("rich", "watchdog", "urdfsync.report", "urdfsync.cli"),
@@ -48,6 +61,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "state/batch": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
     "state/transactions": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
     "state/lock": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
+    "state/repair": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "decide": ("rich", "watchdog", "urdfsync.build", "urdfsync.report", "urdfsync.cli"),
     "config": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "watch": ("rich", "urdfsync.urdf"),
@@ -55,11 +69,13 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "report": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf"),
     **{
         f"views/{name}": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf")
-        for name in ("builds", "drafts", "terminal")
+        for name in ("builds", "comparisons", "conflicts", "drafts", "hunks", "statuses", "terminal")
     },
     "cli": ("jinja2", "deepdiff", "urdfsync.urdf", "rich"),
     "urdf/robot": ("lxml", "yourdfpy", "numpy", "pathlib", *IO),
     "urdf/source": ("jinja2", "urdfsync.render", "urdfsync.manifest", *SHELL_MODULES),
+    "urdf/echoes": ("pathlib", "re", *IO, *HEAVY, *SHELL_MODULES),
+    "urdf/modifiers": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
     "urdf/naming": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
     "urdf/artifacts": ("jinja2", "pathlib", *IO, *SHELL_MODULES),
 }
@@ -78,6 +94,9 @@ LIGHT = (
     "plan",
     "state/store",
     "urdf/domain",
+    "commands/diff",
+    "commands/status",
+    "commands/resolve",
 )
 """Modules on the way of a build that has nothing to do: no heavy library, not even through others."""
 
@@ -88,6 +107,8 @@ NO_IO_CALLS = {
 PURE = (
     *(
         "changes",
+        "comparison",
+        "outline",
         "diagnostics",
         "difference",
         "domain",
@@ -95,12 +116,14 @@ PURE = (
         "plan",
         "order",
         "outcome",
+        "resolution",
+        "status",
         "wording",
         "documents",
         "modelica",
         "literals",
     ),
-    *(name for name in MODULES if name == "merge" or name.startswith(("urdf/", "merging/"))),
+    *(name for name in MODULES if name in ("merge", "state/repair") or name.startswith(("urdf/", "merging/"))),
 )
 
 

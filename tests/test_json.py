@@ -14,9 +14,10 @@ from urdfsync import cli, config
 from urdfsync.domain import Role
 from urdfsync.plan import Kind
 from urdfsync.report import VERSION
+from urdfsync.status import FileStatus
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
-BUILD, CHANGED, MISTAKE, INIT, LIBRARY = (
+BUILD, CHANGED, MISTAKE, DIFF, STATUS, RESOLVE, INIT, LIBRARY = (
     json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)
 )
 
@@ -79,6 +80,40 @@ def test_build(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert matches(MISTAKE, printed(capsys, folder, "build"))
 
 
+def test_diff(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    inertia = '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+    (folder / "arm.urdf").write_text(URDF.replace('"tip">', f'"tip"><inertial><mass value="2"/>{inertia}</inertial>'))
+    cli.main(["init", "arm.urdf"])
+    cli.main(["build"])
+    (folder / "arm.urdf").write_text((folder / "arm.urdf").read_text().replace('mass value="2"', 'mass value="2.5"'))
+    assert matches(DIFF, printed(capsys, folder, "diff", "arm.urdf"))
+
+
+def test_status(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    cli.main(["init", "arm.urdf"])
+    cli.main(["build"])
+    moved = '<child link="tip"/><origin xyz="0 0 0.1"/>'
+    (folder / "arm.urdf").write_text(URDF.replace('<child link="tip"/>', moved))
+    record = folder / "modelica/Arm/Links/TipParameters.mo"
+    record.write_text(record.read_text().replace("Records.Link(", "Records.Link(inertial(mass = 2),"))
+    assert matches(STATUS, printed(capsys, folder, "status"))
+
+
+def test_resolve(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    cli.main(["init", "arm.urdf"])
+    cli.main(["build"])
+    turning = '"revolute"><limit lower="-1" upper="1" effort="1" velocity="1"/>'
+    (folder / "arm.urdf").write_text(URDF.replace('"fixed">', turning))
+    joint, robot = folder / "modelica/Arm/Joints/Hold_joint.mo", folder / "modelica/Arm/Arm.mo"
+    joint.write_text(joint.read_text().replace('"Fixed joint', '"Welded joint'))
+    robot.write_text(robot.read_text().replace("equation\n", "  Sensor sensor;\n\nequation\n"))
+    assert cli.main(["build"]) == 3
+    document = printed(capsys, folder, "resolve", "--all", "--merge")
+    assert matches(RESOLVE, document)
+    (conflict,) = document["robots"][0]["conflicts"]
+    assert all((folder / conflict[name]).is_file() for name in ("base", "generated", "merge"))
+
+
 def test_library(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert matches(LIBRARY, printed(capsys, folder, "library"))
 
@@ -86,11 +121,11 @@ def test_library(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_tables_name_every_key_and_no_other() -> None:
     cells = re.findall(r"^\| (`[^|]*) \|", PAGE, re.MULTILINE)
     named = {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
-    assert named == keys([BUILD, CHANGED, MISTAKE, INIT, LIBRARY])
+    assert named == keys([BUILD, CHANGED, MISTAKE, DIFF, STATUS, RESOLVE, INIT, LIBRARY])
 
 
 def test_values_that_are_one_of_a_few_are_all_named() -> None:
-    assert {f"`{kind}`" for kind in (*Kind, *Role)} <= set(re.findall(r"`[\w-]+`", PAGE))
+    assert {f"`{kind}`" for kind in (*Kind, *Role, *FileStatus)} <= set(re.findall(r"`[\w -]+`", PAGE))
     assert f"`version` is {VERSION}" in PAGE
 
 

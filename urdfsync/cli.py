@@ -6,12 +6,12 @@ import sys
 from collections.abc import Sequence
 
 from urdfsync import __version__, streams
-from urdfsync.commands import build, common, init, library
+from urdfsync.commands import build, common, diff, init, library, resolve, status
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit
 from urdfsync.report import Report
 
-_COMMANDS = (init, build, library)
+_COMMANDS = (init, build, diff, status, resolve, library)
 """In the order of the help."""
 
 
@@ -36,7 +36,8 @@ def _main(arguments: list[str]) -> int:
         found = Diagnostic(Severity.ERROR, "usage", str(error), hint=f"`{error.program} --help` says more")
         Report("--json" in arguments).bad_usage(command, error.usage, found)
         return Exit.ERROR
-    report = Report(options.json, options.quiet, options.verbose, getattr(options, "explain", False))
+    explain = getattr(options, "explain", False)
+    report = Report(options.json, options.quiet, options.verbose, explain, str(options.config or ""))
     try:
         return int(options.run(options, report))
     except UrdfsyncError as error:

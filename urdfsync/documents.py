@@ -5,10 +5,12 @@ from __future__ import annotations
 import dataclasses
 from typing import TYPE_CHECKING, Any
 
-from urdfsync import difference, wording
+from urdfsync import difference, resolution, wording
+from urdfsync.comparison import Comparison
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.outcome import Result
 from urdfsync.plan import Action
+from urdfsync.status import FileState, RobotState
 
 if TYPE_CHECKING:
     from urdfsync.changes import Change
@@ -46,7 +48,65 @@ def robot(result: Result) -> dict[str, Any]:
         "class": result.changes.change_class if result.changes else difference.ChangeClass.NONE,
         "changes": [change(found) for found in result.changes.changes] if result.changes else [],
         "actions": [_action(action) for action in result.actions],
+        "conflicts": [_conflict(target) for target in resolution.conflicts([result])],
         "diagnostics": [finding(diagnostic) for diagnostic in result.diagnostics],
+    }
+
+
+def state(found: RobotState) -> dict[str, Any]:
+    """How a robot stands as plain data."""
+    values = robot(found.result)
+    return {
+        **{key: values[key] for key in ("name", "package", "folder", "failed", "locked")},
+        "built": found.built,
+        "in_step": found.in_step,
+        "summary": wording.state(found),
+        **{key: values[key] for key in ("class", "changes")},
+        "files": [_file(file) for file in found.files],
+        "diagnostics": values["diagnostics"],
+    }
+
+
+def comparison(found: Comparison) -> dict[str, Any]:
+    """What changed in a source as plain data."""
+    result = found.result
+    return {
+        "name": result.robot,
+        "source": found.source,
+        "against": found.against,
+        "built": not found.missing,
+        "failed": result.failed,
+        "locked": result.locked,
+        "in_step": found.in_step,
+        "summary": wording.comparison(found),
+        "class": found.change_class,
+        "changes": [change(one) for one in found.changes.changes] if found.changes else [],
+        "effects": [_effect(effect) for effect in found.effects],
+        "actions": [{**_action(action), "edited": action.path in found.edited} for action in result.actions],
+        "diagnostics": [finding(diagnostic) for diagnostic in result.diagnostics],
+    }
+
+
+def _effect(found: difference.Effect) -> dict[str, Any]:
+    return {"effect": " / ".join(found.path), "old": found.old, "new": found.new, "unit": found.unit}
+
+
+def _file(file: FileState) -> dict[str, Any]:
+    values = {**_action(file.action), "path": file.path, "reason": file.reason}
+    return {"path": file.path, "status": file.status} | values
+
+
+def _conflict(target: resolution.Target) -> dict[str, Any]:
+    aside = resolution.aside(target)
+    return {
+        "path": target.action.path,
+        "origin": target.action.origin,
+        "owner": target.action.owner,
+        "merges": target.merges,
+        "reason": resolution.standing(target),
+        "base": aside.base if aside else None,
+        "generated": aside.generated if aside else None,
+        "merge": aside.merge if aside else None,
     }
 
 

@@ -7,7 +7,7 @@ text is the one that was written then, and its hash is recorded.
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from urdfsync.files import text_digest
 from urdfsync.generate import Generated
@@ -29,14 +29,16 @@ class Outputs:
         bases: Bases,
         aside: Mapping[str, str],
         mine: Callable[[str], bytes | None],
+        older: Sequence[Generated] = (),
         again: bool = False,
     ) -> None:
         """`last` is the package of the last build, None if it can't be rendered again; `records` are of that build.
 
         `aside` are texts that were recorded because nothing else gives them back; `mine` reads a file of the last
-        build. With `again`, everything counts as stale.
+        build. `older` are packages that may give back what was written last, too. With `again`, everything counts
+        as stale.
         """
-        self._again = again
+        self._older, self._again = older, again
         self._now, self._last, self._records = now, last, records
         self._bases, self._aside, self._mine = bases, aside, mine
         self._digests: dict[str, str] = {}
@@ -62,7 +64,9 @@ class Outputs:
         if known is not None:
             return known
         candidates = [text.encode() for text in self._aside.values()]
-        packages = [package for package in (self._last, self._now) if package and path in package.artifacts]
+        packages = [
+            package for package in (self._last, self._now, *self._older) if package and path in package.artifacts
+        ]
         candidates += [package.content(path) for package in packages]
         return next((text.decode() for text in candidates if text_digest(text) == digest), None)
 

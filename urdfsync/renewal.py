@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Mapping
 
 from urdfsync import changes, imports, manifest
@@ -16,7 +17,7 @@ from urdfsync.outputs import Outputs
 from urdfsync.plan import State, Wanted
 from urdfsync.recording import Recording
 from urdfsync.situation import NO_MODEL, Situation
-from urdfsync.state import leftovers
+from urdfsync.state import leftovers, repair
 from urdfsync.work import Work
 
 
@@ -101,6 +102,7 @@ class Renewal:
             bases=situation.store.bases(situation.former or situation.robot.name),
             aside=state.model.bases if state and state.model else {},
             mine=lambda path: situation.disk.read(situation.old_key(path)),
+            older=self._sides(),
             again=situation.request.full,
         )
 
@@ -113,6 +115,15 @@ class Renewal:
             return self._generate(last, Target(recorded.package, recorded.class_))
         except NO_MODEL:
             return None  # what is recorded is no model of the domain
+
+    def _sides(self) -> list[Generated]:
+        """The packages of all models that could be saved of a state that can't be read."""
+        recovered, recorded = self._situation.recovered, self._situation.recorded
+        found = []
+        for model in recovered.models.values() if recovered and recorded else ():
+            with contextlib.suppress(*NO_MODEL):  # what is recorded is no model of the domain
+                found.append(self._generate(self._situation.version(model), self._situation.robot.target))
+        return found
 
     def _changes(self) -> Changes | None:
         """What is new in the model since the last build; None if nothing is known of that build."""
@@ -146,7 +157,8 @@ class Renewal:
             situation.request.choices,
             situation.robot.merging,
         )
-        return decide(situation.disk, situation.recorded, aim, self)
+        hashes = {key: target.hash for key, target in wanted.items()}
+        return decide(situation.disk, situation.rebuilt(hashes), aim, self)
 
     def generated(self, key: str) -> str:
         """What would be written to a file of the plan."""
@@ -187,6 +199,8 @@ class Renewal:
         situation = self._situation
         place = shown(situation.config.file), situation.robot.lines[""]
         said = [leftovers.renamed(situation.former, situation.robot.name, *place)] if situation.former else []
+        if situation.recovered:
+            said.append(repair.repaired(situation.recovered, situation.robot.name, shown(situation.store.folder)))
         if situation.recorded and situation.recorded.folder != situation.folder:
             actions = decision.actions
             said += leftovers.left_behind(situation.disk, situation.recorded, actions, situation.folder, *place)

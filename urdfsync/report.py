@@ -17,9 +17,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfsync import documents, wording
+from urdfsync.comparison import Comparison
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Exit, Result
-from urdfsync.views import builds, drafts, terminal
+from urdfsync.status import RobotState
+from urdfsync.views import builds, comparisons, conflicts, drafts, statuses, terminal
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
@@ -37,12 +39,21 @@ class Report:
     """Says what happened, in the way that a command's options ask for."""
 
     def __init__(
-        self, as_json: bool = False, quiet: bool = False, verbose: bool = False, explain: bool = False
+        self,
+        as_json: bool = False,
+        quiet: bool = False,
+        verbose: bool = False,
+        explain: bool = False,
+        config: str = "",
     ) -> None:
+        """`config` is the configuration as the user named it, for commands that are proposed."""
         self._json, self._quiet, self._verbose, self._explain = as_json, quiet, verbose, explain
+        self._config = config
         self._begin = time.monotonic()
         self._bar: tuple[Progress, TaskID] | None = None
         self._results: list[Result] = []
+        self._states: list[RobotState] = []
+        self._comparisons: list[Comparison] = []
         self._warnings: Sequence[Diagnostic] = ()
 
     def progress(self, what: str, done: int, total: int) -> None:
@@ -76,22 +87,54 @@ class Report:
             builds.plain(result.robot, wording.summary(result))
             return
         console = terminal.console(sys.stderr if result.failed else sys.stdout)
-        for line in builds.lines(result, console, self._verbose, self._explain):
+        before = sum(len(other.conflicts) for other in self._results[:-1])
+        look = conflicts.Look(self._verbose, self._quiet, before, self._config)
+        for line in builds.lines(result, console, look, self._explain):
             console.print(line, soft_wrap=True)
 
+    def status(self, found: RobotState) -> None:
+        """Show how one robot stands."""
+        self._stop_bar()
+        self._states.append(found)
+        if self._json:
+            return
+        self._findings(found.result.diagnostics if self._verbose else found.findings)
+        if self._quiet and not found.result.conflicts:
+            return
+        if not statuses.has_more(found, self._verbose):
+            builds.plain(found.result.robot, wording.state(found))
+            return
+        console = terminal.console(sys.stderr if found.result.failed else sys.stdout)
+        for line in statuses.lines(found, console, self._verbose):
+            console.print(line, soft_wrap=True)
+
+    def comparison(self, found: Comparison) -> None:
+        """Show what changed in one source."""
+        self._stop_bar()
+        self._comparisons.append(found)
+        if self._json:
+            return
+        self._findings(found.result.diagnostics)
+        if self._quiet:
+            return
+        if found.in_step and found.changes is None:
+            builds.plain(found.result.robot, wording.comparison(found))
+            return
+        console = terminal.console(sys.stderr if found.result.failed else sys.stdout)
+        for part in comparisons.parts(found, console, self._verbose):
+            console.print(part)
+
     def finish(self, command: str, code: Exit) -> None:
-        """The end of a build: the JSON document, if one is asked for."""
+        """The end of a command on robots: the JSON document, if one is asked for."""
         self._stop_bar()
         if self._json:
-            robots = [documents.robot(result) for result in self._results]
-            self._document(command, code, {"robots": robots}, self._warnings)
+            self._document(command, code, {"robots": self._robots()}, self._warnings)
 
     def problems(self, command: str, diagnostics: Sequence[Diagnostic], code: Exit = Exit.ERROR) -> None:
         """Findings that stopped the whole command."""
         self._stop_bar()
         if self._json:
-            robots = [documents.robot(result) for result in self._results]
-            self._document(command, code, {"robots": robots}, [*self._warnings, *diagnostics])
+            self._document(command, code, {"robots": self._robots()}, [*self._warnings, *diagnostics])
         else:
             self._findings(diagnostics)
 
@@ -134,6 +177,13 @@ class Report:
             sys.stdout.write(f"{wording.visible(str(folder))}\n{wording.visible(line)}\n")
         else:
             sys.stdout.write(f"{line}\n")
+
+    def _robots(self) -> list[dict[str, Any]]:
+        return [
+            *map(documents.robot, self._results),
+            *map(documents.state, self._states),
+            *map(documents.comparison, self._comparisons),
+        ]
 
     def _document(
         self, command: str, code: Exit, values: dict[str, Any], diagnostics: Sequence[Diagnostic] = ()

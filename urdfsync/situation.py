@@ -16,14 +16,15 @@ from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.decide import Disk
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.difference import Version
-from urdfsync.domain import Dependency, Import, Lookup, Snapshot
+from urdfsync.domain import Dependency, Import, Lookup, Role, Snapshot
 from urdfsync.files import digest
-from urdfsync.manifest import Generator, Manifest
+from urdfsync.manifest import Generator, Manifest, Model
 from urdfsync.state import leftovers
 from urdfsync.state.store import State, Store
 
 if TYPE_CHECKING:
     from urdfsync.standoff import Choice
+    from urdfsync.state.repair import Recovered
 
 NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
 """What a domain raises for a recorded snapshot that is none of its own."""
@@ -50,6 +51,8 @@ class Request:
     """Where to look for packages after the configured folders."""
     wait: float = 60.0
     """Seconds to wait for another build to finish."""
+    repair: bool = False
+    """Make a recorded state that can't be read again, from what can be told of it and from the files."""
     choices: Mapping[str, Choice] = dataclasses.field(default_factory=dict)
     """What the user wants of files that conflict, by their path in the manifest."""
     jobs: int | None = None
@@ -70,7 +73,9 @@ class Situation:
         self.store = Store(config.root, shown)
         self.disk = Disk(config, robot)
         self.folder = self.disk.key(robot.folder)
-        self.state: State | None = self.store.load(robot.name)
+        self.recovered: Recovered | None = None
+        """What could be saved of a state that can't be read, if that was asked for."""
+        self.state: State | None = self._load(robot.name)
         self.former: str | None = None if self.state else leftovers.former(self.store, config, self.folder)
         """The name that the robot had in the last build, if it has another one now."""
         if self.former:
@@ -79,6 +84,30 @@ class Situation:
         self.content = inputs.read_source(config, robot)
         self.generator = Generator(robot.domain, self.domain.revision, self._fingerprint())
         self._check_revision()
+
+    def _load(self, name: str) -> State | None:
+        try:
+            return self.store.load(name)
+        except StateError:
+            if not self.request.repair:
+                raise
+        from urdfsync.state.repair import recover
+
+        file, beside = map(shown, self.store.paths(name))
+        self.recovered = recover(*self.store.texts(name), file, beside)
+        manifest = self.rebuilt({})
+        model = self.recovered.model(manifest) if manifest else None
+        return State(manifest, model, intact=False) if manifest else None
+
+    def rebuilt(self, generated: Mapping[str, str]) -> Manifest | None:
+        """The manifest of the last build, made again if that was asked for; `generated` are hashes by path."""
+        if self.recovered is None:
+            return self.recorded
+        from urdfsync.state.repair import rebuilt
+
+        roles = {**dict.fromkeys(generated, Role.MODEL), **self.recovered.roles}
+        mine = {path: self.disk.found(path, role).hash for path, role in roles.items()}
+        return rebuilt(self.recovered, mine, generated)
 
     @property
     def recorded(self) -> Manifest | None:
@@ -90,13 +119,17 @@ class Situation:
         """The model of the last build; None if there was none, or if it is lost."""
         if self.state is None or self.state.model is None or not self.state.intact:
             return None
-        recorded, model = self.state.manifest, self.state.model
+        return self.version(self.state.model)
+
+    def version(self, model: Model) -> Version:
+        """A recorded model, with the imports that the manifest has of it."""
+        dependencies = self.recorded.dependencies if self.recorded else {}
         imported = {
             key: Import(record.target, facts.source_hash, record.target_hash or "", facts.converter, facts.facts)
             for key, facts in model.imports.items()
-            if (record := recorded.dependencies.get(key)) is not None
+            if (record := dependencies.get(key)) is not None
         }
-        return Version(model.snapshot, imported, recorded.generator.fingerprint)
+        return Version(model.snapshot, imported, self.recorded.generator.fingerprint if self.recorded else "")
 
     def key(self, path: str) -> str:
         """How manifest and plan call a file of the package; `path` is below its folder."""

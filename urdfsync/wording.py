@@ -9,14 +9,17 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from urdfsync import difference
+from urdfsync.comparison import Comparison
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Result
-from urdfsync.plan import Kind
+from urdfsync.plan import DELETES, Kind
+from urdfsync.status import FileStatus, RobotState
 
 if TYPE_CHECKING:
     from urdfsync.changes import Change, Changes
 
 _WIDTH = 40
+_GENERATOR = "a template, an option or urdfsync itself changed"
 FEW = 5
 """So many warnings of one kind are shown; of more, only the first ones and their number."""
 
@@ -32,7 +35,7 @@ def summary(result: Result) -> str:
     if waiting:
         parts.append(f"{_number(waiting, 'change')} waiting for that")
     if result.in_step:
-        total = sum(action.kind in (Kind.UNCHANGED, Kind.KEEP) for action in result.actions)
+        total = sum(action.kind in (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED) for action in result.actions)
         parts.insert(0, f"in step, {_number(total, 'file')}")
     return ", ".join(parts)
 
@@ -41,7 +44,8 @@ def _counts(result: Result) -> list[tuple[Kind, int]]:
     kinds = Counter(action.kind for action in result.actions if not action.held)
     written = kinds.pop(Kind.CREATE, 0) + kinds.pop(Kind.UPDATE, 0)
     conflicts = kinds.pop(Kind.CONFLICT, 0) + kinds.pop(Kind.UNOWNED, 0)
-    order = (Kind.RESTORE, Kind.DELETE, Kind.ADOPT, Kind.KEEP, Kind.ORPHAN, Kind.NEEDED)
+    yours = (Kind.MERGE, Kind.MOVE, Kind.INCLUDED, Kind.KEEP, Kind.ORPHAN, Kind.NEEDED)
+    order = (Kind.RESTORE, Kind.DELETE, Kind.ADOPT, *yours)
     return [(Kind.UPDATE, written), *((kind, kinds[kind]) for kind in order), (Kind.CONFLICT, conflicts)]
 
 
@@ -52,6 +56,9 @@ def _phrase(kind: Kind, number: int, dry: bool) -> str:
         Kind.RESTORE: f"{number} to restore" if dry else f"{number} restored because you deleted {them}",
         Kind.DELETE: f"{number} to delete" if dry else f"{number} deleted",
         Kind.ADOPT: f"{number} already as wanted",
+        Kind.MERGE: f"{number} to merge with your edits" if dry else f"{number} merged with your edits",
+        Kind.MOVE: f"{number} to move with your edits" if dry else f"{number} moved with your edits",
+        Kind.INCLUDED: f"{number} that you edited already {'have' if number > 1 else 'has'} what is new",
         Kind.KEEP: f"{number} kept because you edited {them}",
         Kind.ORPHAN: f"{number} no longer generated but kept because you edited {them}",
         Kind.NEEDED: f"{number} no longer generated but kept because your files need {them}",
@@ -61,6 +68,80 @@ def _phrase(kind: Kind, number: int, dry: bool) -> str:
 
 def _number(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def state(found: RobotState) -> str:
+    """How a robot stands, as the rest of a line that names it."""
+    counts = dict(found.counts)
+    counts.pop(FileStatus.IN_STEP, None)
+    if found.result.failed:
+        errors = sum(finding.severity is Severity.ERROR for finding in found.result.diagnostics)
+        return f"{_number(errors, 'error')}, so nothing can be said of its files"
+    if found.built or found.in_step:
+        head = f"{'in' if found.in_step else 'out of'} step, {_number(len(found.files), 'file')}"
+    else:
+        head = "not built yet"
+        counts.pop(FileStatus.STALE, None)
+    tally = ", ".join(_tally(status, number) for status, number in counts.items())
+    return f"{head}{': ' if tally else ''}{tally}"
+
+
+def _tally(status: FileStatus, number: int) -> str:
+    return _number(number, status) if status in (FileStatus.CONFLICT, FileStatus.ORPHAN) else f"{number} {status}"
+
+
+def outlook(found: RobotState) -> list[str]:
+    """What a robot waits for and what the next build does about it, in a line or two; nothing if nothing is due."""
+    changed = _change_classes(found.result.changes) if found.result.changes else ""
+    moving = [action for action in found.result.actions if action.writes]
+    deleted = sum(action.kind in DELETES for action in moving)
+    does = [f"writes {_number(len(moving) - deleted, 'file')}"] if len(moving) > deleted else []
+    does += [f"deletes {deleted if does else _number(deleted, 'file')}"] if deleted else []
+    build = f"`urdfsync build` {' and '.join(does)}" if does else ""
+    held = sum(action.held for action in found.result.actions)
+    if not held:
+        return ["; ".join(filter(None, [changed, build]))] if changed or build else []
+    waits = f"{_number(held, 'file')} {'waits' if held == 1 else 'wait'} for the conflict"
+    return [*([changed] if changed else []), "; ".join(filter(None, [build, waits]))]
+
+
+def comparison(found: Comparison) -> str:
+    """What changed since the older version, as the rest of a line that names the robot."""
+    if found.result.failed:
+        errors = sum(finding.severity is Severity.ERROR for finding in found.result.diagnostics)
+        return f"{_number(errors, 'error')}, so nothing can be compared"
+    if found.missing:
+        return found.missing
+    since = f"since {found.against or 'the last build'}"
+    if found.changes is None:
+        return f"nothing changed {since}{'' if found.in_step else ', but files are not as they should be'}"
+    what = _classes(found.changes) if found.changes.changes else _GENERATOR
+    return f"{what} {since}{', only by rounding' if found.changes.noise else ''}"
+
+
+def files(found: Comparison) -> str:
+    """What happens to the files of a package, as a heading."""
+    if found.against is None:
+        return f"A build: {summary(found.result)}"
+    number, kinds = len(found.result.actions), Counter(action.kind for action in found.result.actions)
+    parts = ", ".join(f"{kinds[kind]} to {kind}" for kind in (Kind.UPDATE, Kind.CREATE, Kind.DELETE) if kinds[kind])
+    head = f"{_number(number, 'file')} of the package {'differs' if number == 1 else 'differ'}"
+    return f"{head}: {parts}" if len(kinds) > 1 else head
+
+
+def _change_classes(found: Changes) -> str:
+    """`1 structural and 2 parameter changes in the source`."""
+    if found.generator:
+        return _GENERATOR
+    return f"{_classes(found)} in the source{' (rounding)' if found.noise else ''}"
+
+
+def _classes(found: Changes) -> str:
+    """`1 structural and 2 parameter changes`."""
+    classes = Counter(change.change_class for change in found.changes)
+    counts = [(classes[one], one) for one in reversed(difference.ChangeClass) if classes[one]]
+    words = " and ".join(f"{number} {one}" for number, one in counts)
+    return f"{words} change{'' if counts[-1][0] == 1 else 's'}"
 
 
 def folded(diagnostics: Sequence[Diagnostic]) -> tuple[list[Diagnostic], dict[str, int]]:
@@ -80,7 +161,7 @@ def folded(diagnostics: Sequence[Diagnostic]) -> tuple[list[Diagnostic], dict[st
 
 def changes(found: Changes) -> list[str]:
     """What changed in the model, one line each: `joint elbow / limit / effort: 54 → 60 N.m (+11 %)`."""
-    lines = ["a template, an option or urdfsync itself changed"] if found.generator else []
+    lines = [_GENERATOR] if found.generator else []
     return lines + [_change(change) for change in found.changes]
 
 

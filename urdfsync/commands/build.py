@@ -27,6 +27,7 @@ def add(commands: common.Commands) -> None:
     common.add_wait(parser)
     common.add_jobs(parser)
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
+    parser.add_argument("--repair", action="store_true", help="make a state again that has merge markers or is damaged")
     parser.add_argument("--explain", action="store_true", help="list each file, what happens to it and why")
     parser.set_defaults(run=_run)
     common.add_common(parser)
@@ -37,7 +38,7 @@ def _run(options: argparse.Namespace, report: Report) -> int:
     robots = configuration.select([*options.robots, *(options.robot or [])])
     report.warnings(advice.warnings(configuration, robots))
     dry = options.dry_run or options.check
-    request = common.request(options, report, full=options.full, dry=dry, draw=options.svg)
+    request = common.request(options, report, full=options.full, dry=dry, draw=options.svg, repair=options.repair)
     results = []
     for result in build(configuration, robots, request):
         report.result(result)

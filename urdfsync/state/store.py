@@ -69,6 +69,12 @@ class Store:
         model = manifest.load_model(content, self._shown(beside))
         return State(recorded, model, intact=manifest.text_hash(content) == recorded.source.snapshot)
 
+    def texts(self, robot: str) -> tuple[str | None, str | None]:
+        """The text of the robot's manifest and of its model, whatever they are; None for what is not there."""
+        contents = map(self._bytes, self.paths(robot))
+        manifest_text, model_text = (None if c is None else c.decode(errors="replace") for c in contents)
+        return manifest_text, model_text
+
     def witness(self) -> Witness:
         """What all files were when they were loaded."""
         return {path: None if content is None else digest(content) for path, content in self._seen.items()}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +10,8 @@ from typing import TYPE_CHECKING
 from urdfsync import wording
 from urdfsync.config import shown
 from urdfsync.outcome import Result
-from urdfsync.plan import CONFLICTS, Action, Kind
+from urdfsync.plan import Action, Kind
+from urdfsync.views import conflicts
 from urdfsync.views.terminal import has_marks, is_styled, text
 
 if TYPE_CHECKING:
@@ -23,6 +23,10 @@ _KINDS = {
     Kind.RESTORE: "green",
     Kind.ADOPT: "green",
     Kind.UPDATE: "green",
+    Kind.MERGE: "green",
+    Kind.MOVE: "green",
+    Kind.LEAVE: "magenta",
+    Kind.INCLUDED: "cyan",
     Kind.DELETE: "magenta",
     Kind.KEEP: "cyan",
     Kind.ORPHAN: "yellow",
@@ -30,33 +34,32 @@ _KINDS = {
     Kind.CONFLICT: "bold red",
     Kind.UNOWNED: "bold red",
 }
-_LISTED = CONFLICTS | {Kind.ORPHAN, Kind.NEEDED}
+_LISTED = (Kind.ORPHAN, Kind.NEEDED)
 """What is named file by file even if nobody asks."""
+_ORPHANS = "  `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
 _CHANGES = 12
 """So many changes of a model are shown at most, unless somebody asks."""
-_ADVICE = (
-    "  Your file stays as it is. To settle a conflict, move the file out of the package and build again,",
-    "  then put your edits into the file that urdfsync has written.",
-)
 
 
-def lines(result: Result, console: Console, verbose: bool, explain: bool) -> Iterator[Text]:
+def lines(result: Result, console: Console, look: conflicts.Look, explain: bool) -> Iterator[Text]:
     """Everything that there is to say about one robot; `explain` names every file."""
     yield _headline(result, console)
     if result.changes:
         lines = wording.changes(result.changes)
-        few = len(lines) if verbose or len(lines) <= _CHANGES else _CHANGES - 1
+        few = len(lines) if look.verbose or len(lines) <= _CHANGES else _CHANGES - 1
         yield from (text((f"  {line}", "")) for line in lines[:few])
         if few < len(lines):
             yield text((f"  … and {len(lines) - few} more changes; --verbose shows them", "dim"))
-    if explain or verbose:
+    if explain or look.verbose:
         yield from _explanation(result, console, everything=explain)
     else:
         for action in result.actions:
             if action.kind in _LISTED:
                 yield text(("  ", ""), *_verdict(action, _place(result, action)))
+    if any(action.kind is Kind.ORPHAN for action in result.actions):
+        yield text((_ORPHANS, "dim"))
     if result.conflicts:
-        yield from (text((line, "dim")) for line in _ADVICE)
+        yield from conflicts.lines(result, console, look)
     if result.drawing:
         yield text((f"  diagram: {shown(result.drawing)}", ""))
 
@@ -93,7 +96,7 @@ def _explanation(result: Result, console: Console, everything: bool) -> Iterator
 
 
 def _place(result: Result, action: Action) -> Path:
-    return Path(shown(Path(os.path.normpath(result.root / action.path))))
+    return Path(conflicts.place(result, action.path))
 
 
 def _verdict(action: Action, path: Path, width: int = 0) -> tuple[tuple[str, str], ...]:

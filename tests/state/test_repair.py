@@ -1,0 +1,339 @@
+"""Repair: what both sides of a merge know is kept, and no file counts as untouched that nobody recorded."""
+
+from __future__ import annotations
+
+import random
+import shutil
+import subprocess
+from pathlib import Path
+
+import msgspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from urdfsync.diagnostics import StateError
+from urdfsync.domain import Import, Role
+from urdfsync.manifest import DependencyRecord, Facts, Generator, Manifest, Source, dump_model, dumps, text_hash
+from urdfsync.plan import FileRecord, Found, Kind, decide
+from urdfsync.state.repair import Recovered, choose, rebuilt, recover, sides
+
+GRIPPER = "Arm/Links/Gripper.mo"
+BASE = "Arm/Links/Base.mo"
+MESH = "Arm/Resources/base.stl"
+NAMES = "ABCDEFGHIJ"
+
+Hashes = dict[str, str | None]
+
+
+def manifest(hashes: Hashes, snapshot: str = "5a", mesh: str = "m1") -> Manifest:
+    roles = {MESH: Role.IMPORT}
+    files = {
+        path: FileRecord(Path(path).stem, roles.get(path, Role.MODEL), base) for path, base in sorted(hashes.items())
+    }
+    return Manifest(
+        package="Arm",
+        class_="Arm",
+        folder="Arm",
+        source=Source("arm.urdf", "1f", snapshot),
+        generator=Generator("urdf", 3, "9c"),
+        dependencies={"base.stl": DependencyRecord("base.stl", "Resources/base.stl", f"s-{mesh}", mesh, 1)},
+        orders={"Arm/Links/package.order": tuple(Path(path).stem for path in hashes if "/Links/" in path)},
+        files=files,
+    )
+
+
+def model(name: str, mesh: str = "m1", bases: dict[str, str] | None = None) -> str:
+    imported = Import("Resources/base.stl", f"s-{mesh}", mesh, 1, {"volume": mesh})
+    return dump_model({"name": name}, {"base.stl": imported}, bases)
+
+
+OURS = manifest({BASE: "b1", GRIPPER: "g-ours", MESH: "m1"})
+THEIRS = manifest({BASE: "b1", GRIPPER: "g-theirs", "Arm/Links/Finger.mo": "f1", MESH: "m2"}, "5b", "m2")
+
+
+def conflict(ours: str, theirs: str, ancestor: str = "") -> str:
+    """Two whole texts between markers."""
+    middle = f"||||||| ancestor\n{ancestor}" if ancestor else ""
+    return f"<<<<<<< HEAD\n{ours}{middle}=======\n{theirs}>>>>>>> feature\n"
+
+
+def merged_texts(ours: str, theirs: str, json: str | None = None) -> Recovered:
+    return recover(conflict(ours, theirs), json, "arm.toml", "arm.json")
+
+
+def merged(ours: Manifest = OURS, theirs: Manifest = THEIRS, json: str | None = None) -> Recovered:
+    return merged_texts(dumps(ours), dumps(theirs), json)
+
+
+# --- sides --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        pytest.param("a\nb\n", ["a\nb\n"], id="no conflict"),
+        pytest.param("", [""], id="nothing"),
+        pytest.param(conflict("a\n", "b\n"), ["a\n", "b\n"], id="two sides"),
+        pytest.param(conflict("a\n", "b\n", "c\n"), ["a\n", "b\n"], id="without the ancestor"),
+        pytest.param(conflict("a\n", "a\n"), ["a\n"], id="alike"),
+        pytest.param(
+            "1\n" + conflict("a\n", "b\n") + "2\n" + conflict("", "c\n") + "3",
+            ["1\na\n2\n3", "1\nb\n2\nc\n3"],
+            id="several conflicts",
+        ),
+        pytest.param(conflict("a\n", "b\n", "c\n").replace("\n", "\r\n"), ["a\r\n", "b\r\n"], id="CRLF"),
+        pytest.param(
+            conflict(conflict("a\n", "b\n"), "c\n"), ["a\n", "b\n", "c\n"], id="a conflict that was merged again"
+        ),
+        pytest.param(
+            conflict("a\n", "b\n", "<<<<<<<<< 1\nx\n=========\ny\n>>>>>>>>> 2\n"), ["a\n", "b\n"], id="in the ancestor"
+        ),
+        pytest.param("1\n<<<<<<< HEAD\na\n=======\nb\n", ["1\na\n", "1\nb\n"], id="no end"),
+        pytest.param("1\n<<<<<<< HEAD\na\n", ["1\na\n", "1\n"], id="no middle"),
+        pytest.param("1\n=======\nb\n>>>>>>> feature\n2\n", ["1\nb\n2\n"], id="no beginning"),
+        pytest.param("a = '<<<<<<< H'\n <<<<<<<\n<<<<<<<x\n", ["a = '<<<<<<< H'\n <<<<<<<\n<<<<<<<x\n"], id="text"),
+        pytest.param("\u2028<<<<<<< HEAD\n", ["\u2028<<<<<<< HEAD\n"], id="what only looks like a line"),
+    ],
+)
+def test_sides(text: str, expected: list[str]) -> None:
+    assert list(sides(text)) == expected
+
+
+part = st.lists(st.sampled_from(["a\n", "b\r\n", "= 1\n", "\n"]), max_size=3).map("".join)
+
+
+@given(regions=st.lists(st.tuples(part, part, part, part), max_size=4), style=st.booleans())
+def test_every_side_is_put_together_from_all_conflicts(regions: list[tuple[str, ...]], style: bool) -> None:
+    text = "".join(
+        common + conflict(ours, theirs, ancestor if style else "") for common, ours, theirs, ancestor in regions
+    )
+    ours, theirs = ("".join(region[0] + region[side] for region in regions) for side in (1, 2))
+    assert list(sides(text)) == list(dict.fromkeys([ours, theirs]))
+
+
+@given(st.lists(st.sampled_from(["<<<<<<< a\n", "||||||| b\n", "=======\n", ">>>>>>> c\n", "x\n", "y"]), max_size=40))
+def test_no_marker_survives(parts: list[str]) -> None:
+    found = sides("".join(parts))
+    assert 1 <= len(found) <= 8
+    for side in found:
+        assert not any(line.startswith(("<<<<<<<", "|||||||", "=======", ">>>>>>>")) for line in side.split("\n"))
+
+
+# --- what is recovered --------------------------------------------------------------------------------------------
+
+
+def test_both_sides_are_found() -> None:
+    found = merged()
+    assert found.manifests == (OURS, THEIRS)
+    assert found.bases(GRIPPER) == ("g-ours", "g-theirs")
+    assert found.bases(BASE) == ("b1",)
+    assert found.bases("Arm/Links/Finger.mo") == ("f1",)
+    assert found.bases("Arm/Links/Other.mo") == ()
+    assert found.roles == dict.fromkeys(THEIRS.files, Role.MODEL) | {MESH: Role.IMPORT}
+
+
+def varied(rng: random.Random, side: str, ancestor: Hashes) -> Hashes:
+    """The files of a branch: some are new, some gone, some written again."""
+    files = {path: rng.choice([base, f"{base}-{side}"]) for path, base in ancestor.items() if rng.random() < 0.8}
+    return files | {f"Arm/Links/{name}.mo": f"{name}-{side}" for name in rng.sample(NAMES, rng.randint(0, 3))}
+
+
+def on_disk(common: Hashes, ours: Hashes, theirs: Hashes, taken: Hashes) -> Hashes:
+    """The files after a merge: what one branch changed is done, and where both did, a person takes one of them."""
+    result: Hashes = {}
+    for path in ours.keys() | theirs.keys():
+        before, left, right = (side.get(path) for side in (common, ours, theirs))
+        found = left if right in (before, left) else right if left == before else taken.get(path)
+        if found is not None:
+            result[path] = found
+    return result
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="no git")
+@pytest.mark.parametrize("style", ["merge", "diff3", "zdiff3"])
+def test_whatever_git_makes_of_two_states_a_file_of_either_is_untouched(tmp_path: Path, style: str) -> None:
+    rng = random.Random(style)
+    command = ["git", "merge-file", "-p", *([f"--{style}"] if style != "merge" else []), "ours", "common", "theirs"]
+    for _ in range(40):
+        common: Hashes = {f"Arm/Links/{name}.mo": name for name in rng.sample(NAMES, 6)}
+        ours, theirs = varied(rng, "ours", common), varied(rng, "theirs", common)
+        for name, files in (("common", common), ("ours", ours), ("theirs", theirs)):
+            (tmp_path / name).write_text(dumps(manifest(files, snapshot=name)))
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert ">>>>>>> theirs" in done.stdout
+        found = recover(done.stdout, None, "arm.toml", "arm.json")
+        for taken in (ours, theirs):
+            disk = on_disk(common, ours, theirs, taken)
+            state = rebuilt(found, disk, dict.fromkeys(disk, "new"))
+            assert state is not None
+            assert {path: record.base for path, record in state.files.items() if path in disk} == disk
+
+
+def test_a_table_that_a_merge_put_in_twice_counts_both_ways() -> None:
+    text = dumps(OURS)
+    table = '[files."Links/Gripper.mo"]\nowner = "Gripper"\nrole = "model"\nbase = "other"'
+    found = recover(f"{text}\n{table}", None, "arm.toml", "arm.json")
+    assert found.bases(GRIPPER) == ("g-ours", "other")
+    assert found.bases(BASE) == ("b1",)
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [
+        pytest.param(dumps(OURS).replace('folder = "Arm"', "folder = 1"), id="no manifest"),
+        pytest.param(dumps(OURS).replace("Links/Gripper.mo", "../../evil.mo"), id="a path outside of the package"),
+        pytest.param(dumps(OURS)[:-20] + "\n", id="cut off"),
+    ],
+)
+def test_a_side_that_can_not_be_used_is_left_out(broken: str) -> None:
+    assert merged_texts(broken, dumps(THEIRS)).manifests == (THEIRS,)
+    assert merged_texts(broken, broken).manifests == ()
+
+
+def test_nothing_is_recovered_from_nothing() -> None:
+    found = recover(None, None, "arm.toml", "arm.json")
+    assert found == Recovered((), {}, frozenset())
+    assert rebuilt(found, {BASE: "b1"}, {BASE: "b1"}) is None
+
+
+@pytest.mark.parametrize(
+    ("toml", "json", "place"),
+    [
+        pytest.param(
+            conflict(dumps(OURS), dumps(THEIRS).replace("format = 1", "format = 99")),
+            None,
+            f"arm.toml:{dumps(OURS).count(chr(10)) + 6}",
+            id="manifest",
+        ),
+        pytest.param("format = 99\nnot for us\n", None, "arm.toml:1", id="a manifest that can't be read"),
+        pytest.param(
+            dumps(OURS), '{\n "format": 99,\n "snapshot": []\n}\n', "arm.json:2", id="a model of another structure"
+        ),
+        pytest.param(dumps(OURS), '{"format":99,"snapshot":{},"imports":{}}', "arm.json", id="a model on one line"),
+    ],
+)
+def test_a_newer_side_is_refused(toml: str, json: str | None, place: str) -> None:
+    with pytest.raises(StateError, match=rf"^{place}: error: a newer urdfsync wrote .* \(format 99"):
+        recover(toml, json, "arm.toml", "arm.json")
+
+
+# --- bases --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("candidates", "mine", "generated", "base"),
+    [
+        pytest.param(["a", "b"], "b", "c", "b", id="as a build wrote it"),
+        pytest.param(["a", "b"], "b", "b", "b", id="in step"),
+        pytest.param(["a", "b"], "mine", "a", "b", id="edited: not the one that would keep it in silence"),
+        pytest.param(["a", "b"], "mine", "b", "a", id="edited: the same, from the other side"),
+        pytest.param(["a", "b"], "mine", "c", "a", id="edited: the own one first"),
+        pytest.param(["a"], "mine", "a", "a", id="edited, and nothing is new"),
+        pytest.param(["a", "b"], None, "c", "a", id="deleted"),
+        pytest.param([], "mine", "c", None, id="nothing recorded"),
+        pytest.param([], None, None, None, id="nothing at all"),
+    ],
+)
+def test_choice_of_a_base(candidates: list[str], mine: str | None, generated: str | None, base: str | None) -> None:
+    assert choose(candidates, mine, generated) == base
+
+
+hashes = st.sampled_from("abcd")
+
+
+@given(st.lists(hashes, unique=True), st.none() | hashes, st.none() | hashes)
+def test_a_choice_never_costs_an_edit(candidates: list[str], mine: str | None, generated: str | None) -> None:
+    base = choose(candidates, mine, generated)
+    assert (base in candidates) if candidates else base is None
+    kind = decide(base, Found(mine), generated)
+    if mine not in candidates:
+        assert kind not in (Kind.UPDATE, Kind.DELETE)
+        if set(candidates) - {generated}:
+            assert kind is not Kind.KEEP, "what is new is not left out in silence"
+    if not candidates and mine not in (None, generated) and generated is not None:
+        assert kind is Kind.UNOWNED
+
+
+# --- the state that follows ---------------------------------------------------------------------------------------
+
+
+def test_a_manifest_is_rebuilt() -> None:
+    mine = {BASE: "b1", GRIPPER: "edited", "Arm/Links/Finger.mo": None, MESH: "m2"}
+    found = rebuilt(merged(), mine, {BASE: "b2", GRIPPER: "g-ours", MESH: "m2"})
+    assert found is not None
+    assert {path: record.base for path, record in found.files.items()} == {
+        BASE: "b1",
+        GRIPPER: "g-theirs",
+        "Arm/Links/Finger.mo": "f1",
+        MESH: "m2",
+    }
+    assert found.orders == {"Arm/Links/package.order": ("Base", "Gripper", "Finger")}
+    assert found.source == OURS.source
+    assert found.dependencies["base.stl"].target_hash == "m2", "what is known of the copy that is there"
+
+
+def test_a_record_goes_with_its_base() -> None:
+    ours = msgspec.structs.replace(OURS, files={BASE: FileRecord("link base", Role.MODEL, None)})
+    theirs = msgspec.structs.replace(OURS, files={BASE: FileRecord("link root", Role.RECORD, "b1")})
+    found = rebuilt(merged(ours, theirs), {}, {})
+    assert found is not None
+    assert found.files == theirs.files
+    waiting = rebuilt(merged(ours, ours), {}, {})
+    assert waiting is not None
+    assert waiting.files == ours.files, "a file that was never written has no base"
+
+
+def test_a_mesh_that_a_person_replaced_by_another_one_is_edited() -> None:
+    other, lost = "Arm/Resources/other.stl", "Arm/Resources/lost.stl"
+    ours = msgspec.structs.replace(
+        OURS,
+        files={**OURS.files, other: FileRecord("other.stl", Role.IMPORT, "o1")},
+        dependencies={**OURS.dependencies, "o": DependencyRecord("other.stl", "Resources/other.stl", "s", "o1", 1)},
+    )
+    found = rebuilt(merged(ours, ours), {MESH: "o1", other: "o1", lost: "o1"}, {lost: "l1"})
+    assert found is not None
+    assert found.files[MESH].base == "m1"
+    assert lost not in found.files
+
+
+def test_the_newest_generator_heads_the_state() -> None:
+    newer = msgspec.structs.replace(THEIRS, generator=Generator("urdf", 4, "9d"))
+    foreign = msgspec.structs.replace(THEIRS, generator=Generator("rcnetwork", 9, "9d"))
+    for theirs, revision in ((newer, 4), (foreign, 3)):
+        found = rebuilt(merged(theirs=theirs), {}, {})
+        assert found is not None
+        assert (found.generator.domain, found.generator.revision) == ("urdf", revision)
+
+
+@pytest.mark.parametrize(("mesh", "volume"), [("m1", "m1"), ("m2", "m2"), ("edited", "m1"), (None, "m1")])
+def test_facts_are_those_of_the_copy_that_is_there(mesh: str | None, volume: str) -> None:
+    recovered = merged(json=conflict(model("ours"), model("theirs", "m2")))
+    found = rebuilt(recovered, {MESH: mesh}, {})
+    assert found is not None
+    expected = {"base.stl": Facts(f"s-{volume}", 1, {"volume": volume})}
+    united = recovered.model(found)
+    assert united is not None
+    assert united.imports == expected
+
+
+def test_facts_of_other_bytes_are_left_out() -> None:
+    recovered = merged(OURS, OURS, model("theirs", "m9"))
+    united = recovered.model(OURS)
+    assert united is not None
+    assert united.imports == {}
+
+
+def test_the_snapshot_is_that_of_the_manifest() -> None:
+    ours, theirs = model("ours"), model("theirs", bases={"Links/Gripper.mo": "model Gripper\n"})
+    newer = msgspec.structs.replace(
+        THEIRS, generator=Generator("urdf", 4, "9d"), source=Source("a", "b", text_hash(theirs))
+    )
+    recovered = merged(theirs=newer, json=conflict(ours, theirs))
+    written = text_hash("model Gripper\n")
+    state = msgspec.structs.replace(newer, files={GRIPPER: FileRecord("gripper", Role.MODEL, written)})
+    for recorded, name, bases in ((state, "theirs", {"Links/Gripper.mo": "model Gripper\n"}), (OURS, "ours", {})):
+        united = recovered.model(recorded)
+        assert united is not None
+        assert (united.snapshot, united.bases) == ({"name": name}, bases)
+    assert merged(json="<<<<<<< HEAD\n").model(OURS) is None

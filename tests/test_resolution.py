@@ -1,0 +1,240 @@
+"""Which conflicts typed paths mean, and which choices are possible."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from urdfsync import resolution
+from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.domain import Role
+from urdfsync.merge import Merge, merge
+from urdfsync.outcome import Result
+from urdfsync.plan import Action, Kind
+from urdfsync.resolution import Target, Wish
+from urdfsync.standoff import Choice, Standoff
+
+ROOT = Path("/project").absolute()
+LINK, OTHER, MESH = "modelica/Arm/Links/Elbow.mo", "modelica/Arm/Links/Tip.mo", "modelica/Arm/Resources/tip.stl"
+GONE, WAITING, EDITED = "modelica/Arm/Links/Old.mo", "modelica/Arm/Arm.mo", "modelica/Arm/ArmRun.mo"
+MOVED, ORIGIN = "modelica/Arm/Links/Wrist.mo", "modelica/Arm/Links/Hand.mo"
+
+CLEAN = merge("a\n\n\nb\n", "A\n\n\nb\n", "a\n\n\nB\n")
+CLASH = merge("a\n", "b\n", "c\n")
+REJECTED = Merge(None, "a\n", ())
+
+
+def standoff(path: str, merged: Merge | None = CLEAN, origin: str | None = None, rejected: str = "") -> Standoff:
+    base = None if merged is None else "a\n"
+    return Standoff(path, "link elbow", base, "mine\n", "generated\n", merged, origin, rejected)
+
+
+def conflict(path: str, role: Role = Role.MODEL, kind: Kind = Kind.CONFLICT, origin: str | None = None) -> Action:
+    return Action(path, kind, role, "link elbow", origin=origin)
+
+
+def arm(*standoffs: Standoff) -> Result:
+    """A robot with conflicts that are texts, one that is a mesh, an orphan, an edited file and one that waits."""
+    actions = [conflict(found.path, origin=found.origin) for found in standoffs]
+    actions += [conflict(MESH, Role.IMPORT), conflict(GONE, kind=Kind.ORPHAN), conflict(EDITED, kind=Kind.KEEP)]
+    actions.append(Action(WAITING, Kind.UPDATE, Role.MODEL, "robot", held=True))
+    return Result("arm", "Arm", ROOT / "modelica/Arm", ROOT, tuple(actions), standoffs=standoffs)
+
+
+ARM = arm(standoff(LINK), standoff(OTHER, CLASH), standoff(MOVED, origin=ORIGIN))
+CART = Result(
+    "cart",
+    "Cart",
+    ROOT / "modelica/Cart",
+    ROOT,
+    (conflict("modelica/Cart/Cart.mo"),),
+    standoffs=(standoff("modelica/Cart/Cart.mo"),),
+)
+
+
+def wish(typed: str) -> Wish:
+    return Wish(typed, (Path(ROOT / typed),))
+
+
+def meant(*typed: str) -> tuple[list[str], list[str]]:
+    found, missing = resolution.targets([ARM, CART], map(wish, typed))
+    return [target.action.path for target in found], [wish.typed for wish in missing]
+
+
+def target(path: str = LINK, merged: Merge | None = CLEAN, kind: Kind = Kind.CONFLICT, rejected: str = "") -> Target:
+    action, found = conflict(path, kind=kind), standoff(path, merged, rejected=rejected)
+    return Target(Result("arm", "Arm", ROOT / "modelica/Arm", ROOT, (action,), standoffs=(found,)), action, found)
+
+
+def shown(path: Path) -> str:
+    return path.relative_to(ROOT).as_posix()
+
+
+# Which files are meant
+
+
+@pytest.mark.parametrize(
+    ("typed", "paths"),
+    [
+        pytest.param(LINK, [LINK], id="a file"),
+        pytest.param("modelica/Arm/Links", [LINK, OTHER, MOVED], id="a folder"),
+        pytest.param("modelica/Arm", [LINK, OTHER, MOVED, MESH], id="a package"),
+        pytest.param(".", [LINK, OTHER, MOVED, MESH, "modelica/Cart/Cart.mo"], id="everything"),
+        pytest.param(MOVED, [MOVED], id="where a moved file is to go"),
+        pytest.param(ORIGIN, [MOVED], id="where a moved file is"),
+        pytest.param(MESH, [MESH], id="a mesh"),
+        pytest.param(GONE, [GONE], id="an orphan by its name"),
+    ],
+)
+def test_a_path_means(typed: str, paths: list[str]) -> None:
+    assert meant(typed) == (paths, [])
+
+
+@pytest.mark.parametrize(
+    "typed", ["modelica/Arm/Links/Elbow", "modelica/Ar", EDITED, WAITING, "elsewhere", "../project2"]
+)
+def test_a_path_means_no_conflict(typed: str) -> None:
+    assert meant(typed, LINK) == ([LINK], [typed])
+
+
+def test_a_file_that_is_named_twice_counts_once() -> None:
+    assert meant(LINK, "modelica/Arm/Links", ORIGIN, MOVED) == ([LINK, OTHER, MOVED], [])
+
+
+def test_several_places_may_be_meant_by_a_path() -> None:
+    linked = Wish("lib/Elbow.mo", (ROOT / "lib/Elbow.mo", ROOT / LINK))
+    found, missing = resolution.targets([ARM], [linked])
+    assert ([target.action.path for target in found], missing) == ([LINK], [])
+
+
+def test_a_path_of_no_place_means_nothing() -> None:
+    assert resolution.targets([ARM], [Wish("", ())]) == ([], [Wish("", ())])
+
+
+def test_what_is_decided_but_waits_can_be_decided_again() -> None:
+    held = Action(LINK, Kind.UPDATE, Role.MODEL, choice=Choice.TAKE, held=True)
+    moves = Action(MOVED, Kind.MOVE, Role.MODEL, origin=ORIGIN)
+    result = Result("arm", "Arm", ROOT / "modelica/Arm", ROOT, (held, moves))
+    for choice in Choice:
+        for typed, path in ((LINK, LINK), (ORIGIN, MOVED)):
+            found, missing = resolution.targets([result], [wish(typed)])
+            assert (resolution.choices(found, choice, shown), missing) == ({path: choice}, [])
+    assert resolution.targets([result], [wish("modelica")])[0] == []
+
+
+def message(results: Sequence[Result], *typed: str) -> str:
+    return str(resolution.unknown(results, list(map(wish, typed)), shown))
+
+
+def test_what_is_said_of_paths_that_mean_nothing() -> None:
+    listed = f"these are: {LINK}, {OTHER}, {ORIGIN}, {MESH}"
+    assert message([ARM], "x") == f"error: `x` is not in conflict; {listed} [no-conflict]"
+    assert message([ARM], "x", "y") == f"error: `x` and `y` are not in conflict; {listed} [no-conflict]"
+    assert message([], "x") == "error: `x` is not in conflict; nothing is [no-conflict]"
+    assert f"`{WAITING}` is not in conflict, it only waits for the conflicts of its robot; these" in message(
+        [ARM], WAITING
+    )
+
+
+def test_of_many_conflicts_a_few_are_named() -> None:
+    many = arm(*(standoff(f"modelica/Arm/{number}.mo") for number in range(8)))
+    assert resolution.listing([many], shown).endswith("modelica/Arm/4.mo and 4 more")
+
+
+# What may be done about them
+
+
+@pytest.mark.parametrize("choice", Choice)
+def test_a_choice_is_for_every_file(choice: Choice) -> None:
+    assert resolution.choices([target(), target(OTHER)], choice, shown) == {LINK: choice, OTHER: choice}
+
+
+def refusals(choice: Choice, *found: Target) -> list[str]:
+    with pytest.raises(UrdfsyncError) as caught:
+        resolution.choices(found, choice, shown)
+    return [str(diagnostic) for diagnostic in caught.value.diagnostics]
+
+
+def test_what_contradicts_each_other_cant_be_merged() -> None:
+    assert refusals(Choice.MERGE, target(), target(OTHER, CLASH)) == [
+        f"{OTHER}: error: it can't be merged: the changes contradict each other; put what you want of "
+        ".urdfsync/conflicts/arm/Links/Tip.merge.txt into your file, then use --keep [no-merge]"
+    ]
+
+
+def test_every_file_that_cant_be_merged_is_named() -> None:
+    said = refusals(
+        Choice.MERGE,
+        target(LINK, None),
+        target(OTHER, REJECTED, rejected="the merge declares `x` twice"),
+        Target(ARM, conflict(MESH, Role.IMPORT)),
+        Target(ARM, conflict(GONE, kind=Kind.ORPHAN)),
+    )
+    assert [line.partition(": error: ")[0] for line in said] == [LINK, OTHER, MESH, GONE]
+    assert (
+        "what urdfsync wrote last is lost: without it, nothing tells who changed what; use --keep or --take" in said[0]
+    )
+    assert "the changes fit together line by line, but the merge declares `x` twice" in said[1]
+    assert "it is no text that could be merged; use --keep or --take" in said[2]
+    assert "it is no longer generated: there is nothing to merge; --keep makes it yours, --take deletes it" in said[3]
+
+
+def test_what_the_user_made_a_folder_cant_be_replaced() -> None:
+    folder = Target(ARM, conflict(LINK))
+    assert refusals(Choice.TAKE, folder) == [
+        f"{LINK}: error: it can't be replaced: you made a folder of the class; move it away, then build [no-take]"
+    ]
+    assert resolution.choices([folder], Choice.KEEP, shown) == {LINK: Choice.KEEP}
+    assert resolution.choices([Target(ARM, conflict(MESH, Role.IMPORT))], Choice.TAKE, shown) == {MESH: Choice.TAKE}
+
+
+def test_what_is_impossible_can_be_left_out() -> None:
+    found = [target(), target(OTHER, CLASH)]
+    assert resolution.possible(found, Choice.MERGE) == {LINK: Choice.MERGE}
+    assert resolution.possible(found, Choice.TAKE) == {LINK: Choice.TAKE, OTHER: Choice.TAKE}
+
+
+FOUND = st.builds(target, st.sampled_from([LINK, OTHER, MOVED]), st.sampled_from([CLEAN, CLASH, REJECTED, None]))
+
+
+@given(st.lists(FOUND), st.sampled_from(Choice))
+def test_a_choice_is_refused_if_it_is_impossible_for_any_file(found: list[Target], choice: Choice) -> None:
+    possible = resolution.possible(found, choice)
+    impossible = [target for target in found if not resolution.possible([target], choice)]
+    assert all(choice is Choice.MERGE and not target.merges for target in impossible)
+    if impossible:
+        assert len(refusals(choice, *found)) == len(impossible)
+    else:
+        assert resolution.choices(found, choice, shown) == possible
+
+
+# What is put aside
+
+
+def test_where_the_versions_are() -> None:
+    aside = resolution.aside(target())
+    assert aside
+    assert aside.files == [f".urdfsync/conflicts/arm/Links/Elbow.{name}.mo" for name in ("base", "generated", "merge")]
+    lost = resolution.aside(target(merged=None))
+    assert lost
+    assert (lost.names, lost.files) == (["generated"], [".urdfsync/conflicts/arm/Links/Elbow.generated.mo"])
+    for merged in (CLASH, REJECTED):
+        marked = resolution.aside(target(merged=merged))
+        assert marked
+        assert marked.merge == ".urdfsync/conflicts/arm/Links/Elbow.merge.txt"
+    assert resolution.aside(Target(ARM, conflict(MESH, Role.IMPORT))) is None
+
+
+def test_a_package_outside_of_the_configurations_folder() -> None:
+    path = "../lib/Arm/Arm.mo"
+    action, found = conflict(path), standoff(path)
+    result = Result("arm", "Arm", ROOT.parent / "lib/Arm", ROOT, (action,), standoffs=(found,))
+    aside = resolution.aside(Target(result, action, found))
+    assert aside
+    assert aside.generated == ".urdfsync/conflicts/arm/Arm.generated.mo"
+    ((same,), missing) = resolution.targets([result], [Wish("../lib", (ROOT.parent / "lib",))])
+    assert (same.action, missing) == (action, [])
