@@ -322,6 +322,16 @@ def test_a_file_that_the_user_renamed_himself_is_merged_in_its_place(project: Pa
     assert "// a sensor here" in Path(new).read_text()
 
 
+def test_an_element_with_another_name_whose_file_became_a_folder(project: Path) -> None:
+    run()
+    folder = Path(R1).with_suffix("")
+    folder.mkdir()
+    Path(R1).rename(folder / "package.mo")
+    rename("R1", "Shunt")
+    assert kinds(run())[f"{LADDER}/Elements/Shunt.mo"] is Kind.CREATE
+    assert (folder / "package.mo").exists()
+
+
 def test_a_file_of_the_users_at_the_new_place_is_left_alone(project: Path) -> None:
     run()
     new = f"{LADDER}/Elements/Shunt.mo"

@@ -192,7 +192,7 @@ def plan(
             continue
         if path in left:
             base, mine = None, Found()
-        elif record is None and path in moved_by_hand:
+        elif record is None and path in moved_by_hand and mine.hash is not None:
             base = recorded[moved_by_hand[path]].base
         kind = decide(base, mine, generated)
         if kind is Kind.FORGET and (base is None or (record and record.origin)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 
 import msgspec
@@ -26,9 +26,17 @@ _OUTLIVING = (State.CONFLICT, State.WAITING, State.ORPHAN)
 class Recording:
     """The writes of one robot's build; `outputs` and `imported` have the contents."""
 
-    def __init__(self, situation: Situation, outputs: Outputs, imported: Imported, snapshot: Snapshot) -> None:
+    def __init__(
+        self,
+        situation: Situation,
+        outputs: Outputs,
+        imported: Imported,
+        snapshot: Snapshot,
+        last: Callable[[str, str], str | None],
+    ) -> None:
+        """`last` gives what was written last to a file of the plan or of the last build, by its hash."""
         self._situation, self._outputs, self._imported = situation, outputs, imported
-        self._snapshot = snapshot
+        self._snapshot, self._last = snapshot, last
 
     def writes(self, decision: Decision) -> tuple[tuple[Change, ...], tuple[Path, ...]]:
         """The files to write, the manifest last, and the folders that are empty then, innermost first."""
@@ -132,7 +140,7 @@ class Recording:
         path = key.removeprefix(self._situation.key(""))
         if self._outputs.generates(path, digest):
             return self._outputs.content(path).decode()
-        return self._outputs.base(key.removeprefix(self._situation.old_key("")), digest)
+        return self._last(key, digest)
 
 
 def put_aside(standoff: Standoff, folder: str) -> Mapping[str, str]:

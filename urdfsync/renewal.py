@@ -44,7 +44,7 @@ class Renewal:
         news = found if found and (found.changes or found.generator) else None
         if situation.request.dry:
             return Work(decision, situation.store.witness(), diagnostics=tuple(said), changes=news)
-        recording = Recording(situation, self._outputs, self._imported, self._snapshot)
+        recording = Recording(situation, self._outputs, self._imported, self._snapshot, self.base)
         writes, emptied = recording.writes(decision)
         return Work(decision, situation.store.witness(), writes, emptied, tuple(said), recording.drawing(), news)
 
@@ -165,8 +165,14 @@ class Renewal:
         return self._outputs.content(key.removeprefix(self._situation.key(""))).decode()
 
     def base(self, key: str, digest: str) -> str | None:
-        """What was written last to a file of the last build, by its hash; None if that is lost."""
-        return self._outputs.base(self._old_path(key), digest)
+        """What was written last to a file of the last build, by its hash; None if that is lost.
+
+        A file that the user has moved has its base under the path that it had.
+        """
+        files = self._situation.recorded.files if self._situation.recorded else {}
+        keys = [key, *(other for other, record in files.items() if record.base == digest and other != key)]
+        found = (self._outputs.base(self._old_path(other), digest) for other in keys)
+        return next((text for text in found if text is not None), None)
 
     def _old_path(self, key: str) -> str:
         """Path of a file of the last build below the folder that the package had then."""
