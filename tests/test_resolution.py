@@ -34,7 +34,7 @@ def standoff(path: str, merged: Merge | None = CLEAN, origin: str | None = None,
 
 
 def conflict(path: str, role: Role = Role.MODEL, kind: Kind = Kind.CONFLICT, origin: str | None = None) -> Action:
-    return Action(path, kind, role, "link elbow", origin=origin)
+    return Action(path, kind, role, "link elbow", origin=origin, mine="hash")
 
 
 def arm(*standoffs: Standoff) -> Result:
@@ -184,7 +184,8 @@ def test_every_file_that_cant_be_merged_is_named() -> None:
 
 
 def test_what_the_user_made_a_folder_cant_be_replaced() -> None:
-    folder = Target(ARM, conflict(LINK))
+    action = Action(LINK, Kind.CONFLICT, Role.MODEL, "link elbow")
+    folder = Target(ARM, action, standoff(LINK, None, rejected="you made a folder of the class"))
     assert refusals(Choice.TAKE, folder) == [
         f"{LINK}: error: it can't be replaced: you made a folder of the class; move it away, then build [no-take]"
     ]

@@ -217,7 +217,7 @@ def _standoff(disk: Disk, action: Action, texts: Texts) -> Standoff:
     if mine is not None:
         return stand_off(action, base, mine, generated)
     package = disk.text(f"{place.removesuffix('.mo')}/package.mo")
-    reason = "can't be written: you made a folder of the class"
+    reason = "you made a folder of the class"
     return Standoff(action.path, action.owner, base, package or "", generated, None, rejected=reason)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 import msgspec
 
@@ -15,7 +15,7 @@ from urdfsync.manifest import Manifest
 from urdfsync.outputs import Outputs
 from urdfsync.plan import DELETES, State
 from urdfsync.situation import Situation
-from urdfsync.standoff import Standoff
+from urdfsync.standoff import aside
 from urdfsync.state.bases import Bases
 from urdfsync.state.transactions import Change
 
@@ -43,8 +43,7 @@ class Recording:
         situation, store = self._situation, self._situation.store
         name, former = situation.robot.name, situation.former
         changes = list(self._files(decision))
-        aside = store.conflicts(name, dict(self._aside(decision)))
-        changes += aside
+        changes += store.conflicts(name, dict(self._aside(decision)))
         if (drawing := self._drawing_text()) is not None:
             changes += store.drawing(name, drawing)[1]
         if not self._stays(decision):
@@ -88,8 +87,12 @@ class Recording:
     def _aside(self, decision: Decision) -> Iterator[tuple[str, bytes]]:
         """What is put aside of conflicts: path below the robot's folder, and content."""
         for standoff in decision.standoffs:
-            for path, text in put_aside(standoff, self._situation.folder).items():
-                yield path, encode(text)
+            generated, base, merge = aside(standoff, self._situation.folder)
+            yield generated, encode(standoff.generated)
+            if base is not None and standoff.base is not None:
+                yield base, encode(standoff.base)
+            if merge is not None and standoff.merge is not None:
+                yield merge, encode(standoff.merge.proposal)
 
     def _emptied(self, changes: list[Change]) -> list[Path]:
         situation = self._situation
@@ -141,18 +144,3 @@ class Recording:
         if self._outputs.generates(path, digest):
             return self._outputs.content(path).decode()
         return self._last(key, digest)
-
-
-def put_aside(standoff: Standoff, folder: str) -> Mapping[str, str]:
-    """The texts to put aside of a conflict, by path below the robot's folder of conflicts.
-
-    `folder` is the package's, as in `standoff.path`. A proposal with markers in it is no Modelica, and not called so.
-    """
-    path = PurePosixPath(standoff.path).relative_to(folder)
-    texts = {f"generated{path.suffix}": standoff.generated}
-    if standoff.base is not None:
-        texts[f"base{path.suffix}"] = standoff.base
-    if standoff.merge is not None:
-        clean = standoff.merge.text is not None
-        texts[f"merge{path.suffix if clean else '.txt'}"] = standoff.merge.proposal
-    return {f"{path.with_suffix('')}.{name}": text for name, text in texts.items()}

@@ -7,8 +7,8 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
+from urdfsync import standoff as standoffs
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.domain import Role
 from urdfsync.outcome import Result
 from urdfsync.plan import Action, Kind
 from urdfsync.standoff import Choice, Standoff
@@ -57,8 +57,8 @@ class Target:
 
     @property
     def replaceable(self) -> bool:
-        """Whether `--take` settles it: what is there must be a file, and a text if a text is generated."""
-        return self.orphan or self.settled or self.standoff is not None or self.action.role is Role.IMPORT
+        """Whether `--take` settles it: what is there must be a file."""
+        return self.orphan or self.settled or self.action.mine is not None
 
     def places(self) -> set[Path]:
         """The absolute paths by which it is known: where the user's file is, and where it is to go."""
@@ -190,8 +190,9 @@ def standing(target: Target) -> str:
     """How the sides stand to each other, as a clause."""
     standoff = target.standoff
     if standoff is None:
-        is_import = target.action.role is Role.IMPORT
-        return "it is no text that could be merged" if is_import else "you made a folder of the class"
+        return "it is no text that could be merged"
+    if standoff.merge is None and standoff.rejected:
+        return standoff.rejected
     if standoff.merge is None:
         lost = (
             "without a base" if target.action.kind is Kind.UNOWNED else "what urdfsync wrote last is lost: without it"
@@ -210,12 +211,8 @@ def aside(target: Target) -> Aside | None:
     standoff = target.standoff
     if standoff is None:
         return None
-    path = Path(os.path.normpath(target.result.root / standoff.path))
-    below = path.relative_to(target.result.folder).with_suffix("").as_posix()
-    stem, suffix = f"{FOLDER}/{target.result.robot}/{below}", path.suffix
-    return Aside(
-        f"{stem}.",
-        base=None if standoff.base is None else f"{stem}.base{suffix}",
-        generated=f"{stem}.generated{suffix}",
-        merge=f"{stem}.merge{suffix if target.merges else '.txt'}" if standoff.merge else None,
-    )
+    folder = Path(os.path.relpath(target.result.folder, target.result.root)).as_posix()
+    generated, base, merge = standoffs.aside(standoff, folder)
+    top = f"{FOLDER}/{target.result.robot}/"
+    stem = f"{top}{generated.rpartition('generated')[0]}"
+    return Aside(stem, base and f"{top}{base}", f"{top}{generated}", merge and f"{top}{merge}")

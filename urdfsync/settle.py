@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from urdfsync.merge import merge
+from urdfsync.merging.soundness import flaw
 from urdfsync.plan import CONFLICTS, Action, Kind
 from urdfsync.standoff import Choice, Standoff
 
@@ -19,9 +20,14 @@ class Settled(NamedTuple):
 
 
 def stand_off(action: Action, base: str | None, mine: str, generated: str) -> Standoff:
-    """The three texts of a file, and what comes of merging them."""
+    """The three texts of a file, and what comes of merging them; a merge that makes no sense is none."""
     merged = None if base is None else merge(base, mine, generated)
-    return Standoff(action.path, action.owner, base, mine, generated, merged, action.origin)
+    rejected = ""
+    if merged and merged.text is not None and merged.text != mine and action.path.endswith(".mo"):
+        reason = flaw(merged.text, (mine, generated))
+        if reason:
+            merged, rejected = dataclasses.replace(merged, text=None), f"the merge {reason}"
+    return Standoff(action.path, action.owner, base, mine, generated, merged, action.origin, rejected)
 
 
 def settle(

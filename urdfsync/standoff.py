@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import enum
-from typing import TYPE_CHECKING
+from pathlib import PurePosixPath
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from urdfsync.merge import Merge
@@ -38,9 +39,32 @@ class Standoff:
     origin: str | None = None
     """Where the user's file is, if its element has another name now; None if it is at `path`."""
     rejected: str = ""
-    """Why a merge without contradictions is not offered, as in `the merge declares x twice`; empty if it is."""
+    """Why there is no merge although the sides need not contradict each other, as a clause; empty if there is one."""
 
     @property
     def place(self) -> str:
         """Where the user's file is."""
         return self.origin or self.path
+
+
+class Aside(NamedTuple):
+    """Where the texts of a conflict are put aside, as paths below the robot's folder of conflicts."""
+
+    generated: str
+    base: str | None
+    merge: str | None
+
+
+def aside(standoff: Standoff, folder: str) -> Aside:
+    """Where the texts of a conflict are put aside; `folder` is the package's, as in `standoff.path`.
+
+    A proposal with markers in it is no Modelica, and not called so.
+    """
+    path = PurePosixPath(standoff.path).relative_to(folder)
+    stem, suffix = path.with_suffix("").as_posix(), path.suffix
+    merge = standoff.merge
+    return Aside(
+        generated=f"{stem}.generated{suffix}",
+        base=None if standoff.base is None else f"{stem}.base{suffix}",
+        merge=None if merge is None else f"{stem}.merge{'.txt' if merge.text is None else suffix}",
+    )

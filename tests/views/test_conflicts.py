@@ -36,7 +36,7 @@ def standoff(mine: str, generated: str, base: str | None = BASE, path: str = ELB
 
 
 def result(*standoffs: Standoff, kind: Kind = Kind.CONFLICT, dry: bool = False) -> Result:
-    actions = [Action(s.path, kind, Role.MODEL, s.owner, origin=s.origin) for s in standoffs]
+    actions = [Action(s.path, kind, Role.MODEL, s.owner, origin=s.origin, mine="hash") for s in standoffs]
     return Result(
         "arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), tuple(actions), dry=dry, standoffs=standoffs
     )
@@ -152,7 +152,7 @@ def test_a_file_whose_element_has_another_name() -> None:
 
 def test_what_is_no_text_can_be_kept_or_taken() -> None:
     path = "modelica/Arm/Resources/hand.stl"
-    action = Action(path, Kind.CONFLICT, Role.IMPORT, "package://arm/hand.stl")
+    action = Action(path, Kind.CONFLICT, Role.IMPORT, "package://arm/hand.stl", mine="hash")
     found = Result("arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), (action,))
     assert seen(found) == [
         "",
@@ -165,9 +165,10 @@ def test_what_is_no_text_can_be_kept_or_taken() -> None:
 
 def test_a_class_that_became_a_folder_can_only_be_kept() -> None:
     action = Action(ELBOW, Kind.CONFLICT, Role.MODEL, "link elbow")
-    found = Result("arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), (action,))
+    texts = Standoff(ELBOW, "link elbow", BASE, EDITED, EXPORTED, None, rejected="you made a folder of the class")
+    found = Result("arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), (action,), standoffs=(texts,))
     assert seen(found)[2] == "    You edited it, and what it is made from changed too. You made a folder of the class."
-    assert seen(found)[-1] == "    --keep leaves your file as it is"
+    assert seen(found)[-1] == "    --keep leaves your file as it is: first put into it what you want of both"
 
 
 def test_a_dry_run_has_put_nothing_aside() -> None:
