@@ -94,6 +94,12 @@ class Facts(msgspec.Struct, frozen=True):
     facts: dict[str, Any]
 
 
+class _Formatted(msgspec.Struct):
+    """A JSON file of any format, as far as that is needed to know which one it is."""
+
+    format: int = FORMAT
+
+
 class Model(msgspec.Struct, frozen=True):
     """The JSON file: the model, the facts of every import, and the base of files that wait or conflict.
 
@@ -159,12 +165,12 @@ def dump_model(snapshot: Snapshot, imports: Mapping[str, Import], bases: Mapping
 def load_model(text: str, file: str) -> Model:
     """The model in the JSON file's text. Raises StateError if it is none, or a newer urdfsync wrote it."""
     try:
+        _check_format(msgspec.json.decode(text, type=_Formatted).format, file)
         model = msgspec.json.decode(text, type=Model)
     except (msgspec.DecodeError, RecursionError) as error:
         line = tomlfile.marker_line(text)
         message = "unresolved merge markers" if line else f"this is no state of urdfsync: {error}"
         raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_REPAIR)) from None
-    _check_format(model.format, file)
     return model
 
 

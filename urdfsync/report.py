@@ -115,7 +115,7 @@ class Report:
         if self._json:
             return
         self._findings(found.result.diagnostics)
-        if self._quiet:
+        if self._quiet and not found.result.conflicts:
             return
         if found.in_step and found.changes is None:
             builds.plain(found.result.robot, wording.comparison(found))

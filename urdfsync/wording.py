@@ -112,7 +112,7 @@ def comparison(found: Comparison) -> str:
         return f"{_number(errors, 'error')}, so nothing can be compared"
     if found.missing:
         return found.missing
-    since = f"since {found.against or 'the last build'}"
+    since = f"since {'the last build' if found.against is None else found.against}"
     if found.changes is None:
         return f"nothing changed {since}{'' if found.in_step else ', but files are not as they should be'}"
     what = _classes(found.changes) if found.changes.changes else _GENERATOR

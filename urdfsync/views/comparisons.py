@@ -22,9 +22,7 @@ if TYPE_CHECKING:
 _ADVICE = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
 _TONES = {Tone.ADDED: "green", Tone.REMOVED: "red", Tone.RENAMED: "cyan", Tone.QUIET: "dim"}
 _WIDEST = 44
-"""Columns for labels at most; longer ones push their values to the right."""
-_TITLE = 40
-"""Columns for the names of elements at most, where something stands beside them."""
+"""Columns for labels at most; the values of longer ones go to the next line."""
 _VALUES = 40
 """Columns for values at most; longer ones push what is said of them to the right."""
 _FILES = 12
@@ -63,26 +61,21 @@ def _tree(comparison: Comparison, console: Console, verbose: bool) -> Renderable
         tree.add(text(("urdfsync", "bold"), ("  a template, an option or the program itself changed", "")))
     found = outline.outline(comparison.changes, everything=verbose)
     columns = _Columns.of([row for entry in found.entries for row in entry.rows], console)
-    own = [len(entry.title) for entry in found.entries if any(not row.label for row in entry.rows)]
-    width = max((length for length in own if length <= _TITLE), default=0)
+    titles = _Columns.of([_titled(entry) for entry in found.entries if entry.rows[0].label == ""], console, guides=4)
     for entry in found.entries:
-        branch = tree.add(_title(entry, width))
-        for row in entry.rows:
-            if row.label:
-                branch.add(columns.line(row))
+        beside = entry.rows[0].label == ""
+        style = "dim" if all(row.tone is Tone.QUIET for row in entry.rows) else "bold"
+        branch = tree.add(titles.line(_titled(entry), style=style) if beside else text((entry.title, style)))
+        for row in entry.rows[beside:]:
+            branch.add(columns.line(row))
     if found.condensed:
-        tree.add(text(("--verbose shows each number", "dim")))
+        tree.add(text(("numbers are counted; --verbose shows each", "dim")))
     return tree
 
 
-def _title(entry: Entry, width: int) -> Text:
-    """The elements, with what happened to them as a whole; what is said begins after `width` columns."""
-    own = [row for row in entry.rows if not row.label]
-    said = [(f"  {row.new}", _TONES.get(row.tone, "")) for row in own]
-    remarks = [(f"  {row.relation}", "dim") for row in own if row.relation]
-    gap = max(width - len(entry.title), 0) if own else 0
-    style = "dim" if all(row.tone is Tone.QUIET for row in entry.rows) else "bold"
-    return text((entry.title, style), (" " * gap, ""), *said, *remarks)
+def _titled(entry: Entry) -> Row:
+    """What happened to elements as a whole, beside their names."""
+    return dataclasses.replace(entry.rows[0], label=entry.title)
 
 
 class _Columns:
@@ -95,28 +88,38 @@ class _Columns:
     def of(cls, rows: Sequence[Row], console: Console, guides: int = 8) -> _Columns:
         """Columns that suit these rows; `guides` is what stands before them."""
         total = console.width - guides
-        label = min(max((len(row.label) for row in rows), default=0), _WIDEST, total // 2)
+        widest = min(_WIDEST, total // 3)
+        label = max((len(row.label) for row in rows if len(row.label) <= widest), default=widest if rows else 0)
         value = max((_value(row).cell_len for row in rows if row.relation), default=0)
         return cls(label, min(value, _VALUES, max(total - label - 18, 12)), total)
 
-    def line(self, row: Row, margin: str = "") -> Text:
+    def line(self, row: Row, margin: str = "", style: str = "") -> Text:
         """The row; what does not fit goes to further lines, below the values; `margin` stands before them."""
-        from rich.console import Console
-
-        line = text((f"{row.label:<{self._label}}  ", "dim" if row.tone is Tone.QUIET else ""))
+        line = text((f"{row.label:<{self._label}}  ", style or ("dim" if row.tone is Tone.QUIET else "")))
         indent = "\n" + margin + " " * (self._label + 2)
         room = self._total - self._label - 2
         if len(row.label) > self._label:
             line.append(indent)
-        value, relation = _value(row), text((row.relation, "dim"))
-        pieces = value.wrap(Console(width=room), room) if value.cell_len > room else [value]
+        pieces = _wrapped(row, room)
         for count, piece in enumerate(pieces):
             line.append(indent if count else "").append_text(piece)
         if row.relation:
-            last = pieces[-1].cell_len
+            relation, last = text((row.relation, "dim")), pieces[-1].cell_len
             gap = max(self._value - last, 0) + 2
             line.append(" " * gap if last + gap + relation.cell_len <= room else indent).append_text(relation)
         return line
+
+
+def _wrapped(row: Row, room: int) -> list[Text]:
+    """The values of a row in lines of at most so many columns, broken at the arrow if they must be broken."""
+    from rich.console import Console
+
+    value = _value(row)
+    if value.cell_len <= room:
+        return [value]
+    new = _value(dataclasses.replace(row, old=""))
+    parts = [text((row.old, "dim")), text(("→ ", "dim")).append_text(new)] if row.old else [new]
+    return [line for part in parts for line in part.wrap(Console(width=room), room)]
 
 
 def _value(row: Row) -> Text:
