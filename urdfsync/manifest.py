@@ -32,7 +32,7 @@ _HEADER = """\
 _ORDER = "package.order"
 _PARENT = "../package.order"
 """The parent package's order file, as it stands in the text."""
-_REPAIR = "`urdfsync build --repair` makes it again from the files"
+_REPAIR = "restore it from version control, or let `urdfsync build --repair` make it again"
 
 
 class Generator(msgspec.Struct, frozen=True):
