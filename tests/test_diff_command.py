@@ -1,0 +1,361 @@
+"""`urdfsync diff` as people and programs use it: the last build, files, revisions, robots, mistakes."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from support.git import NEEDS_GIT, Repository
+
+from urdfsync import cli
+
+Capture = pytest.CaptureFixture[str]
+Snapshot = Callable[[Path], object]
+
+ARM = """<robot name="arm">
+  <link name="base"/>
+  <link name="tip">
+    <inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+    <visual><geometry><mesh filename="tip.stl"/></geometry></visual>
+  </link>
+  <joint name="elbow" type="revolute">
+    <parent link="base"/><child link="tip"/><limit lower="-1" upper="1" effort="54" velocity="2"/>
+  </joint>
+</robot>
+"""
+MESH = """solid tip
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex {size} 0 0
+vertex 0 {size} 0
+endloop
+endfacet
+endsolid tip
+"""
+
+
+@pytest.fixture
+def built(project: Path, capsys: Capture) -> Path:
+    """The project of the second domain, built."""
+    cli.main(["build", "-q"])
+    capsys.readouterr()
+    return project
+
+
+@pytest.fixture
+def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder, also the working one, with an arm, its mesh and a changed version, and without a configuration."""
+    folder = tmp_path / "arm"
+    folder.mkdir()
+    (folder / "tip.stl").write_text(MESH.format(size=1))
+    (folder / "arm.urdf").write_text(ARM)
+    (folder / "new.urdf").write_text(
+        ARM.replace('effort="54"', 'effort="60"').replace('mass value="2"', 'mass value="3"')
+    )
+    monkeypatch.chdir(folder)
+    return folder
+
+
+def change(folder: Path, old: str = "220.5", new: str = "330", source: str = "ladder.json") -> None:
+    text = (folder / source).read_text()
+    assert old in text
+    (folder / source).write_text(text.replace(old, new))
+
+
+def said(capsys: Capture, *arguments: str) -> tuple[int, list[str]]:
+    """Exit code and output of a command that has nothing to complain about."""
+    code = cli.main(["diff", *arguments])
+    streams = capsys.readouterr()
+    assert streams.err == ""
+    return code, streams.out.splitlines()
+
+
+def refused(capsys: Capture, *arguments: str) -> str:
+    """The only complaint of a command, which exits with 2."""
+    assert cli.main(["diff", *arguments]) == 2
+    streams = capsys.readouterr()
+    assert streams.out == ""
+    first, *rest = streams.err.splitlines()
+    assert all(line.endswith("so nothing can be compared") for line in rest)
+    return first
+
+
+# the last build
+
+
+def test_nothing_changed(built: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
+    before = snapshot_of(built)
+    assert said(capsys, "ladder.json") == (0, ["ladder: nothing changed since the last build"])
+    assert said(capsys) == said(capsys, "ladder") == said(capsys, "--robot", "ladder")
+    assert snapshot_of(built) == before
+
+
+def test_what_changed_and_what_a_build_would_do(built: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
+    change(built)
+    before = snapshot_of(built)
+    assert said(capsys, "ladder.json") == (
+        1,
+        [
+            "ladder: 1 parameter change since the last build",
+            "└── R2",
+            "    └── ohm  220.5 → 330 Ω  +49.7 %",
+            "",
+            "A build: 1 file to write",
+            f"  update    {Path('modelica/Ladder/Elements/R2Parameters.mo')}",
+        ],
+    )
+    assert snapshot_of(built) == before
+
+
+def test_edited_files_come_first_and_conflicts_are_named(built: Path, capsys: Capture) -> None:
+    model = built / "modelica/Ladder/Ladder.mo"
+    model.write_text(model.read_text() + "// mine\n")
+    assert said(capsys, "ladder")[0] == 0, "an edit alone is in step"
+    change(built, '"R2"', '"R3"')
+    code, lines = said(capsys, "ladder")
+    assert code == 1
+    begin = lines.index("A build: 1 conflict, 5 changes waiting for that")
+    name = Path("modelica/Ladder/Ladder.mo")
+    assert lines[begin + 1] == f"  conflict  {name}  you edited it, and what it is made from changed too"
+    assert all(line.startswith("  waiting ") for line in lines[begin + 2 : -1])
+    assert "urdfsync resolve" in lines[-1]
+
+
+def test_a_file_that_is_gone_is_out_of_step(built: Path, capsys: Capture) -> None:
+    (built / "modelica/Ladder/Ladder.mo").unlink()
+    code, lines = said(capsys, "ladder")
+    assert (code, lines[0]) == (1, "ladder: nothing changed since the last build, but files are not as they should be")
+    assert lines[2:] == ["A build: 1 to restore", f"  restore   {Path('modelica/Ladder/Ladder.mo')}"]
+
+
+def test_a_robot_that_was_never_built(project: Path, capsys: Capture) -> None:
+    code, lines = said(capsys, "ladder")
+    assert (code, lines[0], lines[2]) == (1, "ladder: never built", "A build: 14 files to write")
+    assert lines[-1] == "  … and 3 more files; --verbose shows them"
+    assert len(said(capsys, "ladder", "--verbose")[1]) == 3 + 14
+
+
+def test_an_option_that_changed(built: Path, capsys: Capture) -> None:
+    with (built / "urdfsync.toml").open("a") as file:
+        file.write('prefix = "n"\n')
+    code, lines = said(capsys, "ladder")
+    assert (code, lines[0]) == (1, "ladder: a template, an option or urdfsync itself changed since the last build")
+
+
+def test_every_robot_of_a_source(built: Path, capsys: Capture) -> None:
+    with (built / "urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    change(built)
+    for arguments in ([], ["ladder.json"], [str(built / "ladder.json")]):
+        _, lines = said(capsys, *arguments)
+        heads = [line for line in lines if line.startswith(("ladder:", "other:"))]
+        assert heads == ["ladder: 1 parameter change since the last build", "other: never built"]
+    assert said(capsys, "ladder.json", "--robot", "other")[1][0] == "other: never built"
+    assert said(capsys, "other")[1][0] == "other: never built"
+
+
+def test_one_broken_source_does_not_hide_the_others(built: Path, capsys: Capture) -> None:
+    (built / "broken.json").write_text("{")
+    text = (built / "urdfsync.toml").read_text()
+    broken = '[robots.broken]\nsource = "broken.json"\npackage = "Broken"\ndomain = "rcnetwork"\n'
+    (built / "urdfsync.toml").write_text(broken + text)
+    assert cli.main(["diff"]) == 2
+    streams = capsys.readouterr()
+    assert streams.out == "ladder: nothing changed since the last build\n"
+    assert streams.err.splitlines()[-1] == "broken: 1 error, so nothing can be compared"
+
+
+def test_quiet(built: Path, capsys: Capture) -> None:
+    change(built)
+    assert said(capsys, "ladder", "--quiet") == (1, [])
+
+
+def test_json(built: Path, capsys: Capture) -> None:
+    change(built)
+    assert cli.main(["diff", "ladder", "--json"]) == 1
+    document: dict[str, Any] = json.loads(capsys.readouterr().out)
+    (robot,) = document["robots"]
+    assert (document["command"], document["exit"], robot["against"], robot["built"]) == ("diff", 1, None, True)
+    assert (robot["class"], robot["in_step"], robot["source"]) == ("parameter", False, "ladder.json")
+    assert [(c["change"], c["old"], c["new"], c["unit"]) for c in robot["changes"]] == [("R2 / ohm", 220.5, 330, "Ω")]
+    assert [a["path"] for a in robot["actions"] if a["action"] == "update"] == [
+        "modelica/Ladder/Elements/R2Parameters.mo"
+    ]
+
+
+# another file
+
+
+def test_two_files_without_a_configuration(arm: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
+    before = snapshot_of(arm)
+    assert said(capsys, "new.urdf", "--against", "arm.urdf") == (
+        1,
+        [
+            "new.urdf: 2 parameter changes since arm.urdf",
+            "├── link tip",
+            "│   └── inertial / mass  2 → 3 kg     +50 %",
+            "└── joint elbow",
+            "    └── limit / effort   54 → 60 N·m  +11.1 %",
+            "",
+            "Effects",
+            "  robot mass  2 → 3 kg  +50 %",
+            "",
+            "3 files of the package differ",
+            "  update    NewParameters.mo",
+            f"  update    {Path('Joints/ElbowParameters.mo')}",
+            f"  update    {Path('Links/TipParameters.mo')}",
+        ],
+    )
+    assert said(capsys, "arm.urdf", "--against", str(arm / "arm.urdf"))[0] == 0
+    assert snapshot_of(arm) == before
+
+
+def test_a_file_from_another_folder_finds_its_meshes_beside_the_source(arm: Path, capsys: Capture) -> None:
+    (arm / "old").mkdir()
+    shutil.copy(arm / "arm.urdf", arm / "old")
+    assert said(capsys, "arm.urdf", "--against", "old/arm.urdf") == (
+        0,
+        ["arm.urdf: nothing changed since old/arm.urdf"],
+    )
+    (arm / "old/tip.stl").write_text(MESH.format(size=2))
+    code, lines = said(capsys, "arm.urdf", "--against", "old/arm.urdf")
+    assert code == 1
+    assert lines[1:3] == ["└── mesh tip.stl", lines[2]]
+    assert lines[2].startswith("    └── content  ")
+    assert any(line.startswith("  update    Resources") for line in lines)
+
+
+def test_what_is_not_modelled_gives_the_same_package(arm: Path, capsys: Capture) -> None:
+    change(arm, "</robot>", '<transmission name="t"/></robot>', "arm.urdf")
+    change(arm, 'effort="60"', 'effort="54"', "new.urdf")
+    change(arm, 'mass value="3"', 'mass value="2"', "new.urdf")
+    code, lines = said(capsys, "arm.urdf", "--against", "new.urdf")
+    assert (code, lines[0]) == (0, "arm.urdf: 1 unmodelled change since new.urdf")
+    assert lines[-1].endswith("not modelled")
+
+
+def test_edited_files_that_changes_concern(built: Path, capsys: Capture) -> None:
+    shutil.copy(built / "ladder.json", built / "old.json")
+    record = built / "modelica/Ladder/Elements/R2Parameters.mo"
+    record.write_text(record.read_text() + "// mine\n")
+    change(built)
+    code, lines = said(capsys, "ladder", "--against", "old.json")
+    assert (code, lines[0]) == (1, "ladder: 1 parameter change since old.json")
+    assert f"  update    {Path('modelica/Ladder/Elements/R2Parameters.mo')}  you edited it" in lines
+
+
+def test_new_warnings_only(arm: Path, capsys: Capture) -> None:
+    (arm / "tip.stl").unlink()
+    assert said(capsys, "arm.urdf", "--against", "new.urdf")[0] == 1
+    change(arm, "tip.stl", "other.stl", "arm.urdf")
+    cli.main(["diff", "arm.urdf", "--against", "new.urdf"])
+    assert "other.stl" in capsys.readouterr().err
+
+
+# a revision
+
+
+@NEEDS_GIT
+def test_a_revision_with_the_mesh_as_it_was(arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    repository = Repository(arm, monkeypatch)
+    repository.commit()
+    assert said(capsys, "arm.urdf", "--against", "HEAD") == (0, ["arm.urdf: nothing changed since HEAD"])
+    (arm / "tip.stl").write_text(MESH.format(size=2))
+    change(arm, 'effort="54"', 'effort="60"', "arm.urdf")
+    code, lines = said(capsys, "arm.urdf", "--against", "HEAD")
+    assert code == 1
+    assert [line for line in lines if line.startswith(("├", "└"))] == ["├── joint elbow", "└── mesh tip.stl"]
+    repository.commit()
+    assert said(capsys, "arm.urdf", "--against", "HEAD")[0] == 0
+    (arm / "main~1").write_text(ARM)
+    assert "tip" not in said(capsys, "arm.urdf", "--against", "main~1")[1][1], "a file of that name wins"
+
+
+@NEEDS_GIT
+def test_a_mesh_in_large_file_storage(arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    from urdfsync.files import digest
+
+    content = (arm / "tip.stl").read_bytes()
+    pointer = f"version https://git-lfs.github.com/spec/v1\noid sha256:{digest(content)}\nsize {len(content)}\n"
+    (arm / "tip.stl").write_text(pointer)
+    Repository(arm, monkeypatch).commit()
+    (arm / "tip.stl").write_bytes(content)
+    assert said(capsys, "arm.urdf", "--against", "HEAD") == (0, ["arm.urdf: nothing changed since HEAD"])
+
+
+@NEEDS_GIT
+def test_the_second_domain_against_a_revision(built: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    Repository(built, monkeypatch).commit()
+    change(built)
+    code, lines = said(capsys, "ladder", "--against", "HEAD")
+    assert (code, lines[:3]) == (
+        1,
+        ["ladder: 1 parameter change since HEAD", "└── R2", "    └── ohm  220.5 → 330 Ω  +49.7 %"],
+    )
+
+
+@NEEDS_GIT
+def test_mistakes_in_an_older_version_are_those_of_that_version(
+    arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (arm / "arm.urdf").write_text(ARM[:300])
+    Repository(arm, monkeypatch).commit()
+    (arm / "arm.urdf").write_text(ARM)
+    assert refused(capsys, "arm.urdf", "--against", "HEAD").startswith("HEAD:arm.urdf:")
+
+
+# mistakes
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["arm.urdf"], "there is no last build to compare with; name the version to compare with: --against"),
+        (["nothing.urdf", "--against", "arm.urdf"], "there is no file 'nothing.urdf'"),
+        (["arm.urdf", "--against=-x"], "'-x' is neither a file nor a git revision"),
+        (["arm.urdf", "--against", ""], "'' is neither a file nor a git revision"),
+        (["--against", "arm.urdf"], "no urdfsync.toml in"),
+        (
+            ["arm.urdf", "--config", "no.toml", "--against", "new.urdf"],
+            "no.toml: error: the configuration does not exist",
+        ),
+    ],
+)
+def test_mistakes_without_a_configuration(arm: Path, capsys: Capture, arguments: list[str], complaint: str) -> None:
+    assert complaint in refused(capsys, *arguments)
+
+
+def test_no_repository(arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(arm.parent))
+    assert "there is no file 'HEAD', and no git repository around" in refused(capsys, "arm.urdf", "--against", "HEAD")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["ladr"], "there is no file 'ladr', and no robot of this name in urdfsync.toml; it has ladder"),
+        (["step.csv"], "step.csv was never built: it is no robot's source; add a robot for it, or name the version"),
+        (["ladder.json", "--robot", "othr"], "no robot `othr` in the configuration"),
+        (["step.csv", "--robot", "ladder"], "'step.csv' is not the source of `ladder`"),
+    ],
+)
+def test_mistakes_with_a_configuration(project: Path, capsys: Capture, arguments: list[str], complaint: str) -> None:
+    assert complaint in refused(capsys, *arguments)
+
+
+def test_one_file_is_no_older_version_of_several_sources(project: Path, capsys: Capture) -> None:
+    shutil.copy(project / "ladder.json", project / "copy.json")
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write('[robots.copy]\nsource = "copy.json"\npackage = "Copy"\ndomain = "rcnetwork"\n')
+    assert "one file can't be the older version of 2 sources" in refused(capsys, "--against", "step.csv")
+
+
+def test_a_source_that_is_gone(built: Path, capsys: Capture) -> None:
+    (built / "ladder.json").unlink()
+    assert "the source ladder.json does not exist" in refused(capsys, "ladder.json")
+    assert "the source can't be read" in refused(capsys, "ladder.json", "--against", "step.csv")

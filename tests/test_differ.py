@@ -1,0 +1,78 @@
+"""Comparing: the same answer from a plan and from two files, and nothing on a terminal that does not belong there."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from urdfsync import cli
+
+SPIRIT = "robomechanics+quad-sdk__quad_simulator_spirit_description_urdf_spirit.urdf"
+BUILDS = {"create", "update", "delete"}
+
+
+@pytest.fixture
+def robot(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The source of a configured robot, in the working folder; the file does not exist yet."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "urdfsync.toml").write_text('[robots.r]\nsource = "r.urdf"\npackage = "R"\ncross_check = false\n')
+    return tmp_path / "r.urdf"
+
+
+def document(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, object]:
+    """What a comparison says of its robot."""
+    capsys.readouterr()
+    cli.main(["diff", "r.urdf", "--json", *arguments])
+    (robot,) = json.loads(capsys.readouterr().out)["robots"]
+    files = sorted((a["path"], a["action"]) for a in robot["actions"] if a["action"] in BUILDS)
+    return {**{key: robot[key] for key in ("class", "changes", "effects", "in_step")}, "files": files}
+
+
+def test_a_plan_and_two_files_give_the_same_answer(
+    corpus: Path, robot: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    versions = sorted((corpus / "histories" / SPIRIT).glob("*.urdf"))
+    for old, new in itertools.pairwise(versions):
+        shutil.copy(old, robot)
+        cli.main(["build", "--quiet"])
+        shutil.copy(new, robot)
+        planned = document(capsys)
+        if planned["class"] == "none":
+            planned["effects"] = []
+        assert planned == document(capsys, "--against", str(old))
+
+
+@pytest.mark.parametrize("width", [40, 80, 140])
+def test_lines_fit_a_terminal(
+    corpus: Path, robot: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, width: int
+) -> None:
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("NO_COLOR", "1")
+    monkeypatch.setenv("COLUMNS", str(width))
+    versions = sorted((corpus / "histories" / SPIRIT).glob("*.urdf"))
+    shutil.copy(versions[3], robot)
+    for options in ([], ["--verbose"]):
+        assert cli.main(["diff", "r.urdf", "--against", str(versions[1]), *options]) == 1
+        lines = capsys.readouterr().out.splitlines()
+        assert len(lines) > 10
+        assert max(map(len, lines)) <= width
+
+
+def test_names_can_not_move_the_cursor(
+    robot: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("NO_COLOR", "1")
+    old = robot.with_name("old.urdf")
+    old.write_text('<robot name="r"><link name="a"/></robot>')
+    name = "tip &#x9b;2J &#x202e;[bold]"
+    joint = f'<joint name="j" type="fixed"><parent link="a"/><child link="{name}"/></joint>'
+    robot.write_text(f'<robot name="r"><link name="a"/><link name="{name}"/>{joint}</robot>')
+    assert cli.main(["diff", "r.urdf", "--against", "old.urdf"]) == 1
+    said = capsys.readouterr().out
+    assert r"link tip \x9b2J \u202e[bold]  added" in said
+    assert all(line.isprintable() for line in said.splitlines())
