@@ -7,11 +7,13 @@ import os
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
+from urdfsync import packages
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
-from urdfsync.domain import Dependency, Domain, Import
+from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
 from urdfsync.files import digest
 from urdfsync.manifest import DependencyRecord, Facts
 
@@ -94,9 +96,15 @@ def bring_in(
     return result
 
 
-def all_found(dependencies: Sequence[Dependency]) -> bool:
-    """Whether every dependency is somewhere on this machine."""
-    return all(any(map(os.path.isfile, dependency.candidates)) for dependency in dependencies)
+def sought(
+    domain: Domain, snapshot: Snapshot, lookup: Lookup, options: Any, lines: Mapping[str, int]
+) -> Sequence[Dependency]:
+    """The files that a model refers to; packages are searched for only if one of them is not found without."""
+    found = domain.dependencies(snapshot, lookup, options, lines)
+    if all(any(map(os.path.isfile, dependency.candidates)) for dependency in found):
+        return found
+    lookup = dataclasses.replace(lookup, packages=packages.find(lookup.package_paths, lookup.source))
+    return domain.dependencies(snapshot, lookup, options, lines)
 
 
 def _find(dependency: Dependency) -> tuple[Path, bytes] | None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync import imports, inputs, manifest, packages, parents, registry
+from urdfsync import imports, inputs, manifest, parents, registry
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.decide import Disk
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
@@ -148,13 +148,9 @@ class Situation:
         )
 
     def dependencies(self, snapshot: Snapshot, lines: Mapping[str, int]) -> Sequence[Dependency]:
-        """The files that a model refers to; packages are searched for only if one is not found without."""
+        """The files that a model refers to."""
         lookup = Lookup(self.robot.source, self.robot.package_paths + self.request.package_paths)
-        found = self.domain.dependencies(snapshot, lookup, self.robot.options, lines)
-        if imports.all_found(found):
-            return found
-        lookup = dataclasses.replace(lookup, packages=packages.find(lookup.package_paths, lookup.source))
-        return self.domain.dependencies(snapshot, lookup, self.robot.options, lines)
+        return imports.sought(self.domain, snapshot, lookup, self.robot.options, lines)
 
     def _fingerprint(self) -> str:
         facts = {

@@ -5,10 +5,10 @@ from __future__ import annotations
 import dataclasses
 import os
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from urdfsync import imports, manifest, packages
+from urdfsync import imports, manifest
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.difference import Version
@@ -84,7 +84,7 @@ def read(
     """
     plain, reading = snapshot(domain, subject.options, source.content, source.name)
     lookups = [Lookup(place, subject.package_paths + package_paths) for place in source.places]
-    found = [_dependencies(domain, subject.options, lookup, plain, reading.lines) for lookup in lookups]
+    found = [imports.sought(domain, plain, lookup, subject.options, reading.lines) for lookup in lookups]
     dependencies = source.locate([_joined(same) for same in zip(*found, strict=True)])
     imported = imports.bring_in(domain, dependencies, known, source.name, again=False, progress=progress)
     return Read(Version(plain, imported.imports), imported, (*reading.diagnostics, *imported.diagnostics))
@@ -99,16 +99,6 @@ def known_from(read: Read, copy: Callable[[str], bytes | None]) -> imports.Recor
         copy=lambda target: contents.get(target) or copy(target),
         base=lambda _target: None,
     )
-
-
-def _dependencies(
-    domain: Domain, options: object, lookup: Lookup, plain: Snapshot, lines: Mapping[str, int]
-) -> Sequence[Dependency]:
-    found = domain.dependencies(plain, lookup, options, lines)
-    if imports.all_found(found):
-        return found
-    lookup = dataclasses.replace(lookup, packages=packages.find(lookup.package_paths, lookup.source))
-    return domain.dependencies(plain, lookup, options, lines)
 
 
 def _joined(same: Sequence[Dependency]) -> Dependency:
