@@ -67,9 +67,13 @@ def reminder(
     nouns = Counter(d.noun for d in dependencies if d.key in records and records[d.key].target_hash is None)
     if not nouns:
         return ()
-    parts = [f"{count} {noun}{'' if count == 1 else 's'}" for noun, count in nouns.items()]
+    parts = [f"{count} {noun if count == 1 else _plural(noun)}" for noun, count in nouns.items()]
     message, hint = f"{' and '.join(parts)} left out", "`urdfsync build --full` says which, and why"
     return (Diagnostic(Severity.NOTE, "left-out", message, source, hint=hint),)
+
+
+def _plural(noun: str) -> str:
+    return f"{noun}es" if noun.endswith(("s", "sh", "ch", "x")) else f"{noun}s"
 
 
 def bring_in(
