@@ -452,3 +452,59 @@ def test_an_edit_after_a_choice_asks_again(two_conflicts: tuple[str, str]) -> No
     assert [action.path for action in run().conflicts] == [two]
     edit(one, "end R1", "  // an afterthought\nend R1")
     assert [action.path for action in run().conflicts] == [one, two]
+
+
+@pytest.mark.parametrize("choice", [Choice.KEEP, Choice.TAKE])
+def test_choices_are_remembered_while_the_package_can_not_move(two_conflicts: tuple[str, str], choice: Choice) -> None:
+    text = Path("urdfsync.toml").read_text().replace('"Ladder"', '"Plant.Ladder"')
+    Path("urdfsync.toml").write_text(text + "create_parents = true\n")
+    one, two = (path.replace("modelica/", "modelica/Plant/") for path in two_conflicts)
+    assert [action.path for action in run().conflicts] == [one, two]
+    assert [action.path for action in run(choices={one: choice}).conflicts] == [two]
+    assert [action.path for action in run().conflicts] == [two]
+    assert not run(choices={two: choice}).conflicts
+    assert run().in_step
+    assert all(("+ 1" in Path(path).read_text()) is (choice is Choice.KEEP) for path in (one, two))
+
+
+def test_taking_an_orphan_waits_like_everything_else(two_conflicts: tuple[str, str]) -> None:
+    orphan = f"{LADDER}/Elements/C2.mo"
+    edit(orphan, "equation", "// mine\nequation")
+    source('"C2", "between": ["out", "ground"], "farad": 4.7e-6', '"C9", "between": ["out", "in"], "farad": 1')
+    assert kinds(run())[orphan] is Kind.ORPHAN
+    run(choices={orphan: Choice.TAKE})
+    assert Path(orphan).exists()
+    run(choices=dict.fromkeys(two_conflicts, Choice.TAKE))
+    assert not Path(orphan).exists()
+
+
+def test_what_is_put_aside_goes_with_the_robots_name(two_conflicts: tuple[str, str], project: Path) -> None:
+    text = Path("urdfsync.toml").read_text().replace("robots.ladder", "robots.leiter")
+    Path("urdfsync.toml").write_text(text)
+    assert len(run().conflicts) == 2
+    assert [path.name for path in (project / ".urdfsync/conflicts").iterdir()] == ["leiter"]
+
+
+def test_an_edit_made_while_a_rename_waits_follows_it(project: Path) -> None:
+    run()
+    edit(RECORD.replace("R1", "R2"), "220.5", "221")
+    source('"ohm": 220.5', '"ohm": 300')
+    rename("R1", "Shunt")
+    run()
+    edit(R1, "equation", "  // a sensor here\nequation")
+    run(choices={RECORD.replace("R1", "R2"): Choice.KEEP})
+    assert "// a sensor here" in Path(f"{LADDER}/Elements/Shunt.mo").read_text()
+    assert not Path(R1).exists()
+
+
+def test_an_orphan_that_the_user_deletes_leaves_nothing(project: Path) -> None:
+    run()
+    edit(R1, "equation", "// mine\nequation")
+    source('"R1", "between": ["in", "middle"], "ohm": 100', '"R9", "between": ["in", "out"], "ohm": 1')
+    run()
+    model = project / ".urdfsync/robots/ladder.json"
+    assert "// Values" not in model.read_text()
+    assert json.loads(model.read_text())["bases"]
+    Path(R1).unlink()
+    run()
+    assert "Elements/R1.mo" not in json.loads(model.read_text())["bases"]

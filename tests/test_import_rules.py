@@ -33,6 +33,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "manifest": ("rich", "pathlib", *IO, *SHELL_MODULES),
     "plan": ("pathlib", "urdfsync.manifest", "urdfsync.registry", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
     "order": ("urdfsync", "pathlib", *IO, *HEAVY),
+    "moves": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
     "outcome": (*SHELL_MODULES, *IO, *HEAVY),
     "status": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
     "records": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+import dataclasses
+import dataclasses
+from collections.abc import Collection, Mapping
 
 import pytest
 from hypothesis import given
@@ -11,6 +13,8 @@ from hypothesis import strategies as st
 from urdfsync.domain import Role
 from urdfsync.plan import (
     CONFLICTS,
+    DELETES,
+    WRITES,
     Action,
     FileRecord,
     Found,
@@ -18,12 +22,15 @@ from urdfsync.plan import (
     State,
     Wanted,
     after,
+    both,
     decide,
     hold,
     numbers_only,
     plan,
+    remembered,
     spare,
 )
+from urdfsync.standoff import Choice
 
 ABSENT = Found()
 FOLDER = Found(as_folder=True)
@@ -112,6 +119,196 @@ def test_plan_covers_wanted_and_recorded_files() -> None:
     ]
 
 
+# Files whose element has another name
+
+
+def written(*names: str) -> dict[str, FileRecord]:
+    """What is recorded of models that urdfsync wrote; the base of `a` is `a0`."""
+    return {name: FileRecord(f"part {name}", Role.MODEL, f"{name}0") for name in names}
+
+
+def targets(*names: str) -> dict[str, Wanted]:
+    """What is generated now; the hash for `a` is `a1`."""
+    return {name: Wanted(Role.MODEL, f"part {name}", f"{name}1") for name in names}
+
+
+def texts(**hashes: str) -> dict[str, Found]:
+    return {name: Found(hash_) for name, hash_ in hashes.items()}
+
+
+Row = tuple[Kind, str | None, str | None, str | None]
+
+
+def rows(actions: Collection[Action]) -> dict[str, Row]:
+    """Kind, base, origin and hash of the user's text of every action."""
+    return {action.path: (action.kind, action.base, action.origin, action.mine) for action in actions}
+
+
+def test_an_edited_file_goes_to_its_elements_new_name() -> None:
+    assert rows(plan(written("a"), targets("b"), texts(a="mine"), {"b": "a"})) == {
+        "a": (Kind.LEAVE, "a0", None, None),
+        "b": (Kind.MOVE, "a0", "a", "mine"),
+    }
+
+
+def test_a_file_that_nobody_edited_is_written_anew() -> None:
+    actions = plan(written("a"), targets("b"), texts(a="a0"), {"b": "a"})
+    assert {action.path: action.kind for action in actions} == {"a": Kind.DELETE, "b": Kind.CREATE}
+
+
+def test_a_file_that_urdfsync_never_wrote_stays_where_it_is() -> None:
+    recorded = {"a": FileRecord("part a", Role.MODEL, None, State.CONFLICT)}
+    assert rows(plan(recorded, targets("b"), texts(a="mine"), {"b": "a"})) == {"b": (Kind.CREATE, None, None, None)}
+
+
+def test_a_chain_of_names_takes_every_edit_along() -> None:
+    moves = {"b": "a", "c": "b"}
+    assert rows(plan(written("a", "b"), targets("b", "c"), texts(a="mine a", b="mine b"), moves)) == {
+        "a": (Kind.LEAVE, "a0", None, None),
+        "b": (Kind.MOVE, "a0", "a", "mine a"),
+        "c": (Kind.MOVE, "b0", "b", "mine b"),
+    }
+
+
+def test_a_cycle_of_names_takes_every_edit_along() -> None:
+    moves = {"a": "c", "b": "a", "c": "b"}
+    names, mine = ("a", "b", "c"), texts(a="mine a", b="mine b", c="mine c")
+    assert rows(plan(written(*names), targets(*names), mine, moves)) == {
+        new: (Kind.MOVE, f"{old}0", old, f"mine {old}") for new, old in moves.items()
+    }
+
+
+def test_a_new_element_may_take_the_name_that_an_edited_file_leaves() -> None:
+    assert rows(plan(written("a"), targets("a", "b"), texts(a="mine"), {"b": "a"})) == {
+        "a": (Kind.CREATE, None, None, None),
+        "b": (Kind.MOVE, "a0", "a", "mine"),
+    }
+
+
+@pytest.mark.parametrize("there", [Found("foreign"), FOLDER], ids=["file", "folder"])
+def test_an_edited_file_stays_if_something_of_the_users_is_at_its_new_place(there: Found) -> None:
+    actions = plan(written("a"), targets("b"), {"a": Found("mine"), "b": there}, {"b": "a"})
+    assert {action.path: action.kind for action in actions} == {"a": Kind.ORPHAN, "b": Kind.UNOWNED}
+
+
+def test_one_occupied_place_stops_the_whole_chain() -> None:
+    """`c` is the user's: so `b` can't leave, and then `a` can't go there."""
+    found = texts(a="mine a", b="mine b", c="foreign")
+    actions = plan(written("a", "b"), targets("b", "c"), found, {"b": "a", "c": "b"})
+    assert {action.path: action.kind for action in actions} == {
+        "a": Kind.ORPHAN,
+        "b": Kind.CONFLICT,
+        "c": Kind.UNOWNED,
+    }
+
+
+def test_a_file_that_the_user_has_moved_is_compared_with_what_was_written_at_its_old_place() -> None:
+    assert rows(plan(written("a"), targets("b"), texts(b="mine"), {"b": "a"})) == {
+        "a": (Kind.FORGET, "a0", None, None),
+        "b": (Kind.CONFLICT, "a0", None, "mine"),
+    }
+    assert rows(plan(written("a"), targets("b"), texts(b="a0"), {"b": "a"}))["b"][0] is Kind.UPDATE
+
+
+def test_a_file_that_is_gone_from_both_places_is_written_anew() -> None:
+    assert rows(plan(written("a"), targets("b"), {}, {"b": "a"}))["b"] == (Kind.CREATE, None, None, None)
+
+
+WAITING = {
+    "a": FileRecord("part a", Role.MODEL, "a0", State.WAITING),
+    "b": FileRecord("part b", Role.MODEL, "a0", State.CONFLICT, origin="a"),
+}
+"""`a` is edited, its element has the name `b` now, and that conflicts."""
+
+
+def test_a_file_that_waits_goes_to_a_third_name() -> None:
+    assert rows(plan(WAITING, targets("c"), texts(a="mine"), {"c": "a"})) == {
+        "a": (Kind.LEAVE, "a0", None, None),
+        "c": (Kind.MOVE, "a0", "a", "mine"),
+    }
+
+
+def test_a_file_that_waits_has_its_name_back() -> None:
+    assert rows(plan(WAITING, {"a": Wanted(Role.MODEL, "part a", "a0")}, texts(a="mine"))) == {
+        "a": (Kind.KEEP, "a0", None, "mine")
+    }
+
+
+def test_a_file_that_waits_is_an_orphan_if_its_element_goes() -> None:
+    assert rows(plan(WAITING, {}, texts(a="mine"))) == {"a": (Kind.ORPHAN, "a0", None, "mine")}
+
+
+def test_a_file_that_waits_goes_to_a_third_name_although_another_element_took_the_first() -> None:
+    recorded = {**WAITING, "a": FileRecord("part a", Role.MODEL, None, State.WAITING)}
+    assert rows(plan(recorded, targets("a", "c"), texts(a="mine"), {"c": "a"})) == {
+        "a": (Kind.CREATE, None, None, None),
+        "c": (Kind.MOVE, "a0", "a", "mine"),
+    }
+
+
+def test_where_a_new_name_has_to_wait_the_old_file_may_still_be_edited() -> None:
+    recorded, found = written("a", "m"), texts(a="a0", m="mine")
+    actions = hold(plan(recorded, targets("b", "m"), found, {"b": "a"}), ())
+    assert {action.path: (action.kind, action.held) for action in actions} == {
+        "a": (Kind.DELETE, True),
+        "b": (Kind.CREATE, True),
+        "m": (Kind.CONFLICT, False),
+    }
+    records = after(actions)
+    assert (records["b"].origin, records["b"].base) == ("a", "a0")
+    found |= texts(a="edited meanwhile")
+    assert rows(plan(records, targets("b", "m"), found, {"b": "a"}))["b"] == (
+        Kind.MOVE,
+        "a0",
+        "a",
+        "edited meanwhile",
+    )
+
+
+bases = st.none() | st.sampled_from("uvw")
+hands = st.one_of(st.just(ABSENT), st.just(FOLDER), st.sampled_from("uvwxy").map(on_disk))
+paths = st.sampled_from("abcde")
+
+
+@st.composite
+def situations(
+    draw: st.DrawFn,
+) -> tuple[dict[str, FileRecord], dict[str, Wanted], dict[str, Found], dict[str, str]]:
+    """What is recorded, wanted and there, and moves from recorded places to wanted ones."""
+    recorded = {path: FileRecord("", Role.MODEL, base) for path, base in draw(st.dictionaries(paths, bases)).items()}
+    hashes = st.sampled_from("uvw12")
+    wanted = {path: Wanted(Role.MODEL, "", hash_) for path, hash_ in draw(st.dictionaries(paths, hashes)).items()}
+    found = draw(st.dictionaries(paths, hands))
+    origins = draw(st.permutations(sorted(recorded)))
+    pairs = zip(draw(st.permutations(sorted(wanted))), origins, strict=False)
+    return recorded, wanted, found, {new: old for new, old in pairs if new != old and draw(st.booleans())}
+
+
+@given(situations())
+def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
+    situation: tuple[dict[str, FileRecord], dict[str, Wanted], dict[str, Found], Mapping[str, str]],
+) -> None:
+    recorded, _, found, _ = situation
+    actions = plan(*situation)
+    kinds = {action.path: action.kind for action in actions}
+    assert len(kinds) == len(actions)
+    moved = [action.origin for action in actions if action.kind is Kind.MOVE]
+    assert len(set(moved)) == len(moved), "no text goes to two places"
+    for action in actions:
+        if action.kind is Kind.MOVE:
+            assert kinds[action.origin or ""] in (Kind.LEAVE, Kind.CREATE, Kind.MOVE)
+            assert action.mine == found[action.origin or ""].hash != action.base
+        if action.kind is Kind.LEAVE:
+            assert action.path in moved
+        mine = found.get(action.path, ABSENT).hash
+        base = recorded[action.path].base if action.path in recorded else None
+        if action.kind in WRITES and mine not in (None, base, action.generated):
+            others = {old.base for old in recorded.values()}
+            assert action.path in moved or (action.kind is Kind.UPDATE and mine in others), "moved by hand, unedited"
+        if found.get(action.path) == FOLDER:
+            assert action.kind not in WRITES
+
+
 def spared(*actions: Action, classes: tuple[str, ...] = ()) -> dict[str, Kind]:
     """What happens to each file, where the folders hold these classes."""
 
@@ -175,6 +372,13 @@ CONFLICT = Action("Arm.mo", Kind.CONFLICT, Role.MODEL, "robot", "old", "new")
         (Action("a", Kind.UPDATE, Role.IMPORT, "", "old", "new"), False),
         (Action("a", Kind.KEEP, Role.MODEL, "", "old", "old"), False),
         (Action("a", Kind.ADOPT, Role.MODEL, "", "old", "new"), False),
+        (Action("a", Kind.MOVE, Role.MODEL, "", "old", "new", "b"), True),
+        (Action("numbers", Kind.MOVE, Role.RECORD, "", "old", "new", "b"), True),
+        (Action("b", Kind.LEAVE, Role.MODEL, "", "old"), True),
+        (Action("a", Kind.MERGE, Role.MODEL, "", "old", "new"), True),
+        (Action("a", Kind.MERGE, Role.RECORD, "", "old", "new"), True),
+        (Action("numbers", Kind.MERGE, Role.RECORD, "", "old", "new"), False),
+        (Action("a", Kind.INCLUDED, Role.MODEL, "", "old", "new"), False),
     ],
 )
 def test_a_conflict_holds_back_what_is_structural(action: Action, held: bool) -> None:
@@ -186,6 +390,88 @@ def test_what_waits_keeps_its_base() -> None:
     waiting = Action("a", Kind.UPDATE, Role.MODEL, "link a", "old", "new", held=True)
     assert after([waiting]) == {"a": FileRecord("link a", Role.MODEL, "old", State.WAITING)}
     assert waiting.reason.endswith("waits until the conflict is settled")
+
+
+WITH_BOTH = both("mine", "new")
+
+
+def record(action: Action) -> FileRecord | None:
+    return after([action]).get(action.path)
+
+
+@pytest.mark.parametrize(
+    ("kind", "state", "base"),
+    [
+        (Kind.UNCHANGED, State.GENERATED, "new"),
+        (Kind.CREATE, State.GENERATED, "new"),
+        (Kind.RESTORE, State.GENERATED, "new"),
+        (Kind.ADOPT, State.GENERATED, "new"),
+        (Kind.UPDATE, State.GENERATED, "new"),
+        (Kind.MOVE, State.GENERATED, "new"),
+        (Kind.KEEP, State.EDITED, "old"),
+        (Kind.INCLUDED, State.EDITED, "new"),
+        (Kind.CONFLICT, State.CONFLICT, "old"),
+        (Kind.UNOWNED, State.CONFLICT, "old"),
+        (Kind.ORPHAN, State.ORPHAN, "old"),
+        (Kind.NEEDED, State.ORPHAN, "old"),
+    ],
+)
+def test_what_is_recorded_of_each_kind(kind: Kind, state: State, base: str) -> None:
+    action = Action("a", kind, Role.MODEL, "link a", "old", "new", origin="b", choice=Choice.KEEP, mine="mine")
+    waits = {"origin": "b", "choice": Choice.KEEP, "chosen_for": WITH_BOTH} if state is State.CONFLICT else {}
+    assert record(action) == FileRecord("link a", Role.MODEL, base, state, **waits)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("kind", [Kind.DELETE, Kind.LEAVE, Kind.FORGET])
+def test_nothing_is_recorded_of_what_is_gone(kind: Kind) -> None:
+    assert record(Action("a", kind, Role.MODEL, "link a", "old")) is None
+
+
+@pytest.mark.parametrize("kind", sorted(WRITES))
+def test_whatever_waits_is_recorded_as_before_with_its_choice(kind: Kind) -> None:
+    generated = None if kind in DELETES else "new"
+    action = Action("a", kind, Role.MODEL, "link a", "old", generated, "b", Choice.TAKE, "mine", held=True)
+    expected = FileRecord(
+        "link a",
+        Role.MODEL,
+        "old",
+        State.WAITING,
+        origin="b",
+        choice=Choice.TAKE,
+        chosen_for=both("mine", generated),
+    )
+    assert record(action) == expected
+    assert record(dataclasses.replace(action, choice=None)) == FileRecord(
+        "link a", Role.MODEL, "old", State.WAITING, origin="b"
+    )
+
+
+@pytest.mark.parametrize("kind", [Kind.MERGE, Kind.MOVE])
+def test_a_merged_file_is_edited_unless_nothing_is_left_of_the_edits(kind: Kind) -> None:
+    merged = Action("a", kind, Role.MODEL, "link a", "old", "new", mine="mine", result="both")
+    assert record(merged) == FileRecord("link a", Role.MODEL, "new", State.EDITED)
+    assert record(dataclasses.replace(merged, result="new")) == FileRecord("link a", Role.MODEL, "new")
+
+
+def test_orders_are_recorded_elsewhere() -> None:
+    assert record(Action("package.order", Kind.UPDATE, Role.ORDER)) is None
+
+
+@pytest.mark.parametrize(
+    ("mine", "generated", "holds"), [("mine", "new", True), ("edited", "new", False), ("mine", "newer", False)]
+)
+def test_a_choice_holds_until_one_side_changes(mine: str, generated: str, holds: bool) -> None:
+    recorded = {
+        "a": FileRecord("link a", Role.MODEL, "old", State.WAITING, choice=Choice.TAKE, chosen_for=WITH_BOTH),
+        "b": FileRecord("link b", Role.MODEL, "old", State.CONFLICT),
+    }
+    actions = [Action(path, Kind.CONFLICT, Role.MODEL, "", "old", generated, mine=mine) for path in ("a", "b", "c")]
+    assert remembered(recorded, actions) == ({"a": Choice.TAKE} if holds else {})
+
+
+def test_both_sides_count() -> None:
+    sides = [(None, None), ("a", None), (None, "a"), ("a", "b"), ("b", "a")]
+    assert len({both(*pair) for pair in sides}) == len(sides)
 
 
 RECORD = """\
@@ -216,3 +502,19 @@ def test_numbers_only(old: str, new: str, same: bool) -> None:
 
 def test_line_endings_are_no_difference() -> None:
     assert numbers_only(RECORD, RECORD.replace("\n", "\r\n"))
+
+
+def test_places_that_are_handed_on() -> None:
+    """A's edited file goes where B's untouched one is, which goes to a new place; the same while that waits."""
+    recorded = {f"{name}.mo": FileRecord(f"part {name}", Role.MODEL, name) for name in "AB"}
+    wanted = {f"{name}.mo": Wanted(Role.MODEL, f"part {name}", f"new {name}") for name in "BC"}
+    found = {"A.mo": Found("mine"), "B.mo": Found("B")}
+    moves = {"B.mo": "A.mo", "C.mo": "B.mo"}
+    for _ in range(2):
+        actions = plan(recorded, wanted, found, moves)
+        assert {action.path: (action.kind, action.origin, action.base) for action in actions} == {
+            "A.mo": (Kind.LEAVE, None, "A"),
+            "B.mo": (Kind.MOVE, "A.mo", "A"),
+            "C.mo": (Kind.CREATE, "B.mo", "B"),
+        }
+        recorded = after(dataclasses.replace(action, held=True) for action in actions)

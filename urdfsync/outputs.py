@@ -6,7 +6,6 @@ text is the one that was written then, and its hash is recorded.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Mapping, Sequence
 
 from urdfsync.files import text_digest
@@ -42,6 +41,7 @@ class Outputs:
         self._now, self._last, self._records = now, last, records
         self._bases, self._aside, self._mine = bases, aside, mine
         self._digests: dict[str, str] = {}
+        self._texts: dict[tuple[str, str], str | None] = {}
 
     def digest(self, path: str) -> str:
         """Hash of what would be written."""
@@ -79,11 +79,15 @@ class Outputs:
             return None
         return record.base
 
-    @functools.cache  # noqa: B019 - an instance lives as long as one plan
     def _known(self, path: str, digest: str | None) -> str | None:
         """The text of this hash, as far as it can be had without rendering."""
         if digest is None:
             return None
+        if (path, digest) not in self._texts:
+            self._texts[path, digest] = self._look_for(path, digest)
+        return self._texts[path, digest]
+
+    def _look_for(self, path: str, digest: str) -> str | None:
         kept = self._bases.get(digest)
         if kept is not None:
             return kept

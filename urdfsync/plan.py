@@ -15,6 +15,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 import msgspec
 
 from urdfsync.domain import Role
+from urdfsync.moves import Moves
 from urdfsync.standoff import Choice
 
 
@@ -87,7 +88,9 @@ class FileRecord(msgspec.Struct, frozen=True, omit_defaults=True):
     base: str | None = None
     state: State = State.GENERATED
     origin: str | None = None
-    """Path of the user's file, if its element has another name now and the file waits to go there."""
+    """Path of the element's file, if that has another name now and the file waits to go there."""
+    stands: str | None = None
+    """Hash of the text of another element that urdfsync wrote here, and that stands here while `origin` waits."""
     choice: Choice | None = None
     """What the user chose for the file, while that waits for another conflict to be resolved."""
     chosen_for: str | None = None
@@ -127,6 +130,8 @@ class Action:
     """What the user chose for it."""
     mine: str | None = None
     """Hash of the file on disk; None if there is none."""
+    stands: str | None = None
+    """Hash of what urdfsync wrote at `path` for another element, if that is there."""
     result: str | None = None
     """Hash of the text that merges the user's edits with what is new; None if nothing is merged."""
     held: bool = False
@@ -172,59 +177,43 @@ def plan(
     to the new path (MOVE, and LEAVE at the old one); whether it can, its text has yet to show. A file that the
     user has moved there already is compared with what was written at the old path.
     """
-    moves = moves or {}
-    edited = _edited(recorded, found, moves)
-    left = set(edited.values())
-    moved_by_hand = {new: old for new, old in moves.items() if old in recorded and found.get(old, Found()).hash is None}
+    going = Moves(recorded, found, moves or {})
     actions = []
     for path in sorted(wanted.keys() | recorded.keys()):
-        record, target = recorded.get(path), wanted.get(path)
-        known = target or record
-        role, owner = (known.role, known.owner) if known else (Role.MODEL, "")
-        base, mine = record.base if record else None, found.get(path, Found())
-        generated = target.hash if target else None
-        if target and path in edited:
-            base, origin = _base(recorded, path, edited[path]), edited[path]
-            actions.append(Action(path, Kind.MOVE, role, owner, base, generated, origin, mine=found[origin].hash))
-            continue
-        if path in left and target is None:
-            actions.append(Action(path, Kind.LEAVE, role, owner, base))
-            continue
-        if path in left:
-            base, mine = None, Found()
-        elif record is None and path in moved_by_hand and mine.hash is not None:
-            base = recorded[moved_by_hand[path]].base
-        kind = decide(base, mine, generated)
-        if kind is Kind.FORGET and (base is None or (record and record.origin)):
-            continue  # it only waited to be written
-        actions.append(Action(path, kind, role, owner, base, generated, mine=mine.hash))
+        action = _action(path, recorded.get(path), wanted.get(path), found, going)
+        if action is not None:
+            actions.append(action)
     return tuple(actions)
 
 
-def _edited(
-    recorded: Mapping[str, FileRecord], found: Mapping[str, Found], moves: Mapping[str, str]
-) -> dict[str, str]:
-    """The moves of files that the user edited, to places where nothing is, or nothing will be."""
-    edited = {}
-    for new, old in moves.items():
-        base, mine = _base(recorded, new, old), found.get(old, Found()).hash
-        if base is not None and mine is not None and mine != base:
-            edited[new] = old
-    while True:
-        left = set(edited.values())
-        occupied = [path for path in edited if path not in left and found.get(path, Found()) != Found()]
-        if not occupied:
-            return edited
-        for path in occupied:
-            del edited[path]
+def _action(
+    path: str, record: FileRecord | None, target: Wanted | None, found: Mapping[str, Found], moves: Moves
+) -> Action | None:
+    """The action for one file; None if it only waited to be written, and is not wanted any more."""
+    known = target or record
+    role, owner = (known.role, known.owner) if known else (Role.MODEL, "")
+    base, mine = record.base if record else None, found.get(path, Found())
+    generated = target.hash if target else None
 
+    def coming(kind: Kind, origin: str, mine: str | None) -> Action:
+        """A file that comes from another place; what stands here is remembered in case that it has to wait."""
+        there, base = found.get(path, Found()).hash, moves.base(path, origin)
+        return Action(path, kind, role, owner, base, generated, origin, mine=mine, stands=there)
 
-def _base(recorded: Mapping[str, FileRecord], new: str, old: str) -> str | None:
-    """The base of a file that goes from its old path to a new one."""
-    record = recorded.get(new)
-    if record is None or record.origin != old:
-        record = recorded.get(old)
-    return record.base if record else None
+    if target and path in moves.edited:
+        return coming(Kind.MOVE, moves.edited[path], found[moves.edited[path]].hash)
+    if target and mine.hash != generated and (origin := moves.followed(path)) is not None:
+        return coming(Kind.CREATE if mine == Found() else Kind.UPDATE, origin, mine.hash)
+    if path in moves.left and target is None:
+        return Action(path, Kind.LEAVE, role, owner, base)
+    if path in moves.left:
+        base, mine = None, Found()
+    elif target and (written := moves.moved_by_hand(path)) is not None:
+        base = written
+    kind = decide(base, mine, generated)
+    if kind is Kind.FORGET and (base is None or (record and record.origin)):
+        return None
+    return Action(path, kind, role, owner, base, generated, mine=mine.hash)
 
 
 def spare(actions: Iterable[Action], stays: Callable[[str, Collection[str]], bool]) -> tuple[Action, ...]:
@@ -299,7 +288,8 @@ def _after(action: Action) -> FileRecord | None:
     waits = state in (State.WAITING, State.CONFLICT)
     chosen_for = both(action.mine, action.generated) if waits and action.choice else None
     choice = action.choice if waits else None
-    return FileRecord(action.owner, action.role, base, state, action.origin if waits else None, choice, chosen_for)
+    origin, stands = (action.origin, action.stands) if waits else (None, None)
+    return FileRecord(action.owner, action.role, base, state, origin, stands, choice, chosen_for)
 
 
 def both(mine: str | None, generated: str | None) -> str:
@@ -312,7 +302,7 @@ def remembered(recorded: Mapping[str, FileRecord], actions: Iterable[Action]) ->
     return {
         action.path: record.choice
         for action in actions
-        if (record := recorded.get(action.path)) is not None
+        if (record := recorded.get(action.path) or recorded.get(action.origin or "")) is not None
         and record.choice is not None
         and record.chosen_for == both(action.mine, action.generated)
     }

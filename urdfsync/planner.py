@@ -58,7 +58,7 @@ def _if_unchanged(situation: Situation) -> Work | None:
     if not imports.unchanged(dependencies, recorded.dependencies, situation.domain.converter):
         return None
     decision = _kept(situation, recorded)
-    if decision is None:
+    if decision is None or not {situation.key(path) for path in state.model.bases} <= decision.files.keys():
         return None
     renewed = msgspec.structs.replace(recorded, files=decision.files, orders=decision.orders)
     left_out = imports.reminder(dependencies, recorded.dependencies, shown(situation.robot.source))

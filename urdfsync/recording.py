@@ -43,10 +43,12 @@ class Recording:
         situation, store = self._situation, self._situation.store
         name, former = situation.robot.name, situation.former
         changes = list(self._files(decision))
-        changes += store.conflicts(name, dict(self._aside(decision)))
+        changes += store.conflicts(name, dict(self._aside(decision)), former)
         if (drawing := self._drawing_text()) is not None:
             changes += store.drawing(name, drawing)[1]
-        if not self._stays(decision):
+        if self._stays(decision):
+            changes += store.changes(name, manifest.dumps(self._chosen(decision)), None, None)
+        else:
             model = manifest.dump_model(self._snapshot, self._imported.imports, self._outliving(decision))
             changes += store.keep_bases(name, self._bases(decision), former)
             changes += store.changes(name, manifest.dumps(self._manifest(decision, model)), model, former)
@@ -115,6 +117,17 @@ class Recording:
             orders=decision.orders,
             files=decision.files,
         )
+
+    def _chosen(self, decision: Decision) -> Manifest:
+        """What was recorded, where the package stood, with the choices that the user made meanwhile."""
+        recorded = self._situation.recorded or self._situation.heading("")
+        waiting = {record.origin: record for record in decision.files.values() if record.origin and record.choice}
+        files = {
+            key: msgspec.structs.replace(record, choice=waiting[key].choice, chosen_for=waiting[key].chosen_for)
+            for key, record in recorded.files.items()
+            if key in waiting
+        }
+        return msgspec.structs.replace(recorded, files={**recorded.files, **files})
 
     def _outliving(self, decision: Decision) -> Mapping[str, str]:
         """The bases that can't be rendered from the recorded model, by path below the package's folder."""

@@ -192,8 +192,11 @@ class Renewal:
         old = {path: (a.owner, a.template) for path, a in before.items() if path in records}
         new = {path: (a.owner, a.template) for path, a in self._generated.artifacts.items()}
         renamed = changes.moves(old, new, renames)
+        waiting = {record.origin for record in records.values() if record.origin}
         result = {}
         for path, record in records.items():
+            if record.origin is None and situation.old_key(path) in waiting:
+                continue  # what is there is another element's file, or the same one that waits to go elsewhere
             place = renamed.get(path, path)
             origin, target = record.origin or situation.old_key(path), situation.key(place)
             if place in new and origin != target:

@@ -44,7 +44,7 @@ def settle(
 def _settled(action: Action, standoff: Standoff | None, choice: Choice | None, merging: bool) -> Settled:
     if action.kind is Kind.ORPHAN:
         if choice is Choice.TAKE and action.mine is not None:
-            return Settled(_with(action, Kind.DELETE))
+            return Settled(dataclasses.replace(action, kind=Kind.DELETE, choice=choice))
         return Settled(_with(action, Kind.FORGET if choice is Choice.KEEP else Kind.ORPHAN))
     if action.kind is Kind.MOVE and standoff:
         return _moved(action, standoff, choice)

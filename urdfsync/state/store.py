@@ -99,10 +99,11 @@ class Store:
         if self._bytes(self._base_file(robot)) != (content := bases.dumps()):
             yield self._change(self._base_file(robot), content)
 
-    def conflicts(self, robot: str, contents: Mapping[str, bytes]) -> list[Change]:
+    def conflicts(self, robot: str, contents: Mapping[str, bytes], former: str | None) -> list[Change]:
         """How files get to the robot's folder of conflicts, by their path below it, and how all others go."""
         folder = self.folder / "conflicts" / robot
-        there = sorted(path for path in folder.rglob("*") if not path.is_dir())
+        folders = [folder, *([folder.with_name(former)] if former else [])]
+        there = sorted(path for one in folders for path in one.rglob("*") if not path.is_dir())
         wanted = {folder / path: content for path, content in contents.items()}
         gone = [self._change(path, None) for path in there if path not in wanted and self._bytes(path) is not None]
         return gone + [self._change(path, text) for path, text in wanted.items() if self._bytes(path) != text]

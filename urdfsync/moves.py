@@ -1,0 +1,72 @@
+"""Files whose element has another name now: what is known of their old places and of their new ones."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from urdfsync.plan import FileRecord, Found
+
+
+class Moves:
+    """The moves of one plan, `places` being new and old path of each; see `plan.plan` for the other two."""
+
+    def __init__(
+        self, recorded: Mapping[str, FileRecord], found: Mapping[str, Found], places: Mapping[str, str]
+    ) -> None:
+        self._recorded, self._found, self._places = recorded, found, places
+        self._waiting = {record.origin: record for record in recorded.values() if record.origin}
+        self.edited = self._edited()
+        """New and old path of files that the user edited, and that can go."""
+        self.left = frozenset(self.edited.values())
+        """The old paths of these."""
+
+    def base(self, new: str, old: str) -> str | None:
+        """The base of a file that goes from its old path to a new one, also if it was to go elsewhere before."""
+        there = self._recorded.get(new)
+        record = there if there and there.origin == old else self._waiting.get(old) or self._recorded.get(old)
+        return record.base if record else None
+
+    def followed(self, new: str) -> str | None:
+        """The old path of a file that urdfsync may just write anew at the new one; None if there is no such.
+
+        It is as urdfsync wrote it, and nothing of the user's is at the new path.
+        """
+        old = self._places.get(new)
+        if old is None or (base := self.base(new, old)) is None:
+            return None
+        return old if self._mine(old) == base and self._is_free(new) else None
+
+    def moved_by_hand(self, new: str) -> str | None:
+        """The base of a file that the user has moved to its new path already; None if there is no such."""
+        old = self._places.get(new)
+        if old is None or new in self._recorded or self._mine(new) is None or self._mine(old) is not None:
+            return None
+        return self._recorded[old].base if old in self._recorded else None
+
+    def _edited(self) -> dict[str, str]:
+        edited = {}
+        for new, old in self._places.items():
+            base, mine = self.base(new, old), self._mine(old)
+            if base is not None and mine is not None and mine != base:
+                edited[new] = old
+        while True:
+            left = set(edited.values())
+            occupied = [path for path in edited if path not in left and not self._is_free(path)]
+            if not occupied:
+                return edited
+            for path in occupied:
+                del edited[path]
+
+    def _is_free(self, path: str) -> bool:
+        """Whether nothing is in a place but what urdfsync wrote there itself."""
+        there, record = self._found.get(path), self._recorded.get(path)
+        if there is None or (there.hash is None and not there.as_folder):
+            return True
+        own = None if record is None else record.stands if record.origin else record.base
+        return own is not None and there.hash == own
+
+    def _mine(self, path: str) -> str | None:
+        there = self._found.get(path)
+        return there.hash if there else None
