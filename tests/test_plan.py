@@ -518,3 +518,27 @@ def test_places_that_are_handed_on() -> None:
             "C.mo": (Kind.CREATE, "B.mo", "B"),
         }
         recorded = after(dataclasses.replace(action, held=True) for action in actions)
+
+
+def test_a_text_of_the_users_is_never_taken_for_ours() -> None:
+    """Two edited files swap names and wait; then one of the elements is gone: the other stays where it is."""
+    recorded = {name: FileRecord(f"part {name}", Role.MODEL, name) for name in ("A.mo", "B.mo")}
+    found = {"A.mo": Found("mine A"), "B.mo": Found("mine B")}
+    wanted = {"A.mo": Wanted(Role.MODEL, "part A", "new A"), "B.mo": Wanted(Role.MODEL, "part B", "new B")}
+    actions = plan(recorded, wanted, found, {"A.mo": "B.mo", "B.mo": "A.mo"})
+    assert {action.kind for action in actions} == {Kind.MOVE}
+    waiting = after(dataclasses.replace(action, held=True) for action in actions)
+    del wanted["B.mo"]
+    assert not any(action.writes for action in plan(waiting, wanted, found, {"A.mo": "B.mo"}))
+
+
+def test_a_place_remembers_what_was_written_there_while_another_file_is_to_come() -> None:
+    """Pan is renamed to One and back to Pan, with One's file edited meanwhile, and to One again; all of it waits."""
+    recorded = {"Pan.mo": FileRecord("joint pan", Role.MODEL, "pan", State.WAITING)}
+    recorded["One.mo"] = FileRecord("joint one", Role.MODEL, "one", State.GENERATED)
+    found = {"Pan.mo": Found("pan"), "One.mo": Found("mine")}
+    back = plan(recorded, {"Pan.mo": Wanted(Role.MODEL, "joint pan", "new pan")}, found, {"Pan.mo": "One.mo"})
+    assert [action.kind for action in back] == [Kind.LEAVE, Kind.MOVE]
+    waiting = after(dataclasses.replace(action, held=True) for action in back)
+    again = plan(waiting, {"One.mo": Wanted(Role.MODEL, "joint one", "one")}, found, {})
+    assert {action.path: action.kind for action in again} == {"One.mo": Kind.KEEP, "Pan.mo": Kind.DELETE}

@@ -25,8 +25,10 @@ class Moves:
     def base(self, new: str, old: str) -> str | None:
         """The base of a file that goes from its old path to a new one, also if it was to go elsewhere before."""
         there = self._recorded.get(new)
-        record = there if there and there.origin == old else self._waiting.get(old) or self._recorded.get(old)
-        return record.base if record else None
+        waiting = there if there and there.origin == old else self._waiting.get(old)
+        if waiting is not None:
+            return waiting.base
+        return self._recorded[old].own if old in self._recorded else None
 
     def followed(self, new: str) -> str | None:
         """The old path of a file that urdfsync may just write anew at the new one; None if there is no such.
@@ -40,10 +42,15 @@ class Moves:
 
     def moved_by_hand(self, new: str) -> str | None:
         """The base of a file that the user has moved to its new path already; None if there is no such."""
-        old = self._places.get(new)
-        if old is None or new in self._recorded or self._mine(new) is None or self._mine(old) is not None:
+        old, there = self._places.get(new), self._recorded.get(new)
+        if old is None or (there and there.origin != old) or self._mine(old) is not None:
             return None
-        return self._recorded[old].base if old in self._recorded else None
+        return None if self._mine(new) is None or self.stands(new) else self.base(new, old)
+
+    def stands(self, path: str) -> str | None:
+        """Hash of what is in a place, if urdfsync wrote it there itself; else None."""
+        mine, record = self._mine(path), self._recorded.get(path)
+        return mine if record and mine == record.own else None
 
     def _edited(self) -> dict[str, str]:
         edited = {}
@@ -61,11 +68,8 @@ class Moves:
 
     def _is_free(self, path: str) -> bool:
         """Whether nothing is in a place but what urdfsync wrote there itself."""
-        there, record = self._found.get(path), self._recorded.get(path)
-        if there is None or (there.hash is None and not there.as_folder):
-            return True
-        own = None if record is None else record.stands if record.origin else record.base
-        return own is not None and there.hash == own
+        there = self._found.get(path)
+        return there is None or (there.hash is None and not there.as_folder) or self.stands(path) is not None
 
     def _mine(self, path: str) -> str | None:
         there = self._found.get(path)

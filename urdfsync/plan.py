@@ -96,6 +96,11 @@ class FileRecord(msgspec.Struct, frozen=True, omit_defaults=True):
     chosen_for: str | None = None
     """Hash over the hashes of both sides: the choice holds as long as neither changes."""
 
+    @property
+    def own(self) -> str | None:
+        """Hash of what urdfsync wrote at the path itself."""
+        return self.stands if self.origin else self.base
+
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Found:
@@ -192,13 +197,13 @@ def _action(
     """The action for one file; None if it only waited to be written, and is not wanted any more."""
     known = target or record
     role, owner = (known.role, known.owner) if known else (Role.MODEL, "")
-    base, mine = record.base if record else None, found.get(path, Found())
+    base, mine = record.own if record else None, found.get(path, Found())
     generated = target.hash if target else None
 
     def coming(kind: Kind, origin: str, mine: str | None) -> Action:
         """A file that comes from another place; what stands here is remembered in case that it has to wait."""
-        there, base = found.get(path, Found()).hash, moves.base(path, origin)
-        return Action(path, kind, role, owner, base, generated, origin, mine=mine, stands=there)
+        base, stands = moves.base(path, origin), moves.stands(path)
+        return Action(path, kind, role, owner, base, generated, origin, mine=mine, stands=stands)
 
     if target and path in moves.edited:
         return coming(Kind.MOVE, moves.edited[path], found[moves.edited[path]].hash)
@@ -211,7 +216,7 @@ def _action(
     elif target and (written := moves.moved_by_hand(path)) is not None:
         base = written
     kind = decide(base, mine, generated)
-    if kind is Kind.FORGET and (base is None or (record and record.origin)):
+    if kind is Kind.FORGET and base is None:
         return None
     return Action(path, kind, role, owner, base, generated, mine=mine.hash)
 

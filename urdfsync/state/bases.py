@@ -25,7 +25,7 @@ class Bases:
             return cls({})
         try:
             return cls(msgspec.json.decode(content, type=dict[str, str]))
-        except (msgspec.DecodeError, RecursionError):
+        except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return cls({})  # what is missing is rendered again, see `outputs`
 
     def dumps(self) -> bytes:

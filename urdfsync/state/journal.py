@@ -55,5 +55,5 @@ class Journal(msgspec.Struct, frozen=True):
         """The journal in a text, None if it is none, for example because it is cut short."""
         try:
             return msgspec.json.decode(content, type=cls)
-        except (msgspec.DecodeError, UnicodeDecodeError):
+        except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return None
