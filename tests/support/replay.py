@@ -1,0 +1,206 @@
+"""Robots that change from version to version, built again and again in a project: what the replays share.
+
+A replay runs thousands of builds, so templates are compiled once and nothing waits for the disk.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import functools
+import hashlib
+import re
+import shutil
+import struct
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from unittest import mock
+
+from support import corpus
+from support.packages import proposed_base, read
+from urdfsync import config, manifest, render
+from urdfsync.build import Request, build
+from urdfsync.outcome import Result
+from urdfsync.state import operations
+from urdfsync.state.store import State, Store
+
+PACKAGE = "modelica/Bot"
+"""The package's folder; paths of files count from it."""
+
+_CONFIGURATION = """\
+[robots.bot]
+source = "bot.urdf"
+package = "Bot"
+base = "{base}"
+cross_check = false
+"""
+_MESHES = {True: 'package_paths = ["ros"]\n', False: 'meshes = "skip"\n'}
+_MESH = re.compile(rb'filename="(package://|\./)?([\w+-][\w/.+-]*\.stl)"', re.IGNORECASE)
+
+Files = Mapping[str, bytes]
+Stamps = Mapping[str, tuple[int, int]]
+
+
+@functools.cache
+def histories() -> Mapping[str, Sequence[bytes]]:
+    """The versions of each file in the corpus, by a short name of its history."""
+    folders = sorted((corpus.FOLDER / "histories").glob("*/"))
+    return {
+        folder.name.removesuffix(".urdf"): [file.read_bytes() for file in sorted(folder.glob("*.urdf"))]
+        for folder in folders
+    }
+
+
+def base_of(versions: Sequence[bytes]) -> str:
+    """What `init` proposes for the first of these versions that can be read."""
+    return proposed_base(next(version for version in versions if read(version).snapshot is not None))
+
+
+@contextlib.contextmanager
+def in_haste() -> Iterator[None]:
+    """Builds share their compiled templates, and leave it to the system when the disk gets to know."""
+    compiled = functools.cache(render.Renderer)
+    with (
+        mock.patch.object(render, "Renderer", lambda folders: compiled(tuple(folders))),
+        mock.patch.object(operations, "sync"),
+    ):
+        yield
+
+
+class Project:
+    """A folder with one robot, its configuration and all that a build makes of them."""
+
+    def __init__(self, root: Path, base: str = "fixed", *, meshes: bool = False) -> None:
+        self.root = root
+        self._meshes = meshes
+        self._configuration = _CONFIGURATION.format(base=base) + _MESHES[meshes]
+        (root / "ros").mkdir(parents=True)
+        self.configure()
+
+    @property
+    def package(self) -> Path:
+        """The folder of the generated package."""
+        return self.root / PACKAGE
+
+    def configure(self, more: str = "") -> None:
+        """Write the configuration, with `more` keys of the robot."""
+        (self.root / config.FILE_NAME).write_text(self._configuration + more)
+
+    def save(self, content: bytes) -> None:
+        """Export the robot, with the meshes that it refers to."""
+        (self.root / "bot.urdf").write_bytes(content)
+        if self._meshes:
+            put_meshes(self.root, content)
+
+    def build(self, **request: object) -> Result:
+        """Build once."""
+        loaded = config.load(self.root / config.FILE_NAME)
+        (result,) = build(loaded, loaded.robots, Request(**request))  # type: ignore[arg-type]
+        return result
+
+    def files(self) -> Files:
+        """Every file of the package."""
+        return contents(self.package)
+
+    def state(self) -> Files:
+        """What is recorded of the robot."""
+        return contents(self.root / ".urdfsync/robots")
+
+    def recorded(self) -> State:
+        """What is recorded of the robot, read."""
+        state = Store(self.root).load("bot")
+        assert state is not None
+        return state
+
+    def stamps(self, below: str = "") -> Stamps:
+        """Inode and time of change of each file, but for the lock."""
+        return stamps(self.root / below)
+
+    def clone(self, root: Path) -> Project:
+        """The project as version control has it: without what `.urdfsync/.gitignore` keeps out."""
+        shutil.copytree(self.root, root)
+        for path in (root / ".urdfsync").glob("*"):
+            if path.name not in (".gitignore", "robots"):
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+        copied = object.__new__(Project)
+        copied.__dict__ |= self.__dict__ | {"root": root}
+        return copied
+
+
+@dataclasses.dataclass(frozen=True)
+class Built:
+    """What one version gives where nothing was built before; both are empty for one that can't be read."""
+
+    files: Files
+    state: Files
+
+
+class Fresh:
+    """Builds of versions from nothing, each made once."""
+
+    def __init__(self, work: Path, base: str = "fixed", *, meshes: bool = False) -> None:
+        self._work, self._base, self._meshes = work, base, meshes
+        self._built: dict[bytes, Built] = {}
+
+    def __call__(self, content: bytes) -> Built:
+        """The package of a version."""
+        key = hashlib.sha256(content).digest()
+        if key not in self._built:
+            self._built[key] = self._build(content)
+        return self._built[key]
+
+    def _build(self, content: bytes) -> Built:
+        shutil.rmtree(self._work, ignore_errors=True)
+        project = Project(self._work, self._base, meshes=self._meshes)
+        project.save(content)
+        failed = project.build().failed
+        return Built({}, {}) if failed else Built(project.files(), project.state())
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """Content of each file below a folder."""
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in _files(folder)}
+
+
+def stamps(folder: Path) -> dict[str, tuple[int, int]]:
+    """Inode and time of change of each file below a folder, but for a lock."""
+    found = ((path.relative_to(folder).as_posix(), path.stat()) for path in _files(folder))
+    return {name: (stat.st_ino, stat.st_mtime_ns) for name, stat in found if not name.endswith(".urdfsync/lock")}
+
+
+def models(state: State) -> Mapping[str, str]:
+    """Path of the model of each element that has one, by its owner; relative to the package."""
+    files = state.manifest.files.items()
+    return {record.owner: path.removeprefix(f"{PACKAGE}/") for path, record in files if record.role == "model"}
+
+
+def snapshot_of(content: bytes) -> Mapping[str, object] | None:
+    """The model of a version as it is recorded; None if it can't be read."""
+    snapshot = read(content).snapshot
+    return None if snapshot is None else manifest.plain(snapshot)
+
+
+def put_meshes(root: Path, content: bytes) -> None:
+    """A tetrahedron of its own for each mesh that a robot names, where it looks for it."""
+    for scheme, name in set(_MESH.findall(content)):
+        path = root / ("ros" if scheme == b"package://" else "") / name.decode()
+        if path.exists():
+            continue
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(_tetrahedron(name))
+        if scheme == b"package://":
+            package = name.decode().partition("/")[0]
+            (root / "ros" / package / "package.xml").write_text(f"<package><name>{package}</name></package>")
+
+
+def _tetrahedron(name: bytes) -> bytes:
+    """Binary STL; the edges depend on the name."""
+    x, y, z = (0.01 + digit / 1000 for digit in hashlib.sha256(name).digest()[:3])
+    corners = [(0.0, 0.0, 0.0), (x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z)]
+    faces = [[corners[index] for index in face] for face in ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))]
+    triangles = [struct.pack("<12fH", 0, 0, 0, *sum(face, ()), 0) for face in faces]
+    return bytes(80) + struct.pack("<I", len(faces)) + b"".join(triangles)
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    return (path for path in sorted(folder.rglob("*")) if path.is_file())

@@ -1,0 +1,268 @@
+"""Outputs that are gone, that are something else, or that may not be written: a repair or one clear error, no loss."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import shutil
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+
+import pytest
+
+from urdfsync import cli
+from urdfsync.outcome import Exit
+
+LADDER = "modelica/Ladder"
+MODEL = f"{LADDER}/Elements/R1.mo"
+RECORD = f"{LADDER}/Elements/R1Parameters.mo"
+MANIFEST = ".urdfsync/robots/ladder.toml"
+MINE = "// mine\n"
+CAN_CHANGE_MODES = os.name == "posix"
+
+Capture = pytest.CaptureFixture[str]
+Contents = Mapping[str, bytes]
+
+
+def contents(folder: Path) -> Contents:
+    """Every file below a folder but for the lock; links count with where they lead to."""
+    files = [path for path in sorted(folder.rglob("*")) if path.is_symlink() or path.is_file()]
+    found = {
+        p.relative_to(folder).as_posix(): os.fsencode(p.readlink()) if p.is_symlink() else p.read_bytes() for p in files
+    }
+    found.pop(".urdfsync/lock", None)
+    return found
+
+
+@pytest.fixture
+def edited(project: Path, capsys: Capture) -> Path:
+    """A built network of which one model is edited."""
+    assert cli.main(["build"]) == Exit.IN_STEP
+    (project / MODEL).write_text((project / MODEL).read_text() + MINE)
+    assert cli.main(["build"]) == Exit.IN_STEP
+    capsys.readouterr()
+    return project
+
+
+@pytest.fixture
+def stale(edited: Path) -> Path:
+    """The same after a change of its source that concerns the edited model and its record."""
+    source = edited / "ladder.json"
+    source.write_text(source.read_text().replace('"ohm": 100', '"ohm": 120').replace('"R2"', '"R3"'))
+    return edited
+
+
+def assert_error(capsys: Capture, command: list[str], words: str) -> None:
+    """The command exits with 2 after one line about the error, and one that says what has become of the robot."""
+    capsys.readouterr()
+    assert cli.main(command) == Exit.ERROR
+    lines = capsys.readouterr().err.splitlines()
+    assert len([line for line in lines if ": error: " in line]) == 1, lines
+    assert words in lines[0].replace("\\", "/"), lines
+    assert lines[1:] in ([], ["ladder: 1 error, nothing was changed"])
+
+
+# Gone
+
+
+def test_a_package_that_was_removed_is_written_again_and_that_is_said(edited: Path, capsys: Capture) -> None:
+    before = contents(edited)
+    shutil.rmtree(edited / LADDER)
+    assert cli.main(["build"]) == Exit.IN_STEP
+    assert capsys.readouterr().out == "ladder: 14 restored because you deleted them\n"
+    generated = before[MODEL].removesuffix(MINE.encode())
+    assert {**before, MANIFEST: b""} == {**contents(edited), MODEL: before[MODEL], MANIFEST: b""}
+    assert (edited / MODEL).read_bytes() == generated
+    assert cli.main(["build", "--check"]) == Exit.IN_STEP
+
+
+def test_what_is_left_of_a_package_keeps_its_edits(edited: Path, capsys: Capture) -> None:
+    before = contents(edited)
+    for path in (edited / LADDER).rglob("*"):
+        if path.is_file() and path != edited / MODEL:
+            path.unlink()
+    assert cli.main(["build"]) == Exit.IN_STEP
+    assert "13 restored because you deleted them" in capsys.readouterr().out
+    assert contents(edited) == before
+
+
+def test_a_removed_package_with_a_new_source_is_the_new_package(stale: Path, capsys: Capture) -> None:
+    shutil.rmtree(stale / "modelica")
+    assert cli.main(["build"]) == Exit.IN_STEP
+    assert "restored because you deleted them" in capsys.readouterr().out
+    built = contents(stale / LADDER)
+    shutil.rmtree(stale / "modelica")
+    shutil.rmtree(stale / ".urdfsync")
+    assert cli.main(["build"]) == Exit.IN_STEP
+    assert contents(stale / LADDER) == built
+
+
+def test_without_state_an_edited_file_is_a_conflict_and_can_be_kept(edited: Path, capsys: Capture) -> None:
+    before = contents(edited / LADDER)
+    shutil.rmtree(edited / ".urdfsync")
+    assert cli.main(["build"]) == Exit.CONFLICT
+    assert contents(edited / LADDER) == before
+    assert cli.main(["resolve", MODEL, "--keep"]) == Exit.IN_STEP
+    assert cli.main(["build"]) == Exit.IN_STEP
+    assert contents(edited / LADDER) == before
+
+
+# Something else
+
+
+def a_folder(path: Path, outside: Path) -> None:
+    path.unlink()
+    path.mkdir()
+    (path / "mine.txt").write_text("mine")
+
+
+def a_link(path: Path, outside: Path) -> None:
+    path.rename(outside / path.name)
+    path.symlink_to(outside / path.name)
+
+
+def a_link_to_nothing(path: Path, outside: Path) -> None:
+    shutil.rmtree(path) if path.is_dir() else path.unlink()
+    path.symlink_to(outside / "nothing")
+
+
+@pytest.mark.parametrize("command", ["build", "resolve"])
+@pytest.mark.parametrize("replace", [a_folder, a_link, a_link_to_nothing])
+@pytest.mark.parametrize("place", [MODEL, RECORD, f"{LADDER}/package.order", MANIFEST, ".urdfsync/robots/ladder.json"])
+def test_a_file_that_is_something_else(
+    stale: Path, tmp_path: Path, capsys: Capture, place: str, replace: Callable[[Path, Path], None], command: str
+) -> None:
+    outside = tmp_path / "outside"
+    outside.mkdir()
+    replace(stale / place, outside)
+    before = contents(tmp_path)
+    arguments = [command, "--all", "--take"] if command == "resolve" else [command]
+    assert_error(
+        capsys, arguments, f"{place}: error: {'a folder' if replace is a_folder else 'a symbolic link'} is where "
+    )
+    assert contents(tmp_path) == before
+
+
+@pytest.mark.parametrize("replace", [a_link, a_link_to_nothing])
+@pytest.mark.parametrize("place", [LADDER, f"{LADDER}/Elements", ".urdfsync", ".urdfsync/robots"])
+def test_a_folder_that_is_a_link(
+    stale: Path, tmp_path: Path, capsys: Capture, place: str, replace: Callable[[Path, Path], None]
+) -> None:
+    outside = tmp_path / "outside"
+    outside.mkdir()
+    replace(stale / place, outside)
+    before = contents(tmp_path)
+    assert_error(capsys, ["build"], f"{place}: error: a symbolic link is where ")
+    assert contents(tmp_path) == before
+
+
+def test_when_the_obstacle_is_gone_the_build_goes_on(stale: Path, capsys: Capture) -> None:
+    a_folder(stale / RECORD, stale)
+    assert_error(capsys, ["build"], RECORD)
+    shutil.rmtree(stale / RECORD)
+    assert cli.main(["build"]) == Exit.IN_STEP
+    assert (stale / MODEL).read_text().endswith(MINE)
+    assert "120" in (stale / RECORD).read_text()
+
+
+# Not allowed
+
+
+_ABOVE_MODES = 0b110
+"""CAP_DAC_OVERRIDE and CAP_DAC_READ_SEARCH: what lets root pass over the modes of files."""
+
+
+@contextlib.contextmanager
+def modes_count() -> Iterator[None]:
+    """Modes of files are obeyed, even if the tests run as root."""
+    if not CAN_CHANGE_MODES or os.geteuid() != 0:
+        yield
+        return
+    libc = ctypes.CDLL(None, use_errno=True)
+    if not hasattr(libc, "capset"):
+        pytest.skip("root may do everything on this system")
+    header, data = (ctypes.c_uint32 * 2)(0x20080522, 0), (ctypes.c_uint32 * 6)()
+    assert libc.capget(header, data) == 0
+    effective = data[0]
+    data[0] = effective & ~_ABOVE_MODES
+    assert libc.capset(header, data) == 0
+    try:
+        yield
+    finally:
+        data[0] = effective
+        assert libc.capset(header, data) == 0
+
+
+@contextlib.contextmanager
+def mode(path: Path, bits: int) -> Iterator[None]:
+    """A file or folder has this mode for a while."""
+    old = path.stat().st_mode
+    path.chmod(bits)
+    try:
+        with modes_count():
+            yield
+    finally:
+        path.chmod(old)
+
+
+denying = pytest.mark.skipif(not CAN_CHANGE_MODES, reason="modes mean nothing on this system")
+DENIED = [
+    (LADDER, 0o500, f"{LADDER}"),
+    (f"{LADDER}/Elements", 0o500, f"{LADDER}/Elements/"),
+    (f"{LADDER}/Elements", 0o000, f"{LADDER}/Elements/"),
+    (RECORD, 0o000, f"{RECORD}: error: "),
+    (MODEL, 0o000, f"{MODEL}: error: "),
+    (".urdfsync", 0o500, ".urdfsync"),
+    (".urdfsync", 0o000, ".urdfsync"),
+    (".urdfsync/robots", 0o500, ".urdfsync/robots/"),
+    (".urdfsync/robots", 0o000, ".urdfsync/robots"),
+    (MANIFEST, 0o000, f"{MANIFEST}: error: "),
+    (".urdfsync/lock", 0o000, ".urdfsync/lock"),
+    ("ladder.json", 0o000, "urdfsync.toml:2: error: robot `ladder`: the source ladder.json can't be read: "),
+    ("urdfsync.toml", 0o000, "urdfsync.toml: error: the configuration can't be read: "),
+]
+
+
+@denying
+@pytest.mark.parametrize(("place", "bits", "words"), DENIED, ids=[f"{place}-{bits:o}" for place, bits, _ in DENIED])
+def test_what_is_not_allowed_is_one_error_and_changes_nothing(
+    stale: Path, capsys: Capture, place: str, bits: int, words: str
+) -> None:
+    before = contents(stale)
+    with mode(stale / place, bits):
+        assert_error(capsys, ["build"], words)
+    assert contents(stale) == before
+    assert cli.main(["build"]) == Exit.IN_STEP
+    assert (stale / MODEL).read_text().endswith(MINE)
+    assert "120" in (stale / RECORD).read_text()
+    assert (stale / LADDER / "Elements/R3.mo").exists()
+
+
+@denying
+@pytest.mark.parametrize("command", [["build"], ["build", "--check"], ["build", "--dry-run"], ["status"]])
+def test_a_project_in_step_needs_no_rights(edited: Path, command: list[str]) -> None:
+    before = contents(edited)
+    with contextlib.ExitStack() as stack:
+        for folder in sorted(path for path in edited.rglob("*") if path.is_dir()):
+            stack.enter_context(mode(folder, 0o500))
+        assert cli.main(command) == Exit.IN_STEP
+    assert contents(edited) == before
+
+
+@denying
+def test_a_conflict_whose_texts_cant_be_put_aside(edited: Path, capsys: Capture) -> None:
+    (edited / RECORD).write_text((edited / RECORD).read_text() + MINE)
+    source = edited / "ladder.json"
+    source.write_text(source.read_text().replace('"ohm": 100', '"ohm": 120'))
+    before = contents(edited)
+    with mode(edited / ".urdfsync", 0o500):
+        assert_error(capsys, ["build"], ".urdfsync")
+    assert contents(edited) == before
+    assert cli.main(["build"]) == Exit.CONFLICT
+    assert (edited / RECORD).read_bytes() == before[RECORD]
+    with mode(edited / LADDER / "Elements", 0o500):
+        assert_error(capsys, ["resolve", RECORD, "--take"], f"{LADDER}/Elements/")
+    assert (edited / RECORD).read_bytes() == before[RECORD]
+    assert cli.main(["resolve", RECORD, "--take"]) == Exit.IN_STEP
+    assert "120" in (edited / RECORD).read_text()

@@ -1,0 +1,181 @@
+"""Sources that were cut off, as exporters leave them while they write: one error, and nothing changes.
+
+`URDFSYNC_TRUNCATIONS=1` tries every byte of a real robot, and 500 cuts of a large one.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from random import Random
+
+import pytest
+from support import replay
+from support.replay import Project, in_haste
+
+from urdfsync import cli
+from urdfsync.diagnostics import Severity
+from urdfsync.outcome import Exit, exit_code
+
+FULL = """\
+<?xml version="1.0" encoding="utf-8"?>
+<!-- every kind of element -->
+<robot name="röbot">
+  <material name="red"><color rgba="1 0 0 1"/></material>
+  <link name="base">
+    <inertial><origin xyz="0 0 .1" rpy="0 0 1.57"/><mass value="2"/>
+      <inertia ixx=".1" ixy="0" ixz="0" iyy=".1" iyz="0" izz=".1"/></inertial>
+    <visual name="v"><geometry><box size="1 2 3"/></geometry><material name="red"/></visual>
+    <collision><geometry><sphere radius="1"/></geometry></collision>
+  </link>
+  <link name="a &amp; b"/>
+  <link name="tip"/>
+  <joint name="one" type="revolute">
+    <parent link="base"/><child link="a &amp; b"/><origin xyz="0 0 1"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="5" velocity="2"/><dynamics damping=".1" friction=".2"/>
+    <calibration rising="0"/><safety_controller k_velocity="1"/>
+  </joint>
+  <joint name="two" type="prismatic">
+    <parent link="a &amp; b"/><child link="tip"/><limit effort="1" velocity="1"/><mimic joint="one" multiplier="2"/>
+  </joint>
+  <gazebo><plugin name="p" filename="lib.so"><![CDATA[x < y]]></plugin></gazebo>
+</robot>
+"""
+MARKERS = """\
+<robot name="r">
+<link name="a"/>
+<<<<<<< HEAD
+<link name="b"/>
+=======
+<link name="c"/>
+>>>>>>> x
+</robot>
+"""
+ALL = "URDFSYNC_TRUNCATIONS"
+"""Environment variable that asks for all cuts, if it is set to anything."""
+
+SMALL = "robots/ros-industrial/robotiq/robotiq_3f_gripper_visualization/cfg/robotiq-3f-gripper_mesh.urdf"
+LARGE = "histories/kscalelabs+sim__sim_resources_stompymini_robot_fixed.urdf/001.urdf"
+
+Capture = pytest.CaptureFixture[str]
+
+
+def built(root: Path, content: bytes) -> Project:
+    """A project with a package of this robot, one file of it edited by hand."""
+    project = Project(root)
+    project.save(content)
+    with in_haste():
+        assert not project.build().failed
+        model = project.package / "Bot.mo"
+        model.write_text(model.read_text() + "// mine\n")
+        assert not project.build().conflicts
+    return project
+
+
+def assert_refused(project: Project, cuts: Iterable[bytes]) -> None:
+    """A build of each of these contents is one error with file and line, and changes nothing."""
+    before = {**project.stamps(), "bot.urdf": (0, 0)}
+    for content in cuts:
+        project.save(content)
+        result = project.build()
+        errors = [found for found in result.diagnostics if found.severity is Severity.ERROR]
+        assert len(errors) == 1, (len(content), [str(error) for error in errors])
+        assert errors[0].line > 0, len(content)
+        assert errors[0].file.endswith("bot.urdf"), len(content)
+        assert exit_code([result]) is Exit.ERROR, len(content)
+        assert {**project.stamps(), "bot.urdf": (0, 0)} == before, len(content)
+
+
+def some(cuts: Sequence[int], count: int) -> Sequence[int]:
+    """So many of the cuts, or all if the environment asks for that."""
+    return cuts if os.environ.get(ALL) else Random(3).sample(cuts, count)
+
+
+def end_of(content: bytes) -> int:
+    """How much of a URDF has to be there at least."""
+    return content.rindex(b"</robot>") + len(b"</robot>")
+
+
+def test_every_truncation_is_one_error_and_changes_nothing(tmp_path: Path) -> None:
+    content = FULL.encode()
+    project = built(tmp_path / "project", content)
+    assert_refused(project, (content[:end] for end in range(end_of(content))))
+    project.save(content)
+    assert project.build().in_step
+
+
+def test_truncations_of_another_encoding(tmp_path: Path) -> None:
+    content = FULL.rstrip().replace("utf-8", "utf-16").encode("utf-16")
+    project = built(tmp_path / "project", content)
+    assert_refused(project, (content[:end] for end in some(range(len(content)), 100)))
+
+
+@pytest.mark.slow
+def test_truncations_of_a_real_robot(corpus: Path, tmp_path: Path) -> None:
+    content = (corpus / SMALL).read_bytes()
+    project = built(tmp_path / "project", content)
+    assert_refused(project, (content[:end] for end in some(range(end_of(content)), 400)))
+
+
+@pytest.mark.slow
+def test_truncations_of_a_large_robot(corpus: Path, tmp_path: Path) -> None:
+    content = (corpus / LARGE).read_bytes()
+    project = built(tmp_path / "project", content)
+    cuts = Random(3).sample(range(end_of(content)), 500)
+    assert_refused(project, (content[:end] for end in some(cuts, 30)))
+
+
+def test_what_is_cut_off_is_built_when_it_is_whole(tmp_path: Path) -> None:
+    content = FULL.encode()
+    project = built(tmp_path / "project", content)
+    heavier = content.replace(b'mass value="2"', b'mass value="31"')
+    assert_refused(project, [heavier[:-40]])
+    project.save(heavier)
+    result = project.build()
+    assert not result.failed
+    assert not result.conflicts
+    assert b"// mine" in project.files()["Bot.mo"]
+    assert b"31" in project.files()["Links/BaseParameters.mo"]
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "bot.urdf:1: error: the file is empty; export the robot again, or wait until the export is complete"),
+        (b" \r\n\t\n", "bot.urdf:1: error: the file is empty; export the robot again, or wait until the export is"),
+        (b"\xef\xbb\xbf", "bot.urdf:1: error: the file is empty; export the robot again, or wait until the export is"),
+        (
+            MARKERS.encode(),
+            "bot.urdf:3: error: the file has merge conflict markers; resolve the merge, then build again",
+        ),
+        (MARKERS.replace("<<<<<<< HEAD\n", "").encode(), "bot.urdf:6: error: the file has merge conflict markers;"),
+        (b"<<<<<<< HEAD\n" + FULL.encode(), "bot.urdf:1: error: the file has merge conflict markers;"),
+        (None, "urdfsync.toml:2: error: robot `bot`: the source bot.urdf is a folder; correct `source`"),
+    ],
+    ids=["empty", "blank", "bom", "markers", "last-marker", "first-line", "folder"],
+)
+def test_what_is_no_robot_is_one_line_and_exit_2(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture, content: bytes | None, message: str
+) -> None:
+    project = built(tmp_path / "project", FULL.encode())
+    monkeypatch.chdir(project.root)
+    if content is None:
+        (project.root / "bot.urdf").unlink()
+        (project.root / "bot.urdf").mkdir()
+    else:
+        project.save(content)
+    before = project.stamps()
+    assert cli.main(["build"]) == Exit.ERROR
+    first, *others = capsys.readouterr().err.splitlines()
+    assert first.startswith(message)
+    assert others == ["bot: 1 error, nothing was changed"]
+    assert project.stamps() == before
+
+
+def test_another_encoding_is_no_other_robot(tmp_path: Path) -> None:
+    project = built(tmp_path / "project", FULL.encode())
+    before = project.stamps(replay.PACKAGE)
+    project.save(FULL.replace("utf-8", "utf-16").encode("utf-16"))
+    assert project.build().in_step
+    assert project.stamps(replay.PACKAGE) == before
