@@ -85,8 +85,8 @@ def test_a_save_while_the_others_plan_is_seen(robots: Path, monkeypatch: pytest.
     record = robots / "modelica/Plant/Networks/N5/Elements/R2Parameters.mo"
     answer = crew.Crew._result
 
-    def edited(self: crew.Crew, robot: config.RobotConfig, future: object) -> object:
-        work = answer(self, robot, future)  # type: ignore[arg-type]
+    def edited(self: crew.Crew, robot: config.RobotConfig) -> object:
+        work = answer(self, robot)
         if robot.name == "n5":
             record.write_text(record.read_text().replace("220.5", "221"))
         return work

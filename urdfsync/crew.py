@@ -6,6 +6,7 @@ import dataclasses
 import os
 import signal
 import threading
+from collections import deque
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 _ENOUGH = 6
 """So many robots have to be read and rendered before processes are started: each imports everything again."""
+_AHEAD = 3
+"""So many plans per process may be under way or wait to be carried out."""
 _PAUSE = 0.1
 """Seconds between two looks at how far the others are."""
 
@@ -35,7 +38,9 @@ class Crew:
         self._surveyed = False
         self._ahead: dict[str, Callable[[], Work]] = {}
         self._pool: ProcessPoolExecutor | None = None
-        self._futures: list[Future[_Answer]] = []
+        self._futures: dict[str, Future[_Answer]] = {}
+        self._waiting: deque[RobotConfig] = deque()
+        self._total = self._window = 0
 
     def plan(self, robot: RobotConfig) -> Work:
         """What there is to do for a robot. Raises UrdfsyncError for whatever is wrong."""
@@ -80,20 +85,31 @@ class Crew:
         method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
         count, context = min(jobs, len(robots)), get_context(method)
         self._pool = ProcessPoolExecutor(count, context, initializer=_join, initargs=(str(Path.cwd()),))
-        request = dataclasses.replace(self._request, progress=in_silence)
+        self._total, self._window, self._waiting = len(robots), _AHEAD * count, deque(robots)
+        self._submit()
         for robot in robots:
-            future = self._pool.submit(_plan, self._config, robot, request)
-            self._futures.append(future)
-            self._ahead[robot.name] = lambda robot=robot, future=future: self._result(robot, future)  # type: ignore[misc]
+            self._ahead[robot.name] = lambda robot=robot: self._result(robot)  # type: ignore[misc]
 
-    def _result(self, robot: RobotConfig, future: Future[_Answer]) -> Work:
+    def _submit(self) -> None:
+        """Let others plan some robots more, but not so many that their texts and meshes fill the memory."""
+        request = dataclasses.replace(self._request, progress=in_silence)
+        while self._pool is not None and self._waiting and len(self._futures) < self._window:
+            robot = self._waiting.popleft()
+            self._futures[robot.name] = self._pool.submit(_plan, self._config, robot, request)
+
+    def _result(self, robot: RobotConfig) -> Work:
         from concurrent.futures import wait
         from concurrent.futures.process import BrokenProcessPool
 
-        while wait([future], _PAUSE).not_done:
-            self._request.progress("reading", sum(one.done() for one in self._futures), len(self._futures))
         try:
-            work, error, diagnostics = future.result()
+            if robot.name not in self._futures:
+                raise BrokenProcessPool  # nobody was left to take it on
+            while wait([self._futures[robot.name]], _PAUSE).not_done:
+                done = sum(future.done() for future in self._futures.values())
+                left = len(self._waiting) + len(self._futures)
+                self._request.progress("reading", self._total - left + done, self._total)
+            work, error, diagnostics = self._futures.pop(robot.name).result()
+            self._submit()
         except BrokenProcessPool:
             message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps for want of memory"
             hint = "try again with `--jobs 1`"
