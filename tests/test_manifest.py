@@ -22,6 +22,7 @@ from urdfsync.manifest import (
     text_hash,
 )
 from urdfsync.plan import FileRecord, State
+from urdfsync.standoff import Choice
 
 MANIFEST = Manifest(
     package="Plant.Arm",
@@ -154,6 +155,39 @@ def test_what_lies_outside_of_the_package_is_not_recorded() -> None:
     assert dumps(more) == dumps(MANIFEST)
 
 
+ORIGIN = "modelica/Plant/Arm/Links/Old.mo"
+WAITS = FileRecord(
+    "link new", Role.MODEL, "ab", State.CONFLICT, origin=ORIGIN, choice=Choice.TAKE, chosen_for="de", stands="fa"
+)
+WAITING = msgspec.structs.replace(MANIFEST, files={**MANIFEST.files, "modelica/Plant/Arm/Links/New.mo": WAITS})
+
+
+def test_a_file_that_waits_has_its_origin_below_the_package_in_the_text() -> None:
+    text = dumps(WAITING)
+    entry = text[text.index('[files."Links/New.mo"]') :].partition("\n\n")[0]
+    assert 'origin = "Links/Old.mo"\n' in entry
+    assert 'choice = "take"\nchosen_for = "de"' in entry
+    assert loads(text, "arm.toml") == WAITING, "and from the configuration's folder in the value"
+
+
+def test_a_package_beside_the_configuration_has_origins_too() -> None:
+    folder = "../lib/Plant/Arm"
+    record = msgspec.structs.replace(WAITS, origin=f"{folder}/Links/Old.mo")
+    beside = msgspec.structs.replace(MANIFEST, folder=folder, files={f"{folder}/Links/New.mo": record}, orders={})
+    assert 'origin = "Links/Old.mo"' in dumps(beside)
+    assert loads(dumps(beside), "arm.toml") == beside
+
+
+def test_what_does_not_wait_says_nothing_of_origin_and_choice() -> None:
+    assert not any(word in dumps(MANIFEST) for word in ("origin", "choice", "chosen_for", "stands"))
+
+
+def test_an_unknown_choice_is_refused_with_its_line() -> None:
+    text = dumps(WAITING).replace('choice = "take"', 'choice = "guess"')
+    line = text.splitlines().index('choice = "guess"') + 1
+    assert failure(text).startswith(f"arm.toml:{line}: error: this is no state of urdfsync: invalid enum value 'guess'")
+
+
 PLACES = [
     "../../victim.txt",
     "../package.mo",
@@ -186,6 +220,13 @@ def test_files_outside_of_the_package_are_refused_with_their_line(place: str) ->
     assert message.startswith(f"arm.toml:{line}: error: the recorded path {place!r} does not belong to the package")
     assert "`Plant.Arm`; restore the state from version control, or delete it" in message
     assert message.isprintable()
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_an_origin_outside_of_the_package_is_refused_with_its_line(place: str) -> None:
+    text = dumps(WAITING).replace('origin = "Links/Old.mo"', f'origin = "{quoted(place)}"')
+    line = text.splitlines().index(f'origin = "{quoted(place)}"') + 1
+    assert failure(text).startswith(f"arm.toml:{line}: error: the recorded path {place!r} does not belong")
 
 
 @pytest.mark.parametrize("place", [*PLACES, "../../package.order", "Links/Arm.mo"])
@@ -233,6 +274,24 @@ def test_model_round_trip() -> None:
     assert model.snapshot == SNAPSHOT
     facts = model.imports["a.stl"]
     assert (facts.source_hash, facts.converter, facts.facts) == ("1f", 4, {"size": [1, 2.5]})
+
+
+def test_bases_of_files_that_wait_are_recorded_with_the_model() -> None:
+    texts = {"Links/B.mo": "model B\nend B;\n", "Links/A.mo": 'model A "\N{DEGREE SIGN}"\r\nend A;\n'}
+    text = dump_model(SNAPSHOT, IMPORTS, texts)
+    assert load_model(text, "arm.json").bases == texts
+    assert text == dump_model(SNAPSHOT, IMPORTS, dict(reversed(texts.items())))
+    assert load_model(dump_model(SNAPSHOT, IMPORTS), "arm.json").bases == {}
+
+
+def test_a_model_without_bases_is_one_of_an_older_build() -> None:
+    assert load_model('{"snapshot": {}, "imports": {}}', "arm.json").bases == {}
+
+
+@pytest.mark.parametrize("bases", ["[]", '{"a": 1}', '{"a": "\\ud800"}'], ids=["list", "number", "no character"])
+def test_broken_bases_are_refused(bases: str) -> None:
+    with pytest.raises(StateError, match="this is no state of urdfsync"):
+        load_model(f'{{"snapshot": {{}}, "imports": {{}}, "bases": {bases}}}', "arm.json")
 
 
 def test_a_snapshot_is_used_as_it_will_come_back() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import dataclasses
 from collections.abc import Collection, Mapping
 
 import pytest
@@ -542,3 +541,10 @@ def test_a_place_remembers_what_was_written_there_while_another_file_is_to_come(
     waiting = after(dataclasses.replace(action, held=True) for action in back)
     again = plan(waiting, {"One.mo": Wanted(Role.MODEL, "joint one", "one")}, found, {})
     assert {action.path: action.kind for action in again} == {"One.mo": Kind.KEEP, "Pan.mo": Kind.DELETE}
+
+
+def test_what_another_file_waits_for_is_not_renewed() -> None:
+    conflict = Action("edited", Kind.CONFLICT, Role.MODEL)
+    waits = Action("b", Kind.CREATE, Role.RECORD, "", "old", "new", "numbers")
+    renewed = Action("numbers", Kind.UPDATE, Role.RECORD, "", "old", "new")
+    assert [action.held for action in hold([conflict, waits, renewed], {"numbers"})] == [False, True, True]

@@ -181,8 +181,8 @@ def plain(snapshot: Snapshot) -> Snapshot:
 
 
 def text_hash(text: str) -> str:
-    """SHA-256 (hex) of a text with its line endings normalised."""
-    return hashlib.sha256(text.replace("\r\n", "\n").encode()).hexdigest()
+    """SHA-256 (hex) of a text with its line endings normalised, as in `files.text_digest`."""
+    return hashlib.sha256(text.replace("\r\n", "\n").replace("\r", "\n").encode()).hexdigest()
 
 
 def _check_format(value: object, file: str, text: str = "") -> None:

@@ -2,11 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from urdfsync.plan import FileRecord, Found
+
+
+def places(recorded: Mapping[str, FileRecord], targets: Mapping[str, str], wanted: Collection[str]) -> dict[str, str]:
+    """New and old path of files that belong elsewhere now.
+
+    `targets` says of recorded paths where the element of the file belongs now. A file that has been waiting to go
+    somewhere still is at its origin; what is recorded of that place itself is another element's, or its own past.
+    """
+    waiting = {record.origin for record in recorded.values() if record.origin}
+    found = {}
+    for path, record in recorded.items():
+        if path in targets and (record.origin or path not in waiting):
+            origin, target = record.origin or path, targets[path]
+            if target in wanted and target != origin:
+                found[target] = origin
+    return found
 
 
 class Moves:

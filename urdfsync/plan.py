@@ -251,10 +251,14 @@ def hold(actions: Iterable[Action], numbers_only: Collection[str]) -> tuple[Acti
     actions = tuple(actions)
     if not any(action.kind in CONFLICTS for action in actions):
         return actions
-    return tuple(
-        dataclasses.replace(action, held=True) if action.writes and not _harmless(action, numbers_only) else action
-        for action in actions
-    )
+    origins = {action.origin for action in actions}
+
+    def waits(action: Action) -> bool:
+        """What comes from another place waits, and what is there stays as it is until then."""
+        bound = action.origin is not None or action.path in origins
+        return action.writes and (bound or not _harmless(action, numbers_only))
+
+    return tuple(dataclasses.replace(action, held=True) if waits(action) else action for action in actions)
 
 
 def _harmless(action: Action, numbers_only: Collection[str]) -> bool:

@@ -13,6 +13,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.difference import ElementKey, Version
 from urdfsync.domain import Reading, Role, Target
 from urdfsync.generate import Generated, generate
+from urdfsync.moves import places
 from urdfsync.outputs import Outputs
 from urdfsync.plan import State, Wanted
 from urdfsync.recording import Recording
@@ -183,25 +184,16 @@ class Renewal:
         situation, recorded = self._situation, self._situation.recorded
         if recorded is None:
             return {}
-        records = {
+        texts = {
             self._old_path(key): record
             for key, record in recorded.files.items()
             if record.role is not Role.IMPORT and record.state is not State.ORPHAN
         }
-        before = self._before.artifacts if self._before else {}
-        old = {path: (a.owner, a.template) for path, a in before.items() if path in records}
-        new = {path: (a.owner, a.template) for path, a in self._generated.artifacts.items()}
-        renamed = changes.moves(old, new, renames)
-        waiting = {record.origin for record in records.values() if record.origin}
-        result = {}
-        for path, record in records.items():
-            if record.origin is None and situation.old_key(path) in waiting:
-                continue  # what is there is another element's file, or the same one that waits to go elsewhere
-            place = renamed.get(path, path)
-            origin, target = record.origin or situation.old_key(path), situation.key(place)
-            if place in new and origin != target:
-                result[target] = origin
-        return result
+        before, now = self._before.artifacts if self._before else {}, self._generated.artifacts
+        old = {path: (a.owner, a.template) for path, a in before.items() if path in texts}
+        renamed = changes.moves(old, {path: (a.owner, a.template) for path, a in now.items()}, renames)
+        targets = {situation.old_key(path): situation.key(renamed.get(path, path)) for path in texts}
+        return places(recorded.files, targets, {situation.key(path) for path in now})
 
     def _moved(self, decision: Decision) -> list[Diagnostic]:
         """What there is to say if robot or package had another name in the last build."""

@@ -1,0 +1,57 @@
+"""The texts that were written last: they come back as they were, or not at all."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from urdfsync.files import text_digest
+from urdfsync.state.bases import Bases
+
+texts = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\r"), max_size=30)
+
+
+@given(st.lists(texts))
+def test_what_is_kept_comes_back(kept: list[str]) -> None:
+    by_hash = {text_digest(text.encode()): text for text in kept}
+    bases = Bases.loads(Bases(by_hash).dumps())
+    assert {digest: bases.get(digest) for digest in by_hash} == by_hash
+
+
+@given(st.lists(texts, unique=True))
+def test_the_same_texts_give_the_same_file(kept: list[str]) -> None:
+    pairs = [(text_digest(text.encode()), text) for text in kept]
+    content = Bases(dict(pairs)).dumps()
+    assert content == Bases(dict(reversed(pairs))).dumps()
+    assert content.endswith(b"\n")
+
+
+def test_what_is_not_there_is_none() -> None:
+    assert Bases({}).get(text_digest(b"a")) is None
+    assert Bases.loads(None).get(text_digest(b"a")) is None
+
+
+def test_a_text_counts_only_with_its_own_hash() -> None:
+    one, two = text_digest(b"one"), text_digest(b"two")
+    bases = Bases({one: "two", two: "two"})
+    assert bases.get(one) is None
+    assert bases.get(two) == "two"
+
+
+def test_line_endings_do_not_make_another_text() -> None:
+    assert Bases({text_digest(b"a\nb\n"): "a\r\nb\r\n"}).get(text_digest(b"a\nb\n")) == "a\r\nb\r\n"
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"", b"{", b"[]", b'{"a": 1}', b'{"a": null}', b"\xff\xfe", b'{"a": "\xe9"}', b'{"a": "\\ud800"}', b"[" * 100_000],
+    ids=["empty", "cut short", "list", "number", "null", "no text", "no UTF-8", "no character", "deep"],
+)
+def test_a_damaged_file_keeps_nothing(content: bytes) -> None:
+    assert Bases.loads(content).get("a") is None
+
+
+@given(st.binary(max_size=40))
+def test_no_content_is_an_error(content: bytes) -> None:
+    assert Bases.loads(content).get(text_digest(b"a")) is None

@@ -1,0 +1,219 @@
+"""The state folder: what is loaded, what is to be written, and what that rests on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from urdfsync import manifest
+from urdfsync.diagnostics import OutputError, StateError
+from urdfsync.files import digest, text_digest
+from urdfsync.manifest import Generator, Manifest, Source
+from urdfsync.state.bases import Bases
+from urdfsync.state.store import Store
+from urdfsync.state.transactions import Change
+
+MODEL = manifest.dump_model({"name": "arm"}, {})
+MANIFEST = Manifest(
+    package="Arm",
+    class_="Arm",
+    folder="Arm",
+    source=Source("arm.urdf", "5a", manifest.text_hash(MODEL)),
+    generator=Generator("urdf", 3, "9c"),
+)
+TEXT = manifest.dumps(MANIFEST)
+
+
+def write(*changes: Change) -> None:
+    """Carry changes out, which have to rest on what is there."""
+    for change in changes:
+        there = change.path.read_bytes() if change.path.exists() else None
+        assert change.old == (None if there is None else digest(there))
+        if change.content is None:
+            change.path.unlink()
+        else:
+            change.path.parent.mkdir(parents=True, exist_ok=True)
+            change.path.write_bytes(change.content)
+
+
+def files(root: Path) -> set[str]:
+    return {path.relative_to(root / ".urdfsync").as_posix() for path in root.rglob("*") if path.is_file()}
+
+
+@pytest.fixture
+def built(tmp_path: Path) -> Path:
+    """A folder with the state of robot `arm`."""
+    store = Store(tmp_path)
+    store.load("arm")
+    write(*store.changes("arm", TEXT, MODEL, None), *store.keep_bases("arm", Bases({"1": "a"}), None))
+    return tmp_path
+
+
+def test_what_was_never_built_has_no_state(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    assert store.load("arm") is None
+    assert store.names() == []
+    assert store.texts("arm") == (None, None)
+
+
+def test_what_is_written_is_loaded(built: Path) -> None:
+    state = Store(built).load("arm")
+    assert state is not None
+    assert state.manifest == MANIFEST
+    assert state.model is not None
+    assert state.model.snapshot == {"name": "arm"}
+    assert state.intact
+    assert Store(built).names() == ["arm"]
+    assert Store(built).texts("arm") == (TEXT, MODEL)
+
+
+def test_the_manifest_is_written_last(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    store.load("arm")
+    assert [change.path.name for change in store.changes("arm", TEXT, MODEL, None)] == ["arm.json", "arm.toml"]
+
+
+def test_what_is_there_is_not_written_again(built: Path) -> None:
+    store = Store(built)
+    store.load("arm")
+    assert list(store.changes("arm", TEXT, MODEL, None)) == []
+    assert list(store.keep_bases("arm", Bases({"1": "a"}), None)) == []
+    assert [change.path.name for change in store.changes("arm", TEXT + "# more\n", None, None)] == ["arm.toml"]
+
+
+def test_a_checkout_with_other_line_endings_is_not_written_again(built: Path) -> None:
+    for path in Store(built).paths("arm"):
+        path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    store = Store(built)
+    state = store.load("arm")
+    assert state is not None
+    assert state.intact
+    assert list(store.changes("arm", TEXT, MODEL, None)) == []
+
+
+def test_a_state_without_its_model_is_not_intact(built: Path) -> None:
+    Store(built).paths("arm")[1].unlink()
+    state = Store(built).load("arm")
+    assert state is not None
+    assert (state.manifest, state.model, state.intact) == (MANIFEST, None, False)
+
+
+def test_a_model_of_another_build_is_not_intact(built: Path) -> None:
+    Store(built).paths("arm")[1].write_text(manifest.dump_model({"name": "leg"}, {}))
+    state = Store(built).load("arm")
+    assert state is not None
+    assert not state.intact
+
+
+@pytest.mark.parametrize("number", [0, 1], ids=["manifest", "model"])
+def test_a_state_that_is_no_text_is_refused_with_its_name(built: Path, number: int) -> None:
+    path = Store(built).paths("arm")[number]
+    path.write_bytes(b"\xff")
+    with pytest.raises(StateError, match=rf"{path.name}.*not UTF-8"):
+        Store(built).load("arm")
+    assert Store(built).texts("arm")[number] == "\N{REPLACEMENT CHARACTER}"
+
+
+def test_a_link_is_not_followed(built: Path) -> None:
+    path, _ = Store(built).paths("arm")
+    path.rename(built / "elsewhere.toml")
+    path.symlink_to(built / "elsewhere.toml")
+    with pytest.raises(OutputError, match="symbolic link"):
+        Store(built).load("arm")
+
+
+def test_the_witness_is_what_was_loaded(built: Path) -> None:
+    store = Store(built)
+    store.load("arm")
+    witness = store.witness()
+    assert Store(built).stands(witness)
+    path, beside = store.paths("arm")
+    assert witness == {path: digest(TEXT.encode()), beside: digest(MODEL.encode())}
+    path.write_text(TEXT + "\n")
+    assert not Store(built).stands(witness)
+    path.unlink()
+    assert not Store(built).stands(witness)
+
+
+def test_a_state_that_comes_later_is_noticed(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    store.load("arm")
+    write(*Store(tmp_path).changes("arm", TEXT, None, None))
+    assert not store.stands(store.witness())
+
+
+def test_changes_rest_on_what_was_loaded_not_on_what_came_later(built: Path) -> None:
+    store = Store(built)
+    store.load("arm")
+    store.paths("arm")[0].write_text("saved in between")
+    (change,) = store.changes("arm", TEXT + "\n", None, None)
+    assert change.old == digest(TEXT.encode())
+
+
+def test_a_robot_with_another_name_takes_everything_with_it(built: Path) -> None:
+    store = Store(built)
+    assert store.load("leg") is None
+    store.load("arm")
+    write(*store.keep_bases("leg", Bases({"1": "a"}), "arm"), *store.changes("leg", TEXT, MODEL, "arm"))
+    assert files(built) == {"robots/leg.toml", "robots/leg.json", "base/leg.json"}
+
+
+def test_bases(built: Path) -> None:
+    text = "record A\nend A;\n"
+    hash_ = text_digest(text.encode())
+    store = Store(built)
+    assert store.has_bases("arm")
+    assert not store.has_bases("leg")
+    write(*store.keep_bases("arm", Bases({hash_: text}), None))
+    assert Store(built).bases("arm").get(hash_) == text
+    assert Store(built).bases("leg").get(hash_) is None
+
+
+def test_texts_of_conflicts_come_stay_and_go(tmp_path: Path) -> None:
+    write(*Store(tmp_path).conflicts("arm", {"Links/A.base.mo": b"1", "B.base.mo": b"2"}, None))
+    assert files(tmp_path) == {"conflicts/arm/Links/A.base.mo", "conflicts/arm/B.base.mo"}
+    changes = Store(tmp_path).conflicts("arm", {"B.base.mo": b"2", "B.merge.txt": b"3"}, None)
+    assert {(change.path.name, change.content) for change in changes} == {("A.base.mo", None), ("B.merge.txt", b"3")}
+    write(*changes)
+    assert Store(tmp_path).conflicts("arm", {"B.base.mo": b"2", "B.merge.txt": b"3"}, None) == []
+    write(*Store(tmp_path).conflicts("arm", {}, None))
+    assert files(tmp_path) == set()
+
+
+def test_conflicts_of_other_robots_are_not_touched(tmp_path: Path) -> None:
+    write(*Store(tmp_path).conflicts("arm", {"A.base.mo": b"1"}, None))
+    assert Store(tmp_path).conflicts("leg", {}, None) == []
+
+
+def test_conflicts_of_a_robot_with_another_name_go(tmp_path: Path) -> None:
+    write(*Store(tmp_path).conflicts("arm", {"A.base.mo": b"1"}, None))
+    write(*Store(tmp_path).conflicts("leg", {"A.base.mo": b"1"}, "arm"))
+    assert files(tmp_path) == {"conflicts/leg/A.base.mo"}
+
+
+def test_version_control_is_told_once_and_by_nobody_else(tmp_path: Path) -> None:
+    (change,) = Store(tmp_path).ignoring()
+    assert change.path == tmp_path / ".urdfsync" / ".gitignore"
+    assert change.content is not None
+    assert b"!/robots/" in change.content
+    write(change)
+    change.path.write_text("# the user's\n")
+    assert Store(tmp_path).ignoring() == []
+
+
+def test_a_drawing_is_written_if_it_is_another(tmp_path: Path) -> None:
+    path, changes = Store(tmp_path).drawing("arm", "<svg/>")
+    assert path == tmp_path / ".urdfsync" / "svg" / "arm.svg"
+    write(*changes)
+    assert Store(tmp_path).drawing("arm", "<svg/>") == (path, [])
+    assert len(Store(tmp_path).drawing("arm", "<svg></svg>")[1]) == 1
+
+
+def test_names_are_those_of_manifests(built: Path) -> None:
+    for name in ("leg.json", "notes.txt"):
+        (built / ".urdfsync" / "robots" / name).write_text("")
+    renamed = msgspec.structs.replace(MANIFEST, package="Hand")
+    write(*Store(built).changes("a.b", manifest.dumps(renamed), None, None))
+    assert Store(built).names() == ["a.b", "arm"]
