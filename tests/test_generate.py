@@ -67,10 +67,9 @@ def template_error(folder: Path) -> str:
     assert domain.templates is not None
     folders = (folder, domain.templates)
     templates = Templates(folders, templates_digest(folders))
+    package = generate(domain, snapshot, {}, Target("N", "N"), options, templates)
     with pytest.raises(ConfigError) as caught:
-        package = generate(domain, snapshot, {}, Target("N", "N"), options, templates)
-        for path in package.artifacts:
-            package.content(path)
+        dict(zip(package.artifacts, map(package.content, package.artifacts), strict=True))
     (found,) = caught.value.diagnostics
     return str(found).replace("\\", "/")
 

@@ -102,18 +102,19 @@ class Crew:
         from concurrent.futures.process import BrokenProcessPool
 
         try:
-            if robot.name not in self._futures:
-                raise BrokenProcessPool  # nobody was left to take it on
-            while wait([self._futures[robot.name]], _PAUSE).not_done:
+            while robot.name in self._futures and wait([self._futures[robot.name]], _PAUSE).not_done:
                 done = sum(future.done() for future in self._futures.values())
                 left = len(self._waiting) + len(self._futures)
                 self._request.progress("reading", self._total - left + done, self._total)
-            work, error, diagnostics = self._futures.pop(robot.name).result()
+            answer = self._futures.pop(robot.name).result() if robot.name in self._futures else None
             self._submit()
         except BrokenProcessPool:
+            answer = None
+        if answer is None:
             message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps for want of memory"
             hint = "try again with `--jobs 1`"
-            raise OutputError(Diagnostic(Severity.ERROR, "lost-process", message, hint=hint)) from None
+            raise OutputError(Diagnostic(Severity.ERROR, "lost-process", message, hint=hint))
+        work, error, diagnostics = answer
         if work is None:
             raise error(*diagnostics)
         return work

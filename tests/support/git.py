@@ -27,7 +27,7 @@ class Repository:
             monkeypatch.setenv(name, value)
         self.folder = folder
         folder.mkdir(parents=True, exist_ok=True)
-        self.git("init", "-q", "-b", "main")
+        self.git("init", "-q", "--template=", "-b", "main")
 
     def git(self, *arguments: str) -> None:
         """Run git in the repository."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -94,3 +95,22 @@ def test_order_and_repetition_of_points_do_not_matter(cloud: Array, random: obje
     shuffled = list(cloud) * 2
     random.shuffle(shuffled)  # type: ignore[attr-defined]
     assert support_points(np.array(shuffled)) == support_points(cloud)
+
+
+@pytest.mark.parametrize("shape", ["one point", "two corners", "a dense plate"])
+def test_odd_meshes_need_no_more_memory_than_others(shape: str) -> None:
+    count = 120_000
+    points = np.zeros((count, 3))
+    if shape == "two corners":
+        points[: count // 2] = (1.0, 1.0, 1.0)
+    if shape == "a dense plate":
+        points[:, :2] = np.random.default_rng(1).uniform(-1, 1, (count, 2))
+    tracemalloc.start()
+    try:
+        found = support_points(points)
+        assert tracemalloc.get_traced_memory()[1] < 400e6
+    finally:
+        tracemalloc.stop()
+    assert found
+    expected = {"one point": [[0.0] * 3], "two corners": [[0.0] * 3, [1.0] * 3]}
+    assert found == expected.get(shape, found)

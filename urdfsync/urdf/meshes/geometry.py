@@ -15,6 +15,8 @@ _STEPS = 36  # directions on each great circle
 _TIE = 1e-9  # of the size: what is meant to be equal differs by rounding
 _MARGIN = 1e-5  # of the size: far above the error of single precision
 _CHUNK = 1 << 14  # points whose products with all directions stay in the cache
+_MANY = 4  # directions in which a point is extreme, on average, before that looks odd
+_PRODUCTS = 1 << 22  # numbers that a step may work on at a time, to bound the memory
 _DIGITS = 6
 
 
@@ -70,13 +72,23 @@ def _nearly_extreme(points: Array, directions: Array, size: float) -> list[Array
     for start in range(0, len(points), _CHUNK):
         heights = relative[start : start + _CHUNK] @ axes
         highest = np.maximum(highest, heights.max(axis=0))
-        rows, columns = np.nonzero(heights >= highest - np.float32(_MARGIN))
+        near = heights >= highest - np.float32(_MARGIN)
+        if np.count_nonzero(near) > _MANY * len(heights):  # as where many points are one
+            near &= _is_first(points[start : start + _CHUNK])[:, np.newaxis]
+        rows, columns = np.nonzero(near)
         found.append((columns, rows + start, heights[rows, columns]))
     columns, rows, values = map(np.concatenate, zip(*found, strict=True))
     extreme = values >= highest[columns] - np.float32(_MARGIN)
     columns, rows = columns[extreme], rows[extreme]
     rows = rows[np.argsort(columns, kind="stable")]
     return [points[part] for part in np.split(rows, np.cumsum(np.bincount(columns, minlength=len(directions)))[:-1])]
+
+
+def _is_first(points: Array) -> npt.NDArray[np.bool_]:
+    """Per point, whether none before it is the same."""
+    first = np.zeros(len(points), dtype=np.bool_)
+    first[np.unique(points, axis=0, return_index=True)[1]] = True
+    return first
 
 
 def _corners(tied: Array, direction: Array, size: float) -> Array:
@@ -86,13 +98,16 @@ def _corners(tied: Array, direction: Array, size: float) -> Array:
     along = np.cross(direction, _DIRECTIONS)
     others = np.linalg.norm(along, axis=1) > _MARGIN
     if len(tied) > _CHUNK:
-        tied = np.concatenate(_nearly_extreme(tied, _DIRECTIONS[others], size))
-    heights = _products(tied, _DIRECTIONS[others])
-    extreme = heights >= heights.max(axis=0) - _TIE * size
-    positions = _products(tied, along[others])
-    last = np.where(extreme, positions, -np.inf).argmax(axis=0)
-    first = np.where(extreme, positions, np.inf).argmin(axis=0)
-    corners: Array = tied[np.union1d(first, last)]
+        tied = np.unique(tied, axis=0)
+    parts = math.ceil(np.count_nonzero(others) * len(tied) / _PRODUCTS)
+    found: list[Array] = []
+    for part in np.array_split(np.flatnonzero(others), parts):
+        heights = _products(tied, _DIRECTIONS[part])
+        extreme = heights >= heights.max(axis=0) - _TIE * size
+        positions = _products(tied, along[part])
+        found.append(np.where(extreme, positions, -np.inf).argmax(axis=0))
+        found.append(np.where(extreme, positions, np.inf).argmin(axis=0))
+    corners: Array = tied[np.unique(np.concatenate(found))]
     return corners
 
 

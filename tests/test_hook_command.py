@@ -1,0 +1,548 @@
+"""`urdfsync hook` as git calls it: what is staged is judged, whatever the working tree holds."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import os
+import subprocess
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+import pytest
+from support.git import NEEDS_GIT, Repository
+
+from urdfsync import cli, committing, hook
+from urdfsync.state.lock import Lock
+
+pytestmark = NEEDS_GIT
+
+Capture = pytest.CaptureFixture[str]
+Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
+
+R1 = "modelica/Ladder/Elements/R1Parameters.mo"
+STATE = ".urdfsync/robots/ladder.toml"
+
+
+@pytest.fixture
+def repo(project: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> Repository:
+    """A repository with a network and its package, in step and committed; the working folder is its top."""
+    for name in ("GIT_PREFIX", "PRE_COMMIT", "PWD"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("PRE_COMMIT_HOME", str(project.parent / "pre-commit"))
+    repository = Repository(project, monkeypatch)
+    assert cli.main(["build", "--quiet"]) == 0
+    repository.commit()
+    capsys.readouterr()
+    return repository
+
+
+def edit(path: str, old: str, new: str) -> None:
+    text = Path(path).read_text()
+    assert text.count(old) == 1
+    Path(path).write_text(text.replace(old, new))
+
+
+def resistor(ohm: float, before: float = 100) -> None:
+    """Change the source: the resistance of R1."""
+    edit("ladder.json", f'"ohm": {before:g}}}', f'"ohm": {ohm:g}}}')
+
+
+def said(capsys: Capture, mode: str, *arguments: str, code: int = 1) -> list[str]:
+    """What a hook prints, line by line."""
+    capsys.readouterr()
+    assert cli.main(["hook", mode, *arguments]) == code
+    out, err = capsys.readouterr()
+    return f"{err}{out}".splitlines()
+
+
+def git(*arguments: str) -> str:
+    return subprocess.run(["git", *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def run(line: str) -> None:
+    """Run a command line that a hook has printed."""
+    for command in line.strip().split(" && "):
+        program, *arguments = command.split(" ")
+        if program == "urdfsync":
+            assert cli.main(arguments) == 0
+        else:
+            git(*arguments)
+
+
+@pytest.mark.parametrize("mode", ["build", "check"])
+def test_a_commit_that_is_in_step_passes_in_silence(repo: Repository, capsys: Capture, mode: str) -> None:
+    assert said(capsys, mode, code=0) == []
+
+
+def test_a_stale_output_is_built_and_has_to_be_added(repo: Repository, capsys: Capture) -> None:
+    resistor(120)
+    repo.git("add", "ladder.json")
+    lines = said(capsys, "build")
+    assert lines == [
+        "ladder: out of step: 1 file written",
+        "add to the commit:",
+        f"  git add .urdfsync/robots/ladder.json {STATE} {R1}",
+    ]
+    assert "120" in Path(R1).read_text()
+    run(lines[-1])
+    assert said(capsys, "build", code=0) == []
+    assert said(capsys, "check", code=0) == []
+    assert (
+        git("status", "--porcelain") == "M  .urdfsync/robots/ladder.json\nM  " + f"{STATE}\nM  ladder.json\nM  {R1}\n"
+    )
+
+
+def test_the_check_says_what_to_do_and_writes_nothing(repo: Repository, capsys: Capture, snapshot_of: Snapshot) -> None:
+    resistor(120)
+    repo.git("add", "ladder.json")
+    before = snapshot_of(repo.folder)
+    lines = said(capsys, "check")
+    assert lines[:2] == ["ladder: out of step: 1 file to write", "build, then add to the commit:"]
+    assert snapshot_of(repo.folder) == before
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_the_index_is_left_alone(repo: Repository, capsys: Capture) -> None:
+    resistor(120)
+    repo.git("add", "ladder.json")
+    resistor(130, before=120)
+    os.utime(R1, (1, 1))  # git would like to take note of that
+    before = (repo.folder / ".git/index").read_bytes()
+    for mode in ("check", "build"):
+        said(capsys, mode)
+    assert (repo.folder / ".git/index").read_bytes() == before
+
+
+@pytest.mark.parametrize("mode", ["build", "check"])
+def test_changes_that_are_not_staged_do_not_count(repo: Repository, capsys: Capture, mode: str) -> None:
+    resistor(120)
+    assert said(capsys, mode, code=0) == [], "the source"
+    edit(R1, "100", "140")
+    Path("modelica/Ladder/Ladder.mo").unlink()
+    Path(STATE).write_text("nonsense")
+    assert said(capsys, mode, code=0) == [], "outputs and state"
+    Path("urdfsync.toml").write_text("nonsense")
+    assert said(capsys, mode, code=0) == [], "the configuration"
+
+
+def test_a_source_with_later_changes_keeps_a_build_from_writing(
+    repo: Repository, capsys: Capture, snapshot_of: Snapshot
+) -> None:
+    resistor(120)
+    repo.git("add", "ladder.json")
+    resistor(130, before=120)
+    before = snapshot_of(repo.folder)
+    lines = said(capsys, "build")
+    assert lines == [
+        "ladder: out of step: 1 file to write; ladder.json has changes that are not staged",
+        "stage the changes (git add ladder.json) or put them aside (git stash push --keep-index), then build:",
+        f"  urdfsync build ladder && git add .urdfsync/robots/ladder.json {STATE} {R1}",
+    ]
+    assert snapshot_of(repo.folder) == before
+    run("git stash push --keep-index")
+    run(lines[-1])
+    assert said(capsys, "build", code=0) == []
+    run("git commit -qm staged")
+    assert "120" in git("show", f"HEAD:{R1}")
+
+
+def test_outputs_that_are_built_but_not_staged(repo: Repository, capsys: Capture) -> None:
+    resistor(120)
+    run("urdfsync build")
+    repo.git("add", "ladder.json", R1)
+    add = [
+        "ladder: in step on disk, but 2 files are not staged",
+        "add to the commit:",
+        f"  git add .urdfsync/robots/ladder.json {STATE}",
+    ]
+    assert said(capsys, "check") == add
+    assert said(capsys, "build") == add
+    run(add[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_a_part_of_the_edits_is_staged(repo: Repository, capsys: Capture) -> None:
+    edit("modelica/Ladder/Ladder.mo", "end Ladder;", "  // mine\nend Ladder;")
+    repo.git("add", ".")
+    edit("modelica/Ladder/Ladder.mo", "// mine", "// mine and more")
+    resistor(120)
+    repo.git("add", "ladder.json")
+    lines = said(capsys, "build")
+    assert "Ladder.mo" not in lines[-1], "the rest of the edits stays where it is"
+    run(lines[-1])
+    assert said(capsys, "build", code=0) == []
+    assert git("status", "--porcelain", "modelica/Ladder/Ladder.mo") == "MM modelica/Ladder/Ladder.mo\n"
+
+
+def test_an_output_that_git_does_not_track(repo: Repository, capsys: Capture) -> None:
+    repo.git("rm", "-q", "--cached", R1, STATE)
+    for mode in ("check", "build"):
+        lines = said(capsys, mode)
+        assert lines == [
+            "ladder: in step on disk, but 2 files are not staged",
+            "add to the commit:",
+            f"  git add {STATE} {R1}",
+        ]
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_an_output_that_git_is_told_to_ignore(repo: Repository, capsys: Capture) -> None:
+    repo.git("rm", "-q", "--cached", R1)
+    Path(".gitignore").write_text("*Parameters.mo\n")
+    repo.git("add", ".gitignore")
+    lines = said(capsys, "check")
+    assert lines[-1] == f"  git add -f {R1}"
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_a_source_that_git_does_not_track(repo: Repository, capsys: Capture) -> None:
+    repo.git("rm", "-q", "--cached", "ladder.json")
+    assert said(capsys, "check")[-1] == "  git add ladder.json"
+    Path(".gitignore").write_text("ladder.json\n")
+    repo.git("add", ".gitignore")
+    assert said(capsys, "check", code=0) == [], "ignored on purpose: judged as it is on disk"
+
+
+def test_an_output_that_will_be_deleted_by_the_commit(repo: Repository, capsys: Capture) -> None:
+    repo.git("rm", "-q", R1)
+    assert said(capsys, "check")[0] == "ladder: out of step: 1 to restore"
+    lines = said(capsys, "build")
+    assert lines == [
+        "ladder: out of step: 1 restored because you deleted it",
+        "add to the commit:",
+        f"  git add {R1}",
+    ]
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_an_element_that_is_gone_takes_its_files_with_it(repo: Repository, capsys: Capture) -> None:
+    edit("ladder.json", '    {"name": "R2", "between": ["middle", "out"], "ohm": 220.5},\n', "")
+    edit("ladder.json", '"between": ["out"', '"between": ["middle"')
+    repo.git("add", "ladder.json")
+    lines = said(capsys, "build")
+    assert not Path("modelica/Ladder/Elements/R2.mo").exists()
+    assert lines[-1] == "  git add .urdfsync/robots modelica/Ladder"
+    run(lines[-1])
+    assert "D  modelica/Ladder/Elements/R2.mo\n" in git("status", "--porcelain")
+    assert said(capsys, "check", code=0) == []
+
+
+def test_many_files_are_named_one_by_one_if_there_is_more_in_their_folder(repo: Repository, capsys: Capture) -> None:
+    edit("ladder.json", '    {"name": "R2", "between": ["middle", "out"], "ohm": 220.5},\n', "")
+    edit("ladder.json", '"between": ["out"', '"between": ["middle"')
+    repo.git("add", "ladder.json")
+    Path("modelica/Ladder/notes.txt").write_text("mine")
+    line = said(capsys, "build")[-1]
+    assert "modelica/Ladder/Elements/R2.mo" in line.split(" ")
+    assert "modelica/Ladder" not in line.split(" ")
+    run(line)
+    assert said(capsys, "check", code=0) == []
+    assert "?? modelica/Ladder/notes.txt" in git("status", "--porcelain")
+
+
+def test_a_robot_that_is_removed_with_its_source(repo: Repository, capsys: Capture) -> None:
+    Path("other.json").write_bytes(Path("ladder.json").read_bytes())
+    other = '\n[robots.other]\nsource = "other.json"\npackage = "Other"\ndomain = "rcnetwork"\n'
+    edit(
+        "urdfsync.toml",
+        'package = "Ladder"\ndomain = "rcnetwork"\n',
+        f'package = "Ladder"\ndomain = "rcnetwork"\n{other}',
+    )
+    run("urdfsync build")
+    repo.commit()
+    edit("urdfsync.toml", other, "")
+    repo.git(
+        "rm", "-q", "-r", "other.json", "modelica/Other", ".urdfsync/robots/other.toml", ".urdfsync/robots/other.json"
+    )
+    repo.git("add", "urdfsync.toml")
+    assert said(capsys, "check", code=0) == []
+    assert said(capsys, "build", code=0) == []
+
+
+@pytest.mark.parametrize("mode", ["build", "check"])
+def test_a_source_that_the_commit_deletes(repo: Repository, capsys: Capture, mode: str) -> None:
+    repo.git("rm", "-q", "--cached", "ladder.json")
+    Path("ladder.json").unlink()
+    assert "does not exist" in said(capsys, mode, code=2)[0]
+
+
+def test_a_change_that_concerns_the_state_only(repo: Repository, capsys: Capture) -> None:
+    edit("ladder.json", '"ohm": 100}', '"ohm": 100.0}')
+    repo.git("add", "ladder.json")
+    lines = said(capsys, "check")
+    assert lines[0] == "ladder: out of step: what urdfsync recorded of it is out of date"
+    lines = said(capsys, "build")
+    assert lines[-1] == f"  git add {STATE}"
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_a_configuration_is_judged_as_it_is_staged(repo: Repository, capsys: Capture, snapshot_of: Snapshot) -> None:
+    edit("urdfsync.toml", 'domain = "rcnetwork"', 'domain = "rcnetwork"\nprefix = "joint"')
+    repo.git("add", "urdfsync.toml")
+    edit("urdfsync.toml", "joint", "point")
+    before = snapshot_of(repo.folder)
+    lines = said(capsys, "build")
+    assert lines[0] == "ladder: out of step: 1 file to write; urdfsync.toml has changes that are not staged"
+    assert snapshot_of(repo.folder) == before
+    edit("urdfsync.toml", "point", "joint")
+    run(said(capsys, "build")[-1])
+    assert said(capsys, "build", code=0) == []
+
+
+def test_an_error_in_the_staged_configuration_has_its_file_and_line(repo: Repository, capsys: Capture) -> None:
+    text = Path("urdfsync.toml").read_text()
+    edit("urdfsync.toml", "domain", "sorce = 1\ndomain")
+    repo.git("add", "urdfsync.toml")
+    Path("urdfsync.toml").write_text(text)
+    lines = said(capsys, "check", code=2)
+    assert lines[0].startswith("urdfsync.toml:4: error: unknown key `sorce` in robot `ladder`")
+
+
+def test_an_error_in_the_staged_source_names_the_real_file(repo: Repository, capsys: Capture) -> None:
+    content = Path("ladder.json").read_bytes()
+    Path("ladder.json").write_bytes(content[:100])
+    repo.git("add", "ladder.json")
+    Path("ladder.json").write_bytes(content)
+    lines = said(capsys, "check", code=2)
+    assert lines[0].startswith("ladder.json:6: error: ")
+    assert "urdfsync-" not in "".join(lines), "the mirror is nobody's business"
+
+
+def test_a_conflict_of_what_is_staged_comes_with_the_command_that_settles_it(repo: Repository, capsys: Capture) -> None:
+    resistor(120)
+    edit(R1, "100", "140")
+    repo.git("add", ".")
+    for mode in ("check", "build"):
+        lines = said(capsys, mode, code=3)
+        assert f"  urdfsync resolve {R1} --keep" in "\n".join(lines)
+    run(f"urdfsync resolve {R1} --keep --quiet")
+    lines = said(capsys, "check")
+    assert lines[0] == "ladder: in step on disk, but 2 files are not staged"
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_a_conflict_that_only_the_index_has(repo: Repository, capsys: Capture) -> None:
+    resistor(120)
+    edit(R1, "100", "140")
+    repo.git("add", ".")
+    resistor(100, before=120)
+    lines = said(capsys, "check", code=3)
+    assert any(line.startswith(f"  conflict   {R1}") for line in lines)
+
+
+def test_merge_markers_in_the_state(repo: Repository, capsys: Capture) -> None:
+    state = Path(STATE).read_text()
+    Path(STATE).write_text(f"<<<<<<< ours\n{state}=======\n{state}>>>>>>> theirs\n")
+    repo.git("add", STATE)
+    for mode in ("check", "build"):
+        assert "urdfsync build --repair" in said(capsys, mode, code=2)[0]
+    run("urdfsync build --repair")
+    repo.git("add", ".")
+    assert said(capsys, "check", code=0) == []
+
+
+def test_a_mesh_or_table_is_judged_as_it_is_staged(repo: Repository, capsys: Capture) -> None:
+    edit("step.csv", "0.1,5", "0.1,6")
+    assert said(capsys, "check", code=0) == []
+    repo.git("add", "step.csv")
+    edit("step.csv", "0.1,6", "0.1,7")
+    lines = said(capsys, "build")
+    assert lines[0] == "ladder: out of step: 1 file to write; step.csv has changes that are not staged"
+    edit("step.csv", "0.1,7", "0.1,6")
+    lines = said(capsys, "build")
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_a_dependency_outside_of_the_repository_is_judged_as_it_is_on_disk(repo: Repository, capsys: Capture) -> None:
+    Path("../tables").mkdir()
+    Path("step.csv").rename("../tables/step.csv")
+    edit("urdfsync.toml", "domain", 'package_paths = ["../tables"]\ndomain')
+    run("urdfsync build")
+    repo.commit()
+    resistor(120)
+    assert said(capsys, "check", code=0) == [], "found from the mirror, too"
+    edit("../tables/step.csv", "0.1,5", "0.1,6")
+    assert said(capsys, "check")[0].startswith("ladder: out of step: 1 file to write")
+
+
+def test_configurations_below_the_top(repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("robots/left", "robots/right"):
+        Path(name).mkdir(parents=True)
+        Path(name, "ladder.json").write_bytes(Path("ladder.json").read_bytes())
+        Path(name, "urdfsync.toml").write_bytes(Path("urdfsync.toml").read_bytes())
+        run(f"urdfsync build --config {name}/urdfsync.toml")
+    repo.git("add", ".")
+    assert said(capsys, "check", code=0) == []
+    monkeypatch.chdir("robots/left")
+    resistor(120)
+    repo.git("add", ".")
+    assert said(capsys, "check")[-1].startswith("  urdfsync build ladder && git add .urdfsync/robots/ladder.json ")
+    monkeypatch.chdir(repo.folder)
+    monkeypatch.setenv("GIT_PREFIX", "robots/right/")
+    lines = said(capsys, "check")
+    assert lines[-1].startswith("  urdfsync build ladder --config ../left/urdfsync.toml && git add ../left/.urdfsync/")
+    assert said(capsys, "check", "robots/right/urdfsync.toml", code=0) == []
+
+
+def test_robots_of_two_configurations_are_told_apart(repo: Repository, capsys: Capture) -> None:
+    Path("robots").mkdir()
+    for name in ("ladder.json", "urdfsync.toml"):
+        Path("robots", name).write_bytes(Path(name).read_bytes())
+    repo.git("add", "robots")
+    resistor(120)
+    repo.git("add", ".")
+    lines = said(capsys, "build")
+    assert lines[:2] == [
+        "ladder (robots/urdfsync.toml): out of step: 13 files written",
+        "ladder (urdfsync.toml): out of step: 1 file written",
+    ]
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_a_commit_without_the_configuration_of_its_state(repo: Repository, capsys: Capture) -> None:
+    repo.git("rm", "-q", "--cached", "urdfsync.toml")
+    assert said(capsys, "check", code=2)[0].startswith(f"{STATE}: error: its configuration urdfsync.toml is not part")
+    assert said(capsys, "check", "urdfsync.toml", code=2)[0].startswith("urdfsync.toml: error: git does not track")
+    repo.git("rm", "-q", "-r", "--cached", ".urdfsync")
+    assert said(capsys, "check", code=0) == [], "then there is nothing to judge"
+
+
+def test_files_that_will_be_added_one_day_are_no_part_of_the_commit(repo: Repository, capsys: Capture) -> None:
+    repo.git("rm", "-q", "--cached", R1)
+    repo.git("add", "--intent-to-add", R1)
+    assert said(capsys, "check")[-1] == f"  git add {R1}"
+
+
+def test_unmerged_files_are_an_error(repo: Repository, capsys: Capture) -> None:
+    repo.git("checkout", "-q", "-b", "other")
+    resistor(120)
+    repo.commit()
+    repo.git("checkout", "-q", "main")
+    resistor(130)
+    repo.commit()
+    assert subprocess.run(["git", "merge", "-q", "other"], check=False, capture_output=True).returncode == 1
+    assert said(capsys, "check", code=2)[0].startswith("ladder.json: error: the file is not merged yet")
+
+
+def test_outside_of_a_repository(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(project.parent))
+    assert "error: git failed: not a git repository" in said(capsys, "check", code=2)[0]
+    monkeypatch.setenv("PATH", str(project))
+    assert "error: git is not installed" in said(capsys, "check", code=2)[0]
+
+
+def test_another_build_is_running(repo: Repository, capsys: Capture) -> None:
+    resistor(120)
+    repo.git("add", "ladder.json")
+    with Lock(repo.folder / ".urdfsync/lock", wait=0) as lock:
+        lock.acquire()
+        assert "is building here" in said(capsys, "build", "--wait", "0", code=4)[0]
+
+
+@pytest.mark.slow
+def test_all_ways_in_which_index_and_working_tree_can_differ(
+    repo: Repository, capsys: Capture, snapshot_of: Snapshot
+) -> None:
+    """Sources and outputs of two versions, in the index and on disk. Takes 3 s."""
+    sources, outputs = ["ladder.json"], [R1, STATE, ".urdfsync/robots/ladder.json"]
+    first = {path: Path(path).read_bytes() for path in (*sources, *outputs)}
+    resistor(120)
+    run("urdfsync build")
+    versions = [first, {path: Path(path).read_bytes() for path in first}]
+    for staged, built, source, output in itertools.product((0, 1), repeat=4):
+        put(versions[staged], sources)
+        put(versions[built], outputs)
+        repo.git("add", "--all")
+        put(versions[source], sources)
+        put(versions[output], outputs)
+        index, before = (repo.folder / ".git/index").read_bytes(), snapshot_of(repo.folder / "modelica")
+        code = 0 if staged == built else 1
+        assert bool(said(capsys, "check", code=code)) == bool(code)
+        assert snapshot_of(repo.folder / "modelica") == before
+        assert bool(said(capsys, "build", code=code)) == bool(code)
+        assert (repo.folder / ".git/index").read_bytes() == index
+        written = versions[source] if code and staged == source else versions[output]
+        assert Path(R1).read_bytes() == written[R1]
+
+
+def put(version: Mapping[str, bytes], paths: Sequence[str]) -> None:
+    for path in paths:
+        Path(path).write_bytes(version[path])
+
+
+def stash(monkeypatch: pytest.MonkeyPatch, *paths: str) -> None:
+    """Let pre-commit have put changes of these files aside."""
+    monkeypatch.setattr(committing, "_aside", lambda index: frozenset(paths))
+
+
+@pytest.mark.parametrize("path", ["ladder.json", "step.csv", R1, STATE, "urdfsync.toml"])
+def test_changes_that_pre_commit_will_bring_back_keep_a_build_from_writing(
+    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch, snapshot_of: Snapshot, path: str
+) -> None:
+    resistor(120)
+    repo.git("add", ".")
+    stash(monkeypatch, "notes.txt", path)
+    before = snapshot_of(repo.folder)
+    assert said(capsys, "build")[0] == f"ladder: out of step: 1 file to write; {path} has changes that are not staged"
+    assert snapshot_of(repo.folder) == before
+    stash(monkeypatch, "notes.txt")
+    assert said(capsys, "build")[0] == "ladder: out of step: 1 file written"
+
+
+def test_a_roll_back_must_not_leave_an_untracked_state_alone(
+    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch, snapshot_of: Snapshot
+) -> None:
+    resistor(120)
+    repo.git("add", ".")
+    repo.git("rm", "-q", "-r", "--cached", ".urdfsync")
+    stash(monkeypatch, "notes.txt")
+    before = snapshot_of(repo.folder)
+    said(capsys, "build")
+    assert snapshot_of(repo.folder) == before
+
+
+def test_for_programs(repo: Repository, capsys: Capture) -> None:
+    resistor(120)
+    repo.git("add", "ladder.json")
+    document = json.loads("\n".join(said(capsys, "check", "--json")))
+    (found,) = document["diagnostics"]
+    assert (document["command"], document["exit"], found["code"]) == ("hook", 1, "out-of-step")
+    assert found["message"] == "robot `ladder`: out of step: 1 file to write"
+    assert found["hint"].startswith("`urdfsync build ladder && git add ")
+    assert [robot["name"] for robot in document["robots"]] == ["ladder"]
+    repo.git("add", ".")
+    repo.git("reset", "-q", "--hard")
+    assert json.loads("\n".join(said(capsys, "check", "--json", code=0)))["diagnostics"] == []
+
+
+def test_the_script_is_the_command(repo: Repository, capsys: Capture) -> None:
+    assert hook.main(["check"]) == 0
+    resistor(120)
+    assert hook.main(["check"]) == 0
+    repo.git("add", "ladder.json")
+    assert hook.main(["check"]) == 1
+    assert "".join(capsys.readouterr()).splitlines() == said(capsys, "check")
+
+
+def test_whatever_passes_is_in_step_in_a_clone(
+    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    resistor(120)
+    edit("modelica/Ladder/Ladder.mo", "end Ladder;", "  // mine\nend Ladder;")
+    repo.git("add", ".")
+    run(said(capsys, "build")[-1])
+    assert said(capsys, "check", code=0) == []
+    repo.git("commit", "-qm", "next")
+    git("clone", "-q", ".", "../clone")
+    monkeypatch.chdir("../clone")
+    assert cli.main(["build", "--check", "--quiet"]) == 0
+    assert said(capsys, "check", code=0) == []

@@ -1,0 +1,391 @@
+"""The hooks with the real pre-commit, in throw-away repositories: real commits, real stashes, real roll-backs.
+
+About 60 s on two busy cores.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import shutil
+import subprocess
+import sys
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from support.daemon import Watch
+from support.git import NEEDS_GIT, Repository
+
+from urdfsync import cli
+
+REPOSITORY = Path(__file__).parents[1]
+RC_FOLDER = Path(__file__).parent / "rcnetwork"
+PRE_COMMIT = Path(sys.executable).parent / "pre-commit"
+R1 = "modelica/Ladder/Elements/R1Parameters.mo"
+STATE = ".urdfsync/robots/ladder.toml"
+
+pytestmark = [
+    NEEDS_GIT,
+    pytest.mark.slow,
+    pytest.mark.skipif(not PRE_COMMIT.is_file(), reason="pre-commit is not installed"),
+]
+
+MODES = pytest.mark.parametrize("mode", ["build", "check"])
+
+
+@dataclasses.dataclass
+class Site:
+    """A repository with pre-commit installed, whose hook is the one of this checkout."""
+
+    repository: Repository
+
+    def git(self, *arguments: str) -> None:
+        self.repository.git(*arguments)
+
+    def commit(self, *arguments: str, code: int = 0, folder: str = ".") -> str:
+        """Commit what is staged; what the hooks print."""
+        done = subprocess.run(
+            ["git", "commit", "-m", "next", *arguments], cwd=folder, check=False, capture_output=True, text=True
+        )
+        said = done.stdout + done.stderr
+        assert done.returncode == code, said
+        return said
+
+    def run(self, *arguments: str, code: int = 0) -> str:
+        """Call pre-commit by hand."""
+        done = subprocess.run(
+            [PRE_COMMIT, "run", *arguments], check=False, capture_output=True, text=True, env=dict(os.environ)
+        )
+        assert done.returncode == code, done.stdout + done.stderr
+        return done.stdout
+
+    def committed(self, path: str) -> str:
+        """A file of the last commit."""
+        return subprocess.run(["git", "show", f"HEAD:{path}"], check=True, capture_output=True, text=True).stdout
+
+    def status(self) -> list[str]:
+        """What git says of the working tree."""
+        done = subprocess.run(["git", "status", "--porcelain"], check=True, capture_output=True, text=True)
+        return done.stdout.splitlines()
+
+
+@pytest.fixture
+def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Site]:
+    """A function that makes a repository with a network in step, committed, and the hook of a mode installed."""
+    path = os.pathsep.join(map(str, (REPOSITORY, rc_site, RC_FOLDER)))
+    monkeypatch.setenv("PYTHONPATH", path)
+    monkeypatch.setenv("PRE_COMMIT_HOME", str(project.parent / "store"))
+    monkeypatch.setenv("PRE_COMMIT_ALLOW_NO_CONFIG", "1")
+    repository = Repository(project, monkeypatch)
+    script = project.parent / "urdfsync-hook"
+    script.write_text(f"#!{sys.executable}\nimport sys\nfrom urdfsync.hook import main\nsys.exit(main())\n")
+    script.chmod(0o755)
+
+    def make(mode: str, also: str = "") -> Site:
+        cli.main(["build", "--quiet"])
+        hook = f"id: urdfsync-{mode}, name: {mode}, entry: {script} {mode}, language: system"
+        options = "pass_filenames: false, always_run: true, stages: [pre-commit, pre-merge-commit]"
+        Path(".pre-commit-config.yaml").write_text(
+            f"default_install_hook_types: [pre-commit, pre-merge-commit]\n"
+            f"repos:\n- repo: local\n  hooks:\n  - {{{hook}, {options}}}\n{also}"
+        )
+        repository.commit()
+        subprocess.run([PRE_COMMIT, "install"], check=True, capture_output=True)
+        return Site(repository)
+
+    return make
+
+
+def edit(path: str, old: str, new: str) -> None:
+    text = Path(path).read_text()
+    assert text.count(old) == 1
+    Path(path).write_text(text.replace(old, new))
+
+
+def resistor(ohm: float, before: float = 100) -> None:
+    edit("ladder.json", f'"ohm": {before:g}}}', f'"ohm": {ohm:g}}}')
+
+
+def command(said: str) -> list[str]:
+    """The command that a hook has printed."""
+    (line,) = (line for line in said.splitlines() if line.startswith("  "))
+    return line.split()
+
+
+@MODES
+def test_a_commit_in_step_passes(make: Callable[..., Site], mode: str) -> None:
+    site = make(mode)
+    Path("README").write_text("nothing that matters")
+    site.git("add", ".")
+    assert "Passed" in site.commit()
+
+
+def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[..., Site]) -> None:
+    site = make("build")
+    resistor(120)
+    site.git("add", ".")
+    said = site.commit(code=1)
+    assert "ladder: out of step: 1 file written\nadd to the commit:\n  git add " in said
+    site.git(*command(said)[1:])
+    site.commit()
+    assert "120" in site.committed(R1)
+    assert site.status() == []
+
+
+def test_the_check_writes_nothing_and_passes_after_a_build(make: Callable[..., Site]) -> None:
+    site = make("check")
+    resistor(120)
+    site.git("add", ".")
+    said = site.commit(code=1)
+    assert "ladder: out of step: 1 file to write\nbuild, then add to the commit:\n  urdfsync build ladder && " in said
+    assert site.status() == ["M  ladder.json"]
+    cli.main(["build"])
+    site.git("add", ".")
+    site.commit()
+
+
+def test_paths_are_those_of_the_folder_in_which_git_was_called(make: Callable[..., Site]) -> None:
+    site = make("build")
+    resistor(120)
+    site.git("add", ".")
+    said = site.commit(code=1, folder="modelica")
+    assert "Ladder/Elements/R1Parameters.mo" in command(said)
+    subprocess.run(command(said), cwd="modelica", check=True)
+    site.commit(folder="modelica")
+
+
+@MODES
+def test_a_staged_source_with_later_changes(make: Callable[..., Site], mode: str) -> None:
+    """pre-commit stashes the later change: a build would write what does not fit when it is back."""
+    site = make(mode)
+    resistor(120)
+    site.git("add", ".")
+    resistor(130, before=120)
+    said = site.commit(code=1)
+    assert "ladder: out of step: 1 file to write" in said
+    assert "ladder.json has changes that are not staged" in said
+    assert '"ohm": 130}' in Path("ladder.json").read_text()
+    assert site.status() == ["MM ladder.json"], "nothing was written, nothing is lost"
+
+
+@MODES
+def test_a_change_of_the_source_that_is_not_staged(make: Callable[..., Site], mode: str) -> None:
+    site = make(mode)
+    resistor(120)
+    cli.main(["build"])
+    Path("README").write_text("staged")
+    site.git("add", "README")
+    site.commit()
+    assert "120" in Path(R1).read_text()
+    assert site.status() == [
+        f" M {path}" for path in sorted((".urdfsync/robots/ladder.json", STATE, "ladder.json", R1))
+    ]
+
+
+def test_outputs_that_are_staged_in_part(make: Callable[..., Site]) -> None:
+    """The state and a record have changes that are stashed: what a build would write could not stay."""
+    site = make("build")
+    resistor(120)
+    cli.main(["build"])
+    site.git("add", "ladder.json")
+    before = {path: Path(path).read_bytes() for path in (R1, STATE)}
+    said = site.commit(code=1)
+    assert f"{STATE}, {R1} have changes that are not staged" in said.replace(".urdfsync/robots/ladder.json, ", "")
+    assert {path: Path(path).read_bytes() for path in before} == before
+    site.git("add", ".")
+    site.commit()
+
+
+def test_edits_of_other_files_are_brought_back_beside_what_was_written(make: Callable[..., Site]) -> None:
+    site = make("build")
+    Path("notes").write_text("one")
+    site.repository.commit("notes")
+    resistor(120)
+    site.git("add", ".")
+    Path("notes").write_text("two")
+    said = site.commit(code=1)
+    assert "1 file written" in said
+    assert Path("notes").read_text() == "two"
+    assert "120" in Path(R1).read_text()
+    site.git(*command(said)[1:])
+    site.commit()
+    assert site.status() == [" M notes"]
+
+
+def test_a_roll_back_because_of_another_hook_leaves_nothing_half_done(make: Callable[..., Site]) -> None:
+    """A fixer changes a file that has stashed changes: pre-commit takes back all that hooks wrote to tracked files."""
+    fixer = "id: fixer, name: fixer, entry: sh -c 'echo fixed > notes', language: system, always_run: true"
+    Path("notes").write_text("one\n")
+    site = make("build", f"  - {{{fixer}}}\n")
+    edit(
+        "ladder.json",
+        '"ohm": 220.5},',
+        '"ohm": 220.5},\n    {"name": "R3", "between": ["in", "out"], "ohm": 5},',
+    )
+    site.git("add", "ladder.json")
+    Path("notes").write_text("two\n")
+    said = site.commit(code=1)
+    assert "Rolling back fixes" in said
+    assert Path("notes").read_text() == "two\n"
+    assert Path("modelica/Ladder/Elements/R3.mo").is_file(), "it was not tracked, so it stays"
+    assert cli.main(["build", "--quiet"]) == 0, "and is no conflict"
+    site.git("add", ".")
+    site.commit("--no-verify")
+    assert "R3" in site.committed("modelica/Ladder/Ladder.mo")
+    assert cli.main(["build", "--check", "--quiet"]) == 0
+
+
+@MODES
+def test_a_robot_that_is_deleted_with_its_source(make: Callable[..., Site], mode: str) -> None:
+    Path("other.json").write_bytes(Path("ladder.json").read_bytes())
+    text = Path("urdfsync.toml").read_text()
+    Path("urdfsync.toml").write_text(text + text.replace("ladder", "other").replace("Ladder", "Other"))
+    site = make(mode)
+    Path("urdfsync.toml").write_text(text)
+    site.git(
+        "rm", "-q", "-r", "other.json", "modelica/Other", ".urdfsync/robots/other.json", ".urdfsync/robots/other.toml"
+    )
+    site.git("add", "urdfsync.toml")
+    site.commit()
+
+
+@MODES
+def test_a_source_that_is_deleted_alone(make: Callable[..., Site], mode: str) -> None:
+    site = make(mode)
+    site.git("rm", "-q", "ladder.json")
+    assert "urdfsync.toml:2: error: robot `ladder`: the source ladder.json does not exist" in site.commit(code=1)
+
+
+@MODES
+def test_an_output_that_is_not_tracked(make: Callable[..., Site], mode: str) -> None:
+    site = make(mode)
+    site.git("rm", "-q", "--cached", R1)
+    said = site.commit(code=1)
+    assert "ladder: in step on disk, but 1 file is not staged" in said
+    assert command(said) == ["git", "add", R1]
+
+
+@MODES
+def test_a_merge_without_conflicts(make: Callable[..., Site], mode: str) -> None:
+    site = make(mode)
+    site.git("checkout", "-q", "-b", "other")
+    resistor(120)
+    cli.main(["build"])
+    site.git("add", ".")
+    site.commit()
+    site.git("checkout", "-q", "main")
+    Path("README").write_text("main")
+    site.git("add", ".")
+    site.commit()
+    site.git("merge", "-q", "other", "-m", "merge")
+    assert "120" in site.committed(R1)
+
+
+@MODES
+def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[..., Site], mode: str) -> None:
+    site = make(mode)
+    for branch, old, new in (("other", "100", "120"), ("main", "220.5", "330.5")):
+        site.git("checkout", "-q", *(["-b"] if branch == "other" else []), branch)
+        edit("ladder.json", f'"ohm": {old}}}', f'"ohm": {new}}}')
+        cli.main(["build"])
+        site.git("add", ".")
+        site.commit()
+    assert subprocess.run(["git", "merge", "-q", "other"], check=False, capture_output=True).returncode == 1
+    assert "<<<<<<<" in Path(STATE).read_text()
+    site.git("add", ".")
+    said = site.commit(code=1)
+    assert f"{STATE}:" in said
+    assert "urdfsync build --repair" in said
+    assert cli.main(["build", "--repair", "--quiet"]) == 0
+    site.git("add", ".")
+    site.commit()
+    assert {"120", "330.5"} <= {word for name in ("R1", "R2") for word in numbers(name)}
+
+
+def numbers(name: str) -> list[str]:
+    text = Path(f"modelica/Ladder/Elements/{name}Parameters.mo").read_text()
+    return text.replace("=", " ").replace(";", " ").replace(")", " ").split()
+
+
+@MODES
+def test_all_files(make: Callable[..., Site], mode: str) -> None:
+    """Then pre-commit does not stash anything."""
+    site = make(mode)
+    assert "Passed" in site.run("--all-files")
+    resistor(120)
+    assert "Passed" in site.run("--all-files"), "not staged, so not of this commit"
+    site.git("add", ".")
+    resistor(130, before=120)
+    assert "ladder.json has changes" in site.run("--all-files", code=1) or mode == "check"
+    assert "100" in Path(R1).read_text()
+    resistor(120, before=130)
+    assert "ladder: out of step: 1 file" in site.run("--all-files", code=1)
+
+
+def test_partial_and_implicit_commits_have_an_index_of_their_own(make: Callable[..., Site]) -> None:
+    site = make("build")
+    resistor(120)
+    Path("README").write_text("one")
+    site.git("add", "README")
+    assert "1 file written" in site.commit("--", "ladder.json", code=1)
+    site.commit("--all")
+    assert "120" in site.committed(R1)
+
+
+@MODES
+def test_configurations_below_the_root(make: Callable[..., Site], mode: str) -> None:
+    for name in ("left", "right"):
+        shutil.copytree(RC_FOLDER / "examples", name)
+        shutil.copy("urdfsync.toml", name)
+        cli.main(["build", "--quiet", "--config", f"{name}/urdfsync.toml"])
+    site = make(mode)
+    edit("left/ladder.json", '"ohm": 100}', '"ohm": 120}')
+    edit("right/ladder.json", '"ohm": 100}', '"ohm": 130}')
+    site.git("add", ".")
+    said = site.commit(code=1)
+    assert "ladder (left/urdfsync.toml): out of step: 1 file" in said
+    assert "ladder (right/urdfsync.toml): out of step: 1 file" in said
+    for name in ("left", "right"):
+        cli.main(["build", "--quiet", "--config", f"{name}/urdfsync.toml"])
+    site.git("add", ".")
+    site.commit()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a daemon is ended by a signal")
+def test_the_daemon_beside_it(make: Callable[..., Site], project: Path, rc_site: Path) -> None:
+    """The daemon builds the later change; commits of what was staged before neither lose it nor mix it in."""
+    site = make("build")
+    store = os.environ["PRE_COMMIT_HOME"]
+    with Watch(project, path=[rc_site, RC_FOLDER], PRE_COMMIT_HOME=store) as watch:
+        watch.rest()
+        for old, new in ((100, 120), (120, 130), (130, 140)):
+            since = watch.mark
+            resistor(new, before=old)
+            watch.wait("built", lambda event: bool(event["files"]), since)
+            watch.rest(since)
+            site.git("add", ".")
+            since = watch.mark
+            resistor(new + 5, before=new)
+            watch.wait("built", lambda event: bool(event["files"]), since)
+            site.commit()
+            assert str(new) in site.committed(R1), "the staged source has its own outputs"
+            assert f'"ohm": {new + 5}}}' in Path("ladder.json").read_text(), "the later change is back"
+            since = watch.mark
+            resistor(new, before=new + 5)
+            watch.wait("built", lambda event: bool(event["files"]), since)
+            watch.rest(since)
+        watch.stop()
+    assert cli.main(["build", "--check", "--quiet"]) == 0
+    assert site.status() == []
+
+
+def test_the_hooks_are_what_pre_commit_expects() -> None:
+    manifest = REPOSITORY / ".pre-commit-hooks.yaml"
+    done = subprocess.run([PRE_COMMIT, "validate-manifest", manifest], check=False, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+    entries = [line.split()[1:] for line in manifest.read_text().splitlines() if line.strip().startswith("entry:")]
+    assert entries == [["urdfsync-hook", "build"], ["urdfsync-hook", "check"]]
+    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["project"]
+    assert project["scripts"]["urdfsync-hook"] == "urdfsync.hook:main"
