@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from urdfsync import cli
 from urdfsync.domain import Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
@@ -30,6 +31,13 @@ def test_the_picture_of_the_arm_is_the_diagram_of_the_example() -> None:
 def test_links_between_pages_lead_somewhere(page: Path) -> None:
     targets = re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8"))
     assert [target for target in targets if "://" not in target and not (page.parent / target).exists()] == []
+
+
+def test_every_option_of_watch_is_documented(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["watch", "--help"]) == 0
+    options = set(re.findall(r"--[a-z]+", capsys.readouterr().out)) - {"--help"}
+    rows = "\n".join(re.findall(r"^\| `.*", (REPOSITORY / "docs/watch.md").read_text(encoding="utf-8"), re.MULTILINE))
+    assert set(re.findall(r"--[a-z]+", rows)) == options
 
 
 def test_every_option_of_a_robot_is_documented() -> None:

@@ -21,6 +21,7 @@ HEAVY = ("jinja2", "rich", "lxml", "yourdfpy", "trimesh", "numpy", "collada", "d
 SHELL = (
     *("build", "planner", "config", "cli", "watch", "report", "files", "imports", "decide", "parents", "init"),
     *("commands", "views", "state", "records", "differ", "versions", "revisions", "subjects"),
+    *("staged", "mirror", "worktree", "judging", "committing", "hook"),
 )
 SHELL_MODULES = tuple(f"urdfsync.{name}" for name in SHELL)
 
@@ -65,14 +66,32 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "state/lock": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
     "state/repair": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "decide": ("rich", "watchdog", "urdfsync.build", "urdfsync.report", "urdfsync.cli"),
+    "staged": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "mirror": ("urdfsync.build", "urdfsync.manifest", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "verdict": (*SHELL_MODULES, *IO, *HEAVY),
+    "worktree": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "judging": ("urdfsync.report", "urdfsync.cli", *HEAVY),
     "config": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "watch": ("rich", "urdfsync.urdf"),
+    "watch": ("rich", "urdfsync.urdf", "urdfsync.report", "urdfsync.cli"),
+    "watching/events": ("watchdog", "rich", *IO),
+    "watching/standing": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    "watching/words": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    "watching/settling": ("urdfsync", "pathlib", "time", *IO, *HEAVY),
+    **{
+        f"watching/{name}": ("rich", "watchdog", "urdfsync.report", "urdfsync.views", "urdfsync.cli")
+        for name in ("builder", "builds", "guard", "inbox", "reading", "robots", "runner", "samples", "scope", "stash")
+    },
+    "watching/observer": ("rich", "urdfsync.build", "urdfsync.report", "urdfsync.views", "urdfsync.cli"),
     "check": ("rich",),
     "report": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf"),
     **{
         f"views/{name}": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf")
-        for name in ("builds", "comparisons", "conflicts", "drafts", "hunks", "statuses", "terminal")
+        for name in (
+            *("area", "builds", "chronicle", "comparisons", "conflicts", "diversion", "drafts", "hunks", "statuses"),
+            *("terminal", "watching"),
+        )
     },
+    "views/hooks": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf", *HEAVY),
     "cli": ("jinja2", "deepdiff", "urdfsync.urdf", "rich"),
     "urdf/robot": ("lxml", "yourdfpy", "numpy", "pathlib", *IO),
     "urdf/source": ("jinja2", "urdfsync.render", "urdfsync.manifest", *SHELL_MODULES),
@@ -99,6 +118,7 @@ LIGHT = (
     "commands/diff",
     "commands/status",
     "commands/resolve",
+    "commands/watch",
 )
 """Modules on the way of a build that has nothing to do: no heavy library, not even through others."""
 
@@ -125,6 +145,8 @@ PURE = (
         "documents",
         "modelica",
         "literals",
+        "watching/standing",
+        "watching/words",
     ),
     *(name for name in MODULES if name in ("merge", "state/repair") or name.startswith(("urdf/", "merging/"))),
 )

@@ -2,24 +2,36 @@
 
 from __future__ import annotations
 
+import datetime
 import json
+import os
 import re
+import signal
 import sys
+import typing
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from urdfsync import cli, config
+from urdfsync import cli, config, documents
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.documents import VERSION
 from urdfsync.domain import Role
+from urdfsync.outcome import Result
 from urdfsync.plan import Kind
-from urdfsync.report import VERSION
 from urdfsync.status import FileStatus
+from urdfsync.views.watching import ForPrograms
+from urdfsync.watching import events
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
-BUILD, CHANGED, MISTAKE, DIFF, STATUS, RESOLVE, INIT, LIBRARY = (
+BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, RESOLVE, INIT, LIBRARY = (
     json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)
 )
+SESSION, OTHERS = (
+    [json.loads(line) for line in text.splitlines()] for text in re.findall(r"```jsonl\n(.*?)```", PAGE, re.DOTALL)
+)
+EXAMPLES = [BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, RESOLVE, INIT, LIBRARY, *SESSION, *OTHERS]
 
 URDF = """<robot name="arm">
   <link name="base"/>
@@ -99,6 +111,79 @@ def test_status(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert matches(STATUS, printed(capsys, folder, "status"))
 
 
+def watched(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+    """What `watch` prints while a source is saved without a link, then whole and with the joint moved."""
+    moved = '<child link="tip"/><origin xyz="0 0 0.1"/>'
+    part = URDF.replace('"tip">', '"top">')
+    saves = {"Built": part, "Waiting": URDF.replace('<child link="tip"/>', moved)}
+    show = ForPrograms.__call__
+
+    def listen(self: ForPrograms, event: events.Event) -> None:
+        show(self, event)
+        if text := saves.pop(type(event).__name__, ""):
+            (folder / "new").write_text(text)
+            (folder / "new").replace(folder / "arm.urdf")
+        elif isinstance(event, events.Built) and not saves:
+            os.kill(os.getpid(), signal.SIGTERM)
+
+    monkeypatch.setattr(ForPrograms, "__call__", listen)
+    capsys.readouterr()
+    assert cli.main(["watch", "--settle", "0", "--sample", "0", "--json"]) == 0
+    streams = capsys.readouterr()
+    assert streams.err == ""
+    assert streams.out.isascii()
+    return [json.loads(line) for line in streams.out.replace(str(folder), "/home/me/project").splitlines()]
+
+
+def test_watch(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    cli.main(["init", "arm.urdf"])
+    cli.main(["build"])
+    found = watched(folder, capsys, monkeypatch)
+    times = [datetime.datetime.fromisoformat(event["time"]) for event in found]
+    assert times == sorted(times)
+    assert all(time.tzinfo for time in times)
+    found = [{**event, "time": "2026-03-04T14:03:12.345678+01:00"} for event in found]
+    (built,) = (event for event in found if event["event"] == "built" and event["files"])
+    assert matches({**BUILT, "time": built["time"]}, built)
+    others = [{**event, "time": built["time"]} for event in SESSION]
+    assert others == [event for event in found if event["event"] != "built"]
+
+
+def test_a_daemon_that_can_not_start_says_so_in_one_line(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "urdfsync.toml").write_text("[robots.arm]\nsorce = 'x'\n")
+    assert cli.main(["watch", "--json"]) == 2
+    (line,) = capsys.readouterr().out.splitlines()
+    document = json.loads(line)
+    assert (document["command"], document["exit"]) == ("watch", 2)
+    assert document.keys() == MISTAKE.keys()
+
+
+def test_the_other_events_look_as_shown() -> None:
+    warning = Diagnostic(
+        Severity.WARNING,
+        "exec",
+        "robot `arm`: the command of --exec ended with exit code 2",
+        hint="it runs again after the next build that changes something",
+    )
+    failure = Diagnostic(Severity.ERROR, "system", "Permission denied", "arm.urdf")
+    folder = Path("/home/me/project/modelica/Arm")
+    failed = Result("arm", "Arm", folder, Path("/home/me/project"), diagnostics=(failure,), failed=True)
+    others: tuple[events.Event, ...] = (
+        events.Calm("arm"),
+        events.Failed(failed),
+        events.Ran("arm", 2),
+        events.Noted((warning,)),
+        events.Recovered("all folders are watched again"),
+        events.Paused("pre-commit (process 4711) has stashed unstaged changes away"),
+        events.Resumed(),
+    )
+    times = [datetime.datetime.fromisoformat(event["time"]) for event in OTHERS]
+    shown = [documents.event(event, time) for event, time in zip(others, times, strict=True)]
+    assert json.loads(json.dumps(shown)) == OTHERS
+    kinds = {kind.__name__.lower() for kind in typing.get_args(events.Event)}
+    assert kinds == {event["event"] for event in (*SESSION, *OTHERS, BUILT)}
+
+
 def test_resolve(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     cli.main(["init", "arm.urdf"])
     cli.main(["build"])
@@ -121,7 +206,7 @@ def test_library(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_tables_name_every_key_and_no_other() -> None:
     cells = re.findall(r"^\| (`[^|]*) \|", PAGE, re.MULTILINE)
     named = {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
-    assert named == keys([BUILD, CHANGED, MISTAKE, DIFF, STATUS, RESOLVE, INIT, LIBRARY])
+    assert named == keys(EXAMPLES)
 
 
 def test_values_that_are_one_of_a_few_are_all_named() -> None:

@@ -6,12 +6,12 @@ import sys
 from collections.abc import Sequence
 
 from urdfsync import __version__, streams
-from urdfsync.commands import build, common, diff, init, library, resolve, status
+from urdfsync.commands import build, common, diff, hook, init, library, resolve, status, watch
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit
 from urdfsync.report import Report
 
-_COMMANDS = (init, build, diff, status, resolve, library)
+_COMMANDS = (init, build, diff, status, watch, resolve, hook, library)
 """In the order of the help."""
 
 

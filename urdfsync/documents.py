@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import dataclasses
+import datetime
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfsync import difference, resolution, wording
 from urdfsync.comparison import Comparison
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.outcome import Result
-from urdfsync.plan import Action
+from urdfsync.plan import Action, Kind
 from urdfsync.status import FileState, RobotState
 
 if TYPE_CHECKING:
     from urdfsync.changes import Change
+    from urdfsync.watching.events import Event
+
+VERSION = 1
+"""Version of the JSON documents and events; raised when a key changes its meaning or goes away."""
 
 
 def change(found: Change) -> dict[str, Any]:
@@ -85,6 +91,31 @@ def comparison(found: Comparison) -> dict[str, Any]:
         "actions": [{**_action(action), "edited": action.path in found.edited} for action in result.actions],
         "diagnostics": [finding(diagnostic) for diagnostic in result.diagnostics],
     }
+
+
+def event(found: Event, time: datetime.datetime) -> dict[str, Any]:
+    """An event of the daemon as plain data: its values under their own names, a result as the keys of `robot`.
+
+    Of a result's files those are left out of which nothing can be said but that they are as they should be.
+    """
+    values: dict[str, Any] = {"version": VERSION, "event": type(found).__name__.lower(), "time": time.isoformat()}
+    for field in dataclasses.fields(found):
+        value = getattr(found, field.name)
+        if isinstance(value, Result):
+            inside = robot(value)
+            actions = [action for action in inside["actions"] if action["action"] != Kind.UNCHANGED]
+            values |= {"robot": inside.pop("name"), **inside, "actions": actions}
+        else:
+            values[field.name] = _plain(value)
+    return values
+
+
+def _plain(value: object) -> Any:
+    if isinstance(value, tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, Diagnostic):
+        return finding(value)
+    return str(value) if isinstance(value, Path) else value
 
 
 def _effect(found: difference.Effect) -> dict[str, Any]:

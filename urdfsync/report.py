@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 from urdfsync import documents, wording
 from urdfsync.comparison import Comparison
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.documents import VERSION
 from urdfsync.outcome import Exit, Result
 from urdfsync.status import RobotState
 from urdfsync.views import builds, comparisons, conflicts, drafts, statuses, terminal
@@ -27,9 +28,7 @@ if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
     from urdfsync.init import Draft
-
-VERSION = 1
-"""Version of the JSON documents; raised when a key changes its meaning or goes away."""
+    from urdfsync.views.watching import Watching
 
 _PATIENCE = 0.5
 """Seconds of work before a progress bar appears."""
@@ -144,6 +143,12 @@ class Report:
             sys.stderr.write(usage)
         self.problems(command, [found])
 
+    def watching(self) -> Watching:
+        """What shows the events of the daemon."""
+        from urdfsync.views.watching import watching
+
+        return watching(as_json=self._json, quiet=self._quiet, verbose=self._verbose, config=self._config)
+
     def draft(self, draft: Draft) -> None:
         """Show the configuration that `init` wrote."""
         if self._json:
@@ -190,7 +195,8 @@ class Report:
     ) -> None:
         findings = [documents.finding(diagnostic) for diagnostic in diagnostics]
         document = {"version": VERSION, "command": command, "exit": int(code), **values, "diagnostics": findings}
-        sys.stdout.write(json.dumps(document, indent=2) + "\n")
+        indent = None if command == "watch" else 2  # its output is one object per line
+        sys.stdout.write(json.dumps(document, indent=indent) + "\n")
 
     def _findings(self, diagnostics: Sequence[Diagnostic]) -> None:
         if self._quiet:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from typing import TYPE_CHECKING
 
 from urdfsync import difference
@@ -29,15 +29,21 @@ def summary(result: Result) -> str:
     if result.failed:
         errors = sum(found.severity is Severity.ERROR for found in result.diagnostics)
         end = "the next build finishes or undoes what was begun" if result.unfinished else "nothing was changed"
-        return f"{_number(errors, 'error')}, {end}"
-    parts = [_phrase(kind, number, result.dry) for kind, number in _counts(result) if number]
+        return f"{counted(errors, 'error')}, {end}"
+    parts = deeds(result)
     waiting = sum(action.held for action in result.actions)
     if waiting:
-        parts.append(f"{_number(waiting, 'change')} waiting for that")
+        parts.append(f"{counted(waiting, 'change')} waiting for that")
     if result.in_step:
         total = sum(action.kind in (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED) for action in result.actions)
-        parts.insert(0, f"in step, {_number(total, 'file')}")
+        parts.insert(0, f"in step, {counted(total, 'file')}")
     return ", ".join(parts)
+
+
+def deeds(result: Result, silent: Container[Kind] = ()) -> list[str]:
+    """What happened to a robot's files, a phrase for each kind of action that is not `silent`."""
+    counts = [(kind, number) for kind, number in _counts(result) if number and kind not in silent]
+    return [_phrase(kind, number, result.dry) for kind, number in counts]
 
 
 def _counts(result: Result) -> list[tuple[Kind, int]]:
@@ -50,7 +56,7 @@ def _counts(result: Result) -> list[tuple[Kind, int]]:
 
 
 def _phrase(kind: Kind, number: int, dry: bool) -> str:
-    files, them = _number(number, "file"), "them" if number > 1 else "it"
+    files, them = counted(number, "file"), "them" if number > 1 else "it"
     return {
         Kind.UPDATE: f"{files} to write" if dry else f"{files} written",
         Kind.RESTORE: f"{number} to restore" if dry else f"{number} restored because you deleted {them}",
@@ -62,11 +68,12 @@ def _phrase(kind: Kind, number: int, dry: bool) -> str:
         Kind.KEEP: f"{number} kept because you edited {them}",
         Kind.ORPHAN: f"{number} no longer generated but kept because you edited {them}",
         Kind.NEEDED: f"{number} no longer generated but kept because your files need {them}",
-        Kind.CONFLICT: _number(number, "conflict"),
+        Kind.CONFLICT: counted(number, "conflict"),
     }[kind]
 
 
-def _number(count: int, noun: str) -> str:
+def counted(count: int, noun: str) -> str:
+    """`1 file`, `2 files`."""
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
@@ -76,9 +83,9 @@ def state(found: RobotState) -> str:
     counts.pop(FileStatus.IN_STEP, None)
     if found.result.failed:
         errors = sum(finding.severity is Severity.ERROR for finding in found.result.diagnostics)
-        return f"{_number(errors, 'error')}, so nothing can be said of its files"
+        return f"{counted(errors, 'error')}, so nothing can be said of its files"
     if found.built or found.in_step:
-        head = f"{'in' if found.in_step else 'out of'} step, {_number(len(found.files), 'file')}"
+        head = f"{'in' if found.in_step else 'out of'} step, {counted(len(found.files), 'file')}"
     else:
         head = "not built yet"
         counts.pop(FileStatus.STALE, None)
@@ -87,7 +94,7 @@ def state(found: RobotState) -> str:
 
 
 def _tally(status: FileStatus, number: int) -> str:
-    return _number(number, status) if status in (FileStatus.CONFLICT, FileStatus.ORPHAN) else f"{number} {status}"
+    return counted(number, status) if status in (FileStatus.CONFLICT, FileStatus.ORPHAN) else f"{number} {status}"
 
 
 def outlook(found: RobotState) -> list[str]:
@@ -95,13 +102,13 @@ def outlook(found: RobotState) -> list[str]:
     changed = _change_classes(found.result.changes) if found.result.changes else ""
     moving = [action for action in found.result.actions if action.writes]
     deleted = sum(action.kind in DELETES for action in moving)
-    does = [f"writes {_number(len(moving) - deleted, 'file')}"] if len(moving) > deleted else []
-    does += [f"deletes {deleted if does else _number(deleted, 'file')}"] if deleted else []
+    does = [f"writes {counted(len(moving) - deleted, 'file')}"] if len(moving) > deleted else []
+    does += [f"deletes {deleted if does else counted(deleted, 'file')}"] if deleted else []
     build = f"`urdfsync build` {' and '.join(does)}" if does else ""
     held = sum(action.held for action in found.result.actions)
     if not held:
         return ["; ".join(filter(None, [changed, build]))] if changed or build else []
-    waits = f"{_number(held, 'file')} {'waits' if held == 1 else 'wait'} for the conflict"
+    waits = f"{counted(held, 'file')} {'waits' if held == 1 else 'wait'} for the conflict"
     return [*([changed] if changed else []), "; ".join(filter(None, [build, waits]))]
 
 
@@ -109,7 +116,7 @@ def comparison(found: Comparison) -> str:
     """What changed since the older version, as the rest of a line that names the robot."""
     if found.result.failed:
         errors = sum(finding.severity is Severity.ERROR for finding in found.result.diagnostics)
-        return f"{_number(errors, 'error')}, so nothing can be compared"
+        return f"{counted(errors, 'error')}, so nothing can be compared"
     if found.missing:
         return found.missing
     since = f"since {'the last build' if found.against is None else found.against}"
@@ -125,7 +132,7 @@ def files(found: Comparison) -> str:
         return f"A build: {summary(found.result)}"
     number, kinds = len(found.result.actions), Counter(action.kind for action in found.result.actions)
     parts = ", ".join(f"{kinds[kind]} to {kind}" for kind in (Kind.UPDATE, Kind.CREATE, Kind.DELETE) if kinds[kind])
-    head = f"{_number(number, 'file')} of the package {'differs' if number == 1 else 'differ'}"
+    head = f"{counted(number, 'file')} of the package {'differs' if number == 1 else 'differ'}"
     return f"{head}: {parts}" if len(kinds) > 1 else head
 
 

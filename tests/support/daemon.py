@@ -1,0 +1,128 @@
+"""`urdfsync watch` as a process of its own, and what it says."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any, Self
+
+REPOSITORY = Path(__file__).parents[2]
+LIMIT = 60.0
+"""Seconds after which something does not happen any more, however busy the machine is."""
+
+Event = Mapping[str, Any]
+ENDS = ("built", "failed", "calm")
+"""What the way of a robot from its first event to its last ends with."""
+
+
+class Watch:
+    """A daemon that runs within its context; its events are read from the pipe as they come."""
+
+    def __init__(
+        self, folder: Path, *arguments: str, path: Sequence[Path] = (), before: Sequence[str] = (), **environment: str
+    ) -> None:
+        """`path` are folders for Python to import from, after the program's own; `before` is a command to start it."""
+        paths = os.pathsep.join(map(str, [REPOSITORY, *path]))
+        self._command = [*before, sys.executable, "-m", "urdfsync", "watch", "--json", *arguments]
+        self._environment = {**os.environ, "PYTHONPATH": paths, "PYTHONWARNINGS": "error", **environment}
+        self._folder = folder
+        self._news = threading.Condition()
+        self._errors: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the daemon
+        self.events: list[Event] = []
+
+    def __enter__(self) -> Self:
+        self.process = subprocess.Popen(
+            self._command, cwd=self._folder, env=self._environment, stdout=subprocess.PIPE, stderr=self._errors
+        )
+        self._reader = threading.Thread(target=self._read)
+        self._reader.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        with contextlib.suppress(ProcessLookupError):
+            self.process.send_signal(signal.SIGCONT)
+            self.process.kill()
+        self.process.wait()
+        self._reader.join()
+        if self.process.stdout:
+            self.process.stdout.close()
+        self._errors.close()
+
+    def _read(self) -> None:
+        for line in self.process.stdout or ():
+            with self._news:
+                self.events.append(json.loads(line))
+                self._news.notify_all()
+        with self._news:
+            self._news.notify_all()
+
+    def wait(self, what: str, wanted: Callable[[Event], bool] = lambda event: True, since: int = 0) -> Event:
+        """The first event of this kind that is wanted, from the one with this number on; waits for it."""
+
+        def found() -> Event | None:
+            return next((e for e in self.events[since:] if e.get("event") == what and wanted(e)), None)
+
+        with self._news:
+            self._news.wait_for(lambda: found() is not None or not self._reader.is_alive(), LIMIT)
+            event = found()
+        assert event is not None, f"no event `{what}`: {self.said}"
+        return event
+
+    def rest(self, since: int = 0, robots: int = 1) -> None:
+        """Wait until so many robots have come to an end since, and none of them is under way."""
+
+        def rests() -> bool:
+            last = {event["robot"]: event["event"] for event in self.events[since:] if "robot" in event}
+            return len(last) >= robots and all(event in (*ENDS, "ran") for event in last.values())
+
+        with self._news:
+            assert self._news.wait_for(rests, LIMIT), self.said
+
+    @property
+    def mark(self) -> int:
+        """The number of the next event."""
+        return len(self.events)
+
+    def builds(self, since: int = 0, robot: str = "ladder") -> list[Event]:
+        """The builds of a robot that wrote or deleted files."""
+        return [e for e in self.events[since:] if e["event"] == "built" and e["robot"] == robot and e["files"]]
+
+    def stop(self, number: int = signal.SIGTERM) -> int:
+        """Send a signal; returns the exit code."""
+        self.process.send_signal(number)
+        code = self.process.wait(LIMIT)
+        self._reader.join()
+        return code
+
+    @property
+    def errors(self) -> str:
+        """What the process has written to its error stream."""
+        self._errors.seek(0)
+        return self._errors.read().decode()
+
+    @property
+    def said(self) -> str:
+        """All that is known, to explain a failure."""
+        lines = (f"{event['event']} {event.get('robot', '')} {event.get('summary', '')}" for event in self.events)
+        return "\n".join([*lines, self.errors])
+
+
+@contextlib.contextmanager
+def stopped(process: subprocess.Popen[bytes]) -> Iterator[None]:
+    """The process does not run for a while."""
+    process.send_signal(signal.SIGSTOP)
+    try:
+        yield
+    finally:
+        process.send_signal(signal.SIGCONT)

@@ -1,0 +1,71 @@
+"""A terminal of a given size that remembers what is on it and what has scrolled away."""
+
+from __future__ import annotations
+
+import io
+import re
+
+_PIECES = re.compile(r"\x1b\[([\d;?]*)([A-Za-z])|(.)", re.DOTALL)
+
+
+class Screen(io.StringIO):
+    """Understands what is written for it: line feeds, `ESC [ n A`, `ESC [ 2 K` and colours; anything else is an error.
+
+    It breaks lines as xterm does, and does not join them again when it gets wider.
+    """
+
+    encoding = "utf-8"
+
+    def __init__(self, width: int = 80, height: int = 24) -> None:
+        super().__init__()
+        self.width, self.height = width, height
+        self.rows = [""]
+        self.writes = 0
+        self._row = self._column = 0
+
+    def isatty(self) -> bool:
+        return True
+
+    def write(self, text: str) -> int:
+        super().write(text)
+        self.writes += bool(text)
+        for match in _PIECES.finditer(text):
+            number, command, character = match.groups()
+            if command:
+                self._obey(command, number)
+            else:
+                self._put(character)
+        return len(text)
+
+    def shown(self) -> list[str]:
+        """All rows from the first one on, without what is empty at the end."""
+        return "\n".join(row.rstrip() for row in self.rows).rstrip("\n").split("\n")
+
+    def _obey(self, command: str, number: str) -> None:
+        match command:
+            case "A":
+                self._row = max(self._row - int(number or 1), len(self.rows) - self.height, 0)
+            case "K":
+                assert number == "2"
+                self.rows[self._row] = ""
+            case "m":
+                pass
+            case _:
+                raise AssertionError(f"ESC [ {number} {command}")
+
+    def _put(self, character: str) -> None:
+        if character == "\r":
+            self._column = 0
+        elif character == "\n":
+            self._feed()
+        else:
+            if self._column == self.width:
+                self._feed()
+            row = self.rows[self._row].ljust(self._column)
+            self.rows[self._row] = row[: self._column] + character + row[self._column + 1 :]
+            self._column += 1
+
+    def _feed(self) -> None:
+        self._row, self._column = self._row + 1, 0
+        if self._row == len(self.rows):
+            self.rows.append("")

@@ -1,0 +1,175 @@
+"""The daemon within the test's process, where what can't be forced from outside can be: bugs and limits."""
+
+from __future__ import annotations
+
+import errno
+import logging
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from support.daemon import LIMIT
+
+from urdfsync import registry
+from urdfsync.situation import Request
+from urdfsync.watch import Daemon
+from urdfsync.watching import events, observer
+from urdfsync.watching.options import Options
+from urdfsync.watching.settling import Times
+
+QUICK = Times(settle=0.02, sample=0.01, patience=0.1, doubt=0.05)
+
+
+class Daemons:
+    """A daemon in a thread, and what it told."""
+
+    def __init__(self, **options: Any) -> None:
+        self.events: list[events.Event] = []
+        self.error: Exception | None = None
+        self._news = threading.Condition()
+        self._daemon = Daemon(Options(Path("urdfsync.toml"), times=QUICK, request=Request(wait=1), **options), self)
+        self._thread = threading.Thread(target=self._run)
+        self._thread.start()
+
+    def _run(self) -> None:
+        self._daemon.run()
+
+    def __call__(self, event: events.Event) -> None:
+        with self._news:
+            self.events.append(event)
+            self._news.notify_all()
+
+    def progress(self, what: str, done: int, total: int) -> None:
+        """Nothing."""
+
+    def wait(self, kind: type, since: int = 0) -> Any:
+        def found() -> Any:
+            return next((event for event in self.events[since:] if isinstance(event, kind)), None)
+
+        with self._news:
+            assert self._news.wait_for(lambda: found() is not None, LIMIT), self.events
+        return found()
+
+    def stop(self) -> None:
+        self._daemon.stop("SIGTERM")
+        self._thread.join(LIMIT)
+        assert not self._thread.is_alive()
+
+
+@pytest.fixture
+def start(project: Path) -> Iterator[Callable[..., Daemons]]:
+    running = []
+
+    def begin(**options: Any) -> Daemons:
+        running.append(Daemons(**options))
+        return running[-1]
+
+    yield begin
+    for daemon in running:
+        daemon.stop()
+
+
+Start = Callable[..., Daemons]
+
+
+def edit(project: Path, old: str, new: str) -> None:
+    source = project / "ladder.json"
+    source.write_text(source.read_text().replace(old, new))
+
+
+@pytest.mark.parametrize("place", ["read", "artifacts"])
+def test_a_bug_of_a_domain_is_one_error_and_the_daemon_goes_on(
+    project: Path, start: Start, monkeypatch: pytest.MonkeyPatch, place: str
+) -> None:
+    domain = registry.domain("rcnetwork")
+    daemon = start()
+    daemon.wait(events.Built)
+    real = getattr(type(domain), place)
+
+    def broken(self: Any, *arguments: Any) -> Any:
+        if b"330" in (project / "ladder.json").read_bytes():
+            raise ZeroDivisionError("by nothing")
+        return real(self, *arguments)
+
+    monkeypatch.setattr(type(domain), place, broken)
+    since = len(daemon.events)
+    edit(project, "220.5", "330")
+    (found,) = daemon.wait(events.Failed, since).result.diagnostics
+    assert found.code == "internal"
+    assert "ZeroDivisionError in test_watch.py" in found.message
+    assert "by nothing" in found.message
+    since = len(daemon.events)
+    edit(project, "330", "331")
+    assert daemon.wait(events.Built, since).recovered
+
+
+def test_folders_that_can_not_be_watched_are_said_once_and_looked_at(
+    project: Path, start: Start, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    full = threading.Event()
+    full.set()
+    real = observer.Observer._watch
+
+    def limited(self: Any, *arguments: Any) -> None:
+        if full.is_set():
+            raise OSError(errno.ENOSPC, "inotify watch limit reached")
+        real(self, *arguments)
+
+    monkeypatch.setattr(observer.Observer, "_watch", limited)
+    daemon = start(rescan=0.1)
+    (found,) = daemon.wait(events.Noted).diagnostics
+    assert "fs.inotify.max_user_watches" in found.hint
+    daemon.wait(events.Built)
+    since = len(daemon.events)
+    edit(project, "220.5", "330")
+    assert daemon.wait(events.Built, since).files
+    full.clear()
+    daemon.wait(events.Recovered)
+    assert sum(isinstance(event, events.Noted) for event in daemon.events) == 1
+
+
+def test_a_system_without_events(project: Path, start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse() -> None:
+        raise OSError(errno.EMFILE, "inotify instance limit reached")
+
+    monkeypatch.setattr(observer, "Backend", refuse)
+    daemon = start(rescan=0.1)
+    (found,) = daemon.wait(events.Noted).diagnostics
+    assert "fs.inotify.max_user_instances" in found.hint
+    daemon.wait(events.Built)
+    since = len(daemon.events)
+    edit(project, "220.5", "330")
+    assert daemon.wait(events.Built, since).files
+
+
+@pytest.mark.slow  # 2 s
+def test_lost_events_are_made_good(project: Path, start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing gets in but that something was lost."""
+    monkeypatch.setattr(observer._Handler, "dispatch", lambda self, event: None)
+    daemon = start(rescan=100000)
+    daemon.wait(events.Built)
+    time.sleep(1)  # it makes sure that nobody else wrote, and would see the edit then
+    since = len(daemon.events)
+    edit(project, "220.5", "330")
+    time.sleep(0.2)
+    assert len(daemon.events) == since
+    logging.getLogger("watchdog.observers.inotify_c").warning("Inotify queue overflowed")
+    assert daemon.wait(events.Built, since).files
+
+
+@pytest.mark.slow  # 1 s
+def test_a_clock_that_jumps_does_not_matter(project: Path, start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
+    daemon = start(rescan=0.1)
+    daemon.wait(events.Built)
+    real = time.time, time.time_ns
+    for hours, value in ((-1000, "330"), (1000, "331"), (-5, "332")):
+        monkeypatch.setattr(time, "time", lambda hours=hours: real[0]() + 3600 * hours)
+        monkeypatch.setattr(time, "time_ns", lambda hours=hours: real[1]() + 3600 * hours * 10**9)
+        since = len(daemon.events)
+        text = (project / "ladder.json").read_text()
+        (project / "ladder.json").write_text(text.replace(text.split('"ohm": ')[2].split("}")[0], value))
+        assert daemon.wait(events.Built, since).files
+        assert value in (project / "modelica/Ladder/Elements/R2Parameters.mo").read_text()

@@ -1,0 +1,133 @@
+"""A status line per robot: what it says, and which lines are left where not all find room."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import Role
+from urdfsync.outcome import Result
+from urdfsync.plan import Action, Kind
+from urdfsync.watching import events
+from urdfsync.watching.standing import Board, Mood
+
+BROKEN = Diagnostic(Severity.ERROR, "xml-syntax", "this is no\nXML", "arm.urdf", 12, 3)
+ODD = Diagnostic(Severity.WARNING, "odd", "this is odd", "arm.urdf", 7)
+
+
+def result(robot: str, *kinds: Kind, failed: bool = False, diagnostics: tuple[Diagnostic, ...] = ()) -> Result:
+    actions = tuple(Action(f"modelica/Arm/F{number}.mo", kind, Role.RECORD) for number, kind in enumerate(kinds))
+    return Result(robot, "Arm", Path("Arm"), Path(), actions, diagnostics, failed)
+
+
+def started(*robots: str) -> events.Started:
+    return events.Started(Path("urdfsync.toml"), robots)
+
+
+def board(*found: events.Event, robots: tuple[str, ...] = ("arm",)) -> Board:
+    result = Board()
+    for number, event in enumerate((started(*robots), *found)):
+        result.take(event, f"12:00:0{number}")
+    return result
+
+
+def words(*found: events.Event) -> str:
+    (standing,) = board(*found).standings
+    return standing.words
+
+
+BUILT = events.Built(result("arm", Kind.UPDATE))
+UNCHANGED = events.Built(result("arm", Kind.UNCHANGED))
+CONFLICT = events.Built(result("arm", Kind.CONFLICT, Kind.UPDATE))
+FAILED = events.Failed(result("arm", failed=True, diagnostics=(ODD, BROKEN)))
+
+
+def test_a_robot_on_its_way() -> None:
+    assert words() == "not looked at yet"
+    assert words(events.Settling("arm")) == "settling"
+    assert words(events.Waiting("arm", "waiting for the exporter")) == "waiting for the exporter"
+    waiting = events.Waiting("arm", "waiting for the exporter", (BROKEN,))
+    assert words(waiting) == "waiting for the exporter: arm.urdf:12: this is no XML"
+    assert words(events.Building("arm")) == "building"
+    assert words(BUILT) == "in step, built at 12:00:01"
+    assert words(UNCHANGED) == "in step"
+    assert words(FAILED) == "error: arm.urdf:12: this is no XML"
+
+
+def test_a_conflict_names_its_file_or_says_how_many() -> None:
+    assert words(CONFLICT) == "conflict in F0.mo"
+    assert words(events.Built(result("arm", Kind.CONFLICT, Kind.UNOWNED))) == "conflict in 2 files"
+
+
+def test_a_build_that_did_nothing_keeps_the_time_of_the_last_one() -> None:
+    assert words(BUILT, events.Building("arm"), UNCHANGED) == "in step, built at 12:00:01"
+    assert words(CONFLICT, UNCHANGED) == "in step"
+
+
+def test_a_robot_that_calms_down_stands_as_before() -> None:
+    for before in (BUILT, CONFLICT, FAILED):
+        assert words(before, events.Settling("arm")) == "settling"
+        assert words(before, events.Settling("arm"), events.Calm("arm")) == words(before)
+
+
+def test_progress_is_that_of_the_build_under_way() -> None:
+    found = board(events.Building("arm"), events.Settling("cart"), robots=("arm", "cart"))
+    found.step("arm", 0, 1)
+    assert [standing.words for standing in found.standings] == ["building", "settling"]
+    found.step("reading", 3, 12)
+    assert [standing.words for standing in found.standings] == ["building: reading 3 of 12", "settling"]
+    found.step("waiting for another build", 0, 1)
+    assert found.standings[0].words == "building: waiting for another build"
+
+
+def test_a_new_configuration_brings_robots_and_takes_others_away() -> None:
+    found = board(BUILT, events.Settling("cart"), started("crane", "arm"), robots=("arm", "cart"))
+    assert [(standing.robot, standing.words) for standing in found.standings] == [
+        ("crane", "not looked at yet"),
+        ("arm", "in step, built at 12:00:01"),
+    ]
+
+
+def test_a_pause_is_known_until_it_is_over() -> None:
+    assert board(events.Paused("pre-commit runs")).paused == "pre-commit runs"
+    assert board(events.Paused("pre-commit runs"), events.Resumed()).paused == ""
+
+
+def test_where_not_all_find_room_those_that_need_attention_do_in_their_usual_order() -> None:
+    robots = tuple(f"r{number}" for number in range(60))
+    found = board(*(events.Built(result(robot)) for robot in robots), robots=robots)
+    found.take(events.Settling("r10"), "")
+    found.take(events.Built(result("r50", Kind.CONFLICT)), "")
+    found.take(events.Failed(result("r55", failed=True)), "")
+    shown, rest = found.shown(5)
+    assert [standing.robot for standing in shown] == ["r0", "r10", "r50", "r55"]
+    assert rest == "… and 56 more in step"
+    shown, rest = found.shown(3)
+    assert [standing.robot for standing in shown] == ["r50", "r55"]
+    assert rest == "… and 58 more: 1 settling, 57 in step"
+
+
+MOODS: dict[Mood, Callable[[str], events.Event]] = {
+    Mood.ERROR: lambda robot: events.Failed(result(robot, failed=True)),
+    Mood.CONFLICT: lambda robot: events.Built(result(robot, Kind.CONFLICT)),
+    Mood.WAITING: lambda robot: events.Waiting(robot, "waiting"),
+    Mood.BUILDING: events.Building,
+    Mood.SETTLING: events.Settling,
+    Mood.IN_STEP: lambda robot: events.Built(result(robot)),
+}
+
+
+@given(st.lists(st.sampled_from(sorted(MOODS)), min_size=1, max_size=12), st.integers(1, 12))
+def test_nobody_is_hidden_behind_a_calmer_one(moods: list[Mood], room: int) -> None:
+    robots = tuple(f"r{number}" for number in range(len(moods)))
+    found = board(*(MOODS[mood](robot) for mood, robot in zip(moods, robots, strict=True)), robots=robots)
+    shown, rest = found.shown(room)
+    assert len(shown) + bool(rest) <= max(room, 1)
+    hidden = [standing for standing in found.standings if standing not in shown]
+    assert bool(rest) == bool(hidden)
+    assert not hidden or f"and {len(hidden)} more" in rest
+    assert all(one.mood.rank <= other.mood.rank for one in shown for other in hidden)

@@ -1,0 +1,113 @@
+"""`urdfsync watch`: keeps packages in step while their sources change."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import signal
+from collections.abc import Iterator
+from types import FrameType
+from typing import TYPE_CHECKING
+
+from urdfsync import config
+from urdfsync.commands import common
+from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.outcome import Exit
+from urdfsync.report import Report
+
+if TYPE_CHECKING:
+    from urdfsync.watch import Daemon
+    from urdfsync.watching.options import Options
+
+_CODES = "exit codes: 0 ended by SIGTERM or SIGHUP, 2 error, 4 watched already, 130 ended by SIGINT"
+_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
+
+
+def add(commands: common.Commands) -> None:
+    """Add the command's parser."""
+    parser = commands.add_parser(
+        "watch",
+        help="keep the packages in step while their sources change",
+        description="Build whenever a source or anything else that matters has changed and settled, until interrupted.",
+        epilog=f"example: urdfsync watch --exec 'make fmu'\n\n{_CODES}",
+    )
+    common.add_robots(parser)
+    times = parser.add_argument_group("times")
+    _add_time(times, "--settle", "MS", 300, "build after so long without an event, in milliseconds")
+    _add_time(times, "--sample", "MS", 200, "and after two equal samples so far apart, in milliseconds")
+    _add_time(times, "--patience", "S", 30, "a source that is no model for so long is an error, in seconds")
+    _add_time(times, "--rescan", "S", 30, "look at everything so often, in seconds")
+    parser.add_argument("--poll", action="store_true", help="do without events, for network and container mounts")
+    parser.add_argument(
+        "--exec", metavar="CMD", default="", help="shell command to run after a build that changed files"
+    )
+    common.add_wait(parser)
+    common.add_jobs(parser)
+    parser.set_defaults(run=_run)
+    common.add_common(parser)
+
+
+def _add_time(group: argparse._ArgumentGroup, name: str, unit: str, default: float, text: str) -> None:
+    group.add_argument(name, type=_duration, metavar=unit, default=default, help=f"{text} ({default:g})")
+
+
+def _duration(text: str) -> float:
+    number = float(text)
+    if not 0 <= number < float("inf"):
+        raise ValueError
+    return number
+
+
+def _run(options: argparse.Namespace, report: Report) -> int:
+    from urdfsync.watch import Daemon  # not at the top: watchdog takes 45 ms
+    from urdfsync.watching import builder
+    from urdfsync.watching.guard import HeldError
+
+    try:
+        with report.watching() as listener:
+            daemon = Daemon(_options(options, report), listener)
+            with _signals(daemon) as received:
+                daemon.run()
+    except HeldError as error:
+        report.problems("watch", error.diagnostics, Exit.LOCKED)
+        return Exit.LOCKED
+    except (UrdfsyncError, OSError):
+        raise
+    except Exception as error:  # noqa: BLE001 - the last line of a daemon that nobody may be looking at
+        report.problems("watch", [builder.unexpected(error, "the daemon can't go on")])
+        return Exit.ERROR
+    return Exit.INTERRUPTED if received[0] == "SIGINT" else Exit.IN_STEP
+
+
+def _options(options: argparse.Namespace, report: Report) -> Options:
+    from urdfsync.watching.options import Options
+    from urdfsync.watching.settling import Times
+
+    return Options(
+        file=options.config or config.find(config.working_folder()),
+        robots=(*options.robots, *(options.robot or ())),
+        times=Times(options.settle / 1000, options.sample / 1000, options.patience),
+        rescan=max(options.rescan, 0.1),
+        poll=options.poll,
+        command=options.exec,
+        request=common.request(options, report),
+    )
+
+
+@contextlib.contextmanager
+def _signals(daemon: Daemon) -> Iterator[list[str]]:
+    """End the daemon when the process is told to: the first signal lets it finish its work, the second undoes that."""
+    received: list[str] = []
+
+    def handle(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 - as signal calls it
+        received.append(signal.Signals(number).name)
+        daemon.stop(received[0])
+        if len(received) > 1:
+            raise KeyboardInterrupt
+
+    before = {name: signal.signal(number, handle) for name in _SIGNALS if (number := getattr(signal, name, None))}
+    try:
+        yield received
+    finally:
+        for name, handler in before.items():
+            signal.signal(getattr(signal, name), handler)

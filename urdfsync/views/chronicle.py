@@ -1,0 +1,157 @@
+"""The lines of `urdfsync watch` that scroll: one per build with what changed, errors and conflicts as `build` has them.
+
+What was said of a robot in an earlier build and still holds (conflicts, warnings, files that are kept although they
+are no longer generated) is not repeated.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+from collections.abc import Collection, Hashable, Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from urdfsync import wording
+from urdfsync.config import shown
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.outcome import Result
+from urdfsync.plan import CONFLICTS, Kind
+from urdfsync.views import builds, conflicts, terminal
+from urdfsync.views.terminal import text
+from urdfsync.watching import events, words
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.text import Text
+
+NAME = 24
+"""Columns that names of robots get to stand in line."""
+_LEFT = frozenset({Kind.ORPHAN, Kind.NEEDED})
+"""Files that are no longer generated, but kept."""
+
+
+class Line(NamedTuple):
+    """One line, and whether it belongs on the error stream."""
+
+    text: Text
+    error: bool = False
+
+
+class Chronicle:
+    """Events as lines; remembers what it has said."""
+
+    def __init__(self, console: Console, *, quiet: bool = False, verbose: bool = False, config: str = "") -> None:
+        """`console` is where conflicts are going to be shown; `config` the configuration as the user named it."""
+        self._console, self._quiet, self._verbose = console, quiet, verbose
+        self._look = conflicts.Look(verbose, quiet, 0, config)
+        self._said: dict[tuple[str, str], Collection[Hashable]] = {}
+        self._column = 0
+
+    def lines(self, event: events.Event, clock: str) -> Iterator[Line]:
+        """What there is to say of an event that happened at this time of day."""
+        match event:
+            case events.Built():
+                yield from self._built(event, clock)
+            case events.Failed(result, again) if self._verbose or not again:
+                yield Line(self._line(clock, result.robot, wording.summary(result), "bold red"), error=True)
+                yield from self._findings(result.diagnostics)
+            case events.Noted(diagnostics):
+                yield from self._findings(diagnostics, clock)
+            case events.Waiting(robot, reason, diagnostics) if self._verbose:
+                yield Line(self._line(clock, robot, reason, "dim"))
+                yield from self._findings(diagnostics)
+            case events.Failed() | events.Waiting():
+                pass
+            case _:
+                robot, said, always = _plain(event)
+                if isinstance(event, events.Started):
+                    self._column = min(max(map(len, event.robots), default=0), NAME)
+                if self._verbose or (always and not self._quiet):
+                    yield Line(self._line(clock, robot, said, "" if always else "dim"))
+
+    def _built(self, event: events.Built, clock: str) -> Iterator[Line]:
+        """The line of a build, if it did or found anything, and what else there is to say for the first time."""
+        result = event.result
+        yield from self._findings(self._fresh(event))
+        had = self._said.get((result.robot, "conflicts"))
+        known = not self._is_new(result.robot, "conflicts", {(a.path, a.mine, a.generated) for a in result.conflicts})
+        left = self._is_new(result.robot, "left", {a.path for a in result.actions if a.kind in _LEFT})
+        if self._quiet and (known or not result.conflicts):
+            return
+        again = "in step again" if not result.conflicts and (event.recovered or had) else ""
+        speaks = event.files or event.recovered or result.changes or not known
+        did = [words.news(result, known=known)] if speaks else []
+        did = list(filter(None, did)) + ([again] if again else [])
+        if not did and (self._verbose or left):
+            did = [wording.summary(result)]
+        if did:
+            yield Line(self._line(clock, result.robot, ", ".join(did), "yellow" if result.conflicts else ""))
+            yield from self._details(result, known=known, left=left)
+
+    def _details(self, result: Result, *, known: bool, left: bool) -> Iterator[Line]:
+        """What `build` has below its headline; without what was said before, unless somebody wants everything."""
+        if not self._verbose:
+            hidden = (CONFLICTS if known else frozenset()) | (frozenset() if left else _LEFT)
+            actions = tuple(action for action in result.actions if action.kind not in hidden)
+            result = dataclasses.replace(result, actions=actions, changes=None)
+        yield from map(Line, itertools.islice(builds.lines(result, self._console, self._look, explain=False), 1, None))
+
+    def _fresh(self, event: events.Built) -> Sequence[Diagnostic]:
+        """The findings that the robot's last build did not have; lines may have moved.
+
+        A build with nothing to do reads no source, and has other findings: it is compared with others of its kind.
+        """
+        found = event.result.diagnostics
+        topic = "findings" if event.files or event.result.changes else "findings of nothing to do"
+        before = self._said.get((event.result.robot, topic), ())
+        keys = [(one.code, one.message, one.file) for one in found]
+        self._said[event.result.robot, topic] = frozenset(keys)
+        return found if self._verbose else [one for one, key in zip(found, keys, strict=True) if key not in before]
+
+    def _is_new(self, robot: str, topic: str, found: Collection[Hashable]) -> bool:
+        """Whether there is anything that was not the same at the robot's last build."""
+        before = self._said.get((robot, topic))
+        self._said[robot, topic] = found
+        return bool(found) and found != before
+
+    def _findings(self, diagnostics: Sequence[Diagnostic], clock: str = "") -> Iterator[Line]:
+        """Findings as any command shows them; with a time of day, if they belong to no line that has one."""
+        if self._quiet:
+            diagnostics = [found for found in diagnostics if found.severity is Severity.ERROR]
+        findings, more = (diagnostics, {}) if self._verbose else wording.folded(diagnostics)
+        for found in findings:
+            time = text((f"{clock}  " if clock else "", "dim"))
+            yield Line(time.append_text(terminal.finding(found)), error=True)
+        for code, number in more.items():
+            said = f"and {number} more like these [{code}]; --verbose shows them"
+            yield Line(text((said, "dim")), error=True)
+
+    def _line(self, clock: str, robot: str, said: str, style: str) -> Text:
+        name = f"{robot:<{self._column}}  " if robot else ""
+        return text((f"{clock}  ", "dim"), (name, "bold"), (said, style))
+
+
+def _plain(event: events.Event) -> tuple[str, str, bool]:
+    """The robot of an event, what there is to say, and whether to say it even if nobody asks for everything."""
+    match event:
+        case events.Started(config, robots, again):
+            what = "configuration read again, " if again else ""
+            return "", f"{what}watching {wording.counted(len(robots), 'robot')} of {shown(config)}", True
+        case events.Settling(robot):
+            return robot, "changed, settling", False
+        case events.Calm(robot):
+            return robot, "as before", False
+        case events.Building(robot):
+            return robot, "building", False
+        case events.Recovered(what):
+            return "", what, True
+        case events.Paused(reason):
+            return "", f"paused: {reason}", False
+        case events.Resumed():
+            return "", "building again", False
+        case events.Ran(robot, code):
+            return robot, f"command ended with {code}", False
+        case events.Stopping(signal):
+            return "", f"stopped by {signal}", True
+        case _:
+            raise ValueError(event)

@@ -1,0 +1,105 @@
+"""Builds of what has settled: what is said of them, and whether anything is left to do at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from urdfsync.config import Config, RobotConfig
+from urdfsync.outcome import Result
+from urdfsync.plan import Kind
+from urdfsync.situation import Request
+from urdfsync.watching import builder, events
+from urdfsync.watching.robots import Robots, Watched
+from urdfsync.watching.samples import alike, changed
+
+_ROUNDS = 3
+"""So often a robot is built in a row; if it is not in step then, somebody writes all the time, and it has to settle."""
+_NOTES = (Kind.ADOPT, Kind.FORGET)
+"""Actions that only change what is recorded."""
+
+
+class Builds:
+    """Builds robots, and tells the listener what is new."""
+
+    def __init__(
+        self,
+        robots: Robots,
+        request: Request,
+        tell: Callable[[events.Event], None],
+        touch: Callable[[Watched], None],
+        arm: Callable[[], None],
+        ran: Callable[[RobotConfig, Sequence[Path]], None],
+    ) -> None:
+        """What a build leads to: `touch` for a robot that has to settle again, `arm` where scopes have changed.
+
+        `ran` is told of a robot of which these files were written or deleted.
+        """
+        self._robots, self._request = robots, request
+        self._tell, self._touch, self._arm, self._ran = tell, touch, arm, ran
+
+    def build(self, config: Config, settled: Sequence[Watched]) -> None:
+        """Build robots until each is in step with itself: until a build of it finds nothing to write."""
+        for watched in settled:
+            if watched.announced:
+                self._tell(events.Building(watched.name))
+        for _ in range(_ROUNDS):
+            self._build_once(config, {watched.name: watched for watched in settled})
+            settled = [watched for watched in settled if not self._rests(watched)]
+            if not settled:
+                return
+        for watched in settled:
+            self._touch(watched)
+
+    def fail(self, config: Config, watched: Watched) -> None:
+        """Say that a source is no model, and leave the robot alone until something changes."""
+        self._say_failed(watched, builder.failure(config, watched.robot, watched.trouble))
+        self._leave(watched)
+
+    def _build_once(self, config: Config, settled: dict[str, Watched]) -> None:
+        for result in builder.results(config, [watched.robot for watched in settled.values()], self._request):
+            watched = settled[result.robot]
+            if not result.failed:
+                self._say_built(watched, result)
+            elif not self._robots.inputs_differ(watched, watched.settled):
+                self._say_failed(watched, result)
+        for watched in settled.values():
+            self._robots.renew(watched)
+        self._arm()
+
+    def _rests(self, watched: Watched) -> bool:
+        """Whether there is nothing left to do for a robot at once.
+
+        What was sampled before the last build is compared with what is there after it: where inputs differ, they
+        have to settle; where outputs differ, that build or somebody else wrote them, which the next build tells.
+        A build that wrote something is never the last, since somebody else may have undone that before the sample.
+        """
+        before, watched.settled = watched.settled, self._robots.sample(watched)
+        if any(watched.is_input(path) for path in changed(before, watched.settled)):
+            self._touch(watched)
+            return True
+        if watched.failed is None and (watched.busy or not alike(before, watched.settled)):
+            return False
+        self._leave(watched)
+        return True
+
+    def _leave(self, watched: Watched) -> None:
+        watched.built, watched.announced = watched.settled, False
+        watched.settler.rest()
+
+    def _say_failed(self, watched: Watched, result: Result) -> None:
+        again = watched.failed == result.diagnostics
+        if watched.announced or not again:
+            self._tell(events.Failed(result, again))
+        watched.failed, watched.announced = result.diagnostics, False
+
+    def _say_built(self, watched: Watched, result: Result) -> None:
+        files, recovered = builder.written(result), watched.failed is not None
+        left = (action for action in result.actions if action.kind is not Kind.UNCHANGED and not action.writes)
+        special = frozenset((action.path, str(action.kind)) for action in left)
+        watched.busy = any(action.writes or action.kind in _NOTES for action in result.actions)
+        if watched.announced or files or recovered or special != watched.special:
+            self._tell(events.Built(result, files, recovered))
+        watched.failed, watched.announced, watched.special, watched.trouble = None, False, special, ()
+        if files:
+            self._ran(watched.robot, files)

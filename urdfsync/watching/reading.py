@@ -1,0 +1,42 @@
+"""What a settled source is: a model, none, or one that has lost so much that it is better looked at again."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Set as AbstractSet
+
+from urdfsync import inputs, registry
+from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.files import digest
+
+_MANY = 3
+"""So many elements have to be gone at least for a source to be doubtful, and more than half of all."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Judgement:
+    """What is to be said of a source."""
+
+    content: str = ""
+    """SHA-256 (hex) of the bytes that were read; empty if they could not be."""
+    errors: tuple[Diagnostic, ...] = ()
+    """Why it is no model; empty if it is one."""
+    gone: int = 0
+    """How many of the elements of the last build it has no more, if these are many."""
+
+
+def judge(config: Config, robot: RobotConfig, known: AbstractSet[tuple[str, str]]) -> Judgement:
+    """Read the source of a robot; `known` are the kinds and names of its elements in the last build."""
+    try:
+        content = inputs.read_source(config, robot)
+        domain = registry.domain(robot.domain)
+    except UrdfsyncError as error:
+        return Judgement(errors=error.diagnostics)
+    reading = domain.read(content, shown(robot.source), robot.options)
+    errors = tuple(found for found in reading.diagnostics if found.severity is Severity.ERROR)
+    if reading.snapshot is None or errors:
+        return Judgement(digest(content), reading.diagnostics)
+    named = domain.names(reading.snapshot, robot.target).items()
+    gone = len(known - {(kind, name) for kind, names in named for name in names})
+    return Judgement(digest(content), gone=gone if gone >= _MANY and 2 * gone > len(known) else 0)
