@@ -12,7 +12,8 @@ CHECKS = {
     "format": ["ruff", "format", "--check", "."],
     "types": ["mypy"],
     "examples in step": ["urdfsync", "build", "--check"],
-    "tests": ["pytest", "-n", str(os.cpu_count() or 1), "-m", "not large"],
+    # one more process than cores, since those that watch folders mostly wait
+    "tests": ["pytest", "-n", str((os.cpu_count() or 1) + 1), "-m", "not large"],
 }
 
 

@@ -148,6 +148,11 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
     return snapshot
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The longest test comes first: it hardly computes, and others run beside it."""
+    items.sort(key=lambda item: "soak" not in item.nodeid)
+
+
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Say how many tests need what is not here."""
     skipped = [str(report.longrepr) for report in terminalreporter.stats.get("skipped", [])]

@@ -11,12 +11,13 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import config, generate, manifest, registry
+from urdfsync import config, manifest, registry
 from urdfsync.config import Keys
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import Artifact, Dependency, Domain, Import, Lookup, Order, Role, Snapshot, Target, Templates
 from urdfsync.files import digest, templates_digest
 from urdfsync.modelica import is_identifier, within
+from urdfsync.planning import generate
 
 URDF = b"""<robot name="two &quot;links&quot;">
   <link name="base link"/>

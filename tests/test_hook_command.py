@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 from support.git import NEEDS_GIT, Repository
 
-from urdfsync import cli, committing, hook
+from urdfsync import cli, hook
+from urdfsync.staging import committing
 from urdfsync.state.lock import Lock
 
 pytestmark = NEEDS_GIT

@@ -19,9 +19,23 @@ MODULES = [name for name in OURS if not name.endswith("__init__") and not name.s
 IO = ("os", "io", "shutil", "subprocess", "tempfile", "socket", "glob", "urllib.request", "sys")
 HEAVY = ("jinja2", "rich", "lxml", "yourdfpy", "trimesh", "numpy", "collada", "deepdiff", "rumoca", "watchdog")
 SHELL = (
-    *("build", "planner", "config", "cli", "watch", "report", "files", "imports", "decide", "parents", "init"),
-    *("commands", "views", "state", "records", "differ", "versions", "revisions", "subjects"),
-    *("staged", "mirror", "worktree", "judging", "committing", "hook"),
+    *(
+        "build",
+        "planning",
+        "config",
+        "cli",
+        "watch",
+        "report",
+        "files",
+        "init",
+        "commands",
+        "views",
+        "state",
+        "records",
+    ),
+    *(f"comparing.{name}" for name in ("differ", "versions", "revisions", "subjects")),
+    *(f"staging.{name}" for name in ("staged", "mirror", "worktree", "judging", "committing")),
+    "hook",
 )
 SHELL_MODULES = tuple(f"urdfsync.{name}" for name in SHELL)
 
@@ -39,13 +53,13 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "status": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
     "records": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "resolution": (*SHELL_MODULES, *HEAVY),
-    "comparison": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
-    "figures": ("urdfsync", "pathlib", *IO, *HEAVY),
-    "outline": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
-    "revisions": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "subjects": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "versions": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "differ": ("urdfsync.report", "urdfsync.cli", "urdfsync.render", *HEAVY),
+    "comparing/comparison": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
+    "comparing/figures": ("urdfsync", "pathlib", *IO, *HEAVY),
+    "comparing/outline": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
+    "comparing/revisions": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "comparing/subjects": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "comparing/versions": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "comparing/differ": ("urdfsync.report", "urdfsync.cli", "urdfsync.render", *HEAVY),
     "wording": (*SHELL_MODULES, *IO, *HEAVY),
     "documents": (*SHELL_MODULES, *IO, *HEAVY),
     "modelica": ("urdfsync", *IO, *HEAVY),
@@ -58,19 +72,26 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "tomlfile": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "tables": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "build": ("rich", "watchdog", "urdfsync.report", "urdfsync.cli"),
-    "planner": ("rich", "watchdog", "urdfsync.report", "urdfsync.cli"),
+    "planning/planner": ("rich", "watchdog", "urdfsync.report", "urdfsync.cli"),
     "state/journal": ("pathlib", "urdfsync", *IO, *HEAVY),
     "state/operations": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
     "state/batch": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
     "state/transactions": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
     "state/lock": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
     "state/repair": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
-    "decide": ("rich", "watchdog", "urdfsync.build", "urdfsync.report", "urdfsync.cli"),
-    "staged": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "mirror": ("urdfsync.build", "urdfsync.manifest", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "verdict": (*SHELL_MODULES, *IO, *HEAVY),
-    "worktree": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "judging": ("urdfsync.report", "urdfsync.cli", *HEAVY),
+    "planning/decide": ("rich", "watchdog", "urdfsync.build", "urdfsync.report", "urdfsync.cli"),
+    "staging/staged": (
+        "urdfsync.build",
+        "urdfsync.config",
+        "urdfsync.manifest",
+        "urdfsync.report",
+        "urdfsync.cli",
+        *HEAVY,
+    ),
+    "staging/mirror": ("urdfsync.build", "urdfsync.manifest", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "staging/verdict": (*SHELL_MODULES, *IO, *HEAVY),
+    "staging/worktree": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "staging/judging": ("urdfsync.report", "urdfsync.cli", *HEAVY),
     "config": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "watch": ("rich", "urdfsync.urdf", "urdfsync.report", "urdfsync.cli"),
     "watching/events": ("watchdog", "rich", *IO),
@@ -107,7 +128,7 @@ LIGHT = (
     "config",
     "registry",
     "build",
-    "planner",
+    "planning/planner",
     "state/transactions",
     "state/lock",
     "report",
@@ -129,9 +150,9 @@ NO_IO_CALLS = {
 PURE = (
     *(
         "changes",
-        "comparison",
-        "outline",
-        "figures",
+        "comparing/comparison",
+        "comparing/outline",
+        "comparing/figures",
         "diagnostics",
         "difference",
         "domain",
@@ -239,7 +260,7 @@ def test_imports_name_what_the_project_depends_on(module: str) -> None:
 
 
 def test_the_rules_bite() -> None:
-    assert broken(loaded_with("generate"), ("jinja2",)) == [], "imports inside functions are not run"
-    assert "jinja2" in all_imports("generate")
+    assert broken(loaded_with("planning/generate"), ("jinja2",)) == [], "imports inside functions are not run"
+    assert "jinja2" in all_imports("planning/generate")
     assert "jinja2" in loaded_with("render")
     assert "urdfsync.plan.FileRecord" in loaded_with("build"), "through `manifest`"

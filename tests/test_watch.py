@@ -14,7 +14,7 @@ import pytest
 from support.daemon import LIMIT
 
 from urdfsync import registry
-from urdfsync.situation import Request
+from urdfsync.planning.situation import Request
 from urdfsync.watch import Daemon
 from urdfsync.watching import events, observer
 from urdfsync.watching.options import Options

@@ -10,19 +10,19 @@ import dataclasses
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import shared
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
-from urdfsync.crew import Crew
-from urdfsync.decide import Disk
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.outcome import Result
-from urdfsync.situation import Progress, Request
+from urdfsync.planning import shared
+from urdfsync.planning.crew import Crew
+from urdfsync.planning.decide import Disk
+from urdfsync.planning.situation import Progress, Request
+from urdfsync.planning.work import Work
 from urdfsync.state import leftovers
 from urdfsync.state.batch import SavedError
 from urdfsync.state.lock import Lock, LockedError
 from urdfsync.state.store import Store
 from urdfsync.state.transactions import Change, Transactions, UnfinishedError
-from urdfsync.work import Work
 
 __all__ = ["Progress", "Request", "build"]
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfsync import difference, resolution, wording
-from urdfsync.comparison import Comparison
+from urdfsync.comparing.comparison import Comparison
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.outcome import Result
 from urdfsync.plan import Action, Kind

@@ -9,9 +9,9 @@ from pathlib import Path
 
 from urdfsync import config
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.situation import Request
-from urdfsync.staged import Index
-from urdfsync.worktree import Worktree
+from urdfsync.planning.situation import Request
+from urdfsync.staging.staged import Index
+from urdfsync.staging.worktree import Worktree
 
 _MODES = (["build"], ["check"])
 

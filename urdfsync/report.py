@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfsync import documents, wording
-from urdfsync.comparison import Comparison
+from urdfsync.comparing.comparison import Comparison
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.documents import VERSION
 from urdfsync.outcome import Exit, Result

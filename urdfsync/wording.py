@@ -9,7 +9,7 @@ from collections.abc import Container, Sequence
 from typing import TYPE_CHECKING
 
 from urdfsync import difference
-from urdfsync.comparison import Comparison
+from urdfsync.comparing.comparison import Comparison
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Result
 from urdfsync.plan import DELETES, Kind

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
 from urdfsync import config
+from urdfsync.planning.situation import Request
 from urdfsync.report import Report
-from urdfsync.situation import Request
 
 CODES = "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, 4 locked, 130 interrupted"
 

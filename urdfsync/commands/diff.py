@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 from urdfsync import config
 from urdfsync.commands import common
-from urdfsync.comparison import exit_code
+from urdfsync.comparing.comparison import exit_code
 from urdfsync.config import Config
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.report import Report
 
 if TYPE_CHECKING:
-    from urdfsync.subjects import Subject
+    from urdfsync.comparing.subjects import Subject
 
 
 def add(commands: common.Commands) -> None:
@@ -38,7 +38,7 @@ def add(commands: common.Commands) -> None:
 
 
 def _run(options: argparse.Namespace, report: Report) -> int:
-    from urdfsync import differ, subjects
+    from urdfsync.comparing import differ, subjects
 
     folder = config.working_folder()
     configuration = _configuration(options, folder)

@@ -31,7 +31,7 @@ def add(commands: common.Commands) -> None:
 
 
 def _run(options: argparse.Namespace, report: Report) -> int:
-    from urdfsync import committing  # not at the top: no other command needs git or temporary folders
+    from urdfsync.staging import committing  # not at the top: no other command needs git or temporary folders
 
     writing, named = options.mode == "build", [*options.configs, *filter(None, [options.config])]
     return committing.run(common.request(options, report), writing, named, report, options.json)

@@ -11,8 +11,8 @@ from urdfsync.build import build
 from urdfsync.commands import common
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.outcome import Result, exit_code
+from urdfsync.planning.situation import Request
 from urdfsync.report import Report
-from urdfsync.situation import Request
 
 
 def add(commands: common.Commands) -> None:

@@ -8,10 +8,11 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from urdfsync import outline, wording
-from urdfsync.comparison import Comparison
+from urdfsync import wording
+from urdfsync.comparing import outline
+from urdfsync.comparing.comparison import Comparison
+from urdfsync.comparing.outline import Entry, Row, Tone
 from urdfsync.config import shown
-from urdfsync.outline import Entry, Row, Tone
 from urdfsync.plan import CONFLICTS, Action, Kind
 from urdfsync.views.terminal import has_marks, text
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from urdfsync import wording
 from urdfsync.config import FILE_NAME
-from urdfsync.verdict import Verdict
+from urdfsync.staging.verdict import Verdict
 
 _FEW = 5
 """So many files are named one by one."""

@@ -11,8 +11,8 @@ from urdfsync.build import build
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Result
-from urdfsync.planner import plan
-from urdfsync.situation import Request, in_silence
+from urdfsync.planning.planner import plan
+from urdfsync.planning.situation import Request, in_silence
 
 
 class StoppedError(Exception):

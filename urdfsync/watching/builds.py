@@ -8,7 +8,7 @@ from pathlib import Path
 from urdfsync.config import Config, RobotConfig
 from urdfsync.outcome import Result
 from urdfsync.plan import Kind
-from urdfsync.situation import Request
+from urdfsync.planning.situation import Request
 from urdfsync.watching import builder, events
 from urdfsync.watching.robots import Robots, Watched
 from urdfsync.watching.samples import alike, changed

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from pathlib import Path
 
-from urdfsync.situation import Request
+from urdfsync.planning.situation import Request
 from urdfsync.watching.settling import Times
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Set as AbstractSet
 
-from urdfsync import inputs, registry
+from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.files import digest
+from urdfsync.planning import inputs
 
 _MANY = 3
 """So many elements have to be gone at least for a source to be doubtful, and more than half of all."""

@@ -14,7 +14,7 @@ from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Dependency, Lookup
-from urdfsync.imports import sought
+from urdfsync.planning.imports import sought
 from urdfsync.state.store import State, Store
 from urdfsync.watching.samples import files_below
 

@@ -6,10 +6,11 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from urdfsync import outline, wording
+from urdfsync import wording
+from urdfsync.comparing import outline
+from urdfsync.comparing.outline import Entry, Row, Tone
 from urdfsync.domain import Role
 from urdfsync.outcome import Result
-from urdfsync.outline import Entry, Row, Tone
 from urdfsync.plan import CONFLICTS, Action, Kind
 
 if TYPE_CHECKING:

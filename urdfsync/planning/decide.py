@@ -1,0 +1,261 @@
+"""Looks at what is on disk and plans: the shell around `plan` and `order`."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from typing import Protocol
+
+from urdfsync import order
+from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.domain import Role
+from urdfsync.files import Tree, digest, text_digest
+from urdfsync.manifest import Manifest
+from urdfsync.plan import (
+    CONFLICTS,
+    DISPUTED,
+    Action,
+    FileRecord,
+    Found,
+    Kind,
+    Wanted,
+    after,
+    hold,
+    numbers_only,
+    plan,
+    remembered,
+    spare,
+)
+from urdfsync.planning.parents import Parents
+from urdfsync.planning.shared import Shared
+from urdfsync.standoff import Choice, Standoff
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Decision:
+    """All actions of one robot, and what to record of files and orders when they are done."""
+
+    actions: tuple[Action, ...]
+    texts: Mapping[str, str]
+    """New text of every `package.order`, of parent packages that have to be made, and of merged files."""
+    files: Mapping[str, FileRecord]
+    orders: Mapping[str, tuple[str, ...]]
+    standoffs: tuple[Standoff, ...] = ()
+    """The texts of the files that conflict."""
+    shared: tuple[Shared, ...] = ()
+    """What has to be done to files around the package."""
+
+
+class Disk:
+    """The files of one robot's package, addressed by their path from the configuration's folder."""
+
+    def __init__(self, config: Config, robot: RobotConfig) -> None:
+        self._root = config.root
+        self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
+        self._seen: dict[str, str | None] = {}
+
+    def key(self, path: Path) -> str:
+        """How a file is called in manifest and plan."""
+        return Path(os.path.relpath(path, self._root)).as_posix()
+
+    def path(self, key: str) -> Path:
+        """The file of this name."""
+        return Path(os.path.normpath(self._root / key))
+
+    def reaches(self, key: str) -> bool:
+        """Whether the file is one that urdfsync may touch: below the output folder, or the configuration's."""
+        return self._tree(self.path(key)) is not None
+
+    def read(self, key: str) -> bytes | None:
+        """The file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
+        return self.read_path(self.path(key))
+
+    def read_path(self, path: Path) -> bytes | None:
+        """The content of a file, by its absolute path."""
+        tree = self._tree(path)
+        return tree.read(path) if tree else None
+
+    def found(self, key: str, role: Role) -> Found:
+        """What is there in the place of a file."""
+        content = self.read(key)
+        if content is not None:
+            seen = self._see(key, content)
+            return Found(seen if role is Role.IMPORT or b"\r" not in content else text_digest(content))
+        self._seen.setdefault(key, None)
+        path = self.path(key)
+        is_class = path.suffix == ".mo" and path.name != "package.mo"
+        return Found(as_folder=is_class and (path.with_suffix("") / "package.mo").is_file())
+
+    def text(self, key: str) -> str | None:
+        """The file as text; bytes that are not UTF-8 survive, see `encode`."""
+        content = self.read(key)
+        if content is None:
+            self._seen.setdefault(key, None)
+            return None
+        self._see(key, content)
+        return content.decode(errors="surrogateescape")
+
+    def seen(self, key: str) -> str | None:
+        """SHA-256 (hex) of what `found` or `text` first saw in the place of a file; None if that was no file."""
+        return self._seen[key]
+
+    def has_classes(self, key: str, gone: Collection[str]) -> bool:
+        """Whether the folder of a `package.mo` has other classes than it, and than those of the files in `gone`."""
+        folder = self.path(key).parent
+        for path in folder.iterdir():
+            single = path.suffix == ".mo" and path.name != "package.mo" and path.is_file()
+            whole = path / "package.mo"
+            if single and self.key(path) not in gone:
+                return True
+            if not single and whole.is_file() and self.key(whole) not in gone:
+                return True
+        return False
+
+    def _see(self, key: str, content: bytes) -> str:
+        found = digest(content)
+        self._seen.setdefault(key, found)
+        return found
+
+    def _tree(self, path: Path) -> Tree | None:
+        return next((tree for tree in self._trees if tree.root in path.parents), None)
+
+
+def encode(text: str) -> bytes:
+    """The bytes of a text that `Disk.text` gave, or of a changed one."""
+    return text.encode(errors="surrogateescape")
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Aim:
+    """What a robot's package should be, and what the user wants where that is in doubt; paths as in the manifest."""
+
+    wanted: Mapping[str, Wanted]
+    orders: Mapping[str, tuple[str, ...]]
+    parents: Parents
+    folder: str
+    """The package's."""
+    moves: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    """New and old path of files whose element has another name."""
+    choices: Mapping[str, Choice] = dataclasses.field(default_factory=dict)
+    merging: bool = False
+    """Whether clean merges are welcome without being asked for."""
+
+
+class Texts(Protocol):
+    """The texts that a decision may need; each is rendered at most once, and only if asked for."""
+
+    def generated(self, key: str) -> str:
+        """What would be written to a file."""
+        ...
+
+    def base(self, key: str, digest: str) -> str | None:
+        """What was written last to a file, by its hash; None if that is lost."""
+        ...
+
+
+def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None) -> Decision:
+    """Plan every file of a robot; without texts, nothing that both sides changed is settled."""
+    recorded = {key: r for key, r in manifest.files.items() if disk.reaches(key)} if manifest else {}
+    owned = {key: n for key, n in manifest.orders.items() if disk.reaches(key)} if manifest else {}
+    roles = {key: record.role for key, record in recorded.items()} | {key: w.role for key, w in aim.wanted.items()}
+    planned = plan(recorded, aim.wanted, {key: disk.found(key, role) for key, role in roles.items()}, aim.moves)
+    choices = {**remembered(recorded, planned), **aim.choices}
+    aim = dataclasses.replace(aim, choices=choices)
+    actions, standoffs, merged = _settle(disk, planned, aim, texts) if texts else (planned, {}, {})
+    actions = spare(actions, disk.has_classes)
+    order_actions, order_texts = _plan_orders(disk, owned, aim.orders)
+    extra, extra_texts = _plan_parents(disk, aim.parents)
+    everything = (*actions, *order_actions, *extra)
+    held = hold(everything, _renewable(disk, everything, texts, merged))
+    waits = {action.path for action in held if action.held}
+    keys = owned.keys() | aim.orders.keys()
+    names = {key: owned.get(key, ()) if key in waits else aim.orders.get(key, ()) for key in keys}
+    conflicts = {action.path for action in held if action.kind in CONFLICTS}
+    folders = [f"{folder}/" for folder in (aim.folder, manifest.folder if manifest else aim.folder)]
+    around = sorted(key for key in keys if not any(key.startswith(folder) for folder in folders))
+    shared = [Shared(disk.path(key), None, aim.orders.get(key, ()), owned.get(key, ())) for key in around]
+    shared += [Shared(path, content) for path, content in aim.parents.created.items()]
+    shared += [Shared(path, None, (name,)) for path, name in aim.parents.entered.items()]
+    return Decision(
+        actions=tuple(sorted(held, key=lambda action: action.path)),
+        texts=order_texts | extra_texts | merged,
+        files=after(held[: len(actions)]),
+        orders={key: entry for key, entry in names.items() if entry},
+        standoffs=tuple(standoff for path, standoff in sorted(standoffs.items()) if path in conflicts),
+        shared=tuple(file for file in shared if disk.key(file.path) not in waits),
+    )
+
+
+def _settle(
+    disk: Disk, planned: tuple[Action, ...], aim: Aim, texts: Texts
+) -> tuple[tuple[Action, ...], dict[str, Standoff], dict[str, str]]:
+    """The actions after what both sides changed is settled as far as it can be, its texts, and the merged ones."""
+    from urdfsync.settle import settle  # not at the top: a build that has nothing to do does not merge
+
+    disputed = [action for action in planned if action.kind in DISPUTED and action.role is not Role.IMPORT]
+    standoffs = {action.path: _standoff(disk, action, texts) for action in disputed}
+    actions, merged = [], {}
+    for action, text in settle(planned, standoffs, aim.choices, aim.merging):
+        if text is None:
+            actions.append(action)
+        else:
+            merged[action.path] = text
+            actions.append(dataclasses.replace(action, result=text_digest(encode(text))))
+    return tuple(actions), standoffs, merged
+
+
+def _standoff(disk: Disk, action: Action, texts: Texts) -> Standoff:
+    """The texts of a file that both sides changed; of a class that is a folder now, the user's is its `package.mo`."""
+    from urdfsync.settle import stand_off
+
+    place = action.origin or action.path
+    mine = disk.text(place)
+    base = texts.base(place, action.base) if action.base else None
+    generated = texts.generated(action.path)
+    if mine is not None:
+        return stand_off(action, base, mine, generated)
+    package = disk.text(f"{place.removesuffix('.mo')}/package.mo")
+    reason = "you made a folder of the class"
+    return Standoff(action.path, action.owner, base, package or "", generated, None, rejected=reason)
+
+
+def _plan_orders(
+    disk: Disk, owned: Mapping[str, tuple[str, ...]], wanted: Mapping[str, tuple[str, ...]]
+) -> tuple[list[Action], dict[str, str]]:
+    actions, texts = [], {}
+    for key in owned.keys() | wanted.keys():
+        old = disk.text(key)
+        new = order.merge(old, wanted.get(key, ()), owned.get(key, ()))
+        if old is None:
+            kind = Kind.FORGET if not new else Kind.RESTORE if key in owned else Kind.CREATE
+        else:
+            kind = Kind.UNCHANGED if new == old else Kind.UPDATE if new else Kind.DELETE
+        actions.append(Action(key, kind, Role.ORDER, "package"))
+        texts[key] = new
+    return actions, texts
+
+
+def _plan_parents(disk: Disk, parents: Parents) -> tuple[list[Action], dict[str, str]]:
+    actions, texts = [], {}
+    for path, content in parents.created.items():
+        disk.found(disk.key(path), Role.PACKAGE)
+        actions.append(Action(disk.key(path), Kind.CREATE, Role.PACKAGE, "parent package"))
+        texts[disk.key(path)] = content.decode()
+    for path, name in parents.entered.items():
+        old = disk.text(disk.key(path))
+        new = order.merge(old, [name])
+        if new != old:
+            kind = Kind.CREATE if old is None else Kind.UPDATE
+            actions.append(Action(disk.key(path), kind, Role.ORDER, "parent package"))
+            texts[disk.key(path)] = new
+    return actions, texts
+
+
+def _renewable(disk: Disk, actions: tuple[Action, ...], texts: Texts | None, merged: Mapping[str, str]) -> set[str]:
+    """The records of which only numbers change; looked for only if something conflicts."""
+    if texts is None or not any(action.kind in CONFLICTS for action in actions):
+        return set()
+    updates = [a.path for a in actions if a.kind in (Kind.UPDATE, Kind.MERGE) and a.role is Role.RECORD]
+    return {path for path in updates if numbers_only(disk.text(path) or "", merged.get(path) or texts.generated(path))}

@@ -1,0 +1,83 @@
+"""Plans one robot: finds out whether there is anything to do, and if so has it worked out. Writes nothing.
+
+What `build` writes, a dry run shows and a check judges is one and the same plan.
+"""
+
+from __future__ import annotations
+
+import msgspec
+
+from urdfsync import manifest
+from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.manifest import Manifest
+from urdfsync.plan import CONFLICTS, State, Wanted
+from urdfsync.planning import imports
+from urdfsync.planning.decide import Aim, Decision, decide
+from urdfsync.planning.situation import NO_MODEL, Request, Situation
+from urdfsync.planning.work import Work
+
+
+def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
+    """What there is to do for a robot, from what is on disk at this moment.
+
+    Raises UrdfsyncError for whatever is wrong.
+    """
+    situation = Situation(config, robot, request)
+    work = _if_unchanged(situation)
+    if work is None:
+        from urdfsync.planning.renewal import Renewal
+
+        work = Renewal(situation).work()
+    return work
+
+
+def plan_if_unchanged(config: Config, robot: RobotConfig, request: Request) -> Work | None:
+    """The same if that takes no reading and rendering, else None."""
+    return _if_unchanged(Situation(config, robot, request))
+
+
+def _if_unchanged(situation: Situation) -> Work | None:
+    """The work if the recorded state still holds and no file needs to be written; None if it has to be redone.
+
+    Nothing that reads sources or renders templates is imported on this way.
+    """
+    state, request, store = situation.state, situation.request, situation.store
+    again = request.full or request.draw or request.choices or situation.former
+    if state is None or state.model is None or not state.intact or again:
+        return None
+    recorded = state.manifest
+    if situation.heading(recorded.source.snapshot) != _heading_of(recorded) or situation.parents.created:
+        return None
+    if any(record.state in (State.CONFLICT, State.WAITING) for record in recorded.files.values()):
+        return None
+    if not request.dry and not store.has_bases(situation.robot.name):
+        return None  # a clone: what its files are merged with is rendered while that is possible
+    try:
+        dependencies = situation.dependencies(state.model.snapshot, {})
+    except NO_MODEL:
+        return None  # the recorded snapshot is not the domain's: the source is read again
+    if not imports.unchanged(dependencies, recorded.dependencies, situation.domain.converter):
+        return None
+    decision = _kept(situation, recorded)
+    if decision is None or not {situation.key(path) for path in state.model.bases} <= decision.files.keys():
+        return None
+    renewed = msgspec.structs.replace(recorded, files=decision.files, orders=decision.orders)
+    left_out = imports.reminder(dependencies, recorded.dependencies, shown(situation.robot.source))
+    writes = () if request.dry else tuple(store.changes(situation.robot.name, manifest.dumps(renewed), None, None))
+    return Work(decision, store.witness(), writes, diagnostics=left_out)
+
+
+def _kept(situation: Situation, recorded: Manifest) -> Decision | None:
+    """The decision if what the manifest records is what is wanted; None if that leaves something to write."""
+    wanted = {
+        key: Wanted(record.role, record.owner, record.base)
+        for key, record in recorded.files.items()
+        if record.base is not None and record.state is not State.ORPHAN
+    }
+    aim = Aim(wanted, recorded.orders, situation.parents, situation.folder)
+    decision = decide(situation.disk, recorded, aim, None)
+    return None if any(a.writes or a.kind in CONFLICTS for a in decision.actions) else decision
+
+
+def _heading_of(recorded: Manifest) -> Manifest:
+    return msgspec.structs.replace(recorded, names={}, dependencies={}, orders={}, files={})

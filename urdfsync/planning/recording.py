@@ -1,0 +1,159 @@
+"""What is written when a plan is carried out: files, conflicts put aside, bases, model and manifest, in that order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+
+import msgspec
+
+from urdfsync import manifest
+from urdfsync.domain import Role, Snapshot
+from urdfsync.manifest import Manifest
+from urdfsync.plan import DELETES, State
+from urdfsync.planning.decide import Decision, encode
+from urdfsync.planning.imports import Imported
+from urdfsync.planning.outputs import Outputs
+from urdfsync.planning.situation import Situation
+from urdfsync.standoff import aside
+from urdfsync.state.bases import Bases
+from urdfsync.state.transactions import Change
+
+_OUTLIVING = (State.CONFLICT, State.WAITING, State.ORPHAN)
+"""States of files whose base is older than the recorded model, which can't give it back."""
+
+
+class Recording:
+    """The writes of one robot's build; `outputs` and `imported` have the contents."""
+
+    def __init__(
+        self,
+        situation: Situation,
+        outputs: Outputs,
+        imported: Imported,
+        snapshot: Snapshot,
+        last: Callable[[str, str], str | None],
+    ) -> None:
+        """`last` gives what was written last to a file of the plan or of the last build, by its hash."""
+        self._situation, self._outputs, self._imported = situation, outputs, imported
+        self._snapshot, self._last = snapshot, last
+
+    def writes(self, decision: Decision) -> tuple[tuple[Change, ...], tuple[Path, ...]]:
+        """The files to write, the manifest last, and the folders that are empty then, innermost first."""
+        situation, store = self._situation, self._situation.store
+        name, former = situation.robot.name, situation.former
+        changes = list(self._files(decision))
+        changes += store.conflicts(name, dict(self._aside(decision)), former)
+        if (drawing := self._drawing_text()) is not None:
+            changes += store.drawing(name, drawing)[1]
+        if self._stays(decision):
+            changes += store.changes(name, manifest.dumps(self._chosen(decision)), None, None)
+        else:
+            model = manifest.dump_model(self._snapshot, self._imported.imports, self._outliving(decision))
+            changes += store.keep_bases(name, self._bases(decision), former)
+            changes += store.changes(name, manifest.dumps(self._manifest(decision, model)), model, former)
+        return tuple(changes), tuple(self._emptied(changes))
+
+    def drawing(self) -> Path | None:
+        """Where the main model's diagram is then; None if nobody asked for it or there is none."""
+        text = self._drawing_text()
+        return None if text is None else self._situation.store.drawing(self._situation.robot.name, text)[0]
+
+    def _drawing_text(self) -> str | None:
+        situation, robot = self._situation, self._situation.robot
+        if not situation.request.draw:
+            return None
+        return situation.domain.drawing(self._snapshot, self._imported.imports, robot.target, robot.options)
+
+    def _stays(self, decision: Decision) -> bool:
+        """Whether the record of the package's old folder is still needed: the package can't move yet."""
+        recorded = self._situation.recorded
+        moves = recorded is not None and recorded.folder != self._situation.folder
+        return moves and any(action.held for action in decision.actions)
+
+    def _files(self, decision: Decision) -> Iterator[Change]:
+        """The changes of the package itself."""
+        disk = self._situation.disk
+        shared = {disk.key(file.path) for file in decision.shared}
+        for action in decision.actions:
+            if action.writes and action.path not in shared:
+                content = None if action.kind in DELETES else self._content(decision, action.path, action.role)
+                yield Change(disk.path(action.path), content, disk.seen(action.path))
+
+    def _content(self, decision: Decision, key: str, role: Role) -> bytes:
+        if key in decision.texts:
+            return encode(decision.texts[key])
+        path = key.removeprefix(self._situation.key(""))
+        return self._imported.contents[path] if role is Role.IMPORT else self._outputs.content(path)
+
+    def _aside(self, decision: Decision) -> Iterator[tuple[str, bytes]]:
+        """What is put aside of conflicts: path below the robot's folder, and content."""
+        for standoff in decision.standoffs:
+            generated, base, merge = aside(standoff, self._situation.folder)
+            yield generated, encode(standoff.generated)
+            if base is not None and standoff.base is not None:
+                yield base, encode(standoff.base)
+            if merge is not None and standoff.merge is not None:
+                yield merge, encode(standoff.merge.proposal)
+
+    def _emptied(self, changes: list[Change]) -> list[Path]:
+        situation = self._situation
+        above = situation.disk.path(situation.old_key("package.mo")).parent.parent
+        folders = {
+            folder
+            for change in changes
+            if change.content is None
+            for folder in change.path.parents
+            if above in folder.parents or situation.store.folder / "conflicts" in (folder, *folder.parents)
+        }
+        return sorted(folders, key=lambda folder: len(folder.parts), reverse=True)
+
+    def _manifest(self, decision: Decision, model: str) -> Manifest:
+        situation, robot = self._situation, self._situation.robot
+        return msgspec.structs.replace(
+            situation.heading(manifest.text_hash(model)),
+            names=situation.domain.names(self._snapshot, robot.target),
+            dependencies=self._imported.records,
+            orders=decision.orders,
+            files=decision.files,
+        )
+
+    def _chosen(self, decision: Decision) -> Manifest:
+        """What was recorded, where the package stood, with the choices that the user made meanwhile."""
+        recorded = self._situation.recorded or self._situation.heading("")
+        waiting = {record.origin: record for record in decision.files.values() if record.origin and record.choice}
+        files = {
+            key: msgspec.structs.replace(record, choice=waiting[key].choice, chosen_for=waiting[key].chosen_for)
+            for key, record in recorded.files.items()
+            if key in waiting
+        }
+        return msgspec.structs.replace(recorded, files={**recorded.files, **files})
+
+    def _outliving(self, decision: Decision) -> Mapping[str, str]:
+        """The bases that can't be rendered from the recorded model, by path below the package's folder."""
+        texts = {}
+        prefix = self._situation.key("")
+        for key, record in decision.files.items():
+            if record.state in _OUTLIVING and record.role is not Role.IMPORT and key.startswith(prefix):
+                text = self._base(record.origin or key, record.base)
+                if text is not None:
+                    texts[key.removeprefix(prefix)] = text
+        return texts
+
+    def _bases(self, decision: Decision) -> Bases:
+        """The text of every base that is known."""
+        texts = {}
+        for key, record in decision.files.items():
+            if record.role is not Role.IMPORT and record.base is not None and record.base not in texts:
+                text = self._base(record.origin or key, record.base)
+                if text is not None:
+                    texts[record.base] = text
+        return Bases(texts)
+
+    def _base(self, key: str, digest: str | None) -> str | None:
+        if digest is None:
+            return None
+        path = key.removeprefix(self._situation.key(""))
+        if self._outputs.generates(path, digest):
+            return self._outputs.content(path).decode()
+        return self._last(key, digest)

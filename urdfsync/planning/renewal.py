@@ -1,0 +1,209 @@
+"""The work for a robot of which something is new: its source is read again, and what is stale is rendered."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Mapping
+
+from urdfsync import changes, manifest
+from urdfsync.changes import Changes
+from urdfsync.config import shown
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.difference import ElementKey, Version
+from urdfsync.domain import Reading, Role, Target
+from urdfsync.moves import places
+from urdfsync.plan import State, Wanted
+from urdfsync.planning import imports
+from urdfsync.planning.decide import Aim, Decision, decide
+from urdfsync.planning.generate import Generated, generate
+from urdfsync.planning.outputs import Outputs
+from urdfsync.planning.recording import Recording
+from urdfsync.planning.situation import NO_MODEL, Situation
+from urdfsync.planning.work import Work
+from urdfsync.state import leftovers, repair
+
+
+class Renewal:
+    """One robot's source, imports, texts and plan; each step rests on those before it."""
+
+    def __init__(self, situation: Situation) -> None:
+        self._situation = situation
+        self._reading = self._read()
+        self._snapshot = manifest.plain(self._reading.snapshot or {})
+        self._imported = self._import()
+        self._now = Version(self._snapshot, self._imported.imports, situation.generator.fingerprint)
+        self._generated = self._generate(self._now, situation.robot.target)
+        self._before = self._last()
+        self._outputs = self._known_outputs()
+
+    def work(self) -> Work:
+        """What there is to do."""
+        situation = self._situation
+        found = self._changes()
+        decision = self._decide(found.renames if found else {})
+        said = [*self._reading.diagnostics, *self._imported.diagnostics, *situation.parents.diagnostics]
+        said = sorted([*said, *self._moved(decision)], key=lambda diagnostic: (diagnostic.file, diagnostic.line))
+        news = found if found and (found.changes or found.generator) else None
+        if situation.request.dry:
+            return Work(decision, situation.store.witness(), diagnostics=tuple(said), changes=news)
+        recording = Recording(situation, self._outputs, self._imported, self._snapshot, self.base)
+        writes, emptied = recording.writes(decision)
+        return Work(decision, situation.store.witness(), writes, emptied, tuple(said), recording.drawing(), news)
+
+    def _read(self) -> Reading:
+        robot = self._situation.robot
+        reading = self._situation.domain.read(self._situation.content, shown(robot.source), robot.options)
+        if reading.snapshot is None or any(d.severity is Severity.ERROR for d in reading.diagnostics):
+            raise SourceError(*reading.diagnostics)
+        return reading
+
+    def _import(self) -> imports.Imported:
+        situation, state, name = self._situation, self._situation.state, self._situation.robot.name
+        files = state.manifest.files if state else {}
+
+        def base(target: str) -> str | None:
+            record = files.get(situation.old_key(target))
+            return record.base if record else None
+
+        recorded = imports.Recorded(
+            records=state.manifest.dependencies if state else {},
+            facts=state.model.imports if state and state.model else {},
+            copy=lambda target: situation.disk.read(situation.old_key(target)),
+            base=base,
+            moved=state is not None and state.manifest.folder != situation.folder,
+        )
+        return imports.bring_in(
+            situation.domain,
+            situation.dependencies(self._snapshot, self._reading.lines),
+            recorded,
+            shown(situation.robot.source),
+            situation.request.full,
+            lambda done, total: situation.request.progress(f"{name}: imports", done, total),
+        )
+
+    def _generate(self, version: Version, target: Target) -> Generated:
+        situation, robot = self._situation, self._situation.robot
+        return generate(
+            situation.domain,
+            version.snapshot,
+            version.imports or {},
+            target,
+            robot.options,
+            situation.templates,
+        )
+
+    def _known_outputs(self) -> Outputs:
+        situation = self._situation
+        recorded, state = situation.recorded, situation.state
+        prefix = f"{recorded.folder}/" if recorded else ""
+        records = {path.removeprefix(prefix): record for path, record in recorded.files.items()} if recorded else {}
+        return Outputs(
+            now=self._generated,
+            last=self._before if recorded and recorded.generator == situation.generator else None,
+            records=records,
+            bases=situation.store.bases(situation.former or situation.robot.name),
+            aside=state.model.bases if state and state.model else {},
+            mine=lambda path: situation.disk.read(situation.old_key(path)),
+            older=self._sides(),
+            again=situation.request.full,
+        )
+
+    def _last(self) -> Generated | None:
+        """The package of the last build. Its texts are right only if the generator still is the same."""
+        last, recorded = self._situation.last, self._situation.recorded
+        if last is None or recorded is None:
+            return None
+        try:
+            return self._generate(last, Target(recorded.package, recorded.class_))
+        except NO_MODEL:
+            return None  # what is recorded is no model of the domain
+
+    def _sides(self) -> list[Generated]:
+        """The packages of all models that could be saved of a state that can't be read."""
+        recovered, recorded = self._situation.recovered, self._situation.recorded
+        found = []
+        for model in recovered.models.values() if recovered and recorded else ():
+            with contextlib.suppress(*NO_MODEL):  # what is recorded is no model of the domain
+                found.append(self._generate(self._situation.version(model), self._situation.robot.target))
+        return found
+
+    def _changes(self) -> Changes | None:
+        """What is new in the model since the last build; None if nothing is known of that build."""
+        last, situation = self._situation.last, self._situation
+        if last is None:
+            return None
+        try:
+            return changes.compare(last, self._now, situation.domain, situation.robot.options)
+        except NO_MODEL:
+            return None  # what is recorded is no model of the domain
+
+    def _decide(self, renames: Mapping[ElementKey, str]) -> Decision:
+        situation = self._situation
+        key = situation.key
+        wanted = {
+            key(path): Wanted(artifact.role, artifact.owner, self._outputs.digest(path))
+            for path, artifact in self._generated.artifacts.items()
+        }
+        for name, entry in self._imported.imports.items():
+            wanted[key(entry.target)] = Wanted(Role.IMPORT, name, entry.target_hash)
+        orders = {key(path): names for path, names in self._generated.orders.items()}
+        folder = situation.robot.folder
+        if folder.parent != situation.robot.output and situation.parents.listed:
+            orders[situation.disk.key(folder.parent / "package.order")] = (folder.name,)
+        aim = Aim(
+            wanted,
+            orders,
+            situation.parents,
+            situation.folder,
+            self._moves(renames),
+            situation.request.choices,
+            situation.robot.merging,
+        )
+        hashes = {key: target.hash for key, target in wanted.items()}
+        return decide(situation.disk, situation.rebuilt(hashes), aim, self)
+
+    def generated(self, key: str) -> str:
+        """What would be written to a file of the plan."""
+        return self._outputs.content(key.removeprefix(self._situation.key(""))).decode()
+
+    def base(self, key: str, digest: str) -> str | None:
+        """What was written last to a file of the last build, by its hash; None if that is lost.
+
+        A file that the user has moved has its base under the path that it had.
+        """
+        files = self._situation.recorded.files if self._situation.recorded else {}
+        keys = [key, *(other for other, record in files.items() if record.base == digest and other != key)]
+        found = (self._outputs.base(self._old_path(other), digest) for other in keys)
+        return next((text for text in found if text is not None), None)
+
+    def _old_path(self, key: str) -> str:
+        """Path of a file of the last build below the folder that the package had then."""
+        return key.removeprefix(self._situation.old_key(""))
+
+    def _moves(self, renames: Mapping[ElementKey, str]) -> dict[str, str]:
+        """New and old path of text files whose element has another name, or whose package another folder."""
+        situation, recorded = self._situation, self._situation.recorded
+        if recorded is None:
+            return {}
+        texts = {
+            self._old_path(key): record
+            for key, record in recorded.files.items()
+            if record.role is not Role.IMPORT and record.state is not State.ORPHAN
+        }
+        before, now = self._before.artifacts if self._before else {}, self._generated.artifacts
+        old = {path: (a.owner, a.template) for path, a in before.items() if path in texts}
+        renamed = changes.moves(old, {path: (a.owner, a.template) for path, a in now.items()}, renames)
+        targets = {situation.old_key(path): situation.key(renamed.get(path, path)) for path in texts}
+        return places(recorded.files, targets, {situation.key(path) for path in now})
+
+    def _moved(self, decision: Decision) -> list[Diagnostic]:
+        """What there is to say if robot or package had another name in the last build."""
+        situation = self._situation
+        place = shown(situation.config.file), situation.robot.lines[""]
+        said = [leftovers.renamed(situation.former, situation.robot.name, *place)] if situation.former else []
+        if situation.recovered:
+            said.append(repair.repaired(situation.recovered, situation.robot.name, shown(situation.store.folder)))
+        if situation.recorded and situation.recorded.folder != situation.folder:
+            actions = decision.actions
+            said += leftovers.left_behind(situation.disk, situation.recorded, actions, situation.folder, *place)
+        return said

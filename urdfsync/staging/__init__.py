@@ -1,0 +1,1 @@
+"""What is being committed: staged sources against staged outputs, for the hooks of git."""
