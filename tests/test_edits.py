@@ -508,3 +508,113 @@ def test_an_orphan_that_the_user_deletes_leaves_nothing(project: Path) -> None:
     Path(R1).unlink()
     run()
     assert "Elements/R1.mo" not in json.loads(model.read_text())["bases"]
+
+
+# What a kept file needs
+
+
+def drop(name: str) -> None:
+    """Take an element out of the source."""
+    network = json.loads(Path("ladder.json").read_text())
+    network["elements"] = [element for element in network["elements"] if element["name"] != name]
+    Path("ladder.json").write_text(json.dumps(network))
+
+
+def test_an_orphan_that_is_let_go_takes_its_record_along(project: Path) -> None:
+    run()
+    edit(R1, "equation", "// mine\nequation")
+    drop("R1")
+    found = kinds(run())
+    assert (found[R1], found[RECORD]) == (Kind.ORPHAN, Kind.NEEDED)
+    run(choices={R1: Choice.KEEP})
+    order = Path(f"{LADDER}/Elements/package.order")
+    assert Path(RECORD).exists()
+    assert {"R1", "R1Parameters"} <= set(order.read_text().split())
+    assert kinds(run()) == {}
+
+
+def test_an_orphan_that_is_deleted_takes_its_line_along(project: Path) -> None:
+    run()
+    edit(R1, "equation", "// mine\nequation")
+    drop("R1")
+    run()
+    run(choices={R1: Choice.TAKE})
+    assert not {"R1", "R1Parameters"} & set(Path(f"{LADDER}/Elements/package.order").read_text().split())
+    assert not Path(RECORD).exists()
+
+
+@pytest.mark.parametrize("path", [R1, RECORD, f"{LADDER}/Elements/package.order"])
+def test_merge_markers_are_never_taken_for_an_edit(project: Path, snapshot_of: Snapshot, path: str) -> None:
+    merging()
+    run()
+    text = Path(path).read_text()
+    Path(path).write_text(f"<<<<<<< HEAD\n{text}=======\n{text}>>>>>>> theirs\n")
+    source('"ohm": 100', '"ohm": 150')
+    before = snapshot_of(project)
+    loaded = config.load(Path("urdfsync.toml"))
+    for request in (Request(), Request(dry=True), Request(choices={path: Choice.MERGE})):
+        (result,) = build(loaded, loaded.robots, request)
+        (found,) = result.diagnostics
+        assert exit_code([result]) is Exit.ERROR
+        assert (found.file, found.line, found.code) == (path, 1, "merge-markers")
+    assert snapshot_of(project) == before
+
+
+def test_a_file_with_windows_line_ends_keeps_them(project: Path) -> None:
+    run()
+    edit(RECORD, "\n", "\r\n")
+    source('"ohm": 100', '"ohm": 150')
+    assert kinds(run())[RECORD] is Kind.UPDATE
+    text = Path(RECORD).read_bytes()
+    assert b"150" in text
+    assert text.count(b"\r\n") == text.count(b"\n")
+    assert kinds(run()) == {}
+
+
+# Names that the package has no more
+
+
+def test_a_merge_that_mentions_what_is_gone_is_a_conflict(project: Path) -> None:
+    merging()
+    run()
+    whole = f"{LADDER}/Ladder.mo"
+    edit(whole, "equation", "  Real power = C1.v*C1.i;\n\nequation")
+    rename("C1", "Tank")
+    (standoff,) = run().standoffs
+    assert standoff.path == whole
+    assert standoff.merge is not None
+    assert standoff.merge.text is None
+    line = standoff.merge.proposal.split("\n").index("  Real power = C1.v*C1.i;") + 1
+    assert standoff.rejected == f"the merge mentions `C1`, which the package has no more (line {line})"
+
+
+def test_own_classes_that_mention_what_is_gone_are_named(project: Path) -> None:
+    run()
+    mine = Path(f"{LADDER}/Elements/Mine.mo")
+    mine.write_text('within Ladder.Elements;\nmodel Mine "C1"\n  // C1\n  extends C1;\nend Mine;\n')
+    edit(f"{LADDER}/Elements/R2.mo", "equation", "  C1Parameters other;\n\nequation")
+    drop("C1")
+    found = run().diagnostics
+    assert [(one.file, one.line, one.code) for one in found] == [
+        (str(mine), 4, "vanished-name"),
+        (f"{LADDER}/Elements/R2.mo", 7, "vanished-name"),
+    ]
+    assert "`C1`" in found[0].message
+    assert not run().diagnostics
+
+
+# What waits
+
+
+def test_what_waits_is_told_until_it_is_settled(conflict: Path) -> None:
+    first = run().changes
+    again = run().changes
+    assert first is not None
+    assert again is not None
+    assert [(c.path, c.old, c.new) for c in again.changes] == [(c.path, c.old, c.new) for c in first.changes]
+    source('"ohm": 220.5', '"ohm": 300')
+    more = run().changes
+    assert more is not None
+    assert len(more.changes) == len(first.changes) + 1
+    assert run(choices={R1: Choice.TAKE}).changes is not None
+    assert run().changes is None

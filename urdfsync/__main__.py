@@ -1,7 +1,17 @@
-"""`python -m urdfsync` is `urdfsync`."""
+"""The program's start: `urdfsync`, or `python -m urdfsync`."""
 
 import sys
 
-from urdfsync.cli import main
 
-sys.exit(main())
+def main() -> int:
+    """Run the command line; an interruption while it is still being loaded leaves no traceback either."""
+    try:
+        from urdfsync.cli import main as run
+
+        return run()
+    except KeyboardInterrupt:
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())

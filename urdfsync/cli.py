@@ -32,7 +32,8 @@ def _main(arguments: list[str]) -> int:
     except SystemExit as stop:
         return stop.code if isinstance(stop.code, int) else Exit.ERROR
     except common.UsageError as error:
-        command = error.program.partition(" ")[2]
+        names = {command.__name__.rpartition(".")[2] for command in _COMMANDS}
+        command = next((argument for argument in arguments if argument in names), "")
         found = Diagnostic(Severity.ERROR, "usage", str(error), hint=f"`{error.program} --help` says more")
         Report("--json" in arguments).bad_usage(command, error.usage, found)
         return Exit.ERROR

@@ -110,6 +110,8 @@ class Model(msgspec.Struct, frozen=True):
     snapshot: dict[str, Any]
     imports: dict[str, Facts]
     bases: dict[str, str] = {}
+    since: dict[str, Any] | None = None
+    """The model of the last build after which nothing waited; None if nothing waits now."""
     format: int = FORMAT
 
 
@@ -155,10 +157,17 @@ def loads(text: str, file: str) -> Manifest:
     return msgspec.structs.replace(manifest, files=files, orders=orders)
 
 
-def dump_model(snapshot: Snapshot, imports: Mapping[str, Import], bases: Mapping[str, str] | None = None) -> str:
+def dump_model(
+    snapshot: Snapshot,
+    imports: Mapping[str, Import],
+    bases: Mapping[str, str] | None = None,
+    since: Snapshot | None = None,
+) -> str:
     """The JSON file's text."""
     facts = {key: Facts(i.source_hash, i.converter, dict(i.facts)) for key, i in imports.items()}
-    encoded = msgspec.json.encode(Model(dict(snapshot), facts, dict(bases or {})), order="sorted")
+    encoded = msgspec.json.encode(
+        Model(dict(snapshot), facts, dict(bases or {}), None if since is None else dict(since)), order="sorted"
+    )
     return msgspec.json.format(encoded, indent=1).decode() + "\n"
 
 

@@ -224,22 +224,32 @@ def _action(
 def spare(actions: Iterable[Action], stays: Callable[[str, Collection[str]], bool]) -> tuple[Action, ...]:
     """Keep what the user's files need: the record of an edited model, the `package.mo` of a folder with classes.
 
+    The record of a model that the user makes his own becomes his own, too.
+
     `stays(path, gone)` says whether the folder of the `package.mo` at `path` has other classes than those
     of the files in `gone`.
     """
     actions = tuple(actions)
     owners = {action.owner for action in actions if action.kind is Kind.ORPHAN and action.role is Role.MODEL}
+    let_go = {action.owner for action in actions if is_let_go(action) and action.role is Role.MODEL} - owners
     gone = {action.path: action for action in actions if action.kind in DELETES}
     kept = {
         path
         for path, action in gone.items()
         if action.kind is Kind.DELETE and action.role is Role.RECORD and action.owner in owners
     }
+    free = {path for path, action in gone.items() if action.role is Role.RECORD and action.owner in let_go}
     packages = [path for path, action in gone.items() if action.role is Role.PACKAGE]
     for path in sorted(packages, key=lambda path: path.count("/"), reverse=True):
-        if stays(path, gone.keys() - kept):
+        if stays(path, gone.keys() - kept - free):
             kept.add(path)
-    return tuple(dataclasses.replace(a, kind=Kind.NEEDED) if a.path in kept else a for a in actions)
+    needed = (dataclasses.replace(a, kind=Kind.NEEDED) if a.path in kept else a for a in actions)
+    return tuple(dataclasses.replace(a, kind=Kind.FORGET, choice=Choice.KEEP) if a.path in free else a for a in needed)
+
+
+def is_let_go(action: Action) -> bool:
+    """Whether the user keeps a file that is no longer generated, so that it is none of urdfsync's any more."""
+    return action.kind is Kind.FORGET and action.choice is Choice.KEEP
 
 
 def hold(actions: Iterable[Action], numbers_only: Collection[str]) -> tuple[Action, ...]:

@@ -58,7 +58,7 @@ class Target:
     @property
     def replaceable(self) -> bool:
         """Whether `--take` settles it: what is there must be a file."""
-        return self.orphan or self.settled or self.action.mine is not None
+        return self.settled or self.action.mine is not None
 
     def places(self) -> set[Path]:
         """The absolute paths by which it is known: where the user's file is, and where it is to go."""

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from typing import NamedTuple
 
 from urdfsync.merge import merge
 from urdfsync.merging.soundness import flaw
 from urdfsync.plan import CONFLICTS, Action, Kind
 from urdfsync.standoff import Choice, Standoff
+from urdfsync.vanished import mentions
 
 
 class Settled(NamedTuple):
@@ -19,12 +20,19 @@ class Settled(NamedTuple):
     text: str | None = None
 
 
-def stand_off(action: Action, base: str | None, mine: str, generated: str) -> Standoff:
-    """The three texts of a file, and what comes of merging them; a merge that makes no sense is none."""
+def stand_off(
+    action: Action, base: str | None, mine: str, generated: str, vanished: Set[str] = frozenset()
+) -> Standoff:
+    """The three texts of a file, and what comes of merging them; a merge that makes no sense is none.
+
+    `vanished` are names that the package has no more.
+    """
     merged = None if base is None else merge(base, mine, generated)
     rejected = ""
     if merged and merged.text is not None and merged.text != mine and action.path.endswith(".mo"):
         reason = flaw(merged.text, (mine, generated))
+        for name, line in mentions(merged.text, vanished)[: 0 if reason else 1]:
+            reason = f"mentions `{name}`, which the package has no more (line {line})"
         if reason:
             merged, rejected = dataclasses.replace(merged, text=None), f"the merge {reason}"
     return Standoff(action.path, action.owner, base, mine, generated, merged, action.origin, rejected)
@@ -45,7 +53,9 @@ def _settled(action: Action, standoff: Standoff | None, choice: Choice | None, m
     if action.kind is Kind.ORPHAN:
         if choice is Choice.TAKE and action.mine is not None:
             return Settled(dataclasses.replace(action, kind=Kind.DELETE, choice=choice))
-        return Settled(_with(action, Kind.FORGET if choice is Choice.KEEP else Kind.ORPHAN))
+        if choice is Choice.KEEP:
+            return Settled(dataclasses.replace(action, kind=Kind.FORGET, choice=choice))
+        return Settled(action)
     if action.kind is Kind.MOVE and standoff:
         return _moved(action, standoff, choice)
     if action.kind not in CONFLICTS:

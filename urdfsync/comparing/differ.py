@@ -61,7 +61,7 @@ def _with_last_build(subject: Subject, robot: RobotConfig, config: Config, reque
     if result.failed:
         return comparison
     situation = Situation(config, robot, request)
-    last, found = situation.last, result.changes
+    last, found = situation.settled, result.changes
     missing = "" if last else "what was built last is not known any more" if situation.recorded else "never built"
     edited = frozenset(action.path for action in result.actions if action.kind in _MINE)
     comparison = dataclasses.replace(comparison, missing=missing, edited=edited)

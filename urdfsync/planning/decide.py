@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Collection, Mapping
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping, Set
 from pathlib import Path
 from typing import Protocol
 
 from urdfsync import order
 from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.files import Tree, digest, text_digest
 from urdfsync.manifest import Manifest
 from urdfsync.plan import (
     CONFLICTS,
+    DELETES,
     DISPUTED,
     Action,
     FileRecord,
@@ -23,6 +26,7 @@ from urdfsync.plan import (
     Wanted,
     after,
     hold,
+    is_let_go,
     numbers_only,
     plan,
     remembered,
@@ -31,6 +35,9 @@ from urdfsync.plan import (
 from urdfsync.planning.parents import Parents
 from urdfsync.planning.shared import Shared
 from urdfsync.standoff import Choice, Standoff
+
+_MARKER = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
+"""What git leaves in a file; a line of equal signs alone may be an ornament."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -113,6 +120,10 @@ class Disk:
                 return True
         return False
 
+    def classes(self, folder: str) -> set[str]:
+        """All Modelica files below a folder, its own and others, as far as they can be read."""
+        return {self.key(path) for path in self.path(folder).rglob("*.mo") if path.is_file()}
+
     def _see(self, key: str, content: bytes) -> str:
         found = digest(content)
         self._seen.setdefault(key, found)
@@ -154,6 +165,10 @@ class Texts(Protocol):
         """What was written last to a file, by its hash; None if that is lost."""
         ...
 
+    def vanished(self) -> Set[str]:
+        """Names of elements that the package had and has no more."""
+        ...
+
 
 def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None) -> Decision:
     """Plan every file of a robot; without texts, nothing that both sides changed is settled."""
@@ -165,6 +180,8 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     aim = dataclasses.replace(aim, choices=choices)
     actions, standoffs, merged = _settle(disk, planned, aim, texts) if texts else (planned, {}, {})
     actions = spare(actions, disk.has_classes)
+    _refuse_markers(disk, actions, owned.keys() | aim.orders.keys())
+    owned = _ours(owned, actions)
     order_actions, order_texts = _plan_orders(disk, owned, aim.orders)
     extra, extra_texts = _plan_parents(disk, aim.parents)
     everything = (*actions, *order_actions, *extra)
@@ -173,19 +190,61 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     keys = owned.keys() | aim.orders.keys()
     names = {key: owned.get(key, ()) if key in waits else aim.orders.get(key, ()) for key in keys}
     conflicts = {action.path for action in held if action.kind in CONFLICTS}
-    folders = [f"{folder}/" for folder in (aim.folder, manifest.folder if manifest else aim.folder)]
-    around = sorted(key for key in keys if not any(key.startswith(folder) for folder in folders))
-    shared = [Shared(disk.path(key), None, aim.orders.get(key, ()), owned.get(key, ())) for key in around]
-    shared += [Shared(path, content) for path, content in aim.parents.created.items()]
-    shared += [Shared(path, None, (name,)) for path, name in aim.parents.entered.items()]
+    folders = (aim.folder, manifest.folder if manifest else aim.folder)
+    around = [key for key in sorted(keys) if not key.startswith(tuple(f"{folder}/" for folder in folders))]
     return Decision(
         actions=tuple(sorted(held, key=lambda action: action.path)),
         texts=order_texts | extra_texts | merged,
         files=after(held[: len(actions)]),
         orders={key: entry for key, entry in names.items() if entry},
         standoffs=tuple(standoff for path, standoff in sorted(standoffs.items()) if path in conflicts),
-        shared=tuple(file for file in shared if disk.key(file.path) not in waits),
+        shared=tuple(file for file in _shared(disk, aim, owned, around) if disk.key(file.path) not in waits),
     )
+
+
+def _refuse_markers(disk: Disk, actions: Iterable[Action], orders: Iterable[str]) -> None:
+    """Refuse to work with files in which version control has left its merge markers. Raises OutputError."""
+    edited = [action for action in actions if action.mine not in (None, action.base, action.generated)]
+    keys = [action.origin or action.path for action in edited if action.role is not Role.IMPORT]
+    found = []
+    for key in (*keys, *sorted(orders)):
+        match = _MARKER.search(text := disk.text(key) or "")
+        if match:
+            line = text.count("\n", 0, match.start()) + 1
+            message, hint = "unresolved merge markers", "settle them in the file, then build again"
+            file = shown(disk.path(key))
+            found.append(Diagnostic(Severity.ERROR, "merge-markers", message, file, line, hint=hint))
+    if found:
+        raise OutputError(*found)
+
+
+def _ours(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Action]) -> dict[str, tuple[str, ...]]:
+    """The lines of `package.order` files that urdfsync may take away: not those of edited classes that stay.
+
+    A class that is deleted takes its line along, whoever wrote that.
+    """
+    stay: dict[str, set[str]] = {}
+    gone: dict[str, list[str]] = {}
+    for action in actions:
+        folder, _, name = action.path.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
+        if action.kind in (Kind.ORPHAN, Kind.NEEDED) or is_let_go(action):
+            stay.setdefault(f"{folder}/package.order", set()).add(name)
+        elif action.kind in (*DELETES, Kind.FORGET):
+            gone.setdefault(f"{folder}/package.order", []).append(name)
+    return {
+        key: tuple(name for name in (*names, *gone.get(key, ())) if name not in stay.get(key, ()))
+        for key, names in owned.items()
+    }
+
+
+def _shared(disk: Disk, aim: Aim, owned: Mapping[str, tuple[str, ...]], around: Iterable[str]) -> Iterator[Shared]:
+    """What has to be done to files around the package; `around` are its `package.order` files."""
+    for key in around:
+        yield Shared(disk.path(key), None, aim.orders.get(key, ()), owned.get(key, ()))
+    for path, content in aim.parents.created.items():
+        yield Shared(path, content)
+    for path, name in aim.parents.entered.items():
+        yield Shared(path, None, (name,))
 
 
 def _settle(
@@ -215,7 +274,7 @@ def _standoff(disk: Disk, action: Action, texts: Texts) -> Standoff:
     base = texts.base(place, action.base) if action.base else None
     generated = texts.generated(action.path)
     if mine is not None:
-        return stand_off(action, base, mine, generated)
+        return stand_off(action, base, mine, generated, texts.vanished())
     package = disk.text(f"{place.removesuffix('.mo')}/package.mo")
     reason = "you made a folder of the class"
     return Standoff(action.path, action.owner, base, package or "", generated, None, rejected=reason)

@@ -10,7 +10,7 @@ import msgspec
 from urdfsync import manifest
 from urdfsync.domain import Role, Snapshot
 from urdfsync.manifest import Manifest
-from urdfsync.plan import DELETES, State
+from urdfsync.plan import CONFLICTS, DELETES, State
 from urdfsync.planning.decide import Decision, encode
 from urdfsync.planning.imports import Imported
 from urdfsync.planning.outputs import Outputs
@@ -49,7 +49,8 @@ class Recording:
         if self._stays(decision):
             changes += store.changes(name, manifest.dumps(self._chosen(decision)), None, None)
         else:
-            model = manifest.dump_model(self._snapshot, self._imported.imports, self._outliving(decision))
+            bases, since = self._outliving(decision), self._since(decision)
+            model = manifest.dump_model(self._snapshot, self._imported.imports, bases, since)
             changes += store.keep_bases(name, self._bases(decision), former)
             changes += store.changes(name, manifest.dumps(self._manifest(decision, model)), model, former)
         return tuple(changes), tuple(self._emptied(changes))
@@ -84,7 +85,10 @@ class Recording:
         if key in decision.texts:
             return encode(decision.texts[key])
         path = key.removeprefix(self._situation.key(""))
-        return self._imported.contents[path] if role is Role.IMPORT else self._outputs.content(path)
+        if role is Role.IMPORT:
+            return self._imported.contents[path]
+        mine, content = self._situation.disk.read(key) or b"", self._outputs.content(path)
+        return content.replace(b"\n", b"\r\n") if 2 * mine.count(b"\r\n") > mine.count(b"\n") else content
 
     def _aside(self, decision: Decision) -> Iterator[tuple[str, bytes]]:
         """What is put aside of conflicts: path below the robot's folder, and content."""
@@ -128,6 +132,12 @@ class Recording:
             if key in waiting
         }
         return msgspec.structs.replace(recorded, files={**recorded.files, **files})
+
+    def _since(self, decision: Decision) -> Snapshot | None:
+        """The model with which what waits is compared; None if nothing waits."""
+        settled = self._situation.settled
+        waits = any(action.held or action.kind in CONFLICTS for action in decision.actions)
+        return settled.snapshot if waits and settled else None
 
     def _outliving(self, decision: Decision) -> Mapping[str, str]:
         """The bases that can't be rendered from the recorded model, by path below the package's folder."""

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 from collections.abc import Mapping
 
-from urdfsync import changes, manifest
+from urdfsync import changes, manifest, vanished
 from urdfsync.changes import Changes
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.difference import ElementKey, Version
 from urdfsync.domain import Reading, Role, Target
 from urdfsync.moves import places
-from urdfsync.plan import State, Wanted
+from urdfsync.plan import Kind, State, Wanted
 from urdfsync.planning import imports
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.generate import Generated, generate
@@ -21,6 +22,9 @@ from urdfsync.planning.recording import Recording
 from urdfsync.planning.situation import NO_MODEL, Situation
 from urdfsync.planning.work import Work
 from urdfsync.state import leftovers, repair
+
+_USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
+"""What happens to files that are as the user wants them."""
 
 
 class Renewal:
@@ -39,10 +43,13 @@ class Renewal:
     def work(self) -> Work:
         """What there is to do."""
         situation = self._situation
-        found = self._changes()
+        last, settled = situation.last, situation.settled
+        found = self._changes(last)
         decision = self._decide(found.renames if found else {})
+        found = found if settled is last else self._changes(settled)
         said = [*self._reading.diagnostics, *self._imported.diagnostics, *situation.parents.diagnostics]
-        said = sorted([*said, *self._moved(decision)], key=lambda diagnostic: (diagnostic.file, diagnostic.line))
+        said += [*self._moved(decision), *self._mentions(decision)]
+        said.sort(key=lambda diagnostic: (diagnostic.file, diagnostic.line))
         news = found if found and (found.changes or found.generator) else None
         if situation.request.dry:
             return Work(decision, situation.store.witness(), diagnostics=tuple(said), changes=news)
@@ -127,13 +134,13 @@ class Renewal:
                 found.append(self._generate(self._situation.version(model), self._situation.robot.target))
         return found
 
-    def _changes(self) -> Changes | None:
-        """What is new in the model since the last build; None if nothing is known of that build."""
-        last, situation = self._situation.last, self._situation
-        if last is None:
+    def _changes(self, since: Version | None) -> Changes | None:
+        """What is new in the model since another version; None if nothing is known of that."""
+        situation = self._situation
+        if since is None:
             return None
         try:
-            return changes.compare(last, self._now, situation.domain, situation.robot.options)
+            return changes.compare(since, self._now, situation.domain, situation.robot.options)
         except NO_MODEL:
             return None  # what is recorded is no model of the domain
 
@@ -175,6 +182,38 @@ class Renewal:
         keys = [key, *(other for other, record in files.items() if record.base == digest and other != key)]
         found = (self._outputs.base(self._old_path(other), digest) for other in keys)
         return next((text for text in found if text is not None), None)
+
+    @functools.cached_property
+    def _vanished(self) -> frozenset[str]:
+        last, recorded, domain = self._situation.last, self._situation.recorded, self._situation.domain
+        if last is None or recorded is None or self._before is None:
+            return frozenset()
+        known = [identifier for kind in recorded.names.values() for identifier in kind.values()]
+        kept = domain.names(self._snapshot, self._situation.robot.target).values()
+        gone = set(known) - {identifier for kind in kept for identifier in kind.values()}
+        before, now = self._before.artifacts, self._generated.artifacts
+        old = (self._before.content(path).decode() for path in before if now.get(path) != before[path])
+        return vanished.names(old, (self._outputs.content(path).decode() for path in now), gone)
+
+    def vanished(self) -> frozenset[str]:
+        """Names of elements that the package had and has no more."""
+        return self._vanished
+
+    def _mentions(self, decision: Decision) -> list[Diagnostic]:
+        """Warnings about texts of the user's that mention names that have vanished."""
+        if not self._vanished:
+            return []
+        situation, found = self._situation, []
+        edited = {action.path for action in decision.actions if action.kind in _USERS and not action.held}
+        others = situation.disk.classes(situation.folder) - {action.path for action in decision.actions}
+        for key in sorted(edited | others):
+            text = decision.texts.get(key) or situation.disk.text(key) or ""
+            for name, line in vanished.mentions(text, self._vanished)[:1]:
+                message = f"`{name}` is mentioned here, but the package has no such name any more"
+                hint = "adapt your text to what the package is now"
+                file = shown(situation.disk.path(key))
+                found.append(Diagnostic(Severity.WARNING, "vanished-name", message, file, line, hint=hint))
+        return found
 
     def _old_path(self, key: str) -> str:
         """Path of a file of the last build below the folder that the package had then."""

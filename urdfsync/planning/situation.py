@@ -122,6 +122,14 @@ class Situation:
             return None
         return self.version(self.state.model)
 
+    @functools.cached_property
+    def settled(self) -> Version | None:
+        """The model of the last build after which nothing waited, without imports if that is not the last one."""
+        model = self.state.model if self.state else None
+        if self.last is None or model is None or model.since is None:
+            return self.last
+        return Version(model.since, None, self.last.generator)
+
     def version(self, model: Model) -> Version:
         """A recorded model, with the imports that the manifest has of it."""
         dependencies = self.recorded.dependencies if self.recorded else {}

@@ -118,7 +118,7 @@ class Store:
             if self._bytes(file) is not None:
                 yield self._change(file, None)
         for file, text in ((beside, model), (path, recorded)):
-            if text is not None and self._read(file) != text:
+            if text is not None and (self._bytes(file) or b"").replace(b"\r\n", b"\n") != text.encode():
                 yield self._change(file, text.encode())
 
     def ignoring(self) -> list[Change]:

@@ -44,6 +44,16 @@ _CHANGES = 12
 def lines(result: Result, console: Console, look: conflicts.Look, explain: bool) -> Iterator[Text]:
     """Everything that there is to say about one robot; `explain` names every file."""
     yield _headline(result, console)
+    if not look.quiet:
+        yield from _details(result, console, look, explain)
+    if result.conflicts:
+        yield from conflicts.lines(result, console, look)
+    if result.drawing:
+        yield text((f"  diagram: {shown(result.drawing)}", ""))
+
+
+def _details(result: Result, console: Console, look: conflicts.Look, explain: bool) -> Iterator[Text]:
+    """What changed in the model, and the files that deserve attention."""
     if result.changes:
         lines = wording.changes(result.changes)
         few = len(lines) if look.verbose or len(lines) <= _CHANGES else _CHANGES - 1
@@ -58,10 +68,6 @@ def lines(result: Result, console: Console, look: conflicts.Look, explain: bool)
                 yield text(("  ", ""), *_verdict(action, _place(result, action)))
     if any(action.kind is Kind.ORPHAN for action in result.actions):
         yield text((_ORPHANS, "dim"))
-    if result.conflicts:
-        yield from conflicts.lines(result, console, look)
-    if result.drawing:
-        yield text((f"  diagram: {shown(result.drawing)}", ""))
 
 
 def plain(name: str, summary: str) -> None:
