@@ -86,7 +86,8 @@ def test_what_the_daemon_writes_itself_is_no_event(project: Path, start: Start) 
     watch = start()
     for ohm in (300, 400, 500):
         probe(watch, project, ohm=ohm)
-    assert [event["event"] for event in watch.events[3:]] == ["settling", "building", "built"] * 3
+    assert len(watch.builds()) == 4
+    assert [event["event"] for event in watch.events].count("settling") <= 3
 
 
 def test_a_source_that_was_only_touched_is_not_built(project: Path, start: Start) -> None:

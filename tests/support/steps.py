@@ -139,14 +139,29 @@ class Step:
                 continue
             here, wanted = self._after.get(path), self._fresh.get(path)
             if _is_order(path):
-                here = edits.without_own(here or b"") or None
-                before = edits.without_own(self._before.get(path, b"")) or None
+                here = self._without_kept(path, edits.without_own(here or b""), wanted or b"") or None
+                before = self._without_kept(path, edits.without_own(self._before.get(path, b"")), wanted or b"") or None
             else:
                 before = self._before.get(path)
             action = self._actions.get(path)
             needed = wanted is None and action is not None and action.kind is Kind.NEEDED
             if here != wanted and not needed and not (waits and here == before):
                 yield f"{path} differs from a fresh build: {action and action.kind} {action and action.held}"
+
+    def _without_kept(self, path: str, order: bytes, wanted: bytes) -> bytes:
+        """A `package.order` without the lines of classes that are the user's: of those that stay, or were deleted."""
+        folder, below = (self._project.package / path).parent, path.removesuffix("package.order")
+        names, generated = order.decode().splitlines(keepends=True), set(wanted.decode().split())
+
+        def stays(name: str) -> bool:
+            deleted = f"{below}{name}.mo" not in self._before
+            return deleted or (folder / f"{name}.mo").is_file() or (folder / name / "package.mo").is_file()
+
+        left = [line for line in names if line.strip() in generated or not stays(line.strip())]
+        same = sorted(left) == sorted(
+            wanted.decode().splitlines(keepends=True)
+        )  # a line that was his stays in its place
+        return wanted if same else "".join(left).encode()
 
     def _odd_merges(self) -> Iterator[str]:
         """What git merges without a conflict is merged to the same text."""

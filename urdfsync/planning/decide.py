@@ -181,8 +181,8 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     actions, standoffs, merged = _settle(disk, planned, aim, texts) if texts else (planned, {}, {})
     actions = spare(actions, disk.has_classes)
     _refuse_markers(disk, actions, owned.keys() | aim.orders.keys())
-    owned = _ours(owned, actions)
-    order_actions, order_texts = _plan_orders(disk, owned, aim.orders)
+    ours = _ours(owned, actions)
+    order_actions, order_texts = _plan_orders(disk, ours, aim.orders)
     extra, extra_texts = _plan_parents(disk, aim.parents)
     everything = (*actions, *order_actions, *extra)
     held = hold(everything, _renewable(disk, everything, texts, merged))
@@ -198,7 +198,7 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
         files=after(held[: len(actions)]),
         orders={key: entry for key, entry in names.items() if entry},
         standoffs=tuple(standoff for path, standoff in sorted(standoffs.items()) if path in conflicts),
-        shared=tuple(file for file in _shared(disk, aim, owned, around) if disk.key(file.path) not in waits),
+        shared=tuple(file for file in _shared(disk, aim, ours, around) if disk.key(file.path) not in waits),
     )
 
 

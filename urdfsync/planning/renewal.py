@@ -185,15 +185,18 @@ class Renewal:
 
     @functools.cached_property
     def _vanished(self) -> frozenset[str]:
-        last, recorded, domain = self._situation.last, self._situation.recorded, self._situation.domain
-        if last is None or recorded is None or self._before is None:
+        situation, settled, recorded = self._situation, self._situation.settled, self._situation.recorded
+        if settled is None or recorded is None or self._before is None:
             return frozenset()
-        known = [identifier for kind in recorded.names.values() for identifier in kind.values()]
-        kept = domain.names(self._snapshot, self._situation.robot.target).values()
-        gone = set(known) - {identifier for kind in kept for identifier in kind.values()}
-        before, now = self._before.artifacts, self._generated.artifacts
-        old = (self._before.content(path).decode() for path in before if now.get(path) != before[path])
-        return vanished.names(old, (self._outputs.content(path).decode() for path in now), gone)
+        target = Target(recorded.package, recorded.class_)
+        before = self._before if settled is situation.last else self._generate(settled, target)
+        known, kept = (
+            {identifier for kind in situation.domain.names(*version).values() for identifier in kind.values()}
+            for version in ((settled.snapshot, target), (self._snapshot, situation.robot.target))
+        )
+        now = self._generated.artifacts
+        old = (before.content(path).decode() for path, one in before.artifacts.items() if now.get(path) != one)
+        return vanished.names(old, (self._outputs.content(path).decode() for path in now), known - kept)
 
     def vanished(self) -> frozenset[str]:
         """Names of elements that the package had and has no more."""
