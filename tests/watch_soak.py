@@ -245,6 +245,12 @@ def _is_edited(project: Path, conflict: dict[str, str]) -> bool:
     return path.is_file() and TAG.search(path.read_text()) is not None
 
 
+def _is_kept(path: Path) -> bool:
+    """Whether a class is edited, or the record of an edited model."""
+    model = path.with_name(path.name.replace("Parameters.mo", ".mo"))
+    return any(file.is_file() and TAG.search(file.read_text()) is not None for file in (path, model))
+
+
 def _differences(package: Path, fresh: Path) -> Iterator[str]:
     for path in sorted(fresh.rglob("*")):
         mine = package / path.relative_to(fresh)
@@ -259,7 +265,7 @@ def _differences(package: Path, fresh: Path) -> Iterator[str]:
         elif mine.read_bytes() != path.read_bytes() and path.name != "package.order":
             yield f"stale: {mine}"
     for path in sorted(package.rglob("*.mo")):
-        ours = path.name != "package.mo" and not TAG.search(path.read_text())
+        ours = path.name != "package.mo" and not _is_kept(path)
         if ours and not (fresh / path.relative_to(package)).is_file():
             yield f"left over: {path}"
 
