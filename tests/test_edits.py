@@ -618,3 +618,12 @@ def test_what_waits_is_told_until_it_is_settled(conflict: Path) -> None:
     assert len(more.changes) == len(first.changes) + 1
     assert run(choices={R1: Choice.TAKE}).changes is not None
     assert run().changes is None
+
+
+def test_line_ends_of_the_source_are_no_change(project: Path, snapshot_of: Snapshot) -> None:
+    """So that two machines that check out text in their own way record the same."""
+    run()
+    before = snapshot_of(project / ".urdfsync")
+    edit("ladder.json", "\n", "\r\n")
+    assert run().in_step
+    assert snapshot_of(project / ".urdfsync") == before

@@ -25,21 +25,21 @@ class Stream:
             inner.reconfigure(errors="backslashreplace")
 
     def write(self, text: str) -> int:
-        """Write `text` unless an earlier write failed; its length in any case."""
-        if self.error is None:
+        """Write `text` unless nobody reads it any more; its length in any case. A full disk may have room again."""
+        if self.error is None or self.error.errno == errno.ENOSPC:
             try:
                 self._inner.write(text)
             except OSError as error:
-                self.error = error
+                self.error = self.error or error
         return len(text)
 
     def flush(self) -> None:
         """Pass on what is held back."""
-        if self.error is None:
+        if self.error is None or self.error.errno == errno.ENOSPC:
             try:
                 self._inner.flush()
             except OSError as error:
-                self.error = error
+                self.error = self.error or error
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._inner, name)

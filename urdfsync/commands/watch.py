@@ -105,7 +105,9 @@ def _signals(daemon: Daemon) -> Iterator[list[str]]:
         if len(received) > 1:
             raise KeyboardInterrupt
 
-    before = {name: signal.signal(number, handle) for name in _SIGNALS if (number := getattr(signal, name, None))}
+    numbers = {name: number for name in _SIGNALS if (number := getattr(signal, name, None)) is not None}
+    heeded = {name: number for name, number in numbers.items() if signal.getsignal(number) is not signal.SIG_IGN}
+    before = {name: signal.signal(number, handle) for name, number in heeded.items()}  # `nohup` ignores SIGHUP
     try:
         yield received
     finally:

@@ -55,8 +55,14 @@ class Crew:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if self._pool is not None:
-            self._pool.shutdown(cancel_futures=True)
+        if self._pool is None:
+            return
+        if kind is not None and not issubclass(kind, Exception):
+            from multiprocessing import active_children
+
+            for child in active_children():  # whoever interrupts does not want to wait
+                child.terminate()
+        self._pool.shutdown(cancel_futures=True)
 
     def _survey(self) -> None:
         """Find out which robots have to be read and rendered, and start with that if they are many."""

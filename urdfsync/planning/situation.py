@@ -16,7 +16,7 @@ from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.difference import Version
 from urdfsync.domain import Dependency, Import, Lookup, Role, Snapshot
-from urdfsync.files import digest
+from urdfsync.files import digest, text_digest
 from urdfsync.manifest import Generator, Manifest, Model
 from urdfsync.planning import imports, inputs, parents
 from urdfsync.planning.decide import Disk
@@ -150,7 +150,7 @@ class Situation:
 
     def heading(self, snapshot: str) -> Manifest:
         """The manifest of this build without the lists in it; `snapshot` is the hash of the JSON file."""
-        source = manifest.Source(self.robot.source_text, digest(self.content), snapshot)
+        source = manifest.Source(self.robot.source_text, text_digest(self.content), snapshot)
         target = self.robot.target
         return Manifest(
             package=target.package, class_=target.name, folder=self.folder, source=source, generator=self.generator

@@ -16,6 +16,8 @@ from collections.abc import Callable, Sequence
 _STDERR = 2
 _LONGEST = 10_000
 """Bytes that are passed on as a line at the latest, even if it has not ended."""
+_CHUNKS = 64
+"""So much is read at a time, in pieces of 64 kB, before it is looked whether the end has come."""
 
 
 class Diversion:
@@ -58,7 +60,9 @@ class Diversion:
             selector.register(self._end, selectors.EVENT_READ)
             while not ended:
                 ended = any(key.fd == self._end for key, _ in selector.select())
-                while chunk := self._read():
+                for _ in range(_CHUNKS):  # somebody may write without end
+                    if not (chunk := self._read()):
+                        break
                     rest = self._pass_on(rest + chunk)
         if rest:
             self._pass_on(rest + b"\n")

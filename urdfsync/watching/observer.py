@@ -101,14 +101,21 @@ class Observer:
             self._close()
         if self._backend is None:
             self._backend = Backend()
-            self._backend.start()
+            try:
+                self._backend.start()
+            except RuntimeError as error:  # there are no more threads
+                self._backend = None
+                raise OSError(errno.EAGAIN, str(error)) from None
         return self._backend
 
     def _watch(self, backend: BaseObserver, folder: str, recursive: bool) -> None:
         if not os.access(folder, os.R_OK):  # watchdog says nothing then
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
         identity = _identity(folder)
-        watch = backend.schedule(self._handler, folder, recursive=recursive, event_filter=_EVENTS)
+        try:
+            watch = backend.schedule(self._handler, folder, recursive=recursive, event_filter=_EVENTS)
+        except RuntimeError as error:  # there are no more threads
+            raise OSError(errno.EAGAIN, str(error)) from None
         if identity is not None:
             self._watches[folder, recursive] = watch, identity
 
