@@ -16,8 +16,10 @@ from collections.abc import Callable, Sequence
 _STDERR = 2
 _LONGEST = 10_000
 """Bytes that are passed on as a line at the latest, even if it has not ended."""
-_CHUNKS = 64
-"""So much is read at a time, in pieces of 64 kB, before it is looked whether the end has come."""
+_CHUNK = 8192
+"""Bytes that are passed on before it is looked whether the end has come: somebody may write without end."""
+_LAST = 8
+"""So many pieces at the end: what a pipe holds."""
 
 
 class Diversion:
@@ -60,16 +62,14 @@ class Diversion:
             selector.register(self._end, selectors.EVENT_READ)
             while not ended:
                 ended = any(key.fd == self._end for key, _ in selector.select())
-                for _ in range(_CHUNKS):  # somebody may write without end
-                    if not (chunk := self._read()):
-                        break
-                    rest = self._pass_on(rest + chunk)
+                for _ in range(_LAST if ended else 1):
+                    rest = self._pass_on(rest + self._read())
         if rest:
             self._pass_on(rest + b"\n")
 
     def _read(self) -> bytes:
         with contextlib.suppress(BlockingIOError):
-            return os.read(self._reader, 65536)
+            return os.read(self._reader, _CHUNK)
         return b""
 
     def _pass_on(self, data: bytes) -> bytes:
