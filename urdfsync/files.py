@@ -30,9 +30,12 @@ def digest(content: bytes) -> str:
 
 def text_digest(content: bytes) -> str:
     r"""SHA-256 (hex) of a text file's bytes with `\r\n` and `\r` read as `\n`."""
-    if b"\r" in content:
-        content = content.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
-    return hashlib.sha256(content).hexdigest()
+    return digest(normalised(content))
+
+
+def normalised(content: bytes) -> bytes:
+    r"""A text file's bytes with `\r\n` and `\r` as `\n`."""
+    return content.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in content else content
 
 
 def templates_digest(folders: Sequence[Path]) -> str:

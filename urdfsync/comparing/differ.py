@@ -68,7 +68,7 @@ def _with_last_build(subject: Subject, robot: RobotConfig, config: Config, reque
     if last is None or found is None or not found.changes:
         return comparison
     name = shown(subject.source)
-    new = Version(versions.snapshot(situation.domain, subject.options, situation.content, name)[0])
+    new = Version(inputs.read(situation.domain, subject.options, situation.content, name)[0])
     try:
         effects = situation.domain.effects(last, new, found.renames)
     except NO_MODEL:
@@ -144,10 +144,11 @@ class _Versions:
         """What would happen to the files that differ, if nobody had edited any."""
         before, after = self._package(old), self._package(new)
         found = []
-        for path in before.artifacts.keys() | after.artifacts.keys():
+        differing = changes.stale(before.artifacts.values(), after.artifacts.values())
+        for path in differing.render | differing.gone:
             one, two = before.artifacts.get(path), after.artifacts.get(path)
             known = two or one
-            if known is None or one == two or (one and two and before.content(path) == after.content(path)):
+            if known is None or (one and two and before.content(path) == after.content(path)):
                 continue
             kind = _kind(one is not None, two is not None)
             found.append(Action(self._key(path), kind, known.role, known.owner))

@@ -14,9 +14,9 @@ from urdfsync.comparing.subjects import Subject
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.difference import Version
-from urdfsync.domain import Dependency, Domain, Lookup, Reading, Snapshot
+from urdfsync.domain import Dependency, Domain, Lookup
 from urdfsync.files import digest
-from urdfsync.planning import imports
+from urdfsync.planning import imports, inputs
 
 _POINTER = re.compile(rb"version https://git-lfs.*^oid sha256:([0-9a-f]{64})$", re.DOTALL | re.MULTILINE)
 """What git holds in the place of a file that is in Git LFS."""
@@ -63,14 +63,6 @@ def from_revision(revision: Revision, path: Path, scratch: Path) -> Source:
     return Source(content, revision.label(path), (path,), lambda found: _as_they_were(found, revision, scratch))
 
 
-def snapshot(domain: Domain, options: object, content: bytes, name: str) -> tuple[Snapshot, Reading]:
-    """What is in a source. Raises SourceError with all that is wrong in it."""
-    reading = domain.read(content, name, options)
-    if reading.snapshot is None or any(found.severity is Severity.ERROR for found in reading.diagnostics):
-        raise SourceError(*reading.diagnostics)
-    return manifest.plain(reading.snapshot), reading
-
-
 def read(
     domain: Domain,
     subject: Subject,
@@ -83,7 +75,7 @@ def read(
 
     Raises SourceError for a source that can't be read.
     """
-    plain, reading = snapshot(domain, subject.options, source.content, source.name)
+    plain, reading = inputs.read(domain, subject.options, source.content, source.name)
     lookups = [Lookup(place, subject.package_paths + package_paths) for place in source.places]
     found = [imports.sought(domain, plain, lookup, subject.options, reading.lines) for lookup in lookups]
     dependencies = source.locate([_joined(same) for same in zip(*found, strict=True)])

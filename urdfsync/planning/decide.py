@@ -165,6 +165,7 @@ class Texts(Protocol):
         """What was written last to a file, by its hash; None if that is lost."""
         ...
 
+    @property
     def vanished(self) -> Set[str]:
         """Names of elements that the package had and has no more."""
         ...
@@ -180,9 +181,10 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     aim = dataclasses.replace(aim, choices=choices)
     actions, standoffs, merged = _settle(disk, planned, aim, texts) if texts else (planned, {}, {})
     actions = spare(actions, disk.has_classes)
-    _refuse_markers(disk, actions, owned.keys() | aim.orders.keys())
+    order_files = {key: disk.text(key) for key in sorted(owned.keys() | aim.orders.keys())}
+    _refuse_markers(disk, actions, order_files)
     ours = _ours(owned, actions)
-    order_actions, order_texts = _plan_orders(disk, ours, aim.orders)
+    order_actions, order_texts = _plan_orders(order_files, ours, aim.orders)
     extra, extra_texts = _plan_parents(disk, aim.parents)
     everything = (*actions, *order_actions, *extra)
     held = hold(everything, _renewable(disk, everything, texts, merged))
@@ -202,14 +204,13 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     )
 
 
-def _refuse_markers(disk: Disk, actions: Iterable[Action], orders: Iterable[str]) -> None:
+def _refuse_markers(disk: Disk, actions: Iterable[Action], orders: Mapping[str, str | None]) -> None:
     """Refuse to work with files in which version control has left its merge markers. Raises OutputError."""
     edited = [action for action in actions if action.mine not in (None, action.base, action.generated)]
     keys = [action.origin or action.path for action in edited if action.role is not Role.IMPORT]
     found = []
-    for key in (*keys, *sorted(orders)):
-        match = _MARKER.search(text := disk.text(key) or "")
-        if match:
+    for key, text in {**{key: disk.text(key) for key in keys}, **orders}.items():
+        if text and (match := _MARKER.search(text)):
             line = text.count("\n", 0, match.start()) + 1
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
             file = shown(disk.path(key))
@@ -274,18 +275,18 @@ def _standoff(disk: Disk, action: Action, texts: Texts) -> Standoff:
     base = texts.base(place, action.base) if action.base else None
     generated = texts.generated(action.path)
     if mine is not None:
-        return stand_off(action, base, mine, generated, texts.vanished())
+        return stand_off(action, base, mine, generated, texts.vanished)
     package = disk.text(f"{place.removesuffix('.mo')}/package.mo")
     reason = "you made a folder of the class"
     return Standoff(action.path, action.owner, base, package or "", generated, None, rejected=reason)
 
 
 def _plan_orders(
-    disk: Disk, owned: Mapping[str, tuple[str, ...]], wanted: Mapping[str, tuple[str, ...]]
+    files: Mapping[str, str | None], owned: Mapping[str, tuple[str, ...]], wanted: Mapping[str, tuple[str, ...]]
 ) -> tuple[list[Action], dict[str, str]]:
+    """The actions for `package.order` files, from their texts, and their new texts."""
     actions, texts = [], {}
-    for key in owned.keys() | wanted.keys():
-        old = disk.text(key)
+    for key, old in files.items():
         new = order.merge(old, wanted.get(key, ()), owned.get(key, ()))
         if old is None:
             kind = Kind.FORGET if not new else Kind.RESTORE if key in owned else Kind.CREATE

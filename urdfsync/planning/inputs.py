@@ -1,12 +1,14 @@
-"""What a robot is built from, as far as the configuration names it: the source's bytes and the templates."""
+"""What a robot is built from, as the configuration names it: its source, in bytes and as a model, and templates."""
 
 from __future__ import annotations
 
 import stat
+from typing import Any
 
+from urdfsync import manifest
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
-from urdfsync.domain import Domain, Templates
+from urdfsync.domain import Domain, Reading, Snapshot, Templates
 from urdfsync.files import kind_of, templates_digest
 
 
@@ -34,3 +36,14 @@ def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
             raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line, hint=hint))
     folders.append(templates_folder(domain))
     return Templates(tuple(folders), templates_digest(folders))
+
+
+def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snapshot, Reading]:
+    """The model in a source, as it is recorded, and all that was read; `name` is how diagnostics call the source.
+
+    Raises SourceError with all that is wrong in it.
+    """
+    reading = domain.read(content, name, options)
+    if reading.snapshot is None or any(found.severity is Severity.ERROR for found in reading.diagnostics):
+        raise SourceError(*reading.diagnostics)
+    return manifest.plain(reading.snapshot), reading

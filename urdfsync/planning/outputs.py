@@ -6,9 +6,11 @@ text is the one that was written then, and its hash is recorded.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import functools
+from collections.abc import Callable, Mapping, Sequence, Set
 
-from urdfsync.files import text_digest
+from urdfsync.changes import stale
+from urdfsync.files import normalised, text_digest
 from urdfsync.plan import FileRecord, State
 from urdfsync.planning.generate import Generated
 from urdfsync.state.bases import Bases
@@ -73,11 +75,16 @@ class Outputs:
     def _recorded(self, path: str) -> str | None:
         """The recorded hash of a text that is not stale and need not be rendered."""
         record = self._records.get(path)
-        if record is None or record.state not in _AS_GENERATED or self._last is None or self._again:
+        if record is None or record.state not in _AS_GENERATED or path in self._stale:
             return None
-        if self._last.artifacts.get(path) != self._now.artifacts[path] or self._known(path, record.base) is None:
-            return None
-        return record.base
+        return record.base if self._known(path, record.base) is not None else None
+
+    @functools.cached_property
+    def _stale(self) -> Set[str]:
+        """The paths of texts that may be other than in the last build."""
+        if self._last is None or self._again:
+            return self._now.artifacts.keys()
+        return stale(self._last.artifacts.values(), self._now.artifacts.values()).render
 
     def _known(self, path: str, digest: str | None) -> str | None:
         """The text of this hash, as far as it can be had without rendering."""
@@ -94,4 +101,4 @@ class Outputs:
         mine = self._mine(path)
         if mine is None or text_digest(mine) != digest:
             return None
-        return mine.replace(b"\r\n", b"\n").replace(b"\r", b"\n").decode(errors="surrogateescape")
+        return normalised(mine).decode(errors="surrogateescape")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
@@ -44,8 +45,8 @@ class Recording:
         name, former = situation.robot.name, situation.former
         changes = list(self._files(decision))
         changes += store.conflicts(name, dict(self._aside(decision)), former)
-        if (drawing := self._drawing_text()) is not None:
-            changes += store.drawing(name, drawing)[1]
+        if self._drawing is not None:
+            changes += store.drawing(name, self._drawing)[1]
         if self._stays(decision):
             changes += store.changes(name, manifest.dumps(self._chosen(decision)), None, None)
         else:
@@ -57,10 +58,12 @@ class Recording:
 
     def drawing(self) -> Path | None:
         """Where the main model's diagram is then; None if nobody asked for it or there is none."""
-        text = self._drawing_text()
-        return None if text is None else self._situation.store.drawing(self._situation.robot.name, text)[0]
+        if self._drawing is None:
+            return None
+        return self._situation.store.drawing(self._situation.robot.name, self._drawing)[0]
 
-    def _drawing_text(self) -> str | None:
+    @functools.cached_property
+    def _drawing(self) -> str | None:
         situation, robot = self._situation, self._situation.robot
         if not situation.request.draw:
             return None

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import contextlib
 import functools
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 
-from urdfsync import changes, manifest, vanished
+from urdfsync import changes, vanished
 from urdfsync.changes import Changes
 from urdfsync.config import shown
-from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.difference import ElementKey, Version
-from urdfsync.domain import Reading, Role, Target
+from urdfsync.domain import Role, Target
 from urdfsync.moves import places
 from urdfsync.plan import Kind, State, Wanted
-from urdfsync.planning import imports
+from urdfsync.planning import imports, inputs
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.generate import Generated, generate
 from urdfsync.planning.outputs import Outputs
@@ -32,8 +32,10 @@ class Renewal:
 
     def __init__(self, situation: Situation) -> None:
         self._situation = situation
-        self._reading = self._read()
-        self._snapshot = manifest.plain(self._reading.snapshot or {})
+        robot = situation.robot
+        self._snapshot, self._reading = inputs.read(
+            situation.domain, robot.options, situation.content, shown(robot.source)
+        )
         self._imported = self._import()
         self._now = Version(self._snapshot, self._imported.imports, situation.generator.fingerprint)
         self._generated = self._generate(self._now, situation.robot.target)
@@ -56,13 +58,6 @@ class Renewal:
         recording = Recording(situation, self._outputs, self._imported, self._snapshot, self.base)
         writes, emptied = recording.writes(decision)
         return Work(decision, situation.store.witness(), writes, emptied, tuple(said), recording.drawing(), news)
-
-    def _read(self) -> Reading:
-        robot = self._situation.robot
-        reading = self._situation.domain.read(self._situation.content, shown(robot.source), robot.options)
-        if reading.snapshot is None or any(d.severity is Severity.ERROR for d in reading.diagnostics):
-            raise SourceError(*reading.diagnostics)
-        return reading
 
     def _import(self) -> imports.Imported:
         situation, state, name = self._situation, self._situation.state, self._situation.robot.name
@@ -184,7 +179,8 @@ class Renewal:
         return next((text for text in found if text is not None), None)
 
     @functools.cached_property
-    def _vanished(self) -> frozenset[str]:
+    def vanished(self) -> Set[str]:
+        """Names of elements that the package had and has no more."""
         situation, settled, recorded = self._situation, self._situation.settled, self._situation.recorded
         if settled is None or recorded is None or self._before is None:
             return frozenset()
@@ -195,23 +191,20 @@ class Renewal:
             for version in ((settled.snapshot, target), (self._snapshot, situation.robot.target))
         )
         now = self._generated.artifacts
-        old = (before.content(path).decode() for path, one in before.artifacts.items() if now.get(path) != one)
+        differing = changes.stale(before.artifacts.values(), now.values())
+        old = (before.content(path).decode() for path in before.artifacts.keys() & (differing.render | differing.gone))
         return vanished.names(old, (self._outputs.content(path).decode() for path in now), known - kept)
-
-    def vanished(self) -> frozenset[str]:
-        """Names of elements that the package had and has no more."""
-        return self._vanished
 
     def _mentions(self, decision: Decision) -> list[Diagnostic]:
         """Warnings about texts of the user's that mention names that have vanished."""
-        if not self._vanished:
+        if not self.vanished:
             return []
         situation, found = self._situation, []
         edited = {action.path for action in decision.actions if action.kind in _USERS and not action.held}
         others = situation.disk.classes(situation.folder) - {action.path for action in decision.actions}
         for key in sorted(edited | others):
             text = decision.texts.get(key) or situation.disk.text(key) or ""
-            for name, line in vanished.mentions(text, self._vanished)[:1]:
+            for name, line in vanished.mentions(text, self.vanished)[:1]:
                 message = f"`{name}` is mentioned here, but the package has no such name any more"
                 hint = "adapt your text to what the package is now"
                 file = shown(situation.disk.path(key))
