@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from support.git import NEEDS_GIT, Repository
+from support.networks import edit, resistor
 
 from urdfsync import cli, hook
 from urdfsync.staging import committing
@@ -36,17 +37,6 @@ def repo(project: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> Rep
     repository.commit()
     capsys.readouterr()
     return repository
-
-
-def edit(path: str, old: str, new: str) -> None:
-    text = Path(path).read_text()
-    assert text.count(old) == 1
-    Path(path).write_text(text.replace(old, new))
-
-
-def resistor(ohm: float, before: float = 100) -> None:
-    """Change the source: the resistance of R1."""
-    edit("ladder.json", f'"ohm": {before:g}}}', f'"ohm": {ohm:g}}}')
 
 
 def said(capsys: Capture, mode: str, *arguments: str, code: int = 1) -> list[str]:

@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 from support.daemon import Watch
 from support.git import NEEDS_GIT, Repository
+from support.networks import edit, resistor
 
 from urdfsync import cli
 
@@ -96,16 +97,6 @@ def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Calla
         return Site(repository)
 
     return make
-
-
-def edit(path: str, old: str, new: str) -> None:
-    text = Path(path).read_text()
-    assert text.count(old) == 1
-    Path(path).write_text(text.replace(old, new))
-
-
-def resistor(ohm: float, before: float = 100) -> None:
-    edit("ladder.json", f'"ohm": {before:g}}}', f'"ohm": {ohm:g}}}')
 
 
 def command(said: str) -> list[str]:

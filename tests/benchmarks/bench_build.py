@@ -12,24 +12,20 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import shutil
-import statistics
-import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rich.console import Console
 from rich.progress import track
-from rich.table import Table
 from support import corpus
+from support.timing import NOTHING, seconds, table
 
 EXAMPLE = corpus.REPOSITORY / "modelica" / "UrdfSync" / "Resources" / "robots" / "six_axis_arm" / "six_axis_arm.urdf"
 UR5E = "universal_robots/ur_description/urdf/ur5e.urdf"
-NOTHING = "python -c pass"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,7 +49,7 @@ def main() -> None:
             _round(robots, Path(folder) / str(number))
             for number in track(range(runs + 1), "measuring", console=console, transient=True)
         ]
-    console.print(_table(rounds[1:]))  # the first round fills caches
+    console.print(table(rounds[1:]))  # the first round fills caches
     if len(robots) == 1:
         console.print("no corpus of robots: set URDFSYNC_CORPUS")
 
@@ -86,36 +82,17 @@ def _is_built(source: Path) -> bool:
 
 def _round(robots: Sequence[Robot], folder: Path) -> dict[str, float]:
     """Seconds of every measurement, by its label."""
-    seconds = {NOTHING: _seconds([sys.executable, "-c", "pass"], Path.cwd())}
+    measured = {NOTHING: seconds([sys.executable, "-c", "pass"], Path.cwd())}
     for robot in robots:
         project = folder / robot.source.stem
         project.mkdir(parents=True)
         configuration = f'[robots.robot]\nsource = "{robot.source.as_posix()}"\npackage = "Robot"\n'
         (project / "urdfsync.toml").write_text(configuration, encoding="utf-8")
         build = [sys.executable, "-m", "urdfsync", "build", "--quiet"]
-        seconds[f"{robot.label}: fresh"] = _seconds(build, project)
-        seconds[f"{robot.label}: no-op"] = _seconds(build, project)
+        measured[f"{robot.label}: fresh"] = seconds(build, project)
+        measured[f"{robot.label}: no-op"] = seconds(build, project)
     shutil.rmtree(folder)
-    return seconds
-
-
-def _seconds(command: Sequence[str], folder: Path) -> float:
-    """Wall-clock time of a process, from before its start to its end."""
-    started = time.perf_counter()
-    subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    return time.perf_counter() - started
-
-
-def _table(rounds: Sequence[Mapping[str, float]]) -> Table:
-    table = Table(title=f"whole-process time, {len(rounds)} rounds")
-    table.add_column("what")
-    for heading in ("median, ms", "least to most, ms", f"times {NOTHING}"):
-        table.add_column(heading, justify="right")
-    for label in rounds[0]:
-        times = [1000 * seconds[label] for seconds in rounds]
-        ratio = statistics.median(seconds[label] / seconds[NOTHING] for seconds in rounds)
-        table.add_row(label, f"{statistics.median(times):.0f}", f"{min(times):.0f} to {max(times):.0f}", f"{ratio:.1f}")
-    return table
+    return measured
 
 
 if __name__ == "__main__":

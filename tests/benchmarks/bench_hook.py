@@ -14,12 +14,9 @@ import argparse
 import os
 import random
 import shutil
-import statistics
 import struct
-import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -27,12 +24,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rich.console import Console
 from rich.progress import track
-from rich.table import Table
 from support import corpus
+from support.timing import NOTHING, seconds, table
 
 ROBOTS = corpus.REPOSITORY / "modelica" / "UrdfSync" / "Resources" / "robots"
 ARM = ROBOTS / "six_axis_arm" / "six_axis_arm.urdf"
-NOTHING = "python -c pass"
 MESH = 10 * 1024 * 1024
 """Bytes of each of the large meshes."""
 
@@ -54,7 +50,7 @@ def main() -> None:
             "200 MB of meshes": _repository(Path(folder) / "large", 1, meshes=20),
         }
         rounds = [_round(places) for _ in track(range(runs + 1), "measuring", console=console, transient=True)]
-    console.print(_table(rounds[1:]))  # the first round fills caches
+    console.print(table(rounds[1:]))  # the first round fills caches
 
 
 def _repository(folder: Path, robots: int, meshes: int = 0) -> Path:
@@ -94,13 +90,13 @@ def _triangles(seed: int) -> bytes:
 
 def _round(places: Mapping[str, Path]) -> dict[str, float]:
     """Seconds of every measurement, by its label."""
-    seconds = {NOTHING: _seconds([sys.executable, "-c", "pass"], Path.cwd())}
+    measured = {NOTHING: _run([sys.executable, "-c", "pass"], Path.cwd())}
     for label, place in places.items():
-        seconds[f"{label}: build --check"] = _seconds(BUILD_CHECK, place)
-        seconds[f"{label}: hook"] = _seconds(CHECK, place)
-        seconds[f"{label}: hook, another file changed"] = _changed(place, "notes.txt")
-        seconds[f"{label}: hook, a source changed"] = _changed(place, "arm0.urdf")
-    return seconds
+        measured[f"{label}: build --check"] = _run(BUILD_CHECK, place)
+        measured[f"{label}: hook"] = _run(CHECK, place)
+        measured[f"{label}: hook, another file changed"] = _changed(place, "notes.txt")
+        measured[f"{label}: hook, a source changed"] = _changed(place, "arm0.urdf")
+    return measured
 
 
 def _changed(place: Path, name: str) -> float:
@@ -109,34 +105,15 @@ def _changed(place: Path, name: str) -> float:
     content = path.read_bytes()
     path.write_bytes(content.replace(b'mass value="', b'mass value="1') + b"\n")
     try:
-        return _seconds(CHECK, place)
+        return _run(CHECK, place)
     finally:
         path.write_bytes(content)
         _run(["git", "update-index", "-q", "--refresh"], place)
 
 
-def _seconds(command: Sequence[str], folder: Path) -> float:
-    """Wall-clock time of a process, from before its start to its end."""
-    started = time.perf_counter()
-    _run(command, folder)
-    return time.perf_counter() - started
-
-
-def _run(command: Sequence[str], folder: Path) -> None:
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
-    subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL, env=environment)
-
-
-def _table(rounds: Sequence[Mapping[str, float]]) -> Table:
-    table = Table(title=f"whole-process time, {len(rounds)} rounds")
-    table.add_column("what")
-    for heading in ("median, ms", "least to most, ms", f"times {NOTHING}"):
-        table.add_column(heading, justify="right")
-    for label in rounds[0]:
-        times = [1000 * seconds[label] for seconds in rounds]
-        ratio = statistics.median(seconds[label] / seconds[NOTHING] for seconds in rounds)
-        table.add_row(label, f"{statistics.median(times):.0f}", f"{min(times):.0f} to {max(times):.0f}", f"{ratio:.1f}")
-    return table
+def _run(command: Sequence[str], folder: Path) -> float:
+    """Seconds of a process; what a hook of git that runs the benchmark has set must not decide."""
+    return seconds(command, folder, {name: value for name, value in os.environ.items() if not name.startswith("GIT_")})
 
 
 if __name__ == "__main__":
