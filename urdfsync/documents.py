@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfsync import difference, resolution, wording
-from urdfsync.comparing.comparison import Comparison
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.outcome import Result
 from urdfsync.plan import Action, Kind
@@ -16,6 +15,7 @@ from urdfsync.status import FileState, RobotState
 
 if TYPE_CHECKING:
     from urdfsync.changes import Change
+    from urdfsync.comparing.comparison import Comparison
     from urdfsync.watching.events import Event
 
 VERSION = 1

@@ -17,16 +17,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfsync import documents, wording
-from urdfsync.comparing.comparison import Comparison
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.documents import VERSION
 from urdfsync.outcome import Exit, Result
 from urdfsync.status import RobotState
-from urdfsync.views import builds, comparisons, conflicts, drafts, statuses, terminal
+from urdfsync.views import builds, conflicts, drafts, statuses, terminal
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
+    from urdfsync.comparing.comparison import Comparison
     from urdfsync.init import Draft
     from urdfsync.views.watching import Watching
 
@@ -119,6 +119,8 @@ class Report:
         if found.in_step and found.changes is None:
             builds.plain(found.result.robot, wording.comparison(found))
             return
+        from urdfsync.views import comparisons  # a build has no use for it
+
         console = terminal.console(sys.stderr if found.result.failed else sys.stdout)
         for part in comparisons.parts(found, console, self._verbose):
             console.print(part)

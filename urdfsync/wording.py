@@ -9,7 +9,6 @@ from collections.abc import Container, Sequence
 from typing import TYPE_CHECKING
 
 from urdfsync import difference
-from urdfsync.comparing.comparison import Comparison
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Result
 from urdfsync.plan import DELETES, Kind
@@ -17,6 +16,7 @@ from urdfsync.status import FileStatus, RobotState
 
 if TYPE_CHECKING:
     from urdfsync.changes import Change, Changes
+    from urdfsync.comparing.comparison import Comparison
 
 _WIDTH = 40
 _GENERATOR = "a template, an option or urdfsync itself changed"
