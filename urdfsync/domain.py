@@ -166,6 +166,78 @@ class Echo:
     other: Spot
 
 
+class Quantity(enum.StrEnum):
+    """What is compared with a reference."""
+
+    POSITION = "position"
+    """Of a link's frame, in m."""
+    ORIENTATION = "orientation"
+    """Of a link's frame: elements of its rotation matrix."""
+    EFFORT = "effort"
+    """Of what drives an axis, in N·m or N; or of the base, which is moved."""
+    ACCELERATION = "acceleration"
+    """Of an axis that nothing drives, in rad/s² or m/s²."""
+    MASS = "mass"
+    """Of the whole model, in kg."""
+    CENTRE = "centre of mass"
+    """Of the whole model, in m."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Deviation:
+    """How far one quantity of one element is from the reference, at most, over all instants."""
+
+    quantity: Quantity
+    element: str
+    """The element in the domain's words: `link hand`, `joint elbow`, `robot`."""
+    difference: float
+    """The greatest absolute difference, in `unit`; infinite or NaN if the simulation gave no number."""
+    value: float
+    """The greatest absolute value of the reference for this element, in `unit`."""
+    size: float
+    """The greatest absolute value of the reference for this quantity over all elements, in `unit`."""
+    unit: str
+
+    @property
+    def relative(self) -> float:
+        """The difference against the greatest value of its kind, or 1: what is held against a tolerance."""
+        return self.difference / max(1.0, self.size)
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Probe:
+    """A model that puts a package to the test: Modelica text, what to simulate, and which values to hand back."""
+
+    source: str
+    """One package; it names the libraries that it needs in imports."""
+    model: str
+    """Full name of the model in it."""
+    stop: float
+    """End of the simulation that begins at 0, in s."""
+    step: float
+    """Interval of results, in s."""
+    values: tuple[str, ...]
+
+
+class Experiment(Protocol):
+    """A comparison of a generated package with an independent reference that reads the same source."""
+
+    content: bytes
+    """The source to generate the package from: the one given, or a copy that has what a comparison needs."""
+    probe: Probe
+    notes: tuple[str, ...]
+    """In which way `content` is not what was given, and why: one sentence each, without a full stop."""
+    unchecked: tuple[str, ...]
+    """What the comparison does not cover, and why: one sentence each, without a full stop."""
+
+    def compare(self, series: Mapping[str, Sequence[float]]) -> Sequence[Deviation]:
+        """Compare the values of `probe` (and `time`) with the reference, element by element.
+
+        Raises SourceError if the reference can't be computed.
+        """
+        ...
+
+
 class Domain(Protocol):
     """A data format and the Modelica package that follows from it; registered as entry point `urdfsync.domains`."""
 
@@ -243,4 +315,16 @@ class Domain(Protocol):
 
     def drawing(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> str | None:
         """The main model's diagram as SVG text, or None if the domain draws none. Pure."""
+        ...
+
+    def models(self, target: Target) -> Sequence[str]:
+        """The classes that have to compile by themselves, by their names below the package, the main one first."""
+        ...
+
+    def experiment(self, content: bytes, file: str, target: Target, options: Any, complete: bool) -> Experiment | None:
+        """A comparison of the package generated from a source with an independent reference; None if there is none.
+
+        `file` is how diagnostics name the source. With `complete`, what the source lacks for a telling comparison
+        (inertias, say) is made up. Raises SourceError if the reference can't be had or can't read the source.
+        """
         ...

@@ -168,6 +168,12 @@ class RcNetwork:
         texts = [f'<text y="{20 * (y + 1)}">{name}</text>' for y, name in enumerate(sorted(snapshot["elements"]))]
         return f'<svg xmlns="http://www.w3.org/2000/svg">{"".join(texts)}</svg>\n'
 
+    def models(self, target: Target) -> Sequence[str]:
+        return (target.name,)
+
+    def experiment(self, content: bytes, file: str, target: Target, options: Options, complete: bool) -> None:
+        return None  # there is no second opinion on networks
+
 
 def _only_ones(elements: Iterable[Mapping[str, Any]]) -> Mapping[tuple[Any, ...], str]:
     """Names of elements by all that they are but their names; those that are alike are left out."""

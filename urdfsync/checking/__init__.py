@@ -1,0 +1,1 @@
+"""`urdfsync check`: compiles packages, and compares them with an independent reference."""

@@ -1,0 +1,118 @@
+"""What a check found out about one robot: pure data, from the process that checks to the one that reports."""
+
+from __future__ import annotations
+
+import dataclasses
+import enum
+import math
+from collections.abc import Iterable, Sequence
+
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import Deviation, Quantity
+from urdfsync.outcome import Exit
+
+TOLERANCE = 1e-10
+"""The greatest difference that counts as agreement, against the greatest value of its kind or 1."""
+
+POSES = (Quantity.POSITION, Quantity.ORIENTATION)
+EFFORTS = (Quantity.EFFORT, Quantity.ACCELERATION)
+MASSES = (Quantity.MASS, Quantity.CENTRE)
+
+
+class Standing(enum.StrEnum):
+    """What a check says of a robot in one word."""
+
+    RIGHT = "right"
+    DIFFERS = "differs"
+    FAILED = "failed"
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Compiled:
+    """A model of the package that compiles and is balanced."""
+
+    model: str
+    """Name below the package."""
+    unknowns: int
+    """Scalar unknowns, and so many equations; 0 if the tool does not say."""
+    states: int
+    """As the compiler counts them before it reduces the index."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Comparison:
+    """A package against the reference, element by element."""
+
+    deviations: tuple[Deviation, ...]
+
+    def worst(self, quantities: Sequence[Quantity] = tuple(Quantity)) -> Deviation | None:
+        """The deviation that is greatest against its kind; None if nothing of these kinds was compared."""
+        found = [one for one in self.deviations if one.quantity in quantities]
+        return max(found, key=lambda one: math.inf if math.isnan(one.relative) else one.relative, default=None)
+
+    @property
+    def agrees(self) -> bool:
+        """Whether every difference is within the tolerance."""
+        return all(one.relative <= TOLERANCE for one in self.deviations)
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Effect:
+    """What edits of the user do to the robot, compared with what is generated."""
+
+    files: tuple[str, ...]
+    """The edited files that it comes from, below the package's folder; several if they work together."""
+    deviations: tuple[Deviation, ...]
+    """Those beyond the tolerance, the greatest first; none if the edits change nothing that is compared."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Verdict:
+    """What was checked of one robot, and what came out."""
+
+    robot: str
+    package: str
+    built: bool = True
+    """False if there is no package on disk yet: what would be generated was checked."""
+    in_step: bool = True
+    """Whether the package on disk is what a build would leave."""
+    compiled: tuple[Compiled, ...] = ()
+    generated: Comparison | None = None
+    """The package as it is generated, without edits, against the reference; None if that was not compared."""
+    effects: tuple[Effect, ...] = ()
+    """What the edits of the user do, each apart where that can be told."""
+    notes: tuple[str, ...] = ()
+    """What was made up or amended for the comparison, and why: one sentence each, without a full stop."""
+    unchecked: tuple[str, ...] = ()
+    """What was not checked, and why: one sentence each, without a full stop."""
+    diagnostics: tuple[Diagnostic, ...] = ()
+    seconds: float = 0.0
+    """From beginning to end."""
+    megabytes: float = 0.0
+    """Peak memory of a process that worked for it."""
+
+    @property
+    def failed(self) -> bool:
+        """Whether something could not be checked, or does not compile."""
+        return any(one.severity is Severity.ERROR for one in self.diagnostics)
+
+    @property
+    def changed(self) -> bool:
+        """Whether edits of the user change what is compared."""
+        return any(effect.deviations for effect in self.effects)
+
+    def standing(self, strict: bool) -> Standing:
+        """What there is to say in one word; with `strict`, a difference that comes from an edit counts as well."""
+        if self.failed:
+            return Standing.FAILED
+        wrong = self.generated is not None and not self.generated.agrees
+        differs = wrong or not self.in_step or (strict and self.changed)
+        return Standing.DIFFERS if differs else Standing.RIGHT
+
+
+def exit_code(verdicts: Iterable[Verdict], strict: bool) -> Exit:
+    """2 if anything failed, 1 if anything differs, else 0."""
+    found = {verdict.standing(strict) for verdict in verdicts}
+    if Standing.FAILED in found:
+        return Exit.ERROR
+    return Exit.OUT_OF_STEP if Standing.DIFFERS in found else Exit.IN_STEP
