@@ -222,6 +222,8 @@ class Probe:
 class Experiment(Protocol):
     """A comparison of a generated package with an independent reference that reads the same source."""
 
+    reference: str
+    """What the package is compared with, with its version."""
     content: bytes
     """The source to generate the package from: the one given, or a copy that has what a comparison needs."""
     probe: Probe

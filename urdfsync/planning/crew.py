@@ -12,6 +12,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
+from urdfsync import looking
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.planning.planner import plan, plan_if_unchanged
@@ -81,6 +82,7 @@ class Crew:
             else:
                 self._ahead[robot.name] = lambda work=work: work  # type: ignore[misc]
         if len(changed) >= _ENOUGH:
+            looking.beyond()  # other processes look at more
             self._start(changed, jobs)
 
     def _start(self, robots: Sequence[RobotConfig], jobs: int) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Set
 from pathlib import Path
 from typing import Protocol
 
-from urdfsync import order
+from urdfsync import looking, order
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
@@ -93,7 +93,7 @@ class Disk:
         self._seen.setdefault(key, None)
         path = self.path(key)
         is_class = path.suffix == ".mo" and path.name != "package.mo"
-        return Found(as_folder=is_class and (path.with_suffix("") / "package.mo").is_file())
+        return Found(as_folder=is_class and looking.is_file(path.with_suffix("") / "package.mo"))
 
     def text(self, key: str) -> str | None:
         """The file as text; bytes that are not UTF-8 survive, see `encode`."""
@@ -111,12 +111,12 @@ class Disk:
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Whether the folder of a `package.mo` has other classes than it, and than those of the files in `gone`."""
         folder = self.path(key).parent
-        for path in folder.iterdir():
-            single = path.suffix == ".mo" and path.name != "package.mo" and path.is_file()
+        for path in map(folder.joinpath, looking.names(folder)):
+            single = path.suffix == ".mo" and path.name != "package.mo" and looking.is_file(path)
             whole = path / "package.mo"
             if single and self.key(path) not in gone:
                 return True
-            if not single and whole.is_file() and self.key(whole) not in gone:
+            if not single and looking.is_file(whole) and self.key(whole) not in gone:
                 return True
         return False
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import os
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any
 
 import msgspec
 
+from urdfsync import looking
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
 from urdfsync.files import digest
@@ -105,7 +105,7 @@ def sought(
 ) -> Sequence[Dependency]:
     """The files that a model refers to; packages are searched for only if one of them is not found without."""
     found = domain.dependencies(snapshot, lookup, options, lines)
-    if all(any(map(os.path.isfile, dependency.candidates)) for dependency in found):
+    if all(any(map(_is_file, dependency.candidates)) for dependency in found):
         return found
     lookup = dataclasses.replace(lookup, packages=packages.find(lookup.package_paths, lookup.source))
     return domain.dependencies(snapshot, lookup, options, lines)
@@ -114,12 +114,20 @@ def sought(
 def _find(dependency: Dependency) -> tuple[Path, bytes] | None:
     """The first candidate that is a file and can be read, with its content."""
     for path in dependency.candidates:
-        if os.path.isfile(path):  # noqa: PTH113 - Path.is_file raises where a folder above can't be entered
+        if _is_file(path):
             try:
-                return path, path.read_bytes()
+                return path, looking.content(path)
             except OSError:
                 continue
     return None
+
+
+def _is_file(path: Path) -> bool:
+    """Whether a file is there, as far as that can be told: a folder above it may not let us in."""
+    try:
+        return looking.is_file(path)
+    except OSError:
+        return False
 
 
 def _serve(domain: Domain, dependency: Dependency, source: str, recorded: Recorded, result: Imported) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import stat
 from typing import Any
 
-from urdfsync import manifest
+from urdfsync import looking, manifest
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Reading, Snapshot, Templates
@@ -16,7 +16,7 @@ def read_source(config: Config, robot: RobotConfig) -> bytes:
     """The content of the robot's source. Raises SourceError at the line of the configuration that names it."""
     try:
         if stat.S_ISREG(robot.source.stat().st_mode):
-            return robot.source.read_bytes()
+            return looking.content(robot.source)
         reason = f"is {kind_of(robot.source.stat().st_mode)}"
     except OSError as error:
         reason = "does not exist" if isinstance(error, FileNotFoundError) else f"can't be read: {error.strerror}"
@@ -30,7 +30,7 @@ def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
     """The robot's templates, from its own folder before the domain's. Raises ConfigError if one does not exist."""
     folders = [robot.templates] if robot.templates else []
     for folder in folders:
-        if not folder.is_dir():
+        if not looking.is_folder(folder):
             message = f"robot `{robot.name}`: the template folder {shown(folder)} does not exist"
             line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line, hint=hint))

@@ -7,6 +7,8 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+from urdfsync import looking
+
 _NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 _IGNORED = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
 _DEPTH = 8
@@ -31,6 +33,7 @@ def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
 def _below(top: Path) -> Iterator[tuple[str, Path]]:
     for current, folders, files in os.walk(top):
         path = Path(current)
+        looking.rests_on(path)
         if _IGNORED.intersection(files):
             folders.clear()
         elif "package.xml" in files:
@@ -45,7 +48,7 @@ def _below(top: Path) -> Iterator[tuple[str, Path]]:
 def _package_name(folder: Path) -> str | None:
     file = folder / "package.xml"
     try:
-        match = _NAME.search(file.read_bytes()) if file.is_file() else None
+        match = _NAME.search(looking.content(file)) if looking.is_file(file) else None
     except OSError:
         return None
     return match[1].decode(errors="replace") if match else None

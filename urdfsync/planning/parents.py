@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from urdfsync import modelica
+from urdfsync import looking, modelica
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 
@@ -43,10 +43,10 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
     for depth in range(1, len(parts) + 1):
         folder, name = robot.output.joinpath(*parts[:depth]), ".".join(parts[:depth])
         single = folder.with_name(f"{folder.name}.mo")
-        if single.is_file():
+        if looking.is_file(single):
             message = f"package `{name}` is the single file {shown(single)}; it has to be a folder with a package.mo"
             raise OutputError(_problem("package-is-file", message, "package", robot, file, "convert it, or move it"))
-        if depth == len(parts) or (folder / "package.mo").is_file():
+        if depth == len(parts) or looking.is_file(folder / "package.mo"):
             continue
         if not robot.create_parents:
             message = f"the parent package `{name}` does not exist in {shown(robot.output)}"
@@ -60,12 +60,12 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
 
 def _is_ordered(package: Path, created: Mapping[Path, bytes]) -> bool:
     """Whether a package has a `package.order`, or gets one because urdfsync makes the package."""
-    return package / "package.mo" in created or (package / "package.order").is_file()
+    return package / "package.mo" in created or looking.is_file(package / "package.order")
 
 
 def _check_library(robot: RobotConfig, parts: Sequence[str], file: str) -> None:
     """Only the library's own output folder may hold a package of its name: it would hide the library from tools."""
-    if parts[0] == modelica.LIBRARY and not (robot.output / modelica.LIBRARY / "package.mo").is_file():
+    if parts[0] == modelica.LIBRARY and not looking.is_file(robot.output / modelica.LIBRARY / "package.mo"):
         message = f"`{modelica.LIBRARY}` is the library that models need; a package of that name would hide it"
         hint = f"choose another top-level package than `{modelica.LIBRARY}`"
         raise OutputError(_problem("modelica-name", message, "package", robot, file, hint))
@@ -73,8 +73,8 @@ def _check_library(robot: RobotConfig, parts: Sequence[str], file: str) -> None:
 
 def _check_output(config: Config, robot: RobotConfig, file: str) -> None:
     output = robot.output
-    if output.is_dir():
-        if (output / "package.mo").is_file():
+    if looking.is_folder(output):
+        if looking.is_file(output / "package.mo"):
             message = f"the output folder {shown(output)} is a Modelica package itself"
             hint = "name the folder above it as output, and the package with its full name"
             raise OutputError(_problem("output-is-package", message, "output", robot, file, hint))
@@ -92,9 +92,9 @@ def _check_output(config: Config, robot: RobotConfig, file: str) -> None:
 def _check_uses(robot: RobotConfig, parts: Sequence[str], uses: Sequence[tuple[str, str]]) -> Iterator[Diagnostic]:
     """A warning if the user's top-level package does not say which libraries it needs now."""
     top = robot.output / parts[0] / "package.mo"
-    if len(parts) == 1 or not top.is_file():
+    if len(parts) == 1 or not looking.is_file(top):
         return
-    text = top.read_text(encoding="utf-8", errors="replace")
+    text = looking.content(top).decode(errors="replace")
     missing = [use for use in uses if use[0] != parts[0] and not re.search(rf"\b{use[0]}\s*\(\s*version", text)]
     if missing:
         message = f"package `{parts[0]}` does not say that it needs {' and '.join(name for name, _ in missing)}"

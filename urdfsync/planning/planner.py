@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import msgspec
 
-from urdfsync import manifest
+from urdfsync import looking, manifest
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.manifest import Manifest
 from urdfsync.plan import CONFLICTS, State, Wanted
@@ -25,6 +25,7 @@ def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
     situation = Situation(config, robot, request)
     work = _if_unchanged(situation)
     if work is None:
+        looking.beyond()  # what is read and rendered now is not taken down
         from urdfsync.planning.renewal import Renewal
 
         work = Renewal(situation).work()

@@ -37,8 +37,9 @@ class Renewal:
             situation.domain, robot.options, situation.content, shown(robot.source)
         )
         self._imported = self._import()
-        self._now = Version(self._snapshot, self._imported.imports, situation.generator.fingerprint)
-        self._generated = self._generate(self._now, situation.robot.target)
+        self.now = Version(self._snapshot, self._imported.imports, situation.generator.fingerprint)
+        """The model as it is in the source, with what it imports."""
+        self._generated = self._generate(self.now, situation.robot.target)
         self._before = self._last()
         self._outputs = self._known_outputs()
 
@@ -135,7 +136,7 @@ class Renewal:
         if since is None:
             return None
         try:
-            return changes.compare(since, self._now, situation.domain, situation.robot.options)
+            return changes.compare(since, self.now, situation.domain, situation.robot.options)
         except NO_MODEL:
             return None  # what is recorded is no model of the domain
 

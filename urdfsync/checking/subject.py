@@ -1,0 +1,83 @@
+"""What there is to check of one robot: the package on disk, the one that is generated, and where they differ."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping, Sequence
+
+from urdfsync import records
+from urdfsync.build import build
+from urdfsync.checking import edits, workspace
+from urdfsync.checking.package import Package
+from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.domain import Domain
+from urdfsync.outcome import Result
+from urdfsync.planning.rendering import Rendering
+from urdfsync.planning.situation import Request
+
+
+class Subject:
+    """One robot as it is now. Nothing is written.
+
+    Raises UrdfsyncError for whatever is wrong with source, state or templates, OSError for what can't be read.
+    """
+
+    def __init__(self, config: Config, robot: RobotConfig, request: Request) -> None:
+        self.config, self.robot = config, robot
+        self.result: Result = next(iter(build(config, [robot], request)))
+        """What a build would do."""
+        if self.result.failed:
+            raise UrdfsyncError(*self.result.diagnostics)
+        self.rendering = Rendering(config, robot, request)
+        self.disk: Mapping[str, bytes] = workspace.package_texts(robot.folder)
+        """The Modelica files of the package on disk, by their path below it; none if there is no package."""
+
+    @property
+    def domain(self) -> Domain:
+        """The robot's domain."""
+        return self.rendering.domain
+
+    @property
+    def built(self) -> bool:
+        """Whether there is a package on disk."""
+        return bool(self.disk)
+
+    @property
+    def in_step(self) -> bool:
+        """Whether the package on disk is what a build would leave; also if there is none."""
+        return self.result.in_step or not self.built
+
+    @functools.cached_property
+    def generated(self) -> Mapping[str, bytes]:
+        """The files of the package as it is generated, by their path below it."""
+        return self.rendering.package(self.rendering.content)
+
+    @property
+    def texts(self) -> Mapping[str, bytes]:
+        """What is checked: the package on disk, or what would be generated if there is none."""
+        return self.disk or self.generated
+
+    @functools.cached_property
+    def package(self) -> Package:
+        """The same, with what is known of its files."""
+        robot = self.robot
+        edited = edits.edited(self.generated, self.disk, ()) if self.in_step else ()
+        return Package(robot.target.package, robot.folder, self.texts, shown, self.rendering.owners, edited)
+
+    @property
+    def models(self) -> Sequence[str]:
+        """The classes that have to compile by themselves, by their names below the package, the main one first."""
+        return self.domain.models(self.robot.target)
+
+    @property
+    def edited(self) -> Sequence[str]:
+        """The edited files that have a part in the main model."""
+        benches = {f"{name.replace('.', '/')}.mo" for name in self.models[1:]}
+        return [path for path in self.package.edited if path not in benches]
+
+    @property
+    def warnings(self) -> list[Diagnostic]:
+        """Errors that a build would report, and where edited records no longer agree."""
+        found = [one for one in self.result.diagnostics if one.severity is Severity.ERROR]
+        return found + records.differing(self.config, self.robot, self.result)
