@@ -12,6 +12,9 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
+from urdfsync.checking import library
+from urdfsync.checking.library import LibraryError
+
 REPOSITORY = Path(__file__).parents[1]
 RC_FOLDER = Path(__file__).parent / "rcnetwork"
 NO_CORPUS = "no corpus of robots: set URDFSYNC_CORPUS"
@@ -90,17 +93,16 @@ def corpus() -> Path:
 
 
 def find_library() -> Path | None:
-    """A folder that holds the Modelica Standard Library, from MODELICAPATH or where OpenModelica keeps it."""
-    folders = [Path(folder) for folder in os.environ.get("MODELICAPATH", "").split(os.pathsep) if folder]
-    for folder in (*folders, _HOME / ".openmodelica" / "libraries", Path("/usr/lib/omlibrary")):
-        if any((path / "package.mo").is_file() for path in (folder / "Modelica", *folder.glob("Modelica [4-9]*"))):
-            return folder
-    return None
+    """A folder that holds the Modelica Standard Library in a version that the embedded compiler takes."""
+    try:
+        return library.standard(os.environ, _HOME).modelica.path.parent
+    except LibraryError:
+        return None
 
 
 @pytest.fixture(scope="session")
 def modelica_library() -> Path:
-    """The folder with the Modelica Standard Library, 4.0.0 or later."""
+    """The folder with the Modelica Standard Library, 4.1.0 or later."""
     folder = find_library()
     if folder is None:
         pytest.skip(NO_LIBRARY)

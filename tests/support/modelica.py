@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 import os
-import subprocess
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from support.corpus import REPOSITORY
-from support.slim import CACHE
+from urdfsync.checking import library as libraries
+from urdfsync.checking import slim, tasks
+from urdfsync.checking.cache import Cache
+from urdfsync.checking.compiler import CompilerError, Rumoca
+from urdfsync.checking.process import Limits
 
 Array = NDArray[np.float64]
 
 URDFSYNC = REPOSITORY / "modelica" / "UrdfSync"
+CACHE = Cache(Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "urdfsync-tests")
+"""Stays from run to run, since the compiler's first look at a library takes seconds; may be deleted."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,7 +57,7 @@ class Outcome:
     """What became of a task; a model that is not balanced does not compile, and says so in `error`."""
 
     error: str
-    summary: str
+    unknowns: int
     runs: tuple[Series, ...]
     seconds: float
     """CPU time."""
@@ -63,38 +65,41 @@ class Outcome:
     """Peak of the process so far."""
 
 
-def execute(library: Path, packages: Iterable[Path], tasks: Sequence[Task], timeout: float = 1800) -> list[Outcome]:
-    """Compile and run `tasks` in a child process, with the standard library, UrdfSync and the folders `packages`.
+def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task], timeout: float = 1800) -> list[Outcome]:
+    """Compile and run tasks in a child process, with the standard library, UrdfSync and the folders `packages`.
 
     A child that dies gives outcomes with its last words as the error.
     """
-    roots = [str(URDFSYNC), *map(str, packages)]
-    job = {"library": str(library), "roots": roots, "tasks": [dataclasses.asdict(task) for task in tasks]}
-    environment = {"XDG_CACHE_HOME": str(CACHE.parent), "PYTHONPATH": str(REPOSITORY / "tests")}
-    done = subprocess.run(
-        [sys.executable, "-m", "support.rumoca_worker"],
-        input=json.dumps(job),
-        capture_output=True,
-        text=True,
-        timeout=timeout,
-        env=os.environ | environment,
-        check=False,
-    )
-    if done.returncode:
-        words = f"the compiler's process ended with {done.returncode}: {done.stderr[-2000:]}"
-        return [Outcome(words, "", (), 0, 0) for _ in tasks]
-    return [_outcome(outcome) for outcome in json.loads(done.stdout)]
+    roots = (*standard(library), str(URDFSYNC), *map(str, packages))
+    CACHE.trim()
+    try:
+        outcomes = Rumoca(CACHE).compile(tasks.Job(roots, tuple(map(_task, todo))), Limits(timeout))
+    except CompilerError as error:
+        return [Outcome(str(error), 0, (), 0, 0) for _ in todo]
+    return [_outcome(outcome) for outcome in outcomes]
+
+
+def standard(library: Path) -> tuple[str, ...]:
+    """The roots for the part of the standard library in the folder `library` that robots need."""
+    return slim.roots(libraries.standard(os.environ, Path.home(), library), CACHE, ())
 
 
 def compile_task(model: str) -> Task:
     """Compile a model of a package by its full name."""
-    imports = "".join(f"  import {name};\n" for name in ("Modelica", "UrdfSync"))
-    return Task(f"model Probe_\n{imports}  extends {model};\nend Probe_;\n", "Probe_")
+    task = tasks.compiling(model)
+    return Task(task.source, task.model)
 
 
-def _outcome(data: Mapping[str, Any]) -> Outcome:
-    runs = tuple(
-        Series(run["error"], np.array(run["times"]), {name: np.array(s) for name, s in run["values"].items()})
-        for run in data["runs"]
-    )
-    return Outcome(data["error"], data["summary"], runs, data["seconds"], data["megabytes"])
+def _task(task: Task) -> tasks.Task:
+    runs = tuple(tasks.Simulation(run.stop, run.step, run.parameters) for run in task.runs)
+    return tasks.Task(task.model, task.source, runs, tuple(task.values))
+
+
+def _outcome(outcome: tasks.Outcome) -> Outcome:
+    runs = tuple(map(_series, outcome.runs))
+    return Outcome(outcome.problem, outcome.unknowns, runs, outcome.seconds, outcome.megabytes)
+
+
+def _series(run: tasks.Series) -> Series:
+    values = {name: np.array(series) for name, series in run.values.items()}
+    return Series(run.problem, values.pop("time", np.array([])), values)

@@ -23,6 +23,13 @@ class Task(msgspec.Struct, frozen=True):
     runs: tuple[Simulation, ...] = ()
     values: tuple[str, ...] = ()
     """Variables of which each run hands back a series."""
+    name: str = ""
+    """What messages call the model, if not `model`."""
+
+    @property
+    def title(self) -> str:
+        """What messages call the model."""
+        return self.name or self.model
 
 
 class Series(msgspec.Struct, frozen=True):
@@ -62,4 +69,4 @@ def compiling(model: str, libraries: tuple[str, ...] = ("Modelica", "UrdfSync"))
     """
     names = dict.fromkeys((*libraries, model.partition(".")[0]))
     imports = "".join(f"  import {name};\n" for name in names)
-    return Task("Probe_", f"model Probe_\n{imports}  extends {model};\nend Probe_;\n")
+    return Task("Probe_", f"model Probe_\n{imports}  extends {model};\nend Probe_;\n", name=model)
