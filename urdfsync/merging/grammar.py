@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import partial
+from typing import NamedTuple
 
 from urdfsync.merging.expressions import CALLED, ExpressionReader
 from urdfsync.merging.reading import SECTIONS, Finding, is_identifier, short
@@ -25,11 +26,38 @@ _REPEATABLE = frozenset(
 """Annotations that may stand more than once in one place."""
 
 
+class Declared(NamedTuple):
+    """A class or component that a text declares."""
+
+    path: tuple[str, ...]
+    """Its name, after those of the classes around it."""
+    line: int
+    """The line in which its declaration begins, from 1."""
+    type: str = ""
+    """A component's type as it is written; empty for a class."""
+
+
+class Outline(NamedTuple):
+    """What a file of Modelica declares, as far as it can be read."""
+
+    findings: list[Finding]
+    within: str | None
+    """What its `within` clause names; None if it has none."""
+    within_line: int
+    declared: list[Declared]
+    """Parts before the class that they belong to."""
+
+
 def findings(text: str) -> list[Finding]:
     """All that is wrong with a text that should be a file of Modelica."""
+    return outline(text).findings
+
+
+def outline(text: str) -> Outline:
+    """What is in a text that should be a file of Modelica, and what is wrong with it."""
     parser = _Parser(text)
     parser.document()
-    return parser.findings
+    return Outline(parser.findings, parser.within, parser.within_line, parser.declared)
 
 
 class _Parser(ExpressionReader):
@@ -39,6 +67,9 @@ class _Parser(ExpressionReader):
         super().__init__(text)
         self._open: tuple[str, ...] = ()
         """Names of the classes around this place."""
+        self.within: str | None = None
+        self.within_line = 0
+        self.declared: list[Declared] = []
 
     def document(self) -> None:
         """A whole file."""
@@ -49,9 +80,9 @@ class _Parser(ExpressionReader):
             self.each(partial(self._stored, names))
 
     def _within(self) -> None:
+        self.within_line = self.line
         self.expect("within")
-        if self.word != ";":
-            self.name()
+        self.within = self.name() if self.word != ";" else ""
 
     def _stored(self, names: set[str]) -> None:
         self.accept("final")
@@ -59,7 +90,7 @@ class _Parser(ExpressionReader):
             raise self.fault("has an `end` too many")
         if not self._is_class():
             raise self.lack("a class")
-        self._class(names)
+        self._declared_class(names)
 
     # --- classes --------------------------------------------------------------------------------------------------
 
@@ -71,7 +102,13 @@ class _Parser(ExpressionReader):
         for prefixes in groups:
             self.accept(*prefixes)
 
-    def _class(self, names: set[str]) -> None:
+    def _declared_class(self, names: set[str]) -> None:
+        line = self.line
+        name = self._class(names)
+        self.declared.append(Declared((*self._open, name), line))
+
+    def _class(self, names: set[str]) -> str:
+        """Read a class, and return its name."""
         self._prefixes(_CLASS_PREFIXES)
         kind = self.accept(*_CLASSES)
         if not kind:
@@ -93,6 +130,7 @@ class _Parser(ExpressionReader):
                 self._end_class(name)
             finally:
                 self._open = around
+        return name
 
     def _short_class(self) -> None:
         if self.accept("enumeration"):
@@ -157,7 +195,7 @@ class _Parser(ExpressionReader):
         else:
             self._prefixes(_ELEMENT_PREFIXES)
             if self._is_class():
-                self._class(names)
+                self._declared_class(names)
             else:
                 self._components(names)
             self._constraint()
@@ -183,10 +221,12 @@ class _Parser(ExpressionReader):
         self._comment()
 
     def _components(self, names: set[str]) -> None:
-        self._type()
+        line = self.line
+        kind = self._type()
         while True:
             name = self.identifier()
             self.once(names, name, f"declares `{name}` twice")
+            self.declared.append(Declared((*self._open, name), line, kind))
             self.subscripts()
             self._modification()
             if self.accept("if"):
@@ -195,10 +235,12 @@ class _Parser(ExpressionReader):
             if not self.accept(","):
                 return
 
-    def _type(self) -> None:
+    def _type(self) -> str:
+        """Read a type with its prefixes, and return its name."""
         self._prefixes(_TYPE_PREFIXES)
-        self.name()
+        name = self.name()
         self.subscripts()
+        return name
 
     def _constraint(self) -> None:
         if self.accept("constrainedby"):

@@ -31,10 +31,14 @@ def flaw(text: str, sides: Sequence[str]) -> str:
     return ""
 
 
-def _findings(text: str) -> list[Finding]:
-    markers = [
+def markers(text: str) -> list[Finding]:
+    """Lines that look like conflict markers; they may also stand in a documentation."""
+    return [
         Finding(f"has the conflict marker `{marker[1]}`", number)
         for number, line in enumerate(text.split(NEWLINE), start=1)
         if (marker := _MARKER.match(line))
     ]
-    return [*markers, *findings(text)]
+
+
+def _findings(text: str) -> list[Finding]:
+    return [*markers(text), *findings(text)]

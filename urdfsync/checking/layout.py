@@ -1,0 +1,279 @@
+"""Whether the files of a package are Modelica, and stand where the language wants them. No compiler is asked.
+
+The rules are those of the language specification 3.6, section 13.4. All faults are found, not only the first one:
+one file that does not parse makes a compiler give up the whole package, often without telling which one it is.
+The syntax is read as it is after a merge; so people meet the same words.
+"""
+
+from __future__ import annotations
+
+import codecs
+import dataclasses
+import difflib
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import PurePosixPath
+
+from urdfsync.checking.package import Package
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.files import normalised
+from urdfsync.merging.grammar import Declared, Outline, outline
+from urdfsync.merging.reading import Finding
+from urdfsync.merging.soundness import markers
+from urdfsync.modelica import within
+
+ORDER = "package.order"
+PACKAGE = "package.mo"
+_SUFFIX = ".mo"
+_NOT_CLASSES = frozenset({"Resources"})
+"""Folders of a package that hold no classes, whatever is in them."""
+
+_TWICE = " twice"
+_ALLOWED_TWICE = ("has the equation", "connects", "extends")
+"""What may well stand twice in a class as far as the language goes."""
+
+_BYTE_ORDER_MARK = "\ufeff"
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class _Folder:
+    """A folder that should be a package."""
+
+    path: str
+    """Below the package's folder; empty for that folder itself."""
+    name: str
+    """Full name of the package that it should be."""
+    files: tuple[str, ...]
+    """Names of its `.mo` files."""
+    folders: tuple[str, ...]
+    """Names of the folders in it that have `.mo` files somewhere."""
+
+    def below(self, name: str) -> str:
+        """The path of something in it."""
+        return f"{self.path}/{name}" if self.path else name
+
+    @property
+    def stems(self) -> tuple[str, ...]:
+        """The classes that are files of their own, by their files' names."""
+        return tuple(file.removesuffix(_SUFFIX) for file in self.files if file != PACKAGE)
+
+
+@dataclasses.dataclass(slots=True)
+class _Contents:
+    """What the files of a folder turned out to declare."""
+
+    stored: set[str] = dataclasses.field(default_factory=set)
+    """Classes that are whole files."""
+    inside: dict[str, int] = dataclasses.field(default_factory=dict)
+    """Classes and constants in `package.mo`, with their lines."""
+    certain: bool = True
+    """Whether `package.mo` could be read."""
+
+
+def check(package: Package) -> tuple[Diagnostic, ...]:
+    """All that is wrong with the files of a package: errors where a tool can't load it, warnings where it may.
+
+    What is generated never gets one.
+    """
+    return tuple(found for folder in _folders(package) for found in _folder(package, folder))
+
+
+def _folders(package: Package) -> list[_Folder]:
+    """The folders that have files of Modelica, outer ones first."""
+    files: defaultdict[PurePosixPath, set[str]] = defaultdict(set)
+    inner: defaultdict[PurePosixPath, set[str]] = defaultdict(set)
+    files[PurePosixPath()] = set()
+    for path in map(PurePosixPath, package.texts):
+        skipped = any(part in _NOT_CLASSES for part in path.parts[:-1]) or any(p[0] == "." for p in path.parts)
+        if path.suffix == _SUFFIX and not skipped:
+            files[path.parent].add(path.name)
+            for folder in path.parents[:-1]:
+                inner[folder.parent].add(folder.name)
+    return [
+        _Folder(
+            "/".join(folder.parts),
+            ".".join((package.name, *folder.parts)),
+            tuple(sorted(files[folder])),
+            tuple(sorted(inner[folder])),
+        )
+        for folder in sorted({*files, *inner})
+    ]
+
+
+def _folder(package: Package, folder: _Folder) -> Iterator[Diagnostic]:
+    contents = _Contents(certain=PACKAGE in folder.files)
+    if PACKAGE not in folder.files:
+        other = next((name for name in folder.files if name.lower() == PACKAGE), "")
+        hint = f"rename `{other}`" if other else "add one, or move the files elsewhere"
+        message = f"the folder holds classes, but no {PACKAGE}"
+        yield package.finding(Severity.ERROR, "no-package-file", message, folder.path, hint=hint)
+    for file in folder.files:
+        yield from _file(package, folder, file, contents)
+    yield from _twice(package, folder, contents)
+    yield from _cases(package, folder)
+    if folder.below(ORDER) in package.texts:
+        yield from _order(package, folder, contents)
+
+
+# --- files ------------------------------------------------------------------------------------------------------------
+
+
+def _file(package: Package, folder: _Folder, file: str, contents: _Contents) -> Iterator[Diagnostic]:
+    path = folder.below(file)
+    whole = file == PACKAGE
+    fault = undecoded(package.texts[path])
+    if fault:
+        contents.certain &= not whole
+        hint = "save it as UTF-8"
+        yield package.finding(Severity.ERROR, "not-utf8", "the file is not in UTF-8", path, fault, hint=hint)
+        return
+    text = normalised(package.texts[path]).decode()
+    if text.startswith(_BYTE_ORDER_MARK):
+        message, hint = "the file begins with a byte order mark", "save it without: some compilers refuse it"
+        yield package.finding(Severity.WARNING, "byte-order-mark", message, path, 1, hint=hint)
+    found = outline(text)
+    syntax = _syntax(package, path, text, found.findings)
+    sound = not any(one.severity is Severity.ERROR for one in syntax)
+    yield from syntax
+    name = folder.name if whole else f"{folder.name}.{file.removesuffix(_SUFFIX)}"
+    yield from _within(package, path, name, found)
+    yield from _names(package, path, name, found.declared, sound)
+    if whole:
+        contents.certain &= sound
+        contents.inside |= {one.path[1]: one.line for one in reversed(found.declared) if len(one.path) == 2}
+    else:
+        contents.stored |= {one.path[0] for one in found.declared if len(one.path) == 1}
+
+
+def undecoded(content: bytes) -> int:
+    """The first line that is not UTF-8, from 1; 0 if there is none."""
+    try:
+        codecs.decode(content, "utf-8")
+    except UnicodeDecodeError as error:
+        return content.count(b"\n", 0, error.start) + 1
+    return 0
+
+
+def _syntax(package: Package, path: str, text: str, findings: Sequence[Finding]) -> list[Diagnostic]:
+    """The first place where the text is no Modelica, or all that stands in it twice."""
+    faults = [finding for finding in findings if not finding.reason.endswith(_TWICE)]
+    if not faults:
+        return [_repeated(package, path, finding) for finding in findings]
+    reason, line = next(iter(markers(text)), None) or min(faults, key=lambda fault: fault.line)
+    more = len(findings) - 1
+    places = f"{more} more place{'s' if more > 1 else ''}"
+    hint = f"correct it first: {places} in the file may look wrong because of it" if more else ""
+    return [package.finding(Severity.ERROR, "syntax", f"the file {reason}", path, line, hint=hint)]
+
+
+def _repeated(package: Package, path: str, finding: Finding) -> Diagnostic:
+    if finding.reason.startswith(_ALLOWED_TWICE):
+        return package.finding(Severity.WARNING, "repeated", f"the file {finding.reason}", path, finding.line)
+    return package.finding(Severity.ERROR, "syntax", f"the file {finding.reason}", path, finding.line)
+
+
+def _within(package: Package, path: str, name: str, found: Outline) -> Iterator[Diagnostic]:
+    """Whether a file says in which package it stands; `name` is the full name of its class."""
+    parent = name.rpartition(".")[0]
+    if (found.within or "") == parent:
+        return
+    line = found.within_line or 1
+    if found.within is None:
+        message, hint = f"the file lacks `{within(name)}`", "put it into the first line"
+    else:
+        stated = f"within {found.within};" if found.within else "within;"
+        message, hint = f"the file says `{stated}`, but stands in `{parent or 'no package'}`", f"write `{within(name)}`"
+    yield package.finding(Severity.ERROR, "wrong-within", message, path, line, hint=hint)
+
+
+def _names(package: Package, path: str, name: str, declared: Sequence[Declared], sound: bool) -> Iterator[Diagnostic]:
+    """Whether a file holds the class that its name says, and no other one."""
+    expected = name.rpartition(".")[2]
+    stored = [one for one in declared if len(one.path) == 1]
+    if not stored:
+        if sound:
+            hint = f"write the class `{expected}`, or delete the file"
+            yield package.finding(Severity.ERROR, "no-class", "the file holds no class", path, hint=hint)
+        return
+    main = next((one for one in stored if one.path == (expected,)), stored[0])
+    if main.path != (expected,):
+        place = "folder" if path.endswith(PACKAGE) else "file"
+        message = f"the class is called `{main.path[0]}`, but its {place} `{expected}`"
+        hint = f"give class and {place} the same name"
+        yield package.finding(Severity.ERROR, "wrong-name", message, path, main.line, hint=hint)
+    for other in stored if sound else ():
+        if other is not main:
+            message = f"the file holds `{other.path[0]}` besides `{main.path[0]}`"
+            hint = "a file in a package holds one class: give it one of its own"
+            yield package.finding(Severity.ERROR, "second-class", message, path, other.line, hint=hint)
+
+
+# --- folders ----------------------------------------------------------------------------------------------------------
+
+
+def _twice(package: Package, folder: _Folder, contents: _Contents) -> Iterator[Diagnostic]:
+    """Classes that are there in two ways."""
+    hint = "keep one of them"
+    for name in sorted(set(folder.stems) & set(folder.folders)):
+        message = f"`{name}` is both a file and a folder"
+        yield package.finding(Severity.ERROR, "class-twice", message, folder.below(f"{name}{_SUFFIX}"), hint=hint)
+    for name in sorted(contents.inside.keys() & {*folder.stems, *folder.folders}):
+        kind = "file" if name in folder.stems else "folder"
+        message = f"`{name}` is declared here, and is a {kind} as well"
+        yield package.finding(
+            Severity.ERROR, "class-twice", message, folder.below(PACKAGE), contents.inside[name], hint=hint
+        )
+
+
+def _cases(package: Package, folder: _Folder) -> Iterator[Diagnostic]:
+    """Files and folders that are the same one where the file system does not tell capital letters from small ones."""
+    spellings: defaultdict[str, list[str]] = defaultdict(list)
+    for name in sorted({*folder.stems, *folder.folders}):
+        spellings[name.casefold()].append(name)
+    for first, *others in spellings.values():
+        for other in others:
+            message = f"`{other}` and `{first}` differ only by case"
+            hint = "rename one: file systems that ignore case do not hold both"
+            path = folder.below(f"{other}{_SUFFIX}" if other in folder.stems else other)
+            yield package.finding(Severity.WARNING, "same-but-for-case", message, path, hint=hint)
+
+
+def _order(package: Package, folder: _Folder, contents: _Contents) -> Iterator[Diagnostic]:
+    """Whether `package.order` names what is in the folder, each once."""
+    path = folder.below(ORDER)
+    fault = undecoded(package.texts[path])
+    if fault:
+        message, hint = "the file is not in UTF-8", "save it as UTF-8"
+        yield package.finding(Severity.ERROR, "not-utf8", message, path, fault, hint=hint)
+        return
+    yield from sorted(_order_findings(package, folder, contents, path), key=lambda one: one.line)
+
+
+def _order_findings(package: Package, folder: _Folder, contents: _Contents, path: str) -> Iterator[Diagnostic]:
+    lines = _listed(normalised(package.texts[path]).decode())
+    present = {*folder.stems, *folder.folders, *contents.inside}
+    for name, numbers in lines.items():
+        if name not in present | contents.stored and contents.certain:
+            yield _unknown(package, path, name, numbers[0], present - lines.keys())
+        for number in numbers[1:]:
+            message, hint = f"`{name}` is named twice, first in line {numbers[0]}", "take one of the lines out"
+            yield package.finding(Severity.WARNING, "order-twice", message, path, number, hint=hint)
+    for name in sorted(present - lines.keys()):
+        message, hint = f"`{name}` is not named", "add it where it belongs: tools put it last, or warn"
+        yield package.finding(Severity.WARNING, "order-lacks", message, path, hint=hint)
+
+
+def _listed(text: str) -> Mapping[str, Sequence[int]]:
+    """The names in a `package.order`, with the lines in which they stand."""
+    names: defaultdict[str, list[int]] = defaultdict(list)
+    for number, line in enumerate(text.removeprefix(_BYTE_ORDER_MARK).split("\n"), start=1):
+        if line.strip():
+            names[line.strip()].append(number)
+    return names
+
+
+def _unknown(package: Package, path: str, name: str, line: int, unnamed: set[str]) -> Diagnostic:
+    message = f"`{name}` is named, but is no class and no constant of the package"
+    near = difflib.get_close_matches(name, sorted(unnamed), 1)
+    hint = f"did you mean `{near[0]}`?" if near else "take the line out, or bring the class back"
+    return package.finding(Severity.ERROR, "order-unknown", message, path, line, hint=hint)
