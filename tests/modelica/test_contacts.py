@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,10 +12,9 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 import rumoca
+from support.modelica import CACHE, URDFSYNC, standard
 
 pytestmark = pytest.mark.slow
-
-LIBRARY_PATH = Path(__file__).parents[2] / "modelica"
 
 GRAVITY = 9.80665  # of the standard library's World
 MASS = 5.0
@@ -35,8 +35,11 @@ ZERO: Vector = (0.0, 0.0, 0.0)
 
 
 @pytest.fixture(scope="module")
-def session(modelica_library: Path) -> Any:
-    return rumoca.Session(roots=[str(modelica_library), str(LIBRARY_PATH)])
+def session(modelica_library: Path) -> Iterator[Any]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(CACHE.folder))
+        patch.setenv("MODELICAPATH", "")  # the compiler looks there too
+        yield rumoca.Session(roots=[*standard(modelica_library), str(URDFSYNC)])
 
 
 @dataclass(frozen=True)

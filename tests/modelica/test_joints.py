@@ -2,23 +2,35 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 import pytest
+from numpy.typing import NDArray
 from support import modelica, physics
 from support.modelica import Run, Task
-from support.packages import generate
-from support.physics import Array, Motion
+from support.packages import Package, generate
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
-from urdfsync.domain import Target
+from urdfsync.domain import Quantity, Target
+from urdfsync.literals import vector
+from urdfsync.urdf.physics import motion
+from urdfsync.urdf.physics.motion import Course
+from urdfsync.urdf.physics.reading import read
+from urdfsync.urdf.physics.reference import STEEPNESS, Reference
+from urdfsync.urdf.skeleton import MOTIONS
 
 pytestmark = pytest.mark.slow
 
-BOT = Target("Bot", "Bot")
+Array = NDArray[np.float64]
+
+WORLD = (
+    f"inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, g = {motion.GRAVITY}, enableAnimation = false)"
+)
 
 TYPES = robot(
     link("base", 4.0),
@@ -80,200 +92,136 @@ HELD = robot(
 )
 """Joints that follow one that never moves stay at their offsets."""
 
-ROBOTS = {"types": TYPES, "massless": BARE, "gripper": GRIPPER, "chain": CHAIN, "held": HELD}
-
-each_robot = pytest.mark.parametrize("urdf", ROBOTS.values(), ids=ROBOTS)
-
-
-def run(library: Path, folder: Path, task: Task) -> modelica.Series:
-    (outcome,) = modelica.execute(library, [folder], [task])
-    assert not outcome.error, outcome.error
-    (series,) = outcome.runs
-    assert not series.error, series.error
-    return series
-
-
-def start(series: modelica.Series, names: list[str]) -> Array:
-    return np.array([series.values[name][0] for name in names])
-
-
-@each_robot
-def test_driven_joints_move_and_push_as_pinocchio_says(urdf: str, modelica_library: Path, tmp_path: Path) -> None:
-    package = generate(urdf.encode(), BOT)
-    reference = physics.Reference(urdf, package)
-    motion = physics.random_motion(len(reference.axes), seed=1)
-    errors, _ = physics.measure(modelica_library, package.write(tmp_path), reference, motion)
-    assert errors.worst() <= physics.TOLERANCE, errors
-
-
-@each_robot
-def test_free_joints_accelerate_as_pinocchio_says(urdf: str, modelica_library: Path, tmp_path: Path) -> None:
-    package = generate(urdf.encode(), BOT)
-    reference = physics.Reference(urdf, package)
-    motion = physics.random_motion(len(reference.axes), seed=2)
-    task = physics.forward_check(package, motion)
-    found = start(run(modelica_library, package.write(tmp_path), task), list(task.values))
-    expected = reference.accelerations(motion)
-    assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max())
-
-
-FAULTS = {
-    "position": ('rpy="0.5 -0.6 0.7"', 'rpy="0.5 -0.6 0.70000001"'),
-    "rotation": ('rpy="0.5 -0.6 0.7"', 'rpy="0.5 -0.60000001 0.7"'),
-    "effort": ('friction="0.1"', 'friction="0.10000001"'),
-    "mass": ('mass value="2.2"', 'mass value="2.20000001"'),
-}
-
-
-@pytest.mark.parametrize(("kind", "fault"), FAULTS.items())
-def test_the_comparison_notices_a_fault(
-    kind: str, fault: tuple[str, str], modelica_library: Path, tmp_path: Path
-) -> None:
-    """One number of the chain is wrong in its eighth digit."""
-    assert fault[0] in CHAIN
-    package = generate(CHAIN.replace(*fault, 1).encode(), BOT)
-    reference = physics.Reference(CHAIN, generate(CHAIN.encode(), BOT))
-    motion = physics.random_motion(len(reference.axes), seed=1)
-    folder = package.write(tmp_path)
-    errors, _ = physics.measure(modelica_library, folder, reference, motion)
-    assert getattr(errors, kind) > physics.TOLERANCE
-
-
-def check_model(declarations: str, equations: str, values: list[str]) -> Task:
-    imports = "import Modelica;\n import UrdfSync;"
-    source = f"model Check\n {imports}\n {physics.WORLD}\n {declarations}\nequation\n {equations}\nend Check;\n"
-    return Task(source, "Check", [Run(1e-6, 1e-6)], values)
-
-
-def normal_to(axis: Array) -> Array:
-    """The first direction of a planar joint, as `UrdfSync.Functions.normalTo` documents it."""
-    other = np.array([1.0, 0, 0]) if abs(axis[0]) < 0.9 else np.array([0, 1.0, 0])
-    direction = other - (other @ axis) * axis
-    return np.asarray(direction / np.linalg.norm(direction))
-
 
 def planar(axis: str, *inside: str) -> str:
+    """A planar joint between two that turn."""
     return robot(
-        link("floor"),
+        link("floor", 2.0),
+        link("post", 1.5),
         link("plate", 3.0),
         link("arm", 1.0),
-        joint("skate", "planar", "floor", "plate", axis=axis, inside=inside),
-        joint("turn", "revolute", "plate", "arm", axis="1 0 0", inside=[limit()]),
+        joint("mast", "revolute", "floor", "post", axis="0 1 0", inside=[limit()]),
+        joint("skate", "planar", "post", "plate", axis=axis, inside=inside),
+        joint("turn", "revolute", "plate", "arm", axis="1 0 0", inside=[limit(), dynamics(0.1, 0.2)]),
     )
 
 
-def as_three_joints(axis: Array, *inside: str) -> str:
-    """The planar robot with two sliding joints and a turning one in place of the planar joint."""
-    first = normal_to(axis)
-    text = [" ".join(map(repr, map(float, direction))) for direction in (first, np.cross(axis, first), axis)]
-    none = {"xyz": "0 0 0", "rpy": "0 0 0"}
-    return robot(
-        link("floor"),
-        link("one"),
-        link("two"),
-        link("plate", 3.0),
-        link("arm", 1.0),
-        joint("skate_1", "prismatic", "floor", "one", axis=text[0], inside=[limit(), *inside]),
-        joint("skate_2", "prismatic", "one", "two", axis=text[1], inside=[limit(), *inside], **none),
-        joint("skate_3", "revolute", "two", "plate", axis=text[2], inside=[limit(), *inside], **none),
-        joint("turn", "revolute", "plate", "arm", axis="1 0 0", inside=[limit()]),
-    )
+FLOATING = robot(
+    link("ceiling", 1.0),
+    link("gondola", 2.0),
+    link("drone", 3.0),
+    link("arm", 1.0),
+    link("puck", 0.5),
+    joint("rail", "prismatic", "ceiling", "gondola", axis="0 1 1", inside=[limit()]),
+    joint("air", "floating", "gondola", "drone"),
+    joint("turn", "revolute", "drone", "arm", axis="1 0 0", inside=[limit(), dynamics(0.1, 0.2)]),
+    joint("tray", "planar", "arm", "puck", axis="0 1 0"),
+)
+"""A floating joint on a sliding one, which carries a planar one in turn."""
+
+DRIVEN = {"types": TYPES, "massless": BARE, "gripper": GRIPPER, "chain": CHAIN, "held": HELD}
+"""Robots in which every joint has an axis."""
+
+FREE = {
+    "level": planar("0 0 1"),
+    "upright": planar("1 0 0", dynamics(1.5, 0.8)),
+    "skew": planar("0.2 -0.5 1", dynamics(1.5, 0.8)),
+    "floating": FLOATING,
+}
+"""Robots with joints that no drive moves."""
 
 
-@pytest.mark.parametrize("losses", [(), (dynamics(1.5, 0.8),)], ids=["free", "losses"])
-@pytest.mark.parametrize("axis", ["0 0 1", "1 0 0", "0.2 -0.5 1"])
-def test_a_planar_joint_is_two_slides_and_a_turn(
-    axis: str, losses: tuple[str, ...], modelica_library: Path, tmp_path: Path
+@pytest.mark.parametrize("robots", [DRIVEN, FREE], ids=["driven", "free"])
+def test_joints_move_and_push_as_pinocchio_says(
+    robots: Mapping[str, str], modelica_library: Path, tmp_path: Path
 ) -> None:
-    normal = np.array([float(number) for number in axis.split()])
-    urdf = as_three_joints(normal / np.linalg.norm(normal), *losses)
-    reference = physics.Reference(urdf, generate(urdf.encode(), BOT))
-    assert [j.name for j in reference.axes] == ["skate_3", "turn", "skate_1", "skate_2"]
-    phi, turn, x, y = (v := physics.random_motion(4, seed=3)).q
-    d_phi, d_turn, d_x, d_y = v.v
-    task = check_model(
-        f"Bot.Bot robot(phi_start = {{{turn}}}, w_start = {{{d_turn}}}, "
-        f"skate(s_start = {{{x}, {y}}}, v_start = {{{d_x}, {d_y}}}, phi_start = {phi}, w_start = {d_phi}));",
-        "connect(world.frame_b, robot.frame_a);",
-        ["robot.skate.revolute.a", "robot.turn.revolute.a", "robot.skate.prismatic_x.a", "robot.skate.prismatic_y.a"],
+    """All in one process of the compiler; free joints have accelerations to compare."""
+    cases = [physics.prepare(urdf.encode(), name.capitalize(), complete=False) for name, urdf in robots.items()]
+    for comparison in physics.compare(modelica_library, tmp_path, cases):
+        assert comparison.agrees, comparison.worst()
+        found = any(one.quantity == Quantity.ACCELERATION for one in comparison.deviations)
+        assert found == (robots is FREE)
+
+
+@dataclasses.dataclass(frozen=True)
+class Release:
+    """A model that begins at given positions and speeds and moves as the forces want; its accelerations at once."""
+
+    package: Package
+    task: Task
+    expected: Array
+
+
+def release(package: Package, modifiers: str, values: Sequence[str], expected: Array, before: str = "") -> Release:
+    """A robot on the world, or on what `before` declares as `base`."""
+    carrier = "connect(world.frame_b, base.frame_a); connect(base.frame_b" if before else "connect(world.frame_b"
+    kind = f"{package.target.package}.{package.target.name}"
+    source = f"""model Check
+  import Modelica;
+  import UrdfSync;
+  {WORLD};
+  {before}
+  {kind} robot({modifiers});
+equation
+  {carrier}, robot.frame_a);
+end Check;
+"""
+    return Release(package, Task(source, "Check", [Run(1e-6, 1e-6)], list(values)), expected)
+
+
+def release_of_axes(name: str, urdf: str) -> Release:
+    """All axes move freely."""
+    package = generate(urdf.encode(), Target(name, name))
+    axes = motion.driven_axes(package.skeleton)
+    courses = [motion.axis_course(joint) for joint in axes]
+    modifiers = []
+    for kind, q, v in (("rotational", "phi", "w"), ("translational", "s", "v")):
+        chosen = [course for joint, course in zip(axes, courses, strict=True) if MOTIONS[joint.type] == kind]
+        if chosen:
+            modifiers += [f"{q}_start = {vector(course.position for course in chosen)}"]
+            modifiers += [f"{v}_start = {vector(course.speed for course in chosen)}"]
+    inner = {"rotational": "revolute", "translational": "prismatic"}
+    values = [f"robot.{package.skeleton.joint(j.name).component}.{inner[MOTIONS[j.type]]}.a" for j in axes]
+    return release(package, ", ".join(modifiers), values, accelerations(urdf, [j.name for j in axes], courses))
+
+
+def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> Array:
+    """Accelerations of axes without drives: forward dynamics with the inertia matrix Bᵀ·H·B of independent axes."""
+    reference = Reference(read(urdf.encode(), "robot.urdf"), axes, ())
+    state = reference.state(0.0, courses, {})
+    model, data, b = reference.model, reference.model.createData(), reference.projection
+    q, v = state.q, reference.projection @ [course.speed for course in courses]  # the base is at rest
+    q[:7] = pin.neutral(model)[:7]
+    upper = np.triu(pin.crba(model, data, q))
+    losses = model.damping * v + model.friction * np.tanh(STEEPNESS * v)
+    load = pin.nonLinearEffects(model, data, q, v) + losses
+    return np.asarray(np.linalg.solve(b.T @ (upper + np.triu(upper, 1).T) @ b, -b.T @ load))
+
+
+def release_of_level_plane() -> Release:
+    """With the axis z the directions are x and y; Pinocchio's own planar joint resolves speeds in the moving frame."""
+    urdf = robot(
+        link("floor"),
+        link("plate", 3.0),
+        link("arm", 1.0),
+        joint("skate", "planar", "floor", "plate", axis="0 0 1"),
+        joint("turn", "revolute", "plate", "arm", axis="1 0 0", inside=[limit()]),
     )
-    folder = generate(planar(axis, *losses).encode(), BOT).write(tmp_path)
-    found = start(run(modelica_library, folder, task), list(task.values))
-    assert found == pytest.approx(reference.accelerations(v), rel=1e-9, abs=1e-9)
-
-
-def test_a_level_planar_joint_is_that_of_pinocchio(modelica_library: Path, tmp_path: Path) -> None:
-    """With the axis z the directions are x and y; Pinocchio resolves speeds in the moving frame."""
-    urdf = planar("0 0 1")
     model = pin.buildModelFromXML(urdf)
-    model.gravity.linear = np.array([0, 0, -physics.GRAVITY])
-    (x, y, phi, turn), (d_x, d_y, d_phi, d_turn) = (v := physics.random_motion(4, seed=4)).q, v.v
+    model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
+    (x, y, phi, turn), (d_x, d_y, d_phi, d_turn) = (0.3, -0.4, 0.7, -0.2), (0.5, 0.6, -0.8, 0.4)
     turned = pin.rpy.rpyToMatrix(0, 0, phi)[:2, :2]
     speed = turned.T @ [d_x, d_y]
     twist = np.array([*speed, d_phi, d_turn])
     a = pin.aba(model, model.createData(), np.array([x, y, np.cos(phi), np.sin(phi), turn]), twist, np.zeros(4))
     slides = turned @ (a[:2] + d_phi * np.array([-speed[1], speed[0]]))
-    task = check_model(
-        f"Bot.Bot robot(phi_start = {{{turn}}}, w_start = {{{d_turn}}}, "
-        f"skate(s_start = {{{x}, {y}}}, v_start = {{{d_x}, {d_y}}}, phi_start = {phi}, w_start = {d_phi}));",
-        "connect(world.frame_b, robot.frame_a);",
+    skate = f"s_start = {{{x}, {y}}}, v_start = {{{d_x}, {d_y}}}, phi_start = {phi}, w_start = {d_phi}"
+    return release(
+        generate(urdf.encode(), Target("Level", "Level")),
+        f"phi_start = {{{turn}}}, w_start = {{{d_turn}}}, skate({skate})",
         ["robot.skate.prismatic_x.a", "robot.skate.prismatic_y.a", "robot.skate.revolute.a", "robot.turn.revolute.a"],
+        np.array([*slides, a[2], a[3]]),
     )
-    folder = generate(urdf.encode(), BOT).write(tmp_path)
-    found = start(run(modelica_library, folder, task), list(task.values))
-    assert found == pytest.approx([*slides, a[2], a[3]], rel=1e-9, abs=1e-9)
-
-
-FLYING = {"r": [0.3, -0.2, 0.5], "rpy": [0.7, -0.4, 1.1], "v": [0.6, -0.8, 0.3], "w": [0.9, 0.5, -1.3]}
-"""Start values of six degrees of freedom, resolved in the frame that the motion is relative to."""
-
-
-def modifiers(prefix: str = "") -> str:
-    return ", ".join(f"{prefix}{key}_start = {{{', '.join(map(repr, value))}}}" for key, value in FLYING.items())
-
-
-def base_accelerations(free: str, body: str) -> list[str]:
-    """Names of the accelerations of a free base: of its motion, and of the link that moves with it."""
-    linear = [f"{free}.freeMotion.a_rel_a[{i}]" for i in (1, 2, 3)]
-    return linear + [f"{body}.body.z_a[{i}]" for i in (1, 2, 3)]
-
-
-def free_reference(model: pin.Model, others: Motion) -> tuple[Array, Array]:
-    """Accelerations of the free base, and of all other joints.
-
-    Linear ones are resolved in the frame that the motion is relative to, angular ones in the moving frame.
-    """
-    model.gravity.linear = np.array([0, 0, -physics.GRAVITY])
-    turned = pin.rpy.rpyToMatrix(*FLYING["rpy"])
-    w = turned.T @ FLYING["w"]
-    v = turned.T @ FLYING["v"]
-    attitude = pin.Quaternion(turned).coeffs()
-    turns = (
-        [np.cos(q), np.sin(q)] if joint.nq == 2 else [q] for joint, q in zip(model.joints[2:], others.q, strict=True)
-    )
-    positions = np.array([*FLYING["r"], *attitude, *itertools.chain(*turns)])
-    a = pin.aba(model, model.createData(), positions, np.array([*v, *w, *others.v]), np.zeros(model.nv))
-    return np.array([*(turned @ (a[:3] + np.cross(w, v))), *a[3:6]]), np.asarray(a[6:])
-
-
-def test_a_floating_joint_is_free(modelica_library: Path, tmp_path: Path) -> None:
-    urdf = robot(
-        link("ceiling"),
-        link("drone", 3.0),
-        link("arm", 1.0),
-        joint("air", "floating", "ceiling", "drone"),
-        joint("turn", "revolute", "drone", "arm", axis="1 0 0", inside=[limit()]),
-    )
-    others = physics.random_motion(1, seed=5)
-    base, turn = free_reference(pin.buildModelFromXML(urdf), others)
-    task = check_model(
-        f"Bot.Bot robot(phi_start = {{{others.q[0]}}}, w_start = {{{others.v[0]}}}, air({modifiers()}));",
-        "connect(world.frame_b, robot.frame_a);",
-        [*base_accelerations("robot.air.freeMotion", "robot.drone"), "robot.turn.revolute.a"],
-    )
-    folder = generate(urdf.encode(), BOT).write(tmp_path)
-    found = start(run(modelica_library, folder, task), list(task.values))
-    assert found == pytest.approx([*base, *turn], rel=1e-9, abs=1e-9)
 
 
 MOBILE = robot(
@@ -290,22 +238,52 @@ MOBILE = robot(
     joint("right_axle", "continuous", "chassis", "right_wheel", xyz="0 -0.2 0", rpy="-1.5707963 0 0", axis="0 0 1"),
 )
 
+FLYING = {"r": [0.3, -0.2, 9.5], "rpy": [0.7, -0.4, 1.1], "v": [0.6, -0.8, 0.3], "w": [0.9, 0.5, -1.3]}
+"""Start values of six degrees of freedom, resolved in the world; too high for contacts with the ground."""
 
-def test_a_mobile_robot_in_the_air_falls_freely(modelica_library: Path, tmp_path: Path) -> None:
-    """It is too high for its ground contacts; what is left must be a free base with joints."""
-    wheels = physics.random_motion(2, seed=6)
-    base, turns = free_reference(pin.buildModelFromXML(MOBILE, pin.JointModelFreeFlyer()), wheels)
-    task = check_model(
-        "inner UrdfSync.Contacts.Ground ground(load = 100); UrdfSync.Robots.FreeBase base("
-        f"{modifiers()}); Modelica.Mechanics.MultiBody.Parts.FixedTranslation up(r = {{0, 0, 9}}, animation = false); "
-        f"Bot.Bot robot(phi_start = {{{wheels.q[0]}, {wheels.q[1]}}}, w_start = {{{wheels.v[0]}, {wheels.v[1]}}});",
-        "connect(world.frame_b, up.frame_a); connect(up.frame_b, base.frame_a); connect(base.frame_b, robot.frame_a);",
-        [
-            *base_accelerations("base", "robot.chassis"),
-            "robot.left_axle.revolute.a",
-            "robot.right_axle.revolute.a",
-        ],
+
+def release_of_mobile() -> Release:
+    """What is left without the ground is a free base with joints."""
+    package = generate(MOBILE.encode(), Target("Mobile", "Mobile"), base="floating")
+    wheels, speeds = [0.4, -0.3], [0.5, 0.7]
+    ground = "inner UrdfSync.Contacts.Ground ground(load = 100)"
+    starts = ", ".join(f"{key}_start = {vector(value)}" for key, value in FLYING.items())
+    linear = [f"base.freeMotion.a_rel_a[{i}]" for i in (1, 2, 3)]
+    angular = [f"robot.chassis.body.z_a[{i}]" for i in (1, 2, 3)]
+    return release(
+        package,
+        f"phi_start = {vector(wheels)}, w_start = {vector(speeds)}",
+        [*linear, *angular, "robot.left_axle.revolute.a", "robot.right_axle.revolute.a"],
+        mobile_accelerations(wheels, speeds),
+        f"{ground}; UrdfSync.Robots.FreeBase base({starts});",
     )
-    folder = generate(MOBILE.encode(), BOT, base="floating").write(tmp_path)
-    found = start(run(modelica_library, folder, task), list(task.values))
-    assert found == pytest.approx([*base, *turns], rel=1e-9, abs=1e-9)
+
+
+def mobile_accelerations(wheels: Sequence[float], speeds: Sequence[float]) -> Array:
+    """Of the base, linear ones in the world and angular ones in its frame, and of the wheels."""
+    model = pin.buildModelFromXML(MOBILE, pin.JointModelFreeFlyer())
+    model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
+    turned = pin.rpy.rpyToMatrix(*FLYING["rpy"])
+    v, w = turned.T @ FLYING["v"], turned.T @ FLYING["w"]
+    turns = itertools.chain.from_iterable((np.cos(q), np.sin(q)) for q in wheels)
+    q = np.array([*FLYING["r"], *pin.Quaternion(turned).coeffs(), *turns])
+    a = pin.aba(model, model.createData(), q, np.array([*v, *w, *speeds]), np.zeros(model.nv))
+    return np.array([*(turned @ (a[:3] + np.cross(w, v))), *a[3:]])
+
+
+def releases() -> Mapping[str, Release]:
+    axes = {name: release_of_axes(name.capitalize(), urdf) for name, urdf in DRIVEN.items()}
+    return {**axes, "level plane": release_of_level_plane(), "mobile": release_of_mobile()}
+
+
+def test_free_joints_accelerate_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
+    """Without drives. A level planar joint is that of Pinocchio, and a mobile robot in the air falls freely."""
+    released = releases()
+    folders = [one.package.write(tmp_path) for one in released.values()]
+    outcomes = modelica.execute(modelica_library, folders, [one.task for one in released.values()])
+    for (name, one), outcome in zip(released.items(), outcomes, strict=True):
+        assert not outcome.error, outcome.error
+        (series,) = outcome.runs
+        assert not series.error, series.error
+        found = np.array([series.values[value][0] for value in one.task.values])
+        assert found == pytest.approx(one.expected, rel=1e-9, abs=1e-9 * np.abs(one.expected).max()), name

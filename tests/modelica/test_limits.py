@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from support.modelica import Run, Series, Task, execute
 from support.packages import generate
-from support.physics import DRIVES
 from support.urdfs import joint, limit, link, mimic, robot
 
 from urdfsync.domain import Target
+from urdfsync.urdf.physics.probe import DRIVES
 
 pytestmark = pytest.mark.slow
 

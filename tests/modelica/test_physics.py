@@ -1,9 +1,8 @@
 """Generated robots against Pinocchio: poses of all links, efforts of all axes, mass and its centre.
 
-The robots move as prescribed for 0.01 s; the first and the last instant must agree to 1e-10. Mimic
-joints, damping and dry friction are part of it. A robot in whose file some moving joint carries no
-mass gets made-up inertials, for both sides, and `synthetic` in its name; `amended` are files that
-Pinocchio would not read (see `support.amended`).
+Base and axes move as prescribed; the first and the last instant must agree to 1e-10. Mimic joints, damping and
+dry friction are part of it. A robot in whose file some moving joint carries no mass gets made-up inertias, for both
+sides, and `made-up` in its name; `amended` are files that Pinocchio would not read (see `urdf.physics.amended`).
 """
 
 from __future__ import annotations
@@ -11,16 +10,20 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from support import amended, corpus, physics
-from support.packages import generate
+from support import corpus, physics
+from support.corpus import REPOSITORY
 
-from urdfsync.domain import Target
+from urdfsync.urdf.physics import amended
+from urdfsync.urdf.skeleton import Skeleton
+from urdfsync.urdf.source import read_robot
 
 MANY_JOINTS = 10
 """Robots with more moving joints take much longer: their number of equations grows, and the cost with it."""
 
 FAULTY = {"robots/random/spot_ros/spot_description/urdf/spot_arm.urdf"}
 """Without a package: see the tests of the reader."""
+
+EXAMPLES = {"six_axis_arm": "fixed", "wheeled_robot": "floating", "planar_platform": "fixed", "floating_buoy": "fixed"}
 
 
 def _cases() -> list[object]:
@@ -30,24 +33,37 @@ def _cases() -> list[object]:
             return [file]
         if file in FAULTY or joints == 0:
             continue
-        urdf = (corpus.FOLDER / file).read_bytes()
-        notes = ["amended"] * (amended.acceptable(urdf) != urdf) + ["synthetic"] * amended.lacks_inertia(urdf)
         mark = pytest.mark.large if joints > MANY_JOINTS else pytest.mark.slow
-        cases.append(pytest.param(file, id="-".join([corpus.label(file), *notes]), marks=mark))
+        cases.append(pytest.param(file, id="-".join([corpus.label(file), *_notes(file)]), marks=mark))
     return cases
+
+
+def _notes(file: str) -> list[str]:
+    """What has to be done to a file of the corpus."""
+    content = (corpus.FOLDER / file).read_bytes()
+    robot = read_robot(content, file, cross_check=False).robot
+    assert robot is not None
+    made_up = amended.with_inertias(content, Skeleton.of(robot)).notes
+    return ["amended"] * len(amended.readable(content).notes) + ["made-up"] * len(made_up)
 
 
 @pytest.mark.parametrize("file", _cases())
 def test_corpus_robots_move_as_pinocchio_says(file: str, corpus: Path, modelica_library: Path, tmp_path: Path) -> None:
-    urdf = amended.acceptable((corpus / file).read_bytes())
-    if amended.lacks_inertia(urdf):
-        urdf = amended.with_inertias(urdf)
-    package = generate(urdf, Target("Bot", "Bot"))
-    reference = physics.Reference(urdf.decode(), package)
-    motion = physics.random_motion(len(reference.axes))
-    errors, _ = physics.measure(modelica_library, package.write(tmp_path), reference, motion)
-    assert errors.worst() <= physics.TOLERANCE, errors
+    case = physics.prepare((corpus / file).read_bytes())
+    (comparison,) = physics.compare(modelica_library, tmp_path, [case])
+    assert comparison.agrees, comparison.worst()
 
 
 def test_enough_robots_are_compared(corpus: Path) -> None:
     assert sum(case.marks[0].name == "slow" for case in _cases()) >= 20  # type: ignore[attr-defined]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "base"), EXAMPLES.items())
+def test_examples_move_as_pinocchio_says(name: str, base: str, modelica_library: Path, tmp_path: Path) -> None:
+    """A mobile robot, a planar and a floating joint among them."""
+    source = REPOSITORY / "modelica" / "UrdfSync" / "Resources" / "robots" / name / f"{name}.urdf"
+    case = physics.prepare(source.read_bytes(), base=base)
+    (comparison,) = physics.compare(modelica_library, tmp_path, [case])
+    assert comparison.agrees, comparison.worst()
+    assert case.experiment.notes == ()

@@ -11,6 +11,7 @@ from urdfsync.domain import (
     Conversion,
     Dependency,
     Echo,
+    Experiment,
     Import,
     Lookup,
     Order,
@@ -122,6 +123,16 @@ class UrdfDomain:
         from urdfsync.urdf.diagram.picture import draw
 
         return draw(from_snapshot(snapshot), target)
+
+    def models(self, target: Target) -> Sequence[str]:
+        """See `urdfsync.domain.Domain`."""
+        return target.name, f"{target.name}Run", f"{target.name}Test"
+
+    def experiment(self, content: bytes, file: str, target: Target, options: Options, complete: bool) -> Experiment:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf.physics.experiment import PinocchioExperiment
+
+        return PinocchioExperiment(content, file, target, options, complete)
 
 
 def _shown(snapshot: Snapshot, options: Options) -> Robot:

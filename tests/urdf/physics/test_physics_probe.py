@@ -1,0 +1,85 @@
+"""The text that moves a generated robot: what it needs of the package, and of libraries."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from support.urdfs import joint, limit, link, mimic, robot
+
+from urdfsync.domain import Target
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.physics.probe import probe
+from urdfsync.urdf.skeleton import Skeleton
+from urdfsync.urdf.source import read_robot
+
+URDF = robot(
+    link("base", 4.0),
+    link("upper arm", 2.5),
+    link("hand", 0.7),
+    link("drone", 0.7),
+    joint("shoulder", "revolute", "base", "upper arm", inside=[limit()]),
+    joint("slide", "prismatic", "upper arm", "hand", inside=[limit(), mimic("shoulder")]),
+    joint("tether", "floating", "upper arm", "drone"),
+)
+ARM = Target("Plant.Robots.Arm", "Arm")
+
+
+def skeleton(urdf: str = URDF) -> Skeleton:
+    found = read_robot(urdf.encode(), "robot.urdf", cross_check=False).robot
+    assert found is not None
+    return Skeleton.of(found, ("Arm",))
+
+
+def test_it_relies_on_little_of_a_package_so_that_it_may_be_edited() -> None:
+    found = probe(skeleton(), ARM, Options())
+    parts = {re.sub(r"\[.*", "", value) for value in found.values}
+    assert parts == {
+        *(f"robot.{name}.frame_a.{part}" for name in ("base", "upper_arm", "hand", "drone") for part in ("r_0", "R.T")),
+        *(f"robot.drone.body.{part}" for part in ("v_0", "w_a", "a_0", "z_a")),
+        *("robot.rotationalAxis", "base.frame_b.f", "base.frame_b.t", "mass", "moment"),
+    }
+    inner = set(re.findall(r"robot\.\w+(?:\.\w+)*", found.source)) - {value for value in parts if "frame_a" in value}
+    bodies = {f"robot.{name}.body.{part}" for name in ("base", "upper_arm", "hand", "drone") for part in ("m", "r_CM")}
+    frames = {f"robot.{name}.frame_a.R" for name in ("base", "upper_arm", "hand", "drone")}
+    assert inner == {"robot.m", "robot.frame_a", "robot.rotationalAxis", *bodies, *frames}
+
+
+def test_followers_have_no_drive_and_free_joints_have_a_start() -> None:
+    source = probe(skeleton(), ARM, Options()).source
+    assert "RotationalDrive rotationalDrive[1]" in source
+    assert "TranslationalDrive translationalDrive" not in source
+    assert re.search(r"Plant\.Robots\.Arm\.Arm robot\(.*tether\(fixedStart = true, r_start = \{", source)
+
+
+@pytest.mark.parametrize(
+    ("target", "options", "imports"),
+    [
+        (ARM, Options(), ["Modelica", "UrdfSync", "Plant"]),
+        (Target("UrdfSync.Examples.Arm", "Arm"), Options(), ["Modelica", "UrdfSync"]),
+        (ARM, Options(visualizer="visualization2"), ["Modelica", "UrdfSync", "Visualization2", "Plant"]),
+    ],
+)
+def test_every_library_is_named_once(target: Target, options: Options, imports: list[str]) -> None:
+    assert re.findall(r"^  import (\w+);$", probe(skeleton(), target, options).source, re.MULTILINE) == imports
+
+
+def test_only_mobile_robots_have_a_ground_and_it_is_far_below() -> None:
+    assert "Ground" not in probe(skeleton(), ARM, Options()).source
+    (height,) = re.findall(
+        r"inner UrdfSync\.Contacts\.Ground ground\(height = (\S+)\);",
+        probe(skeleton(), ARM, Options(base="floating")).source,
+    )
+    assert float(height) < -1e6
+
+
+def test_a_robot_that_can_not_move_has_no_drives() -> None:
+    found = probe(skeleton(robot(link("base", 1.0))), ARM, Options())
+    assert not re.search(r"Drive \w+\[", found.source)
+    assert len(found.values) == 12 + 6 + 4
+
+
+def test_ballast_hangs_on_links_without_children() -> None:
+    source = probe(skeleton(), ARM, Options(), ballast=True).source
+    assert "Modelica.Mechanics.MultiBody.Parts.Body ballast[2](" in source
+    assert "connect(ballast.frame_a, robot.frame_b);" in source

@@ -1,0 +1,28 @@
+"""What the comparison does not cover, as far as it matters for a robot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.skeleton import MOTIONS, Skeleton
+
+
+def unchecked(skeleton: Skeleton, options: Options) -> Iterator[str]:
+    """One sentence each, without a full stop."""
+    joints, links = skeleton.joints, skeleton.links
+    if all(joint.type == "fixed" for joint in joints):
+        yield "no joint moves, so that only poses, masses and the forces on the root link are compared"
+    if not any(link.inertial and link.inertial.mass > 0 for link in links):
+        yield "no link has a mass, so that efforts show the losses of joints only"
+    idle = {
+        "limits": any(joint.limit for joint in joints if joint.type in MOTIONS),
+        "calibrations": any(joint.calibration for joint in joints),
+        "safety controllers": any(joint.safety_controller for joint in joints),
+        "shapes": any(link.visuals or link.collisions for link in links),
+    }
+    if there := [noun for noun, is_there in idle.items() if is_there]:
+        *most, last = there
+        yield f"{', '.join(most)}{' and ' if most else ''}{last} are not compared: they change no motion"
+    if options.base == "floating" and options.collisions and any(link.collisions for link in links):
+        yield "contacts with the ground are not compared: the robot moves high above it"

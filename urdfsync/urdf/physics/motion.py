@@ -1,0 +1,118 @@
+"""How a robot moves in the comparison: a function of names and limits alone, the same on every machine.
+
+The base and all driven axes follow polynomials of time. Planar and floating joints have no drives in generated
+packages: they begin with the positions and speeds of `Planar` and `Floating`, and move as the forces want.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from typing import NamedTuple, TypeAlias
+
+from urdfsync.urdf.kinematics import own_range
+from urdfsync.urdf.robot import Joint, Vector
+from urdfsync.urdf.skeleton import Skeleton
+
+DURATION = 0.01
+"""End of the motion, in s: prescribed motion is exact all the time."""
+INSTANT = 1e-6
+"""End of the motion with floating joints, in s: errors of a solver in their quaternions are no errors of the robot."""
+GRAVITY = 9.81
+"""Along -z of the world, in m/s²."""
+
+_FARTHEST = 10.0
+"""Limits beyond it (m or rad) say nothing about where a joint is at home, and cost digits."""
+
+
+class Course(NamedTuple):
+    """One coordinate over time, q = position + speed·t + acceleration·t²/2."""
+
+    position: float
+    speed: float
+    acceleration: float
+
+    def at(self, time: float) -> Course:
+        """The course as it is later."""
+        position = self.position + self.speed * time + self.acceleration * time**2 / 2
+        return Course(position, self.speed + self.acceleration * time, self.acceleration)
+
+
+PATH = (Course(0.4, -0.6, 1.1), Course(-0.3, 0.8, -0.7), Course(0.9, 0.5, 1.6))
+"""x, y and z of the root link's frame in the world."""
+TURN = Course(0.7, 0.9, -1.4)
+"""Angle of the root link's frame about `TURN_AXIS`."""
+TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)
+"""At an angle to all axes of the world, so that gravity and centrifugal forces act along all axes of the root link."""
+
+BALLAST_MASS = 1.5
+"""In kg: a body on each link without children, where free joints could not be simulated for lack of inertia."""
+BALLAST_CENTRE: Vector = (0.1, -0.2, 0.3)
+BALLAST_INERTIA: Vector = (0.03, 0.02, 0.04)
+"""Diagonal of its tensor about the centre, in kg·m²."""
+
+
+class Planar(NamedTuple):
+    """Start of a planar joint: along its two directions (m, m/s), and about the normal (rad, rad/s)."""
+
+    s: tuple[float, float]
+    v: tuple[float, float]
+    phi: float
+    w: float
+
+
+class Floating(NamedTuple):
+    """Start of a floating joint, resolved in the joint frame: m, rad (roll, pitch, yaw), m/s and rad/s."""
+
+    r: Vector
+    rpy: Vector
+    v: Vector
+    w: Vector
+
+
+Start: TypeAlias = Planar | Floating
+
+
+def axis_course(joint: Joint) -> Course:
+    """The course of a driven axis: it begins near the middle of its range, if that is finite and sensible."""
+    draw = _draw(joint)
+    lower, upper = own_range(joint)
+    middle, reach = 0.0, 0.5
+    if -_FARTHEST <= lower < upper <= _FARTHEST:
+        middle, reach = (lower + upper) / 2, min((upper - lower) / 4, 0.5)
+    position = middle + draw.uniform(-reach, reach)
+    return Course(position, _signed(draw, 0.25, 0.5), _signed(draw, 0.5, 1.0))
+
+
+def free_start(joint: Joint) -> Start:
+    """Where a planar or floating joint begins, and how fast."""
+    draw = _draw(joint)
+    if joint.type == "planar":
+        x, y, v_x, v_y, phi, w = (_signed(draw, 0.1, 0.6) for _ in range(6))
+        return Planar((x, y), (v_x, v_y), phi, w)
+    return Floating(*((_signed(draw, 0.1, 0.6), _signed(draw, 0.1, 0.6), _signed(draw, 0.1, 0.6)) for _ in range(4)))
+
+
+def driven_axes(skeleton: Skeleton) -> tuple[Joint, ...]:
+    """Joints with a drive, in the order of the flange vectors: first those that turn, then those that slide."""
+    return (*skeleton.axes("rotational"), *skeleton.axes("translational"))
+
+
+def free_joints(skeleton: Skeleton) -> tuple[Joint, ...]:
+    """Joints without a drive, each after those that carry it."""
+    return tuple(joint for joint in skeleton.joints if joint.type in ("planar", "floating"))
+
+
+def duration(skeleton: Skeleton) -> float:
+    """End of the motion, in s."""
+    return INSTANT if any(joint.type == "floating" for joint in skeleton.joints) else DURATION
+
+
+def _draw(joint: Joint) -> random.Random:
+    """Random numbers of one joint: its name decides, so that a new joint leaves the motion of the others alone."""
+    return random.Random(joint.name)  # noqa: S311 - nothing is kept secret
+
+
+def _signed(draw: random.Random, least: float, most: float) -> float:
+    """A number of either sign, and not close to zero, where faults do not show."""
+    return math.copysign(draw.uniform(least, most), draw.uniform(-1, 1))

@@ -1,0 +1,185 @@
+"""The Modelica text that moves a generated robot as `motion` says, and the variables that are read from it.
+
+It relies on little, so that packages may be edited: on the components of links with their `frame_a` and `body`, on
+the flange vectors, on `m`, and on the start values of planar and floating joints.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from urdfsync.domain import Probe, Target
+from urdfsync.literals import vector
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.physics import motion
+from urdfsync.urdf.physics.motion import Course
+from urdfsync.urdf.skeleton import Motion, Skeleton
+
+_DEPTH = 1e9
+"""How far down the ground is, in m: the contacts of a mobile robot are there, and nothing touches."""
+_VECTORS: tuple[tuple[Motion, str, str, str], ...] = (
+    ("rotational", "Rotational", "phi", "tau"),
+    ("translational", "Translational", "s", "f"),
+)
+"""Kind of motion, the library's word for it, position and effort of its flanges."""
+
+_DRIVE = """
+  model {domain}Drive "Moves a flange as q = a0 + a1*t + a2*t^2/2"
+    parameter Real a0 = 0;
+    parameter Real a1 = 0;
+    parameter Real a2 = 0;
+    Modelica.Mechanics.{domain}.Interfaces.Flange_b flange;
+  equation
+    flange.{q} = a0 + a1*time + a2*time^2/2;
+  end {domain}Drive;
+"""
+DRIVES = "".join(_DRIVE.format(domain=domain, q=q) for _, domain, q, _ in _VECTORS)
+"""Models that move a flange, for a package that imports Modelica."""
+
+_BASE = """
+  model MovingBase "Moves and turns a frame"
+    Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b;
+    Modelica.Units.SI.Angle phi;
+    Modelica.Units.SI.AngularVelocity w;
+  equation
+    Connections.root(frame_b.R);
+    frame_b.r_0 = {{{path}}};
+    phi = {turn};
+    w = der(phi);
+    frame_b.R = Modelica.Mechanics.MultiBody.Frames.planarRotation({axis}, phi, w);
+  end MovingBase;
+"""
+
+PLACE = "frame_a.r_0"
+"""Where the frame of a link is, in the world."""
+VELOCITY = "body.v_0"
+"""Of a link's frame, resolved in the world."""
+ROTATION = "body.w_a"
+"""Angular velocity of a link's frame, resolved in it."""
+ACCELERATION = "body.a_0"
+"""Of a link's frame, resolved in the world."""
+ANGULAR = "body.z_a"
+"""Angular acceleration of a link's frame, resolved in it."""
+FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
+TORQUE = tuple(f"base.frame_b.t[{i}]" for i in (1, 2, 3))
+"""What the robot does to the base that moves it, resolved in the root link's frame."""
+MASS = ("mass",)
+MOMENT = tuple(f"moment[{i}]" for i in (1, 2, 3))
+"""The sum of mass times place over all bodies, in kg·m."""
+
+
+def probe(skeleton: Skeleton, target: Target, options: Options, ballast: bool = False) -> Probe:
+    """A model in which every axis of the robot moves, and the values to compare.
+
+    With `ballast`, a body hangs on each link without children.
+    """
+    robot = ", ".join(["animation = false", "checkLimits = false", "fixedStart = false", *_starts(skeleton)])
+    lines = [
+        "package Probe_",
+        *(f"  import {library};" for library in _libraries(target, options)),
+        DRIVES,
+        _BASE.format(path=", ".join(map(_text, motion.PATH)), turn=_text(motion.TURN), axis=vector(motion.TURN_AXIS)),
+        "  model Probe",
+        *(f"    {line};" for line in _surroundings(options)),
+        "    MovingBase base;",
+        f"    {target.package}.{target.name} robot({robot});",
+        *(f"    {line};" for line in _drives(skeleton)),
+        *([f"    {_ballast(skeleton)};"] if ballast else []),
+        "    Real mass = robot.m;",
+        f"    Real moment[3] = {_moment(skeleton)};",
+        "  equation",
+        "    connect(base.frame_b, robot.frame_a);",
+        *(f"    connect({kind}Drive.flange, robot.{kind}Axis);" for kind, *_ in _VECTORS if skeleton.axes(kind)),
+        *(["    connect(ballast.frame_a, robot.frame_b);"] if ballast else []),
+        "  end Probe;",
+        "end Probe_;",
+        "",
+    ]
+    stop = motion.duration(skeleton)
+    return Probe("\n".join(lines), "Probe_.Probe", stop, stop / 4, tuple(_values(skeleton)))
+
+
+def names(skeleton: Skeleton, link: str, part: str) -> tuple[str, ...]:
+    """The three elements of a vector of a link, for example of `PLACE`."""
+    return tuple(f"{_link(skeleton, link)}.{part}[{i}]" for i in (1, 2, 3))
+
+
+def axes_names(skeleton: Skeleton, link: str) -> tuple[str, ...]:
+    """The axes of a link's frame in the world, one after the other."""
+    return tuple(f"{_link(skeleton, link)}.frame_a.R.T[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3))
+
+
+def effort_names(skeleton: Skeleton) -> tuple[str, ...]:
+    """What drives each axis, in the order of `motion.driven_axes`."""
+    return tuple(
+        f"robot.{kind}Axis[{number}].{effort}"
+        for kind, _, _, effort in _VECTORS
+        for number, _ in enumerate(skeleton.axes(kind), 1)
+    )
+
+
+def _values(skeleton: Skeleton) -> Iterator[str]:
+    for link in skeleton.links:
+        yield from names(skeleton, link.name, PLACE)
+        yield from axes_names(skeleton, link.name)
+    for joint in motion.free_joints(skeleton):
+        for part in (VELOCITY, ROTATION, ACCELERATION, ANGULAR):
+            yield from names(skeleton, joint.child, part)
+    yield from (*effort_names(skeleton), *FORCE, *TORQUE, *MASS, *MOMENT)
+
+
+def _libraries(target: Target, options: Options) -> dict[str, None]:
+    """Every library has to be named, or the compiler does not load it."""
+    optional = ("Visualization2",) if options.visualizer == "visualization2" else ()
+    return dict.fromkeys(("Modelica", "UrdfSync", *optional, target.package.partition(".")[0]))
+
+
+def _surroundings(options: Options) -> Iterator[str]:
+    world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
+    yield f"inner Modelica.Mechanics.MultiBody.World world({world})"
+    if options.base == "floating":
+        yield f"inner UrdfSync.Contacts.Ground ground(height = {-_DEPTH!r})"
+
+
+def _starts(skeleton: Skeleton) -> Iterator[str]:
+    """Modifiers with the start values of planar and floating joints."""
+    for joint in motion.free_joints(skeleton):
+        start = motion.free_start(joint)._asdict()
+        values = (f"{key}_start = {_number(value)}" for key, value in start.items())
+        yield f"{skeleton.joint(joint.name).component}(fixedStart = true, {', '.join(values)})"
+
+
+def _drives(skeleton: Skeleton) -> Iterator[str]:
+    for kind, domain, _, _ in _VECTORS:
+        courses = [motion.axis_course(joint) for joint in skeleton.axes(kind)]
+        if courses:
+            values = (f"a{k} = {vector(numbers)}" for k, numbers in enumerate(zip(*courses, strict=True)))
+            yield f"{domain}Drive {kind}Drive[{len(courses)}]({', '.join(values)})"
+
+
+def _ballast(skeleton: Skeleton) -> str:
+    tensor = ", ".join(f"each I_{i}{i} = {value!r}" for i, value in enumerate(motion.BALLAST_INERTIA, 1))
+    centre = vector(motion.BALLAST_CENTRE)
+    body = f"each animation = false, each m = {motion.BALLAST_MASS!r}, each r_CM = {centre}, {tensor}"
+    return f"Modelica.Mechanics.MultiBody.Parts.Body ballast[{len(skeleton.leaves())}]({body})"
+
+
+def _moment(skeleton: Skeleton) -> str:
+    terms = []
+    for link in skeleton.links:
+        name = _link(skeleton, link.name)
+        centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({name}.frame_a.R, {name}.body.r_CM)"
+        terms.append(f"{name}.body.m*({name}.frame_a.r_0 + {centre})")
+    return " + ".join(terms)
+
+
+def _link(skeleton: Skeleton, link: str) -> str:
+    return f"robot.{skeleton.link(link).component}"
+
+
+def _text(course: Course) -> str:
+    return f"{course.position!r} + ({course.speed!r})*time + ({course.acceleration!r})*time^2/2"
+
+
+def _number(value: float | tuple[float, ...]) -> str:
+    return vector(value) if isinstance(value, tuple) else repr(value)

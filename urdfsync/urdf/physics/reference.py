@@ -1,0 +1,245 @@
+"""The reference: poses, efforts and accelerations of a robot by Pinocchio, at prescribed and free motion.
+
+Notation as in Featherstone, Rigid Body Dynamics Algorithms (2008): efforts of prescribed motion by the recursive
+Newton-Euler algorithm (RNEA, section 5.3), the inertia matrix H by the composite-rigid-body algorithm (CRBA,
+section 6.2), and both together as hybrid dynamics (section 9.2), in which base and axes move as prescribed, and free
+joints without any effort but their losses. Joints that mimic others enter through q = B·p + c with the positions p
+of the driven axes, so that the efforts of these are Bᵀ·tau.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from urdfsync.urdf.physics import motion
+from urdfsync.urdf.physics.motion import Course, Planar, Start
+from urdfsync.urdf.physics.reading import Array, Reading, pinocchio
+
+STEEPNESS = 50
+"""In s/rad or s/m: the dry friction of generated joints is f·tanh(50·v)."""
+
+_SINGULAR = 1e-12
+"""Ratio of the least to the greatest eigenvalue of an inertia that counts as singular."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Relative:
+    """State of a free joint: the child's frame in the joint frame, all resolved in the latter."""
+
+    place: Array
+    axes: Array
+    """The axes of the child's frame as columns."""
+    velocity: Array
+    turning: Array
+    """Angular velocity."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Frame:
+    """A link's frame as it moves in the world."""
+
+    place: Array
+    axes: Array
+    """The axes of the frame as columns."""
+    velocity: Array
+    """Resolved in the world."""
+    turning: Array
+    """Angular velocity, resolved in the link's frame."""
+
+
+@dataclasses.dataclass(frozen=True)
+class State:
+    """Pinocchio's configuration, velocity and acceleration; those of free joints may be unknown yet."""
+
+    q: Array
+    v: Array
+    a: Array
+
+
+class Reference:
+    """A robot in Pinocchio; `axes` are the names of its driven joints, `free` those of joints that nothing drives.
+
+    Free joints are named from the root to the leaves.
+    """
+
+    def __init__(self, reading: Reading, axes: Sequence[str], free: Sequence[str]) -> None:
+        self.pin = pinocchio()
+        self.model, self.planes = reading.model, reading.planes
+        self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
+        self.axes, self.free = tuple(axes), tuple(free)
+        self.projection, self._offset = self._mimic(reading)
+        loose = [np.arange(part.idx_v, part.idx_v + part.nv) for name in free for part in self._parts(name)]
+        self.loose = np.concatenate([np.zeros(0, dtype=int), *loose])
+        """Where free joints are in Pinocchio's velocity."""
+        self.bodies = [self.pin.Inertia(inertia) for inertia in self.model.inertias]
+        """The robot's own, per joint of Pinocchio."""
+
+    def start(self, name: str, start: Start) -> Relative:
+        """The state of a free joint from its start values."""
+        if not isinstance(start, Planar):
+            axes = self.pin.rpy.rpyToMatrix(*start.rpy)
+            return Relative(np.array(start.r), axes, np.array(start.v), np.array(start.w))
+        x, y, normal = self.planes[name].axes
+        place, velocity = (part[0] * x + part[1] * y for part in (start.s, start.v))
+        return Relative(place, self.pin.exp3(start.phi * normal), velocity, start.w * normal)
+
+    def state(self, time: float, courses: Sequence[Course], free: Mapping[str, Relative | Frame]) -> State:
+        """Where the robot is, `courses` being those of the axes from time 0; accelerations of free joints are 0."""
+        p, v, a = np.array([course.at(time) for course in courses]).reshape(-1, 3).T
+        positions = self.projection @ p + self._offset
+        state = State(self.pin.neutral(self.model), self.projection @ v, self.projection @ a)
+        for joint in self.model.joints[2:]:
+            if joint.nv == 1:
+                position = positions[joint.idx_v]
+                turns = joint.nq == 2  # continuous: cosine and sine
+                state.q[_slice(joint)] = (np.cos(position), np.sin(position)) if turns else position
+        _place_base(self.pin, state, time)
+        for name in self.free:
+            known = free[name]
+            self._place(state, name, known if isinstance(known, Relative) else self._relative(state, name, known))
+        return state
+
+    def solve(self, state: State) -> Instant:
+        """Efforts of base and axes, and accelerations of free joints."""
+        data, a = self.model.createData(), state.a.copy()
+        load = self._load(data, state.q, state.v, a)
+        if self.loose.size:
+            a[self.loose] = np.linalg.solve(self.free_inertia(state), -load[self.loose])
+            load = self._load(data, state.q, state.v, a)
+        self.pin.forwardKinematics(self.model, data, state.q, state.v, a)
+        self.pin.updateFramePlacements(self.model, data)
+        return Instant(self, data, load[:3], load[3:6], self.projection.T @ load)
+
+    def is_singular(self, state: State) -> bool:
+        """Whether free joints carry so little inertia that their accelerations have no solution."""
+        values = np.linalg.eigvalsh(self.free_inertia(state))
+        return bool(values.size and values[0] <= _SINGULAR * values[-1])
+
+    def hang_ballast(self, links: Iterable[str]) -> None:
+        """Load links with the bodies that the probe hangs on them; they are no part of the robot's own mass."""
+        tensor = np.diag(motion.BALLAST_INERTIA)
+        body = self.pin.Inertia(motion.BALLAST_MASS, np.array(motion.BALLAST_CENTRE), tensor)
+        for link in links:
+            frame = self.model.frames[self.model.getFrameId(link, self.pin.BODY)]
+            self.model.appendBodyToJoint(frame.parentJoint, body, frame.placement)
+
+    def free_inertia(self, state: State) -> Array:
+        """The part of the inertia matrix H that belongs to the free joints."""
+        upper = np.triu(self.pin.crba(self.model, self.model.createData(), state.q))
+        inertia = upper + np.triu(upper, 1).T
+        return np.asarray(inertia[np.ix_(self.loose, self.loose)])
+
+    def _load(self, data: Any, q: Array, v: Array, a: Array) -> Array:
+        """Efforts in all joints, losses included."""
+        losses = self.model.damping * v + self.model.friction * np.tanh(STEEPNESS * v)
+        return np.asarray(self.pin.rnea(self.model, data, q, v, a) + losses)
+
+    def _mimic(self, reading: Reading) -> tuple[Array, Array]:
+        """B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per driven axis."""
+        columns = {name: k for k, name in enumerate(self.axes)}
+        scalar = set(self.model.names) - set(self.free)
+        projection, offset = np.zeros((self.model.nv, len(columns))), np.zeros(self.model.nv)
+        for name, joint in zip(self.model.names, self.model.joints, strict=True):
+            factor, leader = 1.0, name
+            while leader in scalar and leader in reading.followers:
+                follower = reading.followers[leader]
+                offset[joint.idx_v] += factor * follower.offset
+                factor, leader = factor * follower.multiplier, follower.leader
+            if leader in columns:
+                projection[joint.idx_v, columns[leader]] = factor
+        return projection, offset
+
+    def _parts(self, name: str) -> list[Any]:
+        """Those of Pinocchio's joints that stand for a joint of the robot."""
+        names = self.planes[name].parts if name in self.planes else (name,)
+        return [self.model.joints[self.model.getJointId(part)] for part in names]
+
+    def _relative(self, state: State, name: str, frame: Frame) -> Relative:
+        """State of a free joint from the frame of its child; all joints before it are in place."""
+        first = self._parts(name)[0].id
+        data, parent, placement = self.model.createData(), self.model.parents[first], self.model.jointPlacements[first]
+        self.pin.forwardKinematics(self.model, data, state.q, state.v)
+        joint, moves = data.oMi[parent] * placement, placement.actInv(data.v[parent])
+        inward = joint.rotation.T
+        place, axes = inward @ (frame.place - joint.translation), inward @ frame.axes
+        velocity = inward @ frame.velocity - moves.linear - np.cross(moves.angular, place)
+        return Relative(place, axes, velocity, axes @ frame.turning - moves.angular)
+
+    def _place(self, state: State, name: str, at: Relative) -> None:
+        """Put a free joint into the configuration and velocity."""
+        parts = self._parts(name)
+        if name not in self.planes:
+            attitude = self.pin.Quaternion(at.axes).normalized().coeffs()
+            state.q[_slice(parts[0])] = np.concatenate([at.place, attitude])
+            state.v[parts[0].idx_v :][:6] = np.concatenate([at.axes.T @ at.velocity, at.axes.T @ at.turning])
+            return
+        x, y, normal = self.planes[name].axes
+        cosine, sine = x @ at.axes @ x, y @ at.axes @ x
+        values = (x @ at.place, y @ at.place, np.array([cosine, sine]) / np.hypot(cosine, sine))
+        speeds = (x @ at.velocity, y @ at.velocity, normal @ at.turning)
+        for part, value, speed in zip(parts, values, speeds, strict=True):
+            state.q[_slice(part)], state.v[part.idx_v] = value, speed
+
+
+@dataclasses.dataclass(frozen=True)
+class Instant:
+    """What the reference says of a robot at one instant."""
+
+    reference: Reference
+    data: Any
+    """Pinocchio's, with positions, velocities and accelerations of all frames."""
+    force: Array
+    """On the root link, in its frame."""
+    torque: Array
+    efforts: Array
+    """Of the driven axes."""
+
+    def frame(self, link: str) -> Frame:
+        """How the frame of a link moves."""
+        pin, number = self.reference.pin, self._number(link)
+        place = self.data.oMf[number]
+        velocity = self._velocity(number, pin.LOCAL_WORLD_ALIGNED).linear
+        turning = self._velocity(number, pin.LOCAL).angular
+        return Frame(np.array(place.translation), np.array(place.rotation), velocity, turning)
+
+    def acceleration(self, link: str) -> tuple[Array, Array]:
+        """Of a link's frame: the linear one resolved in the world, the angular one in the frame."""
+        pin, number = self.reference.pin, self._number(link)
+        values = [
+            pin.getFrameClassicalAcceleration(self.reference.model, self.data, number, resolved)
+            for resolved in (pin.LOCAL_WORLD_ALIGNED, pin.LOCAL)
+        ]
+        return values[0].linear, values[1].angular
+
+    def mass_and_centre(self) -> tuple[float, Array]:
+        """Mass of the whole robot and its centre in the world; zero without any mass."""
+        bodies = list(zip(self.reference.bodies, self.data.oMi, strict=True))
+        mass = sum(inertia.mass for inertia, _ in bodies)
+        moment = sum((inertia.mass * place.act(inertia.lever) for inertia, place in bodies), np.zeros(3))
+        return mass, moment / mass if mass else moment
+
+    def _number(self, link: str) -> int:
+        return int(self.reference.model.getFrameId(link, self.reference.pin.BODY))
+
+    def _velocity(self, number: int, resolved: Any) -> Any:
+        return self.reference.pin.getFrameVelocity(self.reference.model, self.data, number, resolved)
+
+
+def _place_base(pin: Any, state: State, time: float) -> None:
+    """Put the root link where `motion` says; Pinocchio resolves its velocity and acceleration in its own frame."""
+    place, velocity, acceleration = np.array([course.at(time) for course in motion.PATH]).T
+    angle, speed, gain = motion.TURN.at(time)
+    axis = np.array(motion.TURN_AXIS)
+    inward = pin.exp3(angle * axis).T
+    state.q[:7] = np.concatenate([place, pin.Quaternion(inward.T).coeffs()])
+    state.v[:6] = np.concatenate([inward @ velocity, speed * axis])
+    state.a[:6] = np.concatenate([inward @ acceleration - np.cross(speed * axis, inward @ velocity), gain * axis])
+
+
+def _slice(joint: Any) -> slice:
+    """Where a joint is in Pinocchio's configuration."""
+    return slice(joint.idx_q, joint.idx_q + joint.nq)
