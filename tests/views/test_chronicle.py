@@ -14,7 +14,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Event
 from urdfsync.domain import Role
-from urdfsync.outcome import Result
+from urdfsync.outcome import Checked, Result
 from urdfsync.plan import Action, Kind
 from urdfsync.views.chronicle import Chronicle
 from urdfsync.watching import events
@@ -105,6 +105,37 @@ def test_an_error_is_told_once_and_so_is_its_end() -> None:
     ]
     recovered = built(action(Kind.UPDATE), changes=HEAVIER, recovered=True)
     assert told(failed(BROKEN), recovered)[-1].endswith("1 record written, in step again")
+
+
+NO_CLASS = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", ELBOW, 4)
+CHECKED = events.Checked("arm", Checked.RIGHT, 2.54)
+WRONG = events.Checked("arm", Checked.WRONG, 2.54, (NO_CLASS,))
+
+
+def test_a_check_is_one_line_and_what_holds_is_not_said_again() -> None:
+    wrong = [f"! {ELBOW}:4: error: there is no class `Foo` [compile]"]
+    assert told(events.Checking("arm"), CHECKED) == ["14:03:12  arm  checked: compiles (2.5 s)"]
+    assert told(WRONG, WRONG, CHECKED) == [
+        "! 14:03:12  arm  checked: 1 error (2.5 s)",
+        *wrong,
+        "! 14:03:12  arm  checked: 1 error as before",
+        "14:03:12  arm  checked: compiles again (2.5 s)",
+    ]
+    assert told(CHECKED, WRONG, CHECKED, WRONG, quiet=True) == ["! 14:03:12  arm  checked: 1 error (2.5 s)", *wrong] * 2
+    assert told(WRONG, WRONG, quiet=True)[2:] == []
+    assert told(events.Checking("arm"), verbose=True) == ["14:03:12  arm  checking"]
+
+
+def test_what_was_known_of_a_package_took_no_time() -> None:
+    assert told(events.Checked("arm", Checked.RIGHT)) == ["14:03:12  arm  checked: compiles"]
+
+
+def test_what_could_not_be_checked_is_a_warning() -> None:
+    lacking = Diagnostic(Severity.WARNING, "no-compiler", "there is no compiler", hint="install it")
+    assert told(events.Checked("arm", Checked.INCOMPLETE, 0.0, (lacking,))) == [
+        "14:03:12  arm  not checked completely",
+        "! warning: there is no compiler; install it [no-compiler]",
+    ]
 
 
 def test_conflicts_are_shown_as_in_build_and_only_once() -> None:

@@ -28,16 +28,25 @@ _SHARE = 0.9
 _PAUSE = 0.1
 """Seconds between two looks."""
 
+_REPORT = "report it, with the source"
+
 _News: TypeAlias = "tuple[str, str | Verdict]"
 
 
-def check(config: Config, robots: Sequence[RobotConfig], wishes: Wishes, progress: Progress) -> Iterator[Verdict]:
+def check(
+    config: Config,
+    robots: Sequence[RobotConfig],
+    wishes: Wishes,
+    progress: Progress,
+    command: Sequence[str] = tuple(process.python(child.__name__)),
+) -> Iterator[Verdict]:
     """Check robots; the verdicts come in their order, each as soon as it and those before it are known.
 
-    Raises CompilerError if what a check needs is not installed, CacheError if there is no place for its cache.
+    `command` starts the process for one robot. Raises CompilerError if what a check needs is not installed,
+    CacheError if there is no place for its cache.
     """
     compiler.require()
-    crew = _Crew(config, robots, wishes)
+    crew = _Crew(config, robots, wishes, command)
     try:
         yield from crew.verdicts(progress)
     finally:
@@ -47,7 +56,8 @@ def check(config: Config, robots: Sequence[RobotConfig], wishes: Wishes, progres
 class _Crew:
     """The processes of one command."""
 
-    def __init__(self, config: Config, robots: Sequence[RobotConfig], wishes: Wishes) -> None:
+    def __init__(self, config: Config, robots: Sequence[RobotConfig], wishes: Wishes, command: Sequence[str]) -> None:
+        self._command = command
         cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
         self._most = min(wishes.jobs or cores, len(robots)) or 1
         self._wishes = dataclasses.replace(wishes, workers=max(1, cores // self._most))
@@ -96,33 +106,31 @@ class _Crew:
 
     def _check(self, name: str, memory: float) -> None:
         """One robot, from its process's start to its end. In a thread of its own."""
-        latest = Verdict(name, self._package(name))
+        latest, whole = Verdict(name, self._package(name)), False
 
         def hear(line: str) -> None:
-            nonlocal latest
+            nonlocal latest, whole
             step = child.loads(line)
             if step.verdict is not None:
-                latest = step.verdict
-            if step.what:
+                latest, whole = step.verdict, step.whole
+            elif step.what:
                 self._news.put((name, step.what))
 
         order = child.Order(str(self._config.file), name, os.getcwd(), self._wishes)  # noqa: PTH109 - as a text
         text = msgspec.json.encode(order, enc_hook=str).decode() + "\n"
         limits = Limits(self._wishes.timeout, memory)
         try:
-            result = process.run(process.python(child.__name__), text, hear, limits, process.importable(), self._tick)
+            result = process.run(self._command, text, hear, limits, process.importable(), self._tick)
         except _StoppedError:
             return
         except (OSError, ValueError, msgspec.ValidationError) as error:
-            message, hint = f"robot `{name}`: the process that checks it can't be used: {error}", "report it"
-            found = Diagnostic(Severity.ERROR, "check-crashed", message, hint=hint)
-            self._news.put((name, dataclasses.replace(latest, diagnostics=(found,))))
+            self._news.put((name, _failed(latest, "check-crashed", f"its process can't be used: {error}", _REPORT)))
             return
         if result.ending is Ending.OUT_OF_MEMORY and memory < self._budget:
             self._alone.append(name)
-            self._news.put((name, "waits for more memory"))
+            self._news.put((name, f"{name}: waits for more memory"))
             return
-        self._news.put((name, latest if result.good else _ended(latest, result, limits)))
+        self._news.put((name, latest if result.good and whole else _ended(latest, result, limits)))
 
     def _tick(self) -> None:
         if self._stopped.is_set():
@@ -160,17 +168,19 @@ def _free() -> float:
     return float(psutil.virtual_memory().available)
 
 
-def _ended(verdict: Verdict, result: process.Result, limits: Limits) -> Verdict:
+def _ended(latest: Verdict, result: process.Result, limits: Limits) -> Verdict:
     """What was found until the process ended before it was through, and why it did."""
     if result.ending is Ending.OUT_OF_TIME:
-        message, hint = f"not done after {limits.seconds:g} s", "allow more with `--timeout`"
-        code = "check-out-of-time"
-    elif result.ending is Ending.OUT_OF_MEMORY:
-        message = f"takes more than the {limits.memory / 1e9:.1f} GB that it may"
-        code, hint = "check-out-of-memory", "allow more with `--memory`, or use a machine that has more"
-    else:
-        last = result.words.splitlines()[-1:]
-        message = ": ".join([f"the check broke down with {result.cause}", *last])
-        code, hint = "check-crashed", "report it, with the URDF"
-    found = Diagnostic(Severity.ERROR, code, f"robot `{verdict.robot}`: {message}", hint=hint)
-    return dataclasses.replace(verdict, diagnostics=(*verdict.diagnostics, found), seconds=result.seconds)
+        message, hint = f"it was not done after {limits.seconds:g} s", "allow more with `--timeout`"
+        return _failed(latest, "check-out-of-time", message, hint)
+    if result.ending is Ending.OUT_OF_MEMORY:
+        message = f"it takes more than the {limits.memory / 1e9:.1f} GB that it may"
+        return _failed(latest, "check-out-of-memory", message, "allow more with `--memory`, or use a larger machine")
+    message = ": ".join([f"its process ended with {result.cause}", *result.words.splitlines()[-1:]])
+    return _failed(latest, "check-crashed", message, _REPORT)
+
+
+def _failed(latest: Verdict, code: str, message: str, hint: str) -> Verdict:
+    """A verdict that has come to nothing half way."""
+    found = Diagnostic(Severity.ERROR, code, f"the check of robot `{latest.robot}`: {message}", hint=hint)
+    return dataclasses.replace(latest, diagnostics=(*latest.diagnostics, found))

@@ -34,10 +34,12 @@ class Order(msgspec.Struct, frozen=True):
 
 
 class Step(msgspec.Struct, frozen=True):
-    """One line of the answer: what is being done, or what is known so far; the last line has the whole verdict."""
+    """One line of the answer: what is being done, or what is known so far."""
 
     what: str = ""
     verdict: Verdict | None = None
+    whole: bool = False
+    """Whether nothing more comes after this verdict."""
 
 
 def dumps(step: Step) -> str:
@@ -66,7 +68,7 @@ def main() -> None:
         try:
             _check(order, write)
         except UrdfsyncError as error:  # the configuration has changed since
-            write(Step(verdict=Verdict(order.robot, "", diagnostics=error.diagnostics)))
+            write(Step(verdict=Verdict(order.robot, "", diagnostics=error.diagnostics), whole=True))
 
 
 def _check(order: Order, answer: Callable[[Step], None]) -> None:
@@ -84,7 +86,7 @@ def _check(order: Order, answer: Callable[[Step], None]) -> None:
         tell=lambda what, *_: answer(Step(what=what)),
         keep=lambda so_far: answer(Step(verdict=so_far)),
     )
-    answer(Step(verdict=verdict))
+    answer(Step(verdict=verdict, whole=True))
 
 
 def _restored(kind: type, value: Any) -> Any:

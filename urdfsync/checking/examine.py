@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
 
 from urdfsync.checking import edits, layout, problems, toolbox
 from urdfsync.checking.cache import Cache
@@ -23,15 +23,6 @@ from urdfsync.domain import Experiment
 from urdfsync.planning.situation import Progress, Request
 
 _UNSTEP = "the package is not in step with its source: `urdfsync build` brings it there"
-
-
-def on_disk(config: Config, robot: RobotConfig, request: Request, limits: Limits, tell: Progress) -> Verdict:
-    """Check syntax and layout of the package on disk, compile its models, and see that they are balanced.
-
-    Whatever `tell` raises gives it up.
-    """
-    wishes = Wishes(wait=request.wait, package_paths=request.package_paths)
-    return examine(config, robot, wishes, limits, tell, keep=lambda _: None)
 
 
 def examine(
@@ -83,37 +74,53 @@ class _Stages:
 
     def run(self) -> None:
         """Compile, and compare if that is wanted."""
-        subject, missing = self._subject, self._tools.missing
-        loaded = self._tools.load("package", subject.texts)
-        if missing is not None:
-            self._without_library(loaded, missing)
+        if self._tools.missing is not None:
+            self._without_library(self._tools.missing)
             return
-        physics = self._wishes.physics and self._wishes.tool == "rumoca"
-        models = list(subject.models[1:] if physics else subject.models)
-        count = 1 if physics else max(1, min(self._wishes.workers, len(models)))
-        jobs: list[Callable[[], None]] = [
-            partial(self._compile, loaded, models[number::count]) for number in range(count)
-        ]
-        if physics:
-            jobs = [partial(self._compare_generated), *jobs, *self._edited_job()]
-        elif not self._wishes.physics:
-            self._findings.leave_out("poses and efforts were not compared: `--physics` does that")
+        jobs = [*self._comparisons(), *self._compilations()] if self._wishes.physics else self._compilations()
         self._all(jobs)
         if self._whole is not None and self._generated is not None:
             self._attribute(self._whole, self._generated)
-        order = list(subject.models)
+        order = list(self._subject.models)
+        if self._compares and not any(one.model == order[0] for one in self._findings.verdict.compiled):
+            self._all([functools.partial(self._compile, self._loaded, order[:1])])
         compiled = sorted(self._findings.verdict.compiled, key=lambda one: order.index(one.model))
         self._findings.note(compiled=tuple(compiled))
 
-    def _without_library(self, loaded: Loaded, missing: UrdfsyncError) -> None:
-        """See to the names inside of the package: that goes without the Modelica Standard Library."""
-        asked = self._subject.config.check.library is not None or self._wishes.physics
+    def _compilations(self) -> list[Callable[[], None]]:
+        """The models by themselves, in as many processes as may work; the main one is part of a comparison."""
+        wishes, models = self._wishes, self._subject.models
+        if self._compares:
+            models = models[1:]
+        elif not wishes.physics:
+            self._findings.leave_out("poses and efforts were not compared: `--physics` does that")
+        count = 1 if self._compares else max(1, min(wishes.workers, len(models)))
+        return [functools.partial(self._compile, self._loaded, models[number::count]) for number in range(count)]
+
+    @functools.cached_property
+    def _loaded(self) -> Loaded:
+        return self._tools.load("package", self._subject.texts)
+
+    def _comparisons(self) -> list[Callable[[], None]]:
+        """What is generated, and what is on disk if that differs."""
+        if not self._compares:
+            self._findings.leave_out(f"poses and efforts were not compared: `--tool {self._wishes.tool}` only compiles")
+            return []
+        if not self._subject.in_step:
+            self._findings.leave_out(f"the package on disk was not compared: {_UNSTEP}")
+            return [self._compare_generated]
+        return [self._compare_generated, *([self._compare_edited] if self._subject.edited else [])]
+
+    @property
+    def _compares(self) -> bool:
+        return self._wishes.physics and self._wishes.tool == "rumoca"
+
+    def _without_library(self, missing: UrdfsyncError) -> None:
+        """Say why nothing is compiled: an error only if somebody asked for more."""
         found = missing.diagnostics[0]
-        if asked:
+        if self._subject.config.check.library is not None or self._wishes.physics:
             self._findings.say([found])
         self._findings.leave_out(f"nothing was compiled: {found.message}; {found.hint}")
-        (outcome,) = self._tools.run(loaded, [self._task(self._subject.models[0])])
-        self._explain(outcome.problem, loaded, ("Modelica", "ModelicaServices", "Complex"))
 
     def _compile(self, loaded: Loaded, models: Sequence[str]) -> None:
         tasks = [self._task(model) for model in models]
@@ -133,11 +140,9 @@ class _Stages:
     def _task(self, model: str) -> Task:
         return compiling(f"{self._subject.robot.target.package}.{model}")
 
-    def _explain(self, text: str, loaded: Loaded, absent: Sequence[str] = ()) -> None:
-        if text:
-            said = self._findings.verdict.diagnostics
-            case = Case(self._subject.package, self._tools.folders(loaded), said, absent)
-            self._findings.say(problems.explain(text, case))
+    def _explain(self, text: str, loaded: Loaded) -> None:
+        case = Case(self._subject.package, self._tools.folders(loaded), self._findings.verdict.diagnostics)
+        self._findings.say(problems.explain(text, case))
 
     def _experiment(self, complete: bool) -> Experiment | None:
         subject = self._subject
@@ -156,24 +161,26 @@ class _Stages:
         loaded = self._tools.load("generated", self._subject.rendering.package(experiment.content))
         self._generated = self._measure(experiment, loaded)
         self._findings.note(generated=self._generated)
-
-    def _edited_job(self) -> list[Callable[[], None]]:
-        if not self._subject.in_step:
-            self._findings.leave_out(f"the package on disk was not compared: {_UNSTEP}")
-            return []
-        return [partial(self._compare_edited)] if self._subject.edited else []
+        if experiment.content == self._subject.rendering.content and not self._subject.edited:
+            self._is_part()
 
     def _compare_edited(self) -> None:
         """The package on disk, against the reference; that it can't be compared is no fault of an edited package."""
         self._progress("moving the edited package")
-        self._whole = self._try("package", self._subject.disk)
+        self._whole = self._try(self._loaded)
+        if self._whole is not None:
+            self._is_part()
 
-    def _try(self, label: str, texts: Mapping[str, bytes]) -> Comparison | None:
+    def _is_part(self) -> None:
+        """The main model has compiled as a part of a comparison."""
+        self._findings.compiled(Compiled(self._subject.models[0], 0, 0))
+
+    def _try(self, loaded: Loaded) -> Comparison | None:
         experiment = self._experiment(complete=False)
         if experiment is None:
             return None
         try:
-            return self._measure(experiment, self._tools.load(label, texts))
+            return self._measure(experiment, loaded)
         except _NotMeasuredError as error:
             self._findings.leave_out(f"the edited package was not compared: {error.diagnostics[0].message}")
             return None
@@ -183,12 +190,13 @@ class _Stages:
         subject, single = self._subject, dict[str, Comparison]()
         if not whole.agrees:
             packages = edits.variants(subject.edited, subject.generated, subject.disk)
-            self._all([partial(self._try_one, file, texts, single) for file, texts in packages])
+            self._all([functools.partial(self._try_one, file, texts, single) for file, texts in packages])
         self._findings.note(effects=edits.effects(subject.edited, whole, single, generated))
 
     def _try_one(self, file: str, texts: Mapping[str, bytes], single: dict[str, Comparison]) -> None:
         self._progress(f"moving the package with {file}")
-        found = self._try(f"with-{file.replace('/', '-').removesuffix('.mo')}", texts)
+        label = f"with-{file.replace('/', '-').removesuffix('.mo')}"
+        found = self._try(self._tools.load(label, texts))
         if found is not None:
             single[file] = found
 

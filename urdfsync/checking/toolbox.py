@@ -11,6 +11,8 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
+import msgspec
+
 from urdfsync import modelica
 from urdfsync.checking import library, slim, workspace
 from urdfsync.checking.cache import Cache
@@ -72,8 +74,7 @@ class Toolbox:
         self, loaded: Loaded, tasks: Sequence[Task], tell: Callable[[int, Outcome], None] = ignore
     ) -> list[Outcome]:
         """Do tasks in a process of their own. Raises CompilerError."""
-        imports = "".join(f"import {name}; " for name in loaded.libraries)
-        named = [_with_imports(task, imports) for task in tasks]
+        named = [_with_imports(task, list(loaded.libraries)) for task in tasks]
         return self._compiler.compile(Job(loaded.roots, tuple(named)), self._limits, tell)
 
     def folders(self, loaded: Loaded) -> dict[Path, Path]:
@@ -128,7 +129,8 @@ def _first_names(texts: Sequence[str]) -> set[str]:
     return {name for text in texts for name in re.findall(r"(?<![\w.])([A-Z]\w*)(?=\.[A-Za-z])", text)}
 
 
-def _with_imports(task: Task, imports: str) -> Task:
-    """The task with imports behind the first line of its text, which opens a class."""
+def _with_imports(task: Task, names: Sequence[str]) -> Task:
+    """The task with imports of libraries behind the first line of its text, which opens a class."""
     first, _, rest = task.source.partition("\n")
-    return Task(task.model, f"{first}\n{imports}\n{rest}", task.runs, task.values, task.name) if imports else task
+    imports = "".join(f"  import {name};\n" for name in names if f"import {name};" not in rest)
+    return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")

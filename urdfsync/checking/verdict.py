@@ -90,6 +90,8 @@ class Verdict:
     """From beginning to end."""
     megabytes: float = 0.0
     """Peak memory of a process that worked for it."""
+    reference: str = ""
+    """What `generated` was compared with, for example `Pinocchio 3.4`; empty if nothing was."""
 
     @property
     def failed(self) -> bool:

@@ -6,6 +6,7 @@ are left out, unless they are mentioned.
 
 from __future__ import annotations
 
+import codecs
 import os
 import re
 import shutil
@@ -31,12 +32,13 @@ def surroundings(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
     Packages around the robot's that do not exist yet are made up.
     """
     top = robot.output / robot.target.package.partition(".")[0]
-    others = {other.folder: other for other in config.robots if other.folder != robot.folder}
+    others = {other.folder: _name(other) for other in config.robots if top in other.folder.parents}
+    others.pop(robot.folder, None)
     found = _read(robot, top, frozenset({robot.folder, *others})) if top != robot.folder else {}
-    waiting = [*texts.values(), *found.values()]
+    waiting = [*texts.values(), *found.values()] if others else []
     while waiting:
         text = waiting.pop()
-        for folder in [folder for folder, other in others.items() if _mentions(text, other) and top in folder.parents]:
+        for folder in [folder for folder, name in others.items() if _mentions(text, name)]:
             del others[folder]
             more = _read(robot, folder, frozenset(others))
             found |= more
@@ -59,7 +61,7 @@ def write(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: 
         if path.relative_to(folder).as_posix() not in wanted:
             path.unlink()
     for name, content in wanted.items():
-        path = folder / name
+        path, content = folder / name, content.removeprefix(codecs.BOM_UTF8)
         if not (path.is_file() and path.read_bytes() == content):
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(content)
@@ -82,12 +84,16 @@ def _files(folder: Path, without: frozenset[Path]) -> Iterator[Path]:
             for name in sorted(folders)
             if name not in _NOT_CLASSES and not name.startswith(".") and here / name not in without
         ]
-        yield from (here / name for name in sorted(files) if name.endswith(".mo") or name == "package.order")
+        own = (name for name in sorted(files) if not name.startswith("."))  # editors leave some that do
+        yield from (here / name for name in own if name.endswith(".mo") or name == "package.order")
 
 
-def _mentions(text: bytes, other: RobotConfig) -> bool:
-    name = other.target.package.rpartition(".")[2].encode()
-    return re.search(rb"\b" + name + rb"\b", text) is not None
+def _name(other: RobotConfig) -> bytes:
+    return other.target.package.rpartition(".")[2].encode()
+
+
+def _mentions(text: bytes, name: bytes) -> bool:
+    return name in text and re.search(rb"\b" + name + rb"\b", text) is not None
 
 
 def _parents(package: str) -> Iterator[str]:

@@ -1,0 +1,127 @@
+"""Checks a folder of URDF files as `urdfsync check --physics` does, and prints a table.
+
+`python tests/check_corpus.py [FOLDER] [--only TEXT …] [--timeout S] [--jobs N]` takes all `*.urdf` below the folder,
+the public corpus if none is named; `--only` those with one of the texts in their path. Stationary or mobile is as
+`init` proposes. Exits with 1 if anything differs or fails that urdfsync can read.
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import importlib.metadata
+import os
+import platform
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from support.corpus import FOLDER
+
+import urdfsync
+from urdfsync import config, init
+from urdfsync.checking import checker, library
+from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, Standing, Verdict
+from urdfsync.checking.wishes import Wishes
+from urdfsync.diagnostics import SourceError
+from urdfsync.domain import Deviation, Quantity
+
+HEADER = (
+    *("file", "base", "links", "axes", "models", "equations = unknowns", "pose error", "effort error", "mass error"),
+    *("s", "MB", "result"),
+)
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Print one row per file, as soon as it is known."""
+    options = _options(arguments)
+    files = [file for file in sorted(options.folder.rglob("*.urdf")) if file.is_file()]
+    files = [file for file in files if not options.only or any(text in str(file) for text in options.only)]
+    print(_versions())  # noqa: T201
+    _row(HEADER)
+    _row(["---"] * len(HEADER))
+    with tempfile.TemporaryDirectory() as folder:
+        return _check(files, options, Path(folder))
+
+
+def _options(arguments: Sequence[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", nargs="?", type=Path, default=FOLDER / "robots")
+    parser.add_argument("--only", nargs="*", default=[], metavar="TEXT")
+    parser.add_argument("--timeout", type=float, default=1800.0, metavar="S")
+    parser.add_argument("--jobs", type=int, metavar="N")
+    return parser.parse_args(arguments)
+
+
+def _check(files: Sequence[Path], options: argparse.Namespace, folder: Path) -> int:
+    """Check files in a project in `folder`."""
+    readable = [file for file in files if not _refused(file, options.folder, folder)]
+    if not readable:
+        return 0
+    draft = init.draft(folder / config.FILE_NAME, readable, "urdf")
+    init.write(draft)
+    configuration = config.load(draft.file)
+    wishes = Wishes(physics=True, timeout=options.timeout, jobs=options.jobs)
+    bases = {
+        guess.robot: str(next((o.value for o in guess.options if o.option == "base"), "")) for guess in draft.guesses
+    }
+    names = {robot.name: robot.source for robot in configuration.robots}
+    verdicts = []
+    for verdict in checker.check(configuration, configuration.robots, wishes, lambda *_: None):
+        name = names[verdict.robot].relative_to(options.folder.absolute()).as_posix()
+        _row([name, bases[verdict.robot], *_cells(verdict)])
+        verdicts.append(verdict)
+    return int(any(verdict.standing(strict=True) is not Standing.RIGHT for verdict in verdicts))
+
+
+def _refused(file: Path, root: Path, folder: Path) -> bool:
+    """Whether a file has errors; if so its row says which."""
+    try:
+        init.draft(folder / config.FILE_NAME, [file], "urdf")
+    except SourceError as error:
+        codes = ", ".join(sorted({found.code for found in error.diagnostics}))
+        _row([file.relative_to(root).as_posix(), *[""] * (len(HEADER) - 2), f"refused: {codes}"])
+        return True
+    return False
+
+
+def _cells(verdict: Verdict) -> Iterator[str]:
+    generated = verdict.generated
+    found = generated.deviations if generated else ()
+    yield str(sum(one.quantity is Quantity.POSITION for one in found)) if generated else ""
+    yield (
+        str(sum(one.quantity is Quantity.EFFORT and one.element.startswith("joint") for one in found))
+        if generated
+        else ""
+    )
+    yield str(len(verdict.compiled))
+    yield f"{max((one.unknowns for one in verdict.compiled), default=0):,}"
+    for quantities in (POSES, EFFORTS, MASSES):
+        yield _error(generated.worst(quantities)) if generated else ""
+    yield f"{verdict.seconds:.0f}"
+    yield f"{verdict.megabytes:.0f}"
+    said = [one.message for one in verdict.diagnostics if one.severity == "error"]
+    yield "; ".join([verdict.standing(strict=True), *said, *verdict.notes])
+
+
+def _error(worst: Deviation | None) -> str:
+    return "" if worst is None else f"{worst.relative:.0e}"
+
+
+def _row(cells: Sequence[str]) -> None:
+    print(f"| {' | '.join(cells)} |", flush=True)  # noqa: T201
+
+
+def _versions() -> str:
+    packages = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("rumoca", "pin"))
+    standard = library.standard(os.environ, Path.home()).version
+    today = datetime.datetime.now(tz=datetime.UTC).date()
+    python = platform.python_version()
+    return (
+        f"{today}; urdfsync {urdfsync.__version__}, {packages}, Modelica Standard Library {standard}, Python {python}\n"
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,397 @@
+"""The check after a build: when it is made, what is remembered of it, and what becomes of the build's result."""
+
+from __future__ import annotations
+
+import dataclasses
+import errno
+import importlib.util
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from urdfsync import cli, config, looking
+from urdfsync.build import build
+from urdfsync.checking import afterbuild, memory
+from urdfsync.checking.compiler import CompilerError
+from urdfsync.checking.library import LibraryError
+from urdfsync.checking.verdict import Compiled, Verdict
+from urdfsync.commands import building
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.outcome import Checked, Exit, Result, exit_code
+from urdfsync.planning.situation import Progress, Request
+
+RIGHT = Verdict("ladder", "Ladder", compiled=(Compiled("Ladder", 12, 3),), seconds=2.5)
+BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)
+WRONG = Verdict("ladder", "Ladder", diagnostics=(BROKEN,))
+SYNTAX = Verdict("ladder", "Ladder", unchecked=("nothing was compiled, since there is no library",))
+OTHER = '[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\non_build = "check"\n'
+MODEL = "modelica/Ladder/Elements/R2.mo"
+
+
+class Examiner:
+    """Gives one verdict after the other, the last one again and again, and knows what it was asked for."""
+
+    def __init__(self, *verdicts: Verdict | BaseException) -> None:
+        self.asked: list[str] = []
+        self._verdicts = list(verdicts)
+
+    def __call__(
+        self, config: Config, robots: Sequence[RobotConfig], request: Request, tell: Progress
+    ) -> Iterator[Verdict]:
+        for count, robot in enumerate(robots):
+            self.asked.append(robot.name)
+            tell(f"{robot.name}: compiling", count, len(robots))
+            verdict = self._verdicts.pop(0) if len(self._verdicts) > 1 else self._verdicts[0]
+            if isinstance(verdict, BaseException):
+                raise verdict
+            yield verdict
+
+
+@pytest.fixture
+def project(project: Path) -> Path:
+    """The project with a check after each build."""
+    add(project, 'on_build = "check"\n')
+    return project
+
+
+def add(project: Path, text: str) -> None:
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write(text)
+
+
+def run(examiner: Examiner, **wishes: Any) -> list[Result]:
+    """Build and check all robots."""
+    loaded, request = config.load(Path("urdfsync.toml")), Request(wait=1, **wishes)
+    return list(afterbuild.checked(loaded, request, build(loaded, loaded.robots, request), examiner))
+
+
+def stand_in(monkeypatch: pytest.MonkeyPatch, examiner: Examiner) -> None:
+    """Commands use this examiner."""
+    checked = afterbuild.checked
+    monkeypatch.setattr(afterbuild, "checked", lambda one, two, three: checked(one, two, three, examiner))
+
+
+def note(project: Path) -> Path:
+    return project / ".urdfsync" / "checked" / "ladder.json"
+
+
+def test_a_package_that_is_right_is_checked_once(project: Path) -> None:
+    examiner = Examiner(RIGHT)
+    first, second = run(examiner)[0], run(examiner)[0]
+    assert examiner.asked == ["ladder"]
+    assert first.checked is second.checked is Checked.RIGHT
+    assert second.in_step
+
+
+def test_a_package_that_is_wrong_is_checked_after_each_build_until_it_is_right(project: Path) -> None:
+    examiner = Examiner(WRONG, WRONG, RIGHT)
+    for _ in range(2):
+        (result,) = run(examiner)
+        assert result.checked is Checked.WRONG
+        assert result.diagnostics == (BROKEN,)
+        assert not result.failed
+        assert exit_code([result]) is Exit.ERROR
+    assert run(examiner)[0].checked is Checked.RIGHT
+    assert exit_code(run(examiner)) is Exit.IN_STEP
+    assert len(examiner.asked) == 3
+
+
+def test_what_is_wrong_is_not_taken_for_what_was_right_before(project: Path) -> None:
+    original = (project / "ladder.json").read_text()
+    run(Examiner(RIGHT))
+    (project / "ladder.json").write_text(original.replace("220.5", "330"))
+    run(Examiner(WRONG))
+    (project / "ladder.json").write_text(original)
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    assert examiner.asked == ["ladder"], "only the last check is remembered"
+
+
+def edit_model(project: Path) -> None:
+    with (project / MODEL).open("a") as file:
+        file.write("// mine\n")
+
+
+def add_class(project: Path) -> None:
+    (project / "modelica" / "Ladder" / "Mine.mo").write_text("within Ladder;\nmodel Mine end Mine;\n")
+
+
+def change_order(project: Path) -> None:
+    with (project / "modelica" / "Ladder" / "package.order").open("a") as file:
+        file.write("Mine\n")
+
+
+def change_library(project: Path) -> None:
+    for name in ("Modelica", "ModelicaServices", "Complex"):
+        folder = project / "libraries" / f"{name} 4.1.0"
+        folder.mkdir(parents=True)
+        (folder / "package.mo").write_text(f"package {name} end {name};\n")
+
+
+@pytest.mark.parametrize("change", [edit_model, add_class, change_order, change_library])
+def test_it_is_checked_again_when_something_matters_that_a_build_does_not_see(project: Path, change: Any) -> None:
+    add(project, '[check]\nlibrary = "libraries"\n')
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    change(project)
+    run(examiner)
+    run(examiner)
+    assert examiner.asked == ["ladder"] * 2
+
+
+def test_other_files_of_a_package_do_not_matter(project: Path) -> None:
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    (project / "modelica" / "Ladder" / "notes.txt").write_text("mine")
+    run(examiner)
+    assert examiner.asked == ["ladder"]
+
+
+@pytest.mark.parametrize("name", ["compiler", "__version__"])
+def test_it_is_checked_again_with_another_tool(project: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    monkeypatch.setattr(memory, name, (lambda: "rumoca-99") if name == "compiler" else "99")
+    run(examiner)
+    assert examiner.asked == ["ladder"] * 2
+
+
+def test_a_full_build_checks_in_any_case(project: Path) -> None:
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    run(examiner, full=True)
+    assert examiner.asked == ["ladder"] * 2
+
+
+@pytest.mark.parametrize("content", [b"", b"\xff", b"[]", b'{"fingerprint": "0", "checked": "right"}'])
+def test_what_is_remembered_may_be_lost(project: Path, content: bytes) -> None:
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    note(project).write_bytes(content)
+    assert run(examiner)[0].checked is Checked.RIGHT
+    assert examiner.asked == ["ladder"] * 2
+
+
+def test_where_nothing_can_be_remembered_it_is_checked_each_time(project: Path) -> None:
+    (project / ".urdfsync").mkdir()
+    (project / ".urdfsync" / "checked").write_text("in the way")
+    examiner = Examiner(RIGHT)
+    assert [run(examiner)[0].checked for _ in range(2)] == [Checked.RIGHT] * 2
+    assert examiner.asked == ["ladder"] * 2
+
+
+def test_nothing_is_written_through_a_link(project: Path, tmp_path: Path) -> None:
+    outside = tmp_path / "outside"
+    outside.mkdir()
+    (project / ".urdfsync").mkdir()
+    (project / ".urdfsync" / "checked").symlink_to(outside)
+    run(Examiner(RIGHT))
+    assert list(outside.iterdir()) == []
+
+
+def test_git_ignores_what_is_remembered(project: Path) -> None:
+    run(Examiner(RIGHT))
+    assert note(project).is_file()
+    assert [path.name for path in note(project).parent.iterdir()] == ["ladder.json"], "no temporary file is left"
+    assert "/*\n" in (project / ".urdfsync" / ".gitignore").read_text()
+
+
+def test_a_check_is_not_remembered_if_somebody_saves_meanwhile(project: Path) -> None:
+    class Saving(Examiner):
+        def __call__(self, *arguments: Any) -> Iterator[Verdict]:
+            edit_model(project)
+            return super().__call__(*arguments)
+
+    examiner = Saving(RIGHT)
+    run(examiner)
+    run(examiner)
+    assert len(examiner.asked) == 2
+
+
+@pytest.mark.parametrize("error", [OutputError(BROKEN), PermissionError(errno.EACCES, "Permission denied", "x.mo")])
+def test_a_check_that_fails_is_an_error_of_its_robot(project: Path, error: Exception) -> None:
+    (result,) = run(Examiner(error))
+    assert result.checked is Checked.WRONG
+    (found,) = result.diagnostics
+    assert str(found) in (str(BROKEN), "x.mo: error: the packages can't be checked: Permission denied [system]")
+
+
+def test_what_could_not_be_checked_is_said_once_for_all_robots_and_at_each_build(project: Path) -> None:
+    add(project, OTHER)
+    examiner = Examiner(SYNTAX)
+    for _ in range(2):
+        ladder, other = run(examiner)
+        assert ladder.checked is other.checked is Checked.INCOMPLETE
+        assert [str(found) for found in (*ladder.diagnostics, *other.diagnostics)] == [
+            "warning: nothing was compiled, since there is no library [not-checked]"
+        ]
+        assert exit_code([ladder, other]) is Exit.IN_STEP
+    assert examiner.asked == ["ladder", "other"]
+
+
+NO_COMPILER = Diagnostic(Severity.ERROR, "no-compiler", "there is no compiler", hint="install it")
+NO_LIBRARY = Diagnostic(Severity.ERROR, "wrong-library-folder", "there is no library", hint="name another folder")
+
+
+@pytest.mark.parametrize("way", [CompilerError(NO_COMPILER), Verdict("ladder", "Ladder", diagnostics=(NO_COMPILER,))])
+def test_a_machine_without_a_compiler_is_a_warning_and_no_fault(project: Path, way: Any) -> None:
+    (result,) = run(Examiner(way))
+    assert result.checked is Checked.INCOMPLETE
+    assert result.diagnostics == (dataclasses.replace(NO_COMPILER, severity=Severity.WARNING),)
+    assert run(Examiner(way))[0].diagnostics == result.diagnostics, "it is said at each build"
+
+
+def test_what_keeps_one_package_from_being_checked_keeps_all(project: Path) -> None:
+    add(project, OTHER)
+    examiner = Examiner(RIGHT, OutputError(BROKEN))
+    ladder, other = run(examiner)
+    assert (ladder.checked, other.checked) == (Checked.RIGHT, Checked.WRONG)
+    assert other.diagnostics == (BROKEN,)
+    assert [result.checked for result in run(Examiner(CompilerError(NO_COMPILER)), full=True)] == [
+        Checked.INCOMPLETE,
+        Checked.INCOMPLETE,
+    ]
+
+
+def test_what_a_check_leaves_out_when_it_compiles_is_not_worth_a_word(project: Path) -> None:
+    (result,) = run(Examiner(dataclasses.replace(RIGHT, unchecked=("poses were not compared",))))
+    assert (result.checked, result.diagnostics) == (Checked.RIGHT, ())
+
+
+def test_a_library_that_is_named_and_not_there_is_an_error(project: Path) -> None:
+    (result,) = run(Examiner(LibraryError(NO_LIBRARY)))
+    assert (result.checked, result.diagnostics) == (Checked.WRONG, (NO_LIBRARY,))
+
+
+def test_without_the_extra_the_real_check_says_what_to_install(
+    project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    find = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "rumoca" else find(name))
+    assert cli.main(["build"]) == 0
+    streams = capsys.readouterr()
+    assert "files written; not checked completely" in streams.out
+    assert "warning: there is no compiler: " in streams.err
+    assert "pip install 'urdfsync[check]'" in streams.err
+
+
+def test_robots_that_are_not_to_be_checked_are_not(project: Path) -> None:
+    add(project, '[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    examiner = Examiner(RIGHT)
+    assert [result.checked for result in run(examiner)] == [Checked.RIGHT, None]
+    assert examiner.asked == ["ladder"]
+
+
+def test_failed_and_dry_builds_are_not_checked(project: Path) -> None:
+    examiner = Examiner(RIGHT)
+    assert [result.checked for result in run(examiner, dry=True)] == [None]
+    (project / "ladder.json").write_text("{")
+    assert [result.checked for result in run(examiner)] == [None]
+    assert examiner.asked == []
+
+
+def test_a_package_with_a_conflict_is_checked_as_it_is_on_disk(project: Path) -> None:
+    run(Examiner(RIGHT))
+    record = project / "modelica" / "Ladder" / "Elements" / "R2Parameters.mo"
+    record.write_text(record.read_text().replace("220.5", "221"))
+    source = project / "ladder.json"
+    source.write_text(source.read_text().replace("220.5", "330"))
+    (result,) = run(Examiner(RIGHT))
+    assert result.conflicts
+    assert result.checked is Checked.RIGHT
+    assert exit_code([result]) is Exit.CONFLICT
+    assert exit_code([dataclasses.replace(result, checked=Checked.WRONG)]) is Exit.ERROR
+
+
+def names(results: Sequence[Result]) -> list[str]:
+    return [result.robot for result in results]
+
+
+def test_results_keep_their_order_and_the_lock_is_free_while_packages_are_checked(project: Path) -> None:
+    text = '[robots.{0}]\nsource = "ladder.json"\npackage = "{1}"\ndomain = "rcnetwork"\n{2}'
+    add(project, text.format("plain", "Plain", "") + text.format("last", "Last", 'on_build = "check"\n'))
+
+    class Building(Examiner):
+        def __call__(
+            self, config: Config, robots: Sequence[RobotConfig], request: Request, tell: Progress
+        ) -> Iterator[Verdict]:
+            again = dataclasses.replace(request, wait=0)
+            (project / "ladder.json").write_text((project / "ladder.json").read_text().replace("220.5", "330"))
+            assert not any(result.locked for result in build(config, config.robots, again))
+            return super().__call__(config, robots, request, tell)
+
+    examiner = Building(RIGHT)
+    assert names(run(examiner)) == ["ladder", "plain", "last"]
+    assert examiner.asked == ["ladder", "last"]
+
+
+def test_who_interrupts_a_check_is_told_what_was_built(project: Path) -> None:
+    loaded, request = config.load(Path("urdfsync.toml")), Request(wait=1)
+    told: list[Result] = []
+    results = build(loaded, loaded.robots, request)
+    with pytest.raises(KeyboardInterrupt):
+        told.extend(afterbuild.checked(loaded, request, results, Examiner(KeyboardInterrupt())))
+    assert names(told) == ["ladder"]
+    assert told[0].checked is None
+
+
+def test_progress_names_the_robot(project: Path) -> None:
+    said: list[tuple[str, int, int]] = []
+    run(Examiner(RIGHT), progress=lambda *step: said.append(step))
+    assert said[-1] == ("ladder: compiling", 0, 1)
+
+
+def test_people_see_what_a_check_said(
+    project: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stand_in(monkeypatch, Examiner(WRONG, RIGHT))
+    assert cli.main(["build"]) == 2
+    streams = capsys.readouterr()
+    assert streams.err.splitlines() == [f"{MODEL}:3: error: there is no class `Foo` [compile]"]
+    assert streams.out.splitlines()[0].endswith("files written; checked: 1 error")
+    for _ in range(2):
+        assert cli.main(["build"]) == 0
+        streams = capsys.readouterr()
+        assert streams.out.splitlines()[0].endswith("in step, 14 files; checked: compiles")
+    assert cli.main(["build", "--check"]) == 0
+    assert "checked" not in capsys.readouterr().out
+
+
+def test_what_is_resolved_is_built_and_checked(
+    project: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run(Examiner(RIGHT))
+    stand_in(monkeypatch, Examiner(WRONG))
+    record, source = project / "modelica" / "Ladder" / "Elements" / "R2Parameters.mo", project / "ladder.json"
+    record.write_text(record.read_text().replace("220.5", "221"))
+    source.write_text(source.read_text().replace("220.5", "330"))
+    assert cli.main(["resolve", "--all", "--take", "--dry-run"]) == 0
+    assert "checked" not in capsys.readouterr().out
+    assert cli.main(["resolve", "--all", "--take"]) == 2
+    assert "checked: 1 error" in capsys.readouterr().out
+
+
+def test_what_a_check_said_is_never_said_again_without_a_look(project: Path) -> None:
+    loaded = config.load(Path("urdfsync.toml"))
+    run(Examiner(RIGHT))
+    with looking.taken_down() as looks:
+        assert [result.in_step for result in building.built(loaded, loaded.robots, Request(wait=1))] == [True]
+    assert not looks.complete
+
+
+def test_without_a_robot_to_check_nothing_is_looked_at(project: Path) -> None:
+    (project / "urdfsync.toml").write_text((project / "urdfsync.toml").read_text().replace('"check"', '"nothing"'))
+    loaded = config.load(Path("urdfsync.toml"))
+    assert [result.checked for result in building.built(loaded, loaded.robots, Request(wait=1))] == [None]
+    assert not note(project).parent.exists()
+
+
+def test_the_compiler_is_found_by_its_distribution(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "rumoca-0.9.1.dist-info").mkdir()
+    monkeypatch.setattr("sys.path", [str(tmp_path / "missing"), str(tmp_path)])
+    assert memory.compiler() == "rumoca-0.9.1"
+    monkeypatch.setattr("sys.path", [])
+    assert memory.compiler() == ""

@@ -1,0 +1,109 @@
+"""The folder in which a compiler finds one package and what it refers to."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfsync import config
+from urdfsync.checking import workspace
+from urdfsync.config import Config, RobotConfig
+
+CONFIG = """
+[robots.arm]
+source = "arm.json"
+package = "Plant.Robots.Arm"
+domain = "rcnetwork"
+
+[robots.cart]
+source = "cart.json"
+package = "Plant.Robots.Cart"
+domain = "rcnetwork"
+
+[robots.crane]
+source = "crane.json"
+package = "Plant.Robots.Crane"
+domain = "rcnetwork"
+"""
+
+
+def write(folder: Path, **files: str) -> None:
+    for name, text in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+@pytest.fixture
+def plant(rc_domain: None, tmp_path: Path) -> Config:
+    """Three robots and a controller in one top-level package."""
+    output = tmp_path / "modelica"
+    write(
+        output,
+        **{
+            "Plant/package.mo": "package Plant",
+            "Plant/package.order": "Robots\nControl\n",
+            "Plant/Control.mo": "block Control",
+            "Plant/Resources/Old.mo": "no class",
+            "Plant/.git/Hidden.mo": "no class",
+            "Plant/Robots/package.mo": "package Robots",
+            "Plant/Robots/Arm/package.mo": "package Arm",
+            "Plant/Robots/Arm/Arm.mo": "model Arm",
+            "Plant/Robots/Cart/package.mo": "package Cart",
+            "Plant/Robots/Crane/package.mo": "package Crane",
+            "Plant/Robots/Crane/Hook.mo": "model Hook",
+            "Other/package.mo": "package Other",
+        },
+    )
+    return config.parse(CONFIG, tmp_path / "urdfsync.toml", "urdfsync.toml")
+
+
+def robot(plant: Config, name: str) -> RobotConfig:
+    return next(robot for robot in plant.robots if robot.name == name)
+
+
+def test_the_files_of_a_package_are_its_classes_and_orders(plant: Config) -> None:
+    found = workspace.package_texts(plant.root / "modelica" / "Plant")
+    assert {"package.mo", "package.order", "Control.mo", "Robots/Crane/Hook.mo"} <= found.keys()
+    assert not any("Resources" in path or ".git" in path for path in found)
+
+
+def test_other_robots_are_left_out(plant: Config) -> None:
+    found = workspace.surroundings(plant, robot(plant, "arm"), {"Arm.mo": b"model Arm"})
+    expected = {"Plant/package.mo", "Plant/package.order", "Plant/Control.mo", "Plant/Robots/package.mo"}
+    assert found.keys() == expected
+
+
+def test_a_robot_that_is_mentioned_is_there_also_if_another_mentions_it(plant: Config) -> None:
+    write(plant.root / "modelica", **{"Plant/Robots/Cart/Load.mo": "Crane.Hook hook;"})
+    found = workspace.surroundings(plant, robot(plant, "arm"), {"Arm.mo": b"Plant.Robots.Cart cart;"})
+    assert {"Plant/Robots/Cart/Load.mo", "Plant/Robots/Crane/Hook.mo"} <= found.keys()
+
+
+def test_packages_around_that_do_not_exist_are_made_up(rc_domain: None, tmp_path: Path) -> None:
+    plant = config.parse(CONFIG, tmp_path / "urdfsync.toml", "urdfsync.toml")
+    found = workspace.surroundings(plant, robot(plant, "arm"), {})
+    assert found == {
+        "Plant/package.mo": b"within;\npackage Plant\nend Plant;\n",
+        "Plant/Robots/package.mo": b"within Plant;\npackage Robots\nend Robots;\n",
+    }
+
+
+def test_the_folder_holds_what_is_given_and_nothing_else(plant: Config, tmp_path: Path) -> None:
+    arm, folder = robot(plant, "arm"), tmp_path / "work"
+    write(folder, **{"Plant/Robots/Arm/Joints/Old.mo": "model Old"})
+    root = workspace.write(folder, arm, {"Arm.mo": b"model Arm"}, {"Plant/package.mo": b"package Plant"})
+    assert root == folder / "Plant"
+    files = {path.relative_to(folder).as_posix() for path in folder.rglob("*")}
+    assert files == {"Plant", "Plant/package.mo", "Plant/Robots", "Plant/Robots/Arm", "Plant/Robots/Arm/Arm.mo"}
+
+
+def test_files_that_are_right_are_left_alone(plant: Config, tmp_path: Path) -> None:
+    arm, folder = robot(plant, "arm"), tmp_path / "work"
+    workspace.write(folder, arm, {"Arm.mo": b"model Arm", "Leg.mo": b"1"}, {})
+    before = (folder / "Plant/Robots/Arm/Arm.mo").stat()
+    workspace.write(folder, arm, {"Arm.mo": b"model Arm", "Leg.mo": b"2"}, {})
+    after = (folder / "Plant/Robots/Arm/Arm.mo").stat()
+    assert (before.st_ino, before.st_mtime_ns) == (after.st_ino, after.st_mtime_ns)
+    assert (folder / "Plant/Robots/Arm/Leg.mo").read_bytes() == b"2"
