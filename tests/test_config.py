@@ -10,7 +10,7 @@ import msgspec
 import pytest
 
 from urdfsync import config, registry, tomlfile
-from urdfsync.config import Config
+from urdfsync.config import CheckConfig, Config
 from urdfsync.diagnostics import ConfigError
 from urdfsync.domain import Target
 
@@ -43,6 +43,7 @@ def test_defaults() -> None:
     assert arm.templates is None
     assert arm.package_paths == ()
     assert not arm.create_parents
+    assert not arm.checking
     assert msgspec.to_builtins(arm.options) == {"ground": True, "prefix": "node"}
 
 
@@ -57,6 +58,7 @@ def test_everything_set() -> None:
         templates = "own"
         package_paths = ["ros", "/opt/ros"]
         create_parents = true
+        on_build = "check"
         ground = false
         prefix = "n"
     """
@@ -68,7 +70,15 @@ def test_everything_set() -> None:
     assert arm.templates == ROOT / "own"
     assert arm.package_paths == (ROOT / "ros", Path(os.path.normpath(ROOT / "/opt/ros")))
     assert arm.create_parents
+    assert arm.checking
     assert msgspec.to_builtins(arm.options) == {"ground": False, "prefix": "n"}
+
+
+def test_a_library_is_named_from_the_configuration_on() -> None:
+    assert parse(robot()).check == CheckConfig(None, 0)
+    assert parse(robot("[check]\nlibrary = '../modelica/./lib'")).check == CheckConfig(ROOT.parent / "modelica/lib", 6)
+    absolute = (ROOT.parent / "lib").as_posix()
+    assert parse(robot(f"[check]\nlibrary = '{absolute}'")).check.library == Path(absolute)
 
 
 def test_an_absolute_source_is_recorded_by_its_name_only() -> None:
@@ -79,10 +89,13 @@ def test_an_absolute_source_is_recorded_by_its_name_only() -> None:
 
 def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> None:
     text = (
-        '[defaults]\noutput = "lib"\nprefix = "d"\ndomain = "rcnetwork"\n' + robot() + robot('prefix = "b"', "b", "B")
+        '[defaults]\noutput = "lib"\nprefix = "d"\ndomain = "rcnetwork"\non_build = "check"\n'
+        + robot()
+        + robot('prefix = "b"\non_build = "nothing"', "b", "B")
     )
     arm, other = parse(text).robots
     assert (arm.output, other.output) == (ROOT / "lib", ROOT / "lib")
+    assert (arm.checking, other.checking) == (True, False)
     assert (arm.options.prefix, other.options.prefix) == ("d", "b")
 
 
@@ -129,6 +142,32 @@ def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> Non
             robot("package_paths = ['a', 1]"),
             "urdfsync.toml:5: error: `package_paths`[1] must be a string, not an integer [wrong-value]",
             id="wrong type inside",
+        ),
+        pytest.param(
+            robot("on_build = true"),
+            'urdfsync.toml:5: error: `on_build` must be "nothing" or "check", not true [wrong-value]',
+            id="wrong choice",
+        ),
+        pytest.param(
+            robot("[check]\nlibary = 'x'"),
+            "urdfsync.toml:6: error: unknown key `libary` in `[check]`; did you mean `library`? [unknown-key]",
+            id="unknown key of checks",
+        ),
+        pytest.param(
+            robot("[check]\nlibrary = 4"),
+            "urdfsync.toml:6: error: `library` must be a string, not an integer [wrong-value]",
+            id="wrong type in checks",
+        ),
+        pytest.param(
+            robot("[check]\nlibrary = ''"),
+            "urdfsync.toml:6: error: `library` must name a folder; "
+            "give the path of the folder that holds the Modelica Standard Library, or take the line out [wrong-value]",
+            id="no folder",
+        ),
+        pytest.param(
+            "check = true\n" + robot(),
+            "urdfsync.toml:1: error: `check` must be a table [wrong-value]",
+            id="checks are no table",
         ),
         pytest.param(
             "[defaults]\noutput = 1\n" + robot(),

@@ -8,6 +8,11 @@ from pathlib import Path
 import pytest
 
 from urdfsync import cli
+from urdfsync.checking.cache import LIMIT
+from urdfsync.checking.edits import MANY
+from urdfsync.checking.library import NEXT, OLDEST, dotted
+from urdfsync.checking.verdict import TOLERANCE
+from urdfsync.checking.wishes import Wishes
 from urdfsync.domain import Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
@@ -33,11 +38,25 @@ def test_links_between_pages_lead_somewhere(page: Path) -> None:
     assert [target for target in targets if "://" not in target and not (page.parent / target).exists()] == []
 
 
-def test_every_option_of_watch_is_documented(capsys: pytest.CaptureFixture[str]) -> None:
-    assert cli.main(["watch", "--help"]) == 0
-    options = set(re.findall(r"--[a-z]+", capsys.readouterr().out)) - {"--help"}
-    rows = "\n".join(re.findall(r"^\| `.*", (REPOSITORY / "docs/watch.md").read_text(encoding="utf-8"), re.MULTILINE))
-    assert set(re.findall(r"--[a-z]+", rows)) == options
+@pytest.mark.parametrize(("command", "page"), [("watch", "watch"), ("check", "checking")])
+def test_every_option_is_documented(command: str, page: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main([command, "--help"]) == 0
+    options = set(re.findall(r"--[a-z-]+", capsys.readouterr().out)) - {"--help"}
+    text = (REPOSITORY / f"docs/{page}.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| `(?:--|ROBOT).*", text, re.MULTILINE)
+    assert set(re.findall(r"--[a-z-]+", "\n".join(rows))) == options
+
+
+def test_numbers_of_the_check_are_those_in_use() -> None:
+    page = (REPOSITORY / "docs/checking.md").read_text(encoding="utf-8")
+    wishes = Wishes()
+    assert f"no more than {TOLERANCE:.0e} of the largest value" in page
+    assert f"It stays below {LIMIT / 2**30:.0f} GiB" in page
+    assert f"| `--timeout S` | {wishes.timeout:.0f} |" in page
+    assert f"| `--wait S` | {wishes.wait:.0f} |" in page
+    assert f"has to be {dotted(OLDEST)}.0 or later, below {dotted(NEXT)}." in page
+    assert MANY == 6
+    assert "Up to six edited files are tried one by one" in page
 
 
 def test_every_option_of_a_robot_is_documented() -> None:

@@ -18,6 +18,8 @@ MODULES = [name for name in OURS if not name.endswith("__init__") and not name.s
 
 IO = ("os", "io", "shutil", "subprocess", "tempfile", "socket", "glob", "urllib.request", "sys")
 HEAVY = ("jinja2", "rich", "lxml", "yourdfpy", "trimesh", "numpy", "collada", "deepdiff", "rumoca", "watchdog")
+EXTRAS = ("psutil", "platformdirs", "pinocchio", "OMPython")
+"""Of the optional extras, beside rumoca."""
 SHELL = (
     *(
         "build",
@@ -71,6 +73,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     },
     "tomlfile": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "tables": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    "targets": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "build": ("rich", "watchdog", "urdfsync.report", "urdfsync.cli"),
     "planning/planner": ("rich", "watchdog", "urdfsync.report", "urdfsync.cli"),
     "state/journal": ("pathlib", "urdfsync", *IO, *HEAVY),
@@ -102,6 +105,27 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
         f"watching/{name}": ("rich", "watchdog", "urdfsync.report", "urdfsync.views", "urdfsync.cli")
         for name in ("builder", "builds", "guard", "inbox", "reading", "robots", "runner", "samples", "scope", "stash")
     },
+    "watching/checks": ("rich", "watchdog", "urdfsync.report", "urdfsync.views", "urdfsync.cli"),
+    "checking/verdict": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    "checking/words": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    "checking/cache": (*SHELL_MODULES, *HEAVY),
+    "checking/compiler": ("pathlib", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS),
+    "checking/library": (*SHELL_MODULES, *HEAVY, *EXTRAS),
+    "checking/process": ("urdfsync", *HEAVY),
+    "checking/references": ("urdfsync", "pathlib", *IO, *HEAVY, *EXTRAS),
+    "checking/slim": (*SHELL_MODULES, *HEAVY, *EXTRAS),
+    "checking/worker": (
+        *SHELL_MODULES,
+        *("jinja2", "rich", "lxml", "yourdfpy", "trimesh", "numpy", "collada", "deepdiff", "watchdog"),
+    ),
+    **{
+        f"checking/{name}": ("urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS)
+        for name in ("package", "complaints", "mentions", "problems")
+    },
+    "checking/layout": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *IO, *HEAVY, *EXTRAS),
+    "checking/omc": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY, *EXTRAS),
+    "checking/memory": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "checking/afterbuild": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "watching/observer": ("rich", "urdfsync.build", "urdfsync.report", "urdfsync.views", "urdfsync.cli"),
     "check": ("rich",),
     "report": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf"),
@@ -109,7 +133,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
         f"views/{name}": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf")
         for name in (
             *("area", "builds", "chronicle", "comparisons", "conflicts", "diversion", "drafts", "hunks", "statuses"),
-            *("terminal", "watching"),
+            *("checks", "terminal", "watching"),
         )
     },
     "views/hooks": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf", *HEAVY),
@@ -140,8 +164,19 @@ LIGHT = (
     "commands/status",
     "commands/resolve",
     "commands/watch",
+    "commands/check",
+    "checking/afterbuild",
+    "checking/cache",
+    "checking/compiler",
+    "checking/memory",
+    "checking/slim",
 )
 """Modules on the way of a build that has nothing to do: no heavy library, not even through others."""
+
+FIRST = ("__main__", "hook", "stamping/stamp", "staging/listing", "streams")
+"""What is loaded before anybody knows that there is something to do."""
+AT_ONCE = {"errno", "os", "sys", "time", "zlib"}
+"""Modules of Python's that take no time to load, or have been loaded at its start."""
 
 NO_IO_CALLS = {
     "open", "read_text", "read_bytes", "write_text", "write_bytes", "mkdir", "unlink", "rmdir", "touch", "iterdir",
@@ -166,8 +201,12 @@ PURE = (
         "documents",
         "modelica",
         "literals",
+        "checking/references",
+        "checking/verdict",
+        "checking/words",
         "watching/standing",
         "watching/words",
+        *(f"checking/{name}" for name in ("package", "layout", "complaints", "mentions", "problems")),
     ),
     *(name for name in MODULES if name in ("merge", "state/repair") or name.startswith(("urdf/", "merging/"))),
 )
@@ -243,7 +282,13 @@ def test_only_the_report_knows_rich(module: str) -> None:
 
 @pytest.mark.parametrize("module", LIGHT)
 def test_a_build_with_nothing_to_do_stays_light(module: str) -> None:
-    assert broken(loaded_with(module), HEAVY) == []
+    assert broken(loaded_with(module), (*HEAVY, *EXTRAS)) == []
+
+
+@pytest.mark.parametrize("module", FIRST)
+def test_what_is_loaded_first_needs_next_to_nothing(module: str) -> None:
+    names = {name.removeprefix("urdfsync.").replace(".", "/") for name in loaded_with(module)}
+    assert names <= {*AT_ONCE, *FIRST, "__version__"}
 
 
 @pytest.mark.parametrize("module", PURE)
@@ -255,7 +300,7 @@ def test_pure_modules_touch_no_files(module: str) -> None:
 
 @pytest.mark.parametrize("module", MODULES)
 def test_imports_name_what_the_project_depends_on(module: str) -> None:
-    known = {*sys.stdlib_module_names, "urdfsync", "msgspec", "tomli_w", *HEAVY}
+    known = {*sys.stdlib_module_names, "urdfsync", "msgspec", "tomli_w", *HEAVY, *EXTRAS}
     assert {name.partition(".")[0] for name in all_imports(module)} <= known
 
 

@@ -52,7 +52,7 @@ def test_what_is_commented_out_is_right(bare: Path) -> None:
     file = bare / "urdfsync.toml"
     lines = [line.removeprefix("# ") if " = " in line else line for line in file.read_text().splitlines()]
     file.write_text("\n".join(lines))
-    assert cli.main(["build"]) == 0
+    assert cli.main(["build", "--dry-run"]) == 0
 
 
 def test_choices_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 import datetime
 import json
+import math
 import os
 import re
 import signal
@@ -15,23 +17,25 @@ from typing import Any
 import pytest
 
 from urdfsync import cli, config, documents
+from urdfsync.checking.verdict import Comparison, Compiled, Standing, Verdict
+from urdfsync.checking.verdict import Effect as VerdictEffect
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.documents import VERSION
-from urdfsync.domain import Role
-from urdfsync.outcome import Result
+from urdfsync.domain import Deviation, Quantity, Role
+from urdfsync.outcome import Checked, Result
 from urdfsync.plan import Kind
 from urdfsync.status import FileStatus
 from urdfsync.views.watching import ForPrograms
 from urdfsync.watching import events
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
-BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, RESOLVE, INIT, LIBRARY = (
+BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, CHECK, CLEARED, RESOLVE, INIT, LIBRARY = (
     json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)
 )
 SESSION, OTHERS = (
     [json.loads(line) for line in text.splitlines()] for text in re.findall(r"```jsonl\n(.*?)```", PAGE, re.DOTALL)
 )
-EXAMPLES = [BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, RESOLVE, INIT, LIBRARY, *SESSION, *OTHERS]
+EXAMPLES = [BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, CHECK, CLEARED, RESOLVE, INIT, LIBRARY, *SESSION, *OTHERS]
 
 URDF = """<robot name="arm">
   <link name="base"/>
@@ -166,11 +170,15 @@ def test_the_other_events_look_as_shown() -> None:
         hint="it runs again after the next build that changes something",
     )
     failure = Diagnostic(Severity.ERROR, "system", "Permission denied", "arm.urdf")
+    place, words = ("modelica/Arm/Arm.mo", 12, 3), "there is no class `Sensor`"
+    mistake = Diagnostic(Severity.ERROR, "compile", words, *place, hint="correct it")
     folder = Path("/home/me/project/modelica/Arm")
     failed = Result("arm", "Arm", folder, Path("/home/me/project"), diagnostics=(failure,), failed=True)
     others: tuple[events.Event, ...] = (
         events.Calm("arm"),
         events.Failed(failed),
+        events.Checking("arm"),
+        events.Checked("arm", Checked.WRONG, 2.464, (mistake,)),
         events.Ran("arm", 2),
         events.Noted((warning,)),
         events.Recovered("all folders are watched again"),
@@ -199,6 +207,39 @@ def test_resolve(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert all((folder / conflict[name]).is_file() for name in ("base", "generated", "merge"))
 
 
+def checked() -> Verdict:
+    """An arm of which somebody edited the joint, and a link of which the simulation tells nothing."""
+    hand = Deviation(Quantity.POSITION, "link tip", math.inf, 0.5, 0.5, "m")
+    swing = Deviation(Quantity.EFFORT, "joint hold", 0.025, 1.25, 1.25, "N·m")
+    exact = dataclasses.replace(swing, difference=2.5e-16)
+    return Verdict(
+        "arm",
+        "Arm",
+        compiled=(Compiled("Arm", 0, 0), Compiled("ArmRun", 412, 2)),
+        generated=Comparison((hand, exact)),
+        effects=(VerdictEffect(("Joints/Hold_joint.mo",), (swing,)),),
+        notes=('link "tip" has made-up inertias, because the file gives no mass at all',),
+        unchecked=("limits of joints are not compared: passing one is a warning, and changes no motion",),
+        diagnostics=(Diagnostic(Severity.WARNING, "mesh-not-found", "mesh not found; left out", "arm.urdf", 4),),
+        seconds=4.25,
+        megabytes=310.5,
+        reference="Pinocchio 3.4",
+    )
+
+
+def test_check(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    cli.main(["init", "arm.urdf"])
+    monkeypatch.setattr("urdfsync.checking.checker.check", lambda *_: iter([checked()]))
+    document = printed(capsys, folder, "check", "--physics")
+    assert document == CHECK
+    assert json.loads(json.dumps(document, allow_nan=False)) == CHECK
+
+
+def test_clear_cache(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("urdfsync.checking.cache.Cache.clear", lambda _: 48_123_904)
+    assert printed(capsys, folder, "check", "--clear-cache") == CLEARED
+
+
 def test_library(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert matches(LIBRARY, printed(capsys, folder, "library"))
 
@@ -210,11 +251,12 @@ def test_tables_name_every_key_and_no_other() -> None:
 
 
 def test_values_that_are_one_of_a_few_are_all_named() -> None:
-    assert {f"`{kind}`" for kind in (*Kind, *Role, *FileStatus)} <= set(re.findall(r"`[\w -]+`", PAGE))
+    few = (*Kind, *Role, *FileStatus, *Checked, *Standing, *Quantity)
+    assert {f"`{kind}`" for kind in few} <= set(re.findall(r"`[\w -]+`", PAGE))
     assert f"`version` is {VERSION}" in PAGE
 
 
-@pytest.mark.parametrize("arguments", [[], ["biuld"], ["build", "--svg", "--check"], ["library", "--nothing"]])
+@pytest.mark.parametrize("arguments", [[], ["biuld"], ["build", "--svg", "--check"], ["check", "--jobs", "0"]])
 def test_bad_usage_is_a_document_as_well(
     folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str]
 ) -> None:

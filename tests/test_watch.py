@@ -11,52 +11,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.daemon import LIMIT
+from support.daemon import Daemons
 
 from urdfsync import registry
-from urdfsync.planning.situation import Request
-from urdfsync.watch import Daemon
 from urdfsync.watching import events, observer
-from urdfsync.watching.options import Options
-from urdfsync.watching.settling import Times
-
-QUICK = Times(settle=0.02, sample=0.01, patience=0.1, doubt=0.05)
-
-
-class Daemons:
-    """A daemon in a thread, and what it told."""
-
-    def __init__(self, **options: Any) -> None:
-        self.events: list[events.Event] = []
-        self.error: Exception | None = None
-        self._news = threading.Condition()
-        self._daemon = Daemon(Options(Path("urdfsync.toml"), times=QUICK, request=Request(wait=1), **options), self)
-        self._thread = threading.Thread(target=self._run)
-        self._thread.start()
-
-    def _run(self) -> None:
-        self._daemon.run()
-
-    def __call__(self, event: events.Event) -> None:
-        with self._news:
-            self.events.append(event)
-            self._news.notify_all()
-
-    def progress(self, what: str, done: int, total: int) -> None:
-        """Nothing."""
-
-    def wait(self, kind: type, since: int = 0) -> Any:
-        def found() -> Any:
-            return next((event for event in self.events[since:] if isinstance(event, kind)), None)
-
-        with self._news:
-            assert self._news.wait_for(lambda: found() is not None, LIMIT), self.events
-        return found()
-
-    def stop(self) -> None:
-        self._daemon.stop("SIGTERM")
-        self._thread.join(LIMIT)
-        assert not self._thread.is_alive()
 
 
 @pytest.fixture

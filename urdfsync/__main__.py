@@ -6,11 +6,16 @@ import sys
 def main() -> int:
     """Run the command line; an interruption while it is still being loaded leaves no traceback either."""
     try:
-        from urdfsync.cli import main as run
+        from urdfsync.stamping import stamp
 
-        return run()
+        code = stamp.repeat(sys.argv[1:])
+        if code is None:
+            from urdfsync.cli import main as run
+
+            code = run()
     except KeyboardInterrupt:
         return 130
+    return code
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ import dataclasses
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from urdfsync import looking
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.outcome import Result
@@ -84,6 +85,7 @@ class _Builder:
                     return _done(result, work)
                 continue
             if work.writes or any(action.writes for action in work.decision.actions):
+                looking.beyond()  # and it will look different
                 self._lock.acquire(waiting=self._wait)
                 if not self._is_current(work):
                     continue

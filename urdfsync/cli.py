@@ -6,24 +6,33 @@ import sys
 from collections.abc import Sequence
 
 from urdfsync import __version__, streams
-from urdfsync.commands import build, common, diff, hook, init, library, resolve, status, watch
+from urdfsync.commands import build, check, common, diff, hook, init, library, resolve, status, watch
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit
 from urdfsync.report import Report
+from urdfsync.stamping import making
 
-_COMMANDS = (init, build, diff, status, watch, resolve, hook, library)
+_COMMANDS = (init, build, diff, status, watch, check, resolve, hook, library)
 """In the order of the help."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; returns the exit code. Whatever a user can cause is one line, never a traceback."""
-    with streams.guarded() as output:
-        code = _main(sys.argv[1:] if arguments is None else list(arguments))
-        if output.trouble:
-            found = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {output.trouble}")
-            Report().problems("", [found])
-            code = Exit.ERROR
-    return code
+    given = sys.argv[1:] if arguments is None else list(arguments)
+
+    def run(said: streams.Said | None) -> int:
+        with streams.guarded(said) as output:
+            code = _main(given)
+            return unwritten(output) if output.trouble else code
+
+    return making.carry_out(given, run)
+
+
+def unwritten(output: streams.Stream) -> int:
+    """Say that not all of the output could be written; returns the exit code."""
+    found = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {output.trouble}")
+    Report().problems("", [found])
+    return Exit.ERROR
 
 
 def _main(arguments: list[str]) -> int:

@@ -1,7 +1,8 @@
 """`urdfsync.toml` to a frozen `Config`, and where the files are that urdfsync brings along.
 
 All paths in the file count from its own folder. A robot's table may hold the keys of `Keys` and
-the options of its domain; `[defaults]` the same without source, package and class.
+the options of its domain; `[defaults]` the same without source, package and class; `[check]` the
+keys of `CheckKeys`.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from typing import Any, Literal
 
 import msgspec
 
-from urdfsync import modelica, registry, tables, tomlfile
+from urdfsync import looking, modelica, registry, tables, targets, tomlfile
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, Target
 
@@ -42,6 +43,13 @@ class Keys(msgspec.Struct, frozen=True):
     package_paths: tuple[str, ...] = ()
     create_parents: bool = False
     on_conflict: Literal["keep", "merge"] = "keep"
+    on_build: Literal["nothing", "check"] = "nothing"
+
+
+class CheckKeys(msgspec.Struct, frozen=True):
+    """The keys of the table `[check]`."""
+
+    library: str | None = None
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -60,6 +68,8 @@ class RobotConfig:
     create_parents: bool
     merging: bool
     """Whether a file that both sides changed gets their merge, if that is without doubt."""
+    checking: bool
+    """Whether the package is checked after each build."""
     options: Any
     lines: Mapping[str, int]
     """Line of every key in the configuration; of the robot's table for `""`."""
@@ -71,11 +81,22 @@ class RobotConfig:
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
+class CheckConfig:
+    """What checks need to know of the machine."""
+
+    library: Path | None = None
+    """The folder that holds the Modelica Standard Library, absolute; None to look for it."""
+    line: int = 0
+    """Where the configuration names it; 0 if it does not."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
 class Config:
     """A configuration file and its robots, in the order of the file."""
 
     file: Path
     robots: tuple[RobotConfig, ...]
+    check: CheckConfig = CheckConfig()
 
     @property
     def root(self) -> Path:
@@ -112,7 +133,7 @@ def working_folder() -> Path:
 def find(start: Path) -> Path:
     """The configuration file of `start` or of the nearest folder above it. Raises ConfigError if there is none."""
     for folder in (start, *start.parents):
-        if (folder / FILE_NAME).is_file():
+        if looking.is_file(folder / FILE_NAME):
             return folder / FILE_NAME
     message = f"no {FILE_NAME} in {start} or a folder above it"
     hint = "write one with `urdfsync init SOURCE`, or name one with --config"
@@ -126,6 +147,7 @@ def load(file: Path) -> Config:
         message, hint = "the configuration is no regular file", f"name a {FILE_NAME}"
         raise ConfigError(Diagnostic(Severity.ERROR, "unreadable-config", message, name, hint=hint))
     try:
+        looking.rests_on(file)
         text = file.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         message = "the configuration does not exist"
@@ -152,10 +174,11 @@ def parse(text: str, file: Path, name: str, domains: Callable[[str], Domain] = r
     reader = _Reader(text, document, name, file.parent, domains)
     reader.check_characters()
     robots = () if reader.problems else tuple(reader.robots())
+    check = reader.check()
     reader.check_clashes(robots)
     if reader.problems:
         raise ConfigError(*sorted(reader.problems, key=lambda problem: problem.line))
-    return Config(file, robots)
+    return Config(file, robots, check)
 
 
 class _Reader:
@@ -180,7 +203,7 @@ class _Reader:
     def robots(self) -> Iterator[RobotConfig]:
         """Every robot whose table is right."""
         top = self._table(self._document, "the configuration")
-        self.problems += tables.unknown(top, ("defaults", "robots"))
+        self.problems += tables.unknown(top, ("check", "defaults", "robots"))
         defaults = self._subtable("defaults")
         robots = self._subtable("robots")
         if not robots and not self.problems:
@@ -193,6 +216,19 @@ class _Reader:
             elif (robot := self._robot(name, values, defaults)) is not None:
                 yield robot
         self._check_defaults(defaults)
+
+    def check(self) -> CheckConfig:
+        """The table `[check]`."""
+        table = self._table(self._subtable("check"), "`[check]`", "check")
+        keys, wrong = tables.read(table, CheckKeys)
+        self.problems += tables.unknown(table, [field.encode_name for field in msgspec.structs.fields(CheckKeys)])
+        self.problems += wrong
+        if keys is None or keys.library is None:
+            return CheckConfig()
+        if not keys.library:
+            hint = "give the path of the folder that holds the Modelica Standard Library, or take the line out"
+            self.problems.append(table.problem("wrong-value", "library", "`library` must name a folder", hint))
+        return CheckConfig(_absolute(self._root / keys.library), table.line("library"))
 
     def _robot(self, name: str, values: dict[str, Any], defaults: dict[str, Any]) -> RobotConfig | None:
         if not is_robot_name(name):
@@ -213,7 +249,8 @@ class _Reader:
         chosen, wrong_options = tables.read(merged, domain.options)
         problems += wrong_keys + wrong_options
         if keys is not None:
-            problems += _check_names(merged, keys) + _check_paths(merged, keys, self._root)
+            problems += targets.problems(merged, keys.package, keys.class_)
+            problems += _check_paths(merged, keys, self._root)
         self.problems += problems
         return None if problems else self._resolve(name, keys, chosen, merged)
 
@@ -224,12 +261,13 @@ class _Reader:
             source=_absolute(self._root / source),
             source_text=source.name if source.is_absolute() else Path(os.path.normpath(source)).as_posix(),
             output=_absolute(self._root / keys.output),
-            target=Target(keys.package, _class_name(keys)),
+            target=Target(keys.package, targets.class_name(keys.package, keys.class_)),
             domain=keys.domain,
             templates=_absolute(self._root / keys.templates) if keys.templates else None,
             package_paths=tuple(_absolute(self._root / path) for path in keys.package_paths),
             create_parents=keys.create_parents,
             merging=keys.on_conflict == "merge",
+            checking=keys.on_build == "check",
             options=options,
             lines={key: table.line(key) for key in ("", *table.values)},
         )
@@ -291,37 +329,6 @@ _KEY_NAMES = {field.encode_name for field in msgspec.structs.fields(Keys)}
 _DEFAULT_NAMES = _KEY_NAMES - set(OWN_KEYS)
 
 
-def _check_names(table: tables.Table, keys: Keys) -> list[Diagnostic]:
-    parts = keys.package.split(".")
-    found = []
-    for key, name in [*(("package", part) for part in parts), *([("class", keys.class_)] if keys.class_ else [])]:
-        hint = "use letters, digits and `_`, a letter first"
-        if not name:
-            message = f"`package` must be a full class name, not {keys.package!r}"
-        elif name in modelica.KEYWORDS:
-            message, hint = f"`{key}`: `{name}` is a keyword of Modelica", _instead(name)
-        elif not modelica.is_identifier(name):
-            message = f"`{key}`: {name!r} is no Modelica identifier"
-        else:
-            continue
-        found.append(table.problem("modelica-name", key, message, hint))
-    for index, part in enumerate(parts if not found else []):
-        own_library = part == modelica.LIBRARY and index == 0 and len(parts) > 1  # `parents` looks whether it is there
-        if not modelica.is_package_name(part) and not own_library:
-            message = f"`package`: `{part}` can't be a package: Modelica, Windows or urdfsync has a use for the name"
-            found.append(table.problem("modelica-name", "package", message, _instead(part)))
-    name = _class_name(keys)
-    if not found and not modelica.is_class_name(name):
-        message = f"`{name}` can't be the class of a robot model"
-        hint = "set `class` to a name with a capital first that neither Modelica nor urdfsync has a use for"
-        found.append(table.problem("modelica-name", "class" if keys.class_ else "package", message, hint))
-    return found
-
-
-def _instead(name: str) -> str:
-    return f"choose another name, for example `{modelica.class_name(f'{name} robot')}`"
-
-
 def _check_paths(table: tables.Table, keys: Keys, root: Path) -> list[Diagnostic]:
     found = []
     if not keys.source:
@@ -333,11 +340,6 @@ def _check_paths(table: tables.Table, keys: Keys, root: Path) -> list[Diagnostic
         message = f"`output` can't be in {STATE_FOLDER}: that is where urdfsync keeps its own files"
         found.append(table.problem("wrong-value", "output", message, "name another folder"))
     return found
-
-
-def _class_name(keys: Keys) -> str:
-    last = keys.package.rpartition(".")[2]
-    return keys.class_ or last[:1].upper() + last[1:]
 
 
 def _absolute(path: Path) -> Path:
@@ -377,4 +379,4 @@ def templates_folder(domain: Domain) -> Path:
 def _data_folder(name: str) -> Path:
     package = Path(__file__).parent
     installed = package / "_data" / name
-    return installed if installed.is_dir() else package.parent / name
+    return installed if looking.is_folder(installed) else package.parent / name

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import errno
 import hashlib
-import os
 import stat
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from urdfsync import looking
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 
 TEMPORARY = ".urdfsync-tmp"
@@ -42,9 +42,9 @@ def templates_digest(folders: Sequence[Path]) -> str:
     """SHA-256 (hex) over the templates in use, by name and content; an earlier folder hides names of a later one."""
     templates: dict[str, Path] = {}
     for folder in reversed(folders):
-        found = (path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
+        found = (path for path in looking.files_below(folder) if not path.name.startswith("."))
         templates |= {path.relative_to(folder).as_posix(): path for path in found}
-    lines = [f"{name}\0{text_digest(path.read_bytes())}\n" for name, path in sorted(templates.items())]
+    lines = [f"{name}\0{text_digest(looking.content(path))}\n" for name, path in sorted(templates.items())]
     return digest("".join(lines).encode())
 
 
@@ -76,15 +76,17 @@ class Tree:
         if not self.check_folder(path.parent):
             return None
         try:
-            mode = os.lstat(path).st_mode
-            if stat.S_ISREG(mode):
+            status = looking.status(path)
+            if status is None:
+                return None
+            if stat.S_ISREG(status.st_mode):
                 return path.read_bytes()
         except (FileNotFoundError, NotADirectoryError):
             return None
         except OSError as error:
             hint = _HINTS.get(error.errno or 0, "")
             raise self._refusal("output-unreadable", path, f"it can't be read: {error.strerror}", hint) from None
-        message = f"{kind_of(mode)} is where urdfsync would write a file"
+        message = f"{kind_of(status.st_mode)} is where urdfsync would write a file"
         raise self._refusal("output-in-the-way", path, message, "move it away")
 
     def check_folder(self, folder: Path) -> bool:
@@ -95,9 +97,8 @@ class Tree:
             raise self._refusal("outside", folder, f"the path leaves {self._shown(self.root)}")
         if not self.check_folder(folder.parent):
             return False
-        try:
-            mode = os.lstat(folder).st_mode
-        except FileNotFoundError:
+        mode = looking.kind(folder, follow=False)
+        if not mode:
             return False
         if not stat.S_ISDIR(mode):
             what = "a symbolic link" if stat.S_ISLNK(mode) else "a file"

@@ -1,36 +1,67 @@
 """`urdfsync-hook`: `urdfsync hook` for runners of git hooks. Says nothing, and soon, if nothing is to be done."""
 
-from __future__ import annotations
-
 import os
 import sys
-from collections.abc import Sequence
-from pathlib import Path
+import time
 
-from urdfsync import config
-from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.planning.situation import Request
-from urdfsync.staging.staged import Index
-from urdfsync.staging.worktree import Worktree
+from urdfsync.staging import listing
+from urdfsync.stamping import stamp
+
+TYPE_CHECKING = False  # that of `typing`, whose import takes longer than all that a hook without work does
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from urdfsync.staging.staged import Index
 
 _MODES = (["build"], ["check"])
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
+def main(arguments: "Sequence[str] | None" = None) -> int:
     """Run the hook; returns the exit code."""
     given = sys.argv[1:] if arguments is None else list(arguments)
-    if given in _MODES and _nothing_to_do():
-        return 0
-    from urdfsync import cli  # not at the top: this takes as long as all the rest
+    try:
+        if given in _MODES and (_is_stamped() or _nothing_to_do()):
+            return 0
+        from urdfsync import cli  # not at the top: this takes longer than all the rest
 
-    return cli.main(["hook", *given])
+        return cli.main(["hook", *given])
+    except KeyboardInterrupt:
+        return 130
+
+
+def _is_stamped() -> bool:
+    """Whether the working tree has what is staged, and the stamps say that this is all that a commit needs."""
+    try:
+        found = listing.unchanged()
+        if found is None:
+            return False
+        top, files = found
+        configurations = [path for path in files if path.rpartition("/")[2] == stamp.CONFIGURATION]
+        return bool(configurations) and all(_is_stamped_as(top, path, files) for path in configurations)
+    except OSError:
+        return False
+
+
+def _is_stamped_as(top: str, path: str, files: set[str]) -> bool:
+    file = f"{top}/{path}"
+    needed = stamp.answer(_question(top, file), stamp.place(file))
+    return needed is not None and files.issuperset(needed)
+
+
+def _question(top: str, file: str) -> str:
+    return repr(("hook", top, file, os.environ.get("ROS_PACKAGE_PATH")))
 
 
 def _nothing_to_do() -> bool:
     """Whether the working tree has what is staged, and all robots are in step; whatever is wrong is said elsewhere."""
+    from pathlib import Path
+
+    from urdfsync.diagnostics import UrdfsyncError
+    from urdfsync.staging.staged import Index
+
     try:
         index = Index(Path.cwd())
-        files = index.named(config.FILE_NAME)
+        files = index.named(stamp.CONFIGURATION)
         if index.changed or not files:
             return False
         return all(_is_committed(index, path) for path in files)
@@ -38,7 +69,21 @@ def _nothing_to_do() -> bool:
         return False
 
 
-def _is_committed(index: Index, path: str) -> bool:
-    paths = config.ros_package_path(os.environ)
-    tree = Worktree(index, config.load(index.top / path), Request(dry=True, package_paths=paths))
-    return all(map(tree.is_committed, tree.config.robots))
+def _is_committed(index: "Index", path: str) -> bool:
+    """Whether that holds for the robots of one configuration; if so it is stamped."""
+    from urdfsync import config, looking
+    from urdfsync.planning.situation import Request
+    from urdfsync.staging.worktree import Worktree
+    from urdfsync.stamping import making
+
+    begin = time.monotonic_ns(), time.time_ns()
+    with looking.taken_down() as looks:
+        request = Request(dry=True, package_paths=config.ros_package_path(os.environ))
+        tree = Worktree(index, config.load(index.top / path), request)
+        found = [tree.committed(robot) for robot in tree.config.robots]
+        needed = [paths for paths in found if paths is not None]
+    if len(needed) < len(found):
+        return False
+    file = str(index.top / path)
+    making.keep(file, {_question(str(index.top), file): sorted(set().union(*needed))}, looks, begin)
+    return True

@@ -27,6 +27,15 @@ class Exit(enum.IntEnum):
     INTERRUPTED = 130
 
 
+class Checked(enum.StrEnum):
+    """What the check after a build says of the package that is on disk."""
+
+    RIGHT = "right"
+    INCOMPLETE = "incomplete"
+    """Nothing is wrong with it as far as it could be checked, but not everything could."""
+    WRONG = "wrong"
+
+
 @dataclasses.dataclass(frozen=True, slots=True)
 class Result:
     """What a build did with one robot, or would do."""
@@ -50,6 +59,8 @@ class Result:
     """What changed in the model since the last build; None if nothing did, or there is none to compare with."""
     standoffs: tuple[Standoff, ...] = ()
     """The texts of the files that conflict, in the order of their paths."""
+    checked: Checked | None = None
+    """What a check of the package said; None if there was none. What it found is among the diagnostics."""
 
     @property
     def conflicts(self) -> list[Action]:
@@ -66,7 +77,7 @@ class Result:
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:
     """The worst of all: an error, a lock, a conflict, being out of step; the last counts only if `check`."""
     results = list(results)
-    if any(result.failed and not result.locked for result in results):
+    if any((result.failed and not result.locked) or result.checked is Checked.WRONG for result in results):
         return Exit.ERROR
     if any(result.locked for result in results):
         return Exit.LOCKED

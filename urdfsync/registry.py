@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import difflib
 import importlib
+import sys
 from typing import cast
 
+from urdfsync import looking
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain
 
@@ -39,4 +41,6 @@ def names() -> list[str]:
 def _installed() -> dict[str, str]:
     import importlib.metadata
 
+    for folder in sys.path:
+        looking.rests_on(folder)
     return {entry.name: entry.value for entry in importlib.metadata.entry_points(group=GROUP)}

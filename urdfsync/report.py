@@ -19,15 +19,17 @@ from typing import TYPE_CHECKING, Any
 from urdfsync import documents, wording
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.documents import VERSION
-from urdfsync.outcome import Exit, Result
+from urdfsync.outcome import Checked, Exit, Result
 from urdfsync.status import RobotState
 from urdfsync.views import builds, conflicts, drafts, statuses, terminal
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
+    from urdfsync.checking.verdict import Verdict
     from urdfsync.comparing.comparison import Comparison
     from urdfsync.init import Draft
+    from urdfsync.views.checks import Checks
     from urdfsync.views.watching import Watching
 
 _PATIENCE = 0.5
@@ -53,6 +55,8 @@ class Report:
         self._results: list[Result] = []
         self._states: list[RobotState] = []
         self._comparisons: list[Comparison] = []
+        self._verdicts: list[dict[str, Any]] = []
+        self._checks: Checks | None = None
         self._warnings: Sequence[Diagnostic] = ()
 
     def progress(self, what: str, done: int, total: int) -> None:
@@ -82,7 +86,8 @@ class Report:
         self._findings(result.diagnostics)
         if self._quiet and not result.conflicts:
             return
-        if result.in_step and not (self._explain or self._verbose or result.drawing or result.changes):
+        wrong = result.checked is Checked.WRONG
+        if result.in_step and not (wrong or self._explain or self._verbose or result.drawing or result.changes):
             builds.plain(result.robot, wording.summary(result))
             return
         console = terminal.console(sys.stderr if result.failed else sys.stdout)
@@ -125,15 +130,40 @@ class Report:
         for part in comparisons.parts(found, console, self._verbose):
             console.print(part)
 
+    def verdict(self, found: Verdict, strict: bool, robots: Sequence[str] = ()) -> None:
+        """Show what was checked of one robot; `robots` are all that the command is about, by their names."""
+        self._stop_bar()
+        if self._json:
+            self._verdicts.append(documents.verdict(found, strict))
+            return
+        if self._checks is None:
+            from urdfsync.views import checks  # no other command has a use for it
+
+            look = checks.Look(strict=strict, verbose=self._verbose, quiet=self._quiet)
+            self._checks = checks.Checks(terminal.console(sys.stdout), robots, look)
+        console = terminal.console(sys.stdout)
+        for line in self._checks.lines(found):
+            console.print(line, soft_wrap=True)
+        self._findings(found.diagnostics)
+
+    def cleared(self, freed: int) -> None:
+        """Show how many bytes there were in the cache of checks that was emptied."""
+        if self._json:
+            self._document("check", Exit.IN_STEP, {"freed": freed})
+        elif not self._quiet:
+            sys.stdout.write(f"cache emptied, {wording.size(freed)} freed\n" if freed else "the cache was empty\n")
+
     def finish(self, command: str, code: Exit) -> None:
         """The end of a command on robots: the JSON document, if one is asked for."""
         self._stop_bar()
+        self._close_checks()
         if self._json:
             self._document(command, code, {"robots": self._robots()}, self._warnings)
 
     def problems(self, command: str, diagnostics: Sequence[Diagnostic], code: Exit = Exit.ERROR) -> None:
         """Findings that stopped the whole command."""
         self._stop_bar()
+        self._close_checks()
         if self._json:
             self._document(command, code, {"robots": self._robots()}, [*self._warnings, *diagnostics])
         else:
@@ -190,6 +220,7 @@ class Report:
             *map(documents.robot, self._results),
             *map(documents.state, self._states),
             *map(documents.comparison, self._comparisons),
+            *self._verdicts,
         ]
 
     def _document(
@@ -212,6 +243,14 @@ class Report:
         for code, number in more.items():
             more_words = f"and {number} more like these [{code}]; --verbose shows them"
             console.print(terminal.text((more_words, "dim")), soft_wrap=True)
+
+    def _close_checks(self) -> None:
+        """What there is to say of all verdicts, as far as the command came."""
+        if self._checks is not None:
+            console = terminal.console(sys.stdout)
+            for line in self._checks.end():
+                console.print(line, soft_wrap=True)
+            self._checks = None
 
     def _stop_bar(self) -> None:
         if self._bar is not None:

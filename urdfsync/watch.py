@@ -22,8 +22,9 @@ from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.watching import builder, events, stash
 from urdfsync.watching.builds import Builds
+from urdfsync.watching.checks import Checks
 from urdfsync.watching.guard import Guard
-from urdfsync.watching.inbox import Ended, Inbox, Lost, Message, Stop
+from urdfsync.watching.inbox import Ended, Examined, Inbox, Lost, Message, Stop
 from urdfsync.watching.observer import Observer
 from urdfsync.watching.options import Options
 from urdfsync.watching.reading import judge
@@ -53,7 +54,13 @@ class Daemon:
         self._settings = Settings(options)
         self._robots = Robots(options.times, options.request.package_paths)
         request = dataclasses.replace(options.request, progress=self._progress)
-        self._builds = Builds(self._robots, request, listener, self._touch, self._arm, self._run_command)
+        self._checks = Checks(
+            options.request,
+            listener,
+            lambda errand, found: self._inbox.put(Examined(errand, found)),
+            options.examine,
+        )
+        self._builds = Builds(self._robots, request, listener, self._touch, self._arm, self._run_command, self._check)
         self._runner = Runner(
             options.command, options.file.absolute().parent, lambda robot, code: self._inbox.put(Ended(robot, code))
         )
@@ -76,7 +83,7 @@ class Daemon:
         Raises HeldError if another daemon watches it, OutputError if the state can't be written.
         """
         loaded = self._settings.load(self._robots.look(self._file))
-        with Guard(loaded.config) as guard, self._observer.open():
+        with Guard(loaded.config) as guard, self._observer.open(), self._checks:
             self._take(loaded)
             self._next_rescan = time.monotonic() + self._options.rescan
             self._next_hour = time.monotonic() + _HOUR
@@ -89,6 +96,7 @@ class Daemon:
     def _take(self, loaded: Loaded, again: bool = False) -> None:
         """Put a configuration in force: everything is built."""
         self._config = loaded.config
+        self._checks.reset()
         self._robots.load(loaded.config, loaded.robots)
         self._tell(events.Started(loaded.config.file, tuple(watched.name for watched in self._robots), again))
         if loaded.advice:
@@ -110,6 +118,8 @@ class Daemon:
                     self._next_rescan = 0.0
                 case Ended(robot, code):
                     self._on_ended(robot, code)
+                case Examined(errand, found):
+                    self._checks.ended(errand, found)
         if paths:
             self._notice(paths)
 
@@ -306,6 +316,9 @@ class Daemon:
         if self._stopped:
             raise builder.StoppedError
         self._tell.progress(what, done, total)
+
+    def _check(self, robot: RobotConfig) -> None:
+        self._checks.ask(self._config, robot)
 
     # --exec
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from urdfsync import difference
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.outcome import Result
+from urdfsync.outcome import Checked, Result
 from urdfsync.plan import DELETES, Kind
 from urdfsync.status import FileStatus, RobotState
 
@@ -37,7 +37,18 @@ def summary(result: Result) -> str:
     if result.in_step:
         total = sum(action.kind in (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED) for action in result.actions)
         parts.insert(0, f"in step, {counted(total, 'file')}")
-    return ", ".join(parts)
+    return "; ".join([", ".join(parts), *([checked(result.checked, result.diagnostics)] if result.checked else [])])
+
+
+def checked(what: Checked, diagnostics: Sequence[Diagnostic]) -> str:
+    """What the check after a build said, as the rest of a line that names the robot."""
+    match what:
+        case Checked.RIGHT:
+            return "checked: compiles"
+        case Checked.INCOMPLETE:
+            return "not checked completely"
+        case Checked.WRONG:
+            return f"checked: {counted(sum(found.severity is Severity.ERROR for found in diagnostics), 'error')}"
 
 
 def deeds(result: Result, silent: Container[Kind] = ()) -> list[str]:
@@ -75,6 +86,15 @@ def _phrase(kind: Kind, number: int, dry: bool) -> str:
 def counted(count: int, noun: str) -> str:
     """`1 file`, `2 files`."""
     return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def size(number: int) -> str:
+    """So many bytes, in the largest unit of which there is at least one: `812 kB`, `1.2 GB`."""
+    for power, unit in ((3, "GB"), (2, "MB"), (1, "kB")):
+        if number >= 1000**power:
+            value = number / 1000**power
+            return f"{value:.0f} {unit}" if value >= 10 else f"{value:.1f} {unit}"
+    return counted(number, "byte")
 
 
 def state(found: RobotState) -> str:

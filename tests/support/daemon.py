@@ -1,4 +1,4 @@
-"""`urdfsync watch` as a process of its own, and what it says."""
+"""`urdfsync watch` as a process of its own or as a thread of the test, and what it says."""
 
 from __future__ import annotations
 
@@ -15,9 +15,17 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
 
+from urdfsync.planning.situation import Request
+from urdfsync.watch import Daemon
+from urdfsync.watching import events
+from urdfsync.watching.options import Options
+from urdfsync.watching.settling import Times
+
 REPOSITORY = Path(__file__).parents[2]
 LIMIT = 60.0
 """Seconds after which something does not happen any more, however busy the machine is."""
+
+QUICK = Times(settle=0.02, sample=0.01, patience=0.1, doubt=0.05)
 
 Event = Mapping[str, Any]
 ENDS = ("built", "failed", "calm")
@@ -116,6 +124,42 @@ class Watch:
         """All that is known, to explain a failure."""
         lines = (f"{event['event']} {event.get('robot', '')} {event.get('summary', '')}" for event in self.events)
         return "\n".join([*lines, self.errors])
+
+
+class Daemons:
+    """A daemon in a thread, and what it told."""
+
+    def __init__(self, **options: Any) -> None:
+        self.events: list[events.Event] = []
+        self.error: Exception | None = None
+        self._news = threading.Condition()
+        self._daemon = Daemon(Options(Path("urdfsync.toml"), times=QUICK, request=Request(wait=1), **options), self)
+        self._thread = threading.Thread(target=self._run)
+        self._thread.start()
+
+    def _run(self) -> None:
+        self._daemon.run()
+
+    def __call__(self, event: events.Event) -> None:
+        with self._news:
+            self.events.append(event)
+            self._news.notify_all()
+
+    def progress(self, what: str, done: int, total: int) -> None:
+        """Nothing."""
+
+    def wait(self, kind: type, since: int = 0) -> Any:
+        def found() -> Any:
+            return next((event for event in self.events[since:] if isinstance(event, kind)), None)
+
+        with self._news:
+            assert self._news.wait_for(lambda: found() is not None, LIMIT), self.events
+        return found()
+
+    def stop(self) -> None:
+        self._daemon.stop("SIGTERM")
+        self._thread.join(LIMIT)
+        assert not self._thread.is_alive()
 
 
 @contextlib.contextmanager

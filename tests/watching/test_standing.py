@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
-from urdfsync.outcome import Result
+from urdfsync.outcome import Checked, Result
 from urdfsync.plan import Action, Kind
 from urdfsync.watching import events
 from urdfsync.watching.standing import Board, Mood
@@ -72,6 +72,32 @@ def test_a_robot_that_calms_down_stands_as_before() -> None:
     for before in (BUILT, CONFLICT, FAILED):
         assert words(before, events.Settling("arm")) == "settling"
         assert words(before, events.Settling("arm"), events.Calm("arm")) == words(before)
+
+
+RIGHT = events.Checked("arm", Checked.RIGHT, 2.5)
+WRONG = events.Checked("arm", Checked.WRONG, 2.5, (ODD, BROKEN))
+CHECKING = events.Checking("arm")
+
+
+def test_a_check_goes_on_beside_the_rest_and_counts_when_it_finds_something() -> None:
+    built, wrong = words(BUILT), "checked with errors: arm.urdf:12: this is no XML"
+    assert words(BUILT, CHECKING) == "checking"
+    assert words(BUILT, CHECKING, RIGHT) == built
+    assert words(BUILT, CHECKING, WRONG) == wrong
+    assert words(BUILT, CHECKING, events.Settling("arm")) == "settling"
+    assert words(BUILT, CHECKING, events.Settling("arm"), events.Calm("arm")) == "checking"
+    assert words(BUILT, WRONG, events.Building("arm"), UNCHANGED) == wrong
+    assert words(BUILT, WRONG, CHECKING, RIGHT) == built
+
+
+def test_what_a_check_found_yields_to_what_is_worse() -> None:
+    assert words(CONFLICT, CHECKING) == "conflict in F0.mo"
+    assert words(CONFLICT, WRONG).startswith("checked with errors")
+    assert words(WRONG, FAILED) == "error: arm.urdf:12: this is no XML"
+
+
+def test_a_new_configuration_knows_of_no_check() -> None:
+    assert words(BUILT, WRONG, started("arm")) == "in step, built at 12:00:01"
 
 
 def test_progress_is_that_of_the_build_under_way() -> None:

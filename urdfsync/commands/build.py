@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 
 from urdfsync import advice
-from urdfsync.build import build
 from urdfsync.commands import common
+from urdfsync.commands.building import built
 from urdfsync.outcome import exit_code
 from urdfsync.report import Report
 
@@ -40,7 +40,7 @@ def _run(options: argparse.Namespace, report: Report) -> int:
     dry = options.dry_run or options.check
     request = common.request(options, report, full=options.full, dry=dry, draw=options.svg, repair=options.repair)
     results = []
-    for result in build(configuration, robots, request):
+    for result in built(configuration, robots, request):
         report.result(result)
         results.append(result)
     code = exit_code(results, options.check)

@@ -11,6 +11,7 @@ from pathlib import Path
 from urdfsync import config, resolution
 from urdfsync.build import build
 from urdfsync.commands import common
+from urdfsync.commands.building import built
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.report import Report
@@ -118,7 +119,7 @@ def _build(
     robots = [robot for robot in configuration.robots if robot.name in concerned]
     request = common.request(options, report, dry=options.dry_run, choices=choices)
     results = []
-    for result in build(configuration, robots, request):
+    for result in built(configuration, robots, request):
         report.result(result)
         results.append(result)
     code = exit_code(results)

@@ -11,9 +11,10 @@ import subprocess
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
+from urdfsync import looking
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.staging.listing import LISTING, TOP, environment
 
-_PATHSPECS = {f"GIT_{kind}_PATHSPECS" for kind in ("LITERAL", "GLOB", "NOGLOB", "ICASE")}
 _EMPTY = (
     "e69de29bb2d1d6434b8b29ae775ad8c2e48c5391",
     "473a0f4c3be8a93681a267e3b1e9a7dcda1185436fe141f7749120a303721813",
@@ -28,9 +29,8 @@ class Index:
     def __init__(self, folder: Path) -> None:
         """`folder` must be in the working tree. Raises SourceError if there is none, or while files are unmerged."""
         self._folder = folder
-        # ls-files -m compares contents where times differ, filters applied, and needs no lock for that
-        with _start(folder, "ls-files", "-z", "-v", "--stage", "--modified", "--full-name", "--", ":/") as listing:
-            self.top = Path(_finish(_start(folder, "rev-parse", "--show-toplevel")).rstrip("\n"))
+        with _start(folder, *LISTING) as listing:
+            self.top = Path(_finish(_start(folder, *TOP)).rstrip("\n"))
             lines = _finish(listing).split("\0")[:-1]
         self._modes: dict[str, str] = {}
         self._sparse: set[str] = set()
@@ -70,7 +70,10 @@ class Index:
         if not place.startswith(top):
             return None
         path = (place[len(top) :] + file.name).replace(os.sep, "/")
-        return None if any(path.startswith(module) for module in self._submodules) else path
+        if any(path.startswith(module) for module in self._submodules):
+            looking.beyond()  # it may be none some day
+            return None
+        return path
 
     def tracks(self, path: str) -> bool:
         """Whether a file is in the index."""
@@ -138,14 +141,12 @@ class Index:
 
 
 def _start(folder: Path, *arguments: str, stdin: bool = False) -> subprocess.Popen[bytes]:
-    environment = {name: value for name, value in os.environ.items() if name not in _PATHSPECS}
-    environment |= {"LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}
     source = subprocess.PIPE if stdin else subprocess.DEVNULL
     try:
         return subprocess.Popen(  # noqa: S603
             ["git", *arguments],  # noqa: S607
             cwd=folder,
-            env=environment,
+            env=environment(),
             stdin=source,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,

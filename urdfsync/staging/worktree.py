@@ -9,7 +9,7 @@ import os
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import manifest
+from urdfsync import looking, manifest
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Snapshot
@@ -40,8 +40,16 @@ class Worktree:
 
     def is_committed(self, robot: RobotConfig) -> bool:
         """Whether a build has nothing to do, and all of the robot is staged as it is."""
+        return self.committed(robot) is not None
+
+    def committed(self, robot: RobotConfig) -> set[str] | None:
+        """All of the robot that is staged, if it is staged as it is and a build has nothing to do; else None."""
         actions = self.settled(robot)
-        return actions is not None and not self.lacking(self.files(robot, actions))
+        files = None if actions is None else [*self.files(robot, actions)]
+        if files is None or self.lacking(files):
+            return None
+        paths = map(self.index.path, (*files, *_sources(robot)))
+        return {path for path in paths if path is not None and self.index.tracks(path)}
 
     def lacking(self, files: Iterable[Path]) -> tuple[str, ...]:
         """Those of the files that are not staged as they are, gone ones included, by their path in the repository."""
@@ -84,11 +92,10 @@ class Worktree:
 
     def sources(self, robot: RobotConfig) -> list[Path]:
         """Source and templates that git does not track, unless it is told to ignore them."""
-        files = [robot.source, Path(os.path.realpath(robot.source))]
-        if robot.templates is not None and robot.templates.is_dir():
-            files += [path for path in sorted(robot.templates.rglob("*")) if not path.name.startswith(".")]
-        paths = {file: path for file in files if (path := self.index.path(file)) is not None}
+        paths = {file: path for file in _sources(robot) if (path := self.index.path(file)) is not None}
         untracked = {file: path for file, path in paths.items() if not self.index.tracks(path) and file.is_file()}
+        if untracked:
+            looking.beyond()  # git decides
         ignored = self.index.ignored(sorted(set(untracked.values()))) if untracked else set()
         return [file for file, path in untracked.items() if path not in ignored]
 
@@ -131,6 +138,14 @@ class Worktree:
     def _read(self, situation: Situation) -> Snapshot:
         reading = situation.domain.read(situation.content, situation.robot.source_text, situation.robot.options)
         return manifest.plain(reading.snapshot or {})
+
+
+def _sources(robot: RobotConfig) -> list[Path]:
+    """Source and templates, whatever git makes of them."""
+    files = [robot.source, Path(os.path.realpath(robot.source))]
+    if robot.templates is not None and robot.templates.is_dir():
+        files += [path for path in sorted(robot.templates.rglob("*")) if not path.name.startswith(".")]
+    return files
 
 
 def around(robot: RobotConfig) -> Iterator[Path]:

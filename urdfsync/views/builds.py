@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from urdfsync import wording
 from urdfsync.config import shown
-from urdfsync.outcome import Result
+from urdfsync.outcome import Checked, Result
 from urdfsync.plan import Action, Kind
 from urdfsync.views import conflicts
 from urdfsync.views.terminal import has_marks, is_styled, text
@@ -79,7 +79,8 @@ def plain(name: str, summary: str) -> None:
 
 
 def _headline(result: Result, console: Console) -> Text:
-    mark, style = ("✗", "bold red") if result.failed else ("!", "yellow") if result.conflicts else ("✓", "green")
+    wrong = result.failed or result.checked is Checked.WRONG
+    mark, style = ("✗", "bold red") if wrong else ("!", "yellow") if result.conflicts else ("✓", "green")
     marks = [(f"{mark} ", style)] if has_marks(console.file) else []
     return text(*marks, (result.robot, "bold"), (f": {wording.summary(result)}", ""))
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from urdfsync import wording
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.outcome import Result
+from urdfsync.outcome import Checked, Result
 from urdfsync.plan import CONFLICTS, Kind
 from urdfsync.views import builds, conflicts, terminal
 from urdfsync.views.terminal import text
@@ -55,6 +55,8 @@ class Chronicle:
             case events.Failed(result, again) if self._verbose or not again:
                 yield Line(self._line(clock, result.robot, wording.summary(result), "bold red"), error=True)
                 yield from self._findings(result.diagnostics)
+            case events.Checked():
+                yield from self._checked(event, clock)
             case events.Noted(diagnostics):
                 yield from self._findings(diagnostics, clock)
             case events.Waiting(robot, reason, diagnostics) if self._verbose:
@@ -87,6 +89,25 @@ class Chronicle:
         if did:
             yield Line(self._line(clock, result.robot, ", ".join(did), "yellow" if result.conflicts else ""))
             yield from self._details(result, known=known, left=left)
+
+    def _checked(self, event: events.Checked, clock: str) -> Iterator[Line]:
+        """The line of a check, and what it found that the one before did not."""
+        wrong = event.checked is Checked.WRONG
+        keys = frozenset((one.code, one.message, one.file) for one in event.diagnostics)
+        before = self._said.get((event.robot, "check"))
+        known = not self._is_new(event.robot, "check", keys if wrong else ())
+        said = wording.checked(event.checked, event.diagnostics)
+        took = f" ({event.seconds:.1f} s)" if event.seconds else ""
+        if wrong and known and self._quiet:
+            return
+        if wrong:
+            said += " as before" if known else took
+            yield Line(self._line(clock, event.robot, said, "bold red"), error=True)
+        elif not self._quiet:
+            said += f"{' again' if before else ''}{took}"
+            yield Line(self._line(clock, event.robot, said, ""))
+        if self._verbose or not (wrong and known):
+            yield from self._findings(event.diagnostics)
 
     def _details(self, result: Result, *, known: bool, left: bool) -> Iterator[Line]:
         """What `build` has below its headline; without what was said before, unless somebody wants everything."""
@@ -143,6 +164,8 @@ def _plain(event: events.Event) -> tuple[str, str, bool]:
             return robot, "as before", False
         case events.Building(robot):
             return robot, "building", False
+        case events.Checking(robot):
+            return robot, "checking", False
         case events.Recovered(what):
             return "", what, True
         case events.Paused(reason):

@@ -32,6 +32,7 @@ _MOODS = {
     Mood.CONFLICT: ("!", "yellow"),
     Mood.WAITING: ("…", "yellow"),
     Mood.BUILDING: ("…", "cyan"),
+    Mood.CHECKING: ("…", "cyan"),
     Mood.SETTLING: ("…", "cyan"),
     Mood.STARTING: ("…", "dim"),
     Mood.IN_STEP: ("✓", "green"),

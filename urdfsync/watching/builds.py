@@ -30,13 +30,14 @@ class Builds:
         touch: Callable[[Watched], None],
         arm: Callable[[], None],
         ran: Callable[[RobotConfig, Sequence[Path]], None],
+        done: Callable[[RobotConfig], None],
     ) -> None:
         """What a build leads to: `touch` for a robot that has to settle again, `arm` where scopes have changed.
 
-        `ran` is told of a robot of which these files were written or deleted.
+        `ran` is told of a robot of which these files were written or deleted, `done` of one that is built for now.
         """
         self._robots, self._request = robots, request
-        self._tell, self._touch, self._arm, self._ran = tell, touch, arm, ran
+        self._tell, self._touch, self._arm, self._ran, self._done = tell, touch, arm, ran, done
 
     def build(self, config: Config, settled: Sequence[Watched]) -> None:
         """Build robots until each is in step with itself: until a build of it finds nothing to write."""
@@ -86,6 +87,8 @@ class Builds:
     def _leave(self, watched: Watched) -> None:
         watched.built, watched.announced = watched.settled, False
         watched.settler.rest()
+        if watched.failed is None:
+            self._done(watched.robot)
 
     def _say_failed(self, watched: Watched, result: Result) -> None:
         again = watched.failed == result.diagnostics

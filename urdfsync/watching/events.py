@@ -2,6 +2,7 @@
 
 Events of one robot come in this order: `Settling` when one of its files changed, `Waiting` if what is there is no
 model (yet), `Building` when it has settled, and `Built` or `Failed`; or `Calm` if it turned out that nothing changed.
+Checks go on beside that: `Checking`, and `Checked` for the last one of several that begin while a robot changes.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import dataclasses
 from pathlib import Path
 from typing import Protocol, TypeAlias
 
+from urdfsync import outcome
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.outcome import Result
 
@@ -81,6 +83,25 @@ class Failed:
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
+class Checking:
+    """The check of the robot's package begins; one that was begun before is given up."""
+
+    robot: str
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Checked:
+    """The robot's package was checked as the last build left it."""
+
+    robot: str
+    checked: outcome.Checked
+    seconds: float = 0.0
+    """How long that took; 0 if it was known from an earlier check."""
+    diagnostics: tuple[Diagnostic, ...] = ()
+    """What is wrong with it, and what could not be checked."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
 class Noted:
     """Something that concerns no robot in particular; said once, until it is over and happens again.
 
@@ -136,6 +157,8 @@ Event: TypeAlias = (
     | Building
     | Built
     | Failed
+    | Checking
+    | Checked
     | Noted
     | Recovered
     | Paused

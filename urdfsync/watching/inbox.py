@@ -7,6 +7,9 @@ import queue
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
+from urdfsync.checking.afterbuild import Findings
+from urdfsync.watching.checks import Errand
+
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Lost:
@@ -22,13 +25,22 @@ class Ended:
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
+class Examined:
+    """A check has ended."""
+
+    errand: Errand
+    found: Findings | None
+    """None if it was given up."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
 class Stop:
     """The daemon is told to end, by this signal."""
 
     signal: str
 
 
-Message: TypeAlias = str | Lost | Ended | Stop
+Message: TypeAlias = str | Lost | Ended | Examined | Stop
 """A path that may have changed, or one of the above."""
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from pathlib import Path
 
+from urdfsync.checking import afterbuild
 from urdfsync.planning.situation import Request
 from urdfsync.watching.settling import Times
 
@@ -26,3 +27,5 @@ class Options:
     """What to run after a build that changed something; empty for nothing."""
     request: Request = dataclasses.field(default_factory=Request)
     """How to build; the daemon adds how progress is told."""
+    examine: afterbuild.Examine = afterbuild.on_disk
+    """How to check packages."""

@@ -8,8 +8,10 @@ from collections import Counter
 from collections.abc import Sequence
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.outcome import Result
+from urdfsync.outcome import Checked, Result
 from urdfsync.watching import events
+
+_WRONG = "checked with errors"
 
 
 class Mood(enum.StrEnum):
@@ -19,6 +21,7 @@ class Mood(enum.StrEnum):
     CONFLICT = "conflict"
     WAITING = "waiting"
     BUILDING = "building"
+    CHECKING = "checking"
     SETTLING = "settling"
     STARTING = "not looked at yet"
     IN_STEP = "in step"
@@ -47,11 +50,15 @@ class Board:
         """Why nothing is built for now; empty if robots are built."""
         self._rest: dict[str, Standing] = {}
         self._busy: dict[str, Standing] = {}
+        self._checks: dict[str, Standing] = {}
 
     @property
     def standings(self) -> Sequence[Standing]:
-        """Each robot, in the order of the configuration."""
-        return [self._busy.get(robot, rest) for robot, rest in self._rest.items()]
+        """Each robot, in the order of the configuration: what it is at, else what matters more, build or check."""
+        return [self._busy.get(robot) or self._at_rest(robot, rest) for robot, rest in self._rest.items()]
+
+    def _at_rest(self, robot: str, rest: Standing) -> Standing:
+        return min(rest, self._checks.get(robot, rest), key=lambda standing: standing.mood.rank)
 
     def take(self, event: events.Event, clock: str) -> None:
         """Take note of an event; `clock` is the time of day as people see it."""
@@ -59,6 +66,7 @@ class Board:
             case events.Started(robots=robots):
                 self._rest = {name: self._rest.get(name) or _plain(name, Mood.STARTING) for name in robots}
                 self._busy = {name: busy for name, busy in self._busy.items() if name in self._rest}
+                self._checks = {}
             case events.Settling(robot):
                 self._busy[robot] = _plain(robot, Mood.SETTLING)
             case events.Waiting(robot, reason, diagnostics):
@@ -70,6 +78,12 @@ class Board:
             case events.Built(result) | events.Failed(result):
                 self._busy.pop(result.robot, None)
                 self._rest[result.robot] = _after(result, clock, self._rest.get(result.robot))
+            case events.Checking(robot):
+                self._checks[robot] = _plain(robot, Mood.CHECKING)
+            case events.Checked(robot, checked, diagnostics=diagnostics):
+                self._checks.pop(robot, None)
+                if checked is Checked.WRONG:
+                    self._checks[robot] = Standing(robot, Mood.ERROR, ": ".join([_WRONG, *_first(diagnostics)]))
             case events.Paused(reason):
                 self.paused = reason
             case events.Resumed():

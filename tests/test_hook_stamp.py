@@ -1,0 +1,91 @@
+"""The hook by its stamp: passes at once, as long as the full way would."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from support import stamps
+from support.git import NEEDS_GIT, Repository
+
+from urdfsync import hook
+
+pytestmark = [NEEDS_GIT, pytest.mark.skipif(not hasattr(os, "posix_spawnp"), reason="only where a process is spawned")]
+
+MODEL = "modelica/Leg/Links/Tip.mo"
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return stamps.built(tmp_path_factory.mktemp("built") / "project")
+
+
+@pytest.fixture
+def repository(built: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
+    """A project in step, all of it committed, with a stamp of the hook; the working folder."""
+    shutil.copytree(built, tmp_path / "project")
+    found = Repository(tmp_path / "project", monkeypatch)
+    Path(found.folder / "notes.txt").write_text("notes\n")
+    found.commit()
+    monkeypatch.chdir(found.folder)
+    stamps.program(tmp_path, monkeypatch)
+    _stamp()
+    return found
+
+
+def _stamp() -> None:
+    end = time.monotonic() + stamps.LIMIT
+    while not hook._is_stamped():
+        assert hook._nothing_to_do()
+        assert time.monotonic() < end, "no stamp"
+
+
+def test_both_modes_pass_without_looking_further(repository: Repository, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(hook, "_nothing_to_do", None)
+    assert hook.main(["check"]) == 0
+    assert hook.main(["build"]) == 0
+
+
+def _stage(repository: Repository, path: str) -> None:
+    Path(path).write_text("another text\n")
+    repository.git("add", path)
+
+
+CHANGES: dict[str, Callable[[Repository], object]] = {
+    "a source": lambda _: Path("robots/leg.urdf").write_text("<robot/>"),
+    "an output": lambda _: Path(MODEL).unlink(),
+    "an output that is tracked no more": lambda repository: repository.git("rm", "-q", "--cached", MODEL),
+    "a source that is tracked no more": lambda repository: repository.git("rm", "-q", "--cached", "robots/leg.urdf"),
+    "a state that is tracked no more": lambda repository: repository.git(
+        "rm", "-q", "--cached", "-r", ".urdfsync/robots"
+    ),
+    "another output": lambda repository: _stage(repository, MODEL),
+    "another configuration": lambda repository: _stage(repository, "robots/urdfsync.toml"),
+    "no configuration": lambda repository: repository.git("rm", "-q", "--cached", "urdfsync.toml"),
+    "a file that has nothing to do with it": lambda _: Path("notes.txt").write_text("other"),
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_whatever_is_new_is_judged(repository: Repository, name: str) -> None:
+    CHANGES[name](repository)
+    assert not hook._is_stamped()
+
+
+def test_a_commit_of_something_else_passes_by_the_stamp(repository: Repository) -> None:
+    _stage(repository, "notes.txt")
+    assert hook._is_stamped()
+
+
+def test_an_ignored_source_is_left_to_the_full_way(repository: Repository) -> None:
+    repository.git("rm", "-q", "--cached", "robots/leg.urdf")
+    Path(".gitignore").write_text("robots/leg.urdf\n")
+    repository.git("add", ".gitignore")
+    Path(".urdfsync/stamp").unlink()
+    time.sleep(0.1)  # so that it would be stamped
+    assert hook._nothing_to_do()
+    assert not hook._is_stamped()

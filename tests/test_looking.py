@@ -1,0 +1,146 @@
+"""Looks are taken down wherever a decision makes them: what the system is asked for is compared with what is noted."""
+
+from __future__ import annotations
+
+import builtins
+import io
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from support import stamps
+
+from urdfsync import cli, looking, registry
+
+READS = ("open", "listdir", "scandir", "readlink")
+"""Calls after which the content matters, not only what is there."""
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], object]], set[tuple[str, str]]]:
+    """A function that runs another and gives the calls of the system that it made, each with its path."""
+
+    def during(action: Callable[[], object]) -> set[tuple[str, str]]:
+        calls: set[tuple[str, str]] = set()
+        with monkeypatch.context() as patch:
+            for module, name in (
+                *((os, name) for name in ("stat", "lstat", "listdir", "scandir", "readlink", "access", "open")),
+                *((module, "open") for module in (io, builtins)),
+            ):
+                patch.setattr(module, name, _noting(getattr(module, name), name, calls))
+            action()
+        return calls
+
+    return during
+
+
+def _noting(function: Callable[..., Any], name: str, calls: set[tuple[str, str]]) -> Callable[..., Any]:
+    def noting(*arguments: Any, **options: Any) -> Any:
+        if isinstance(arguments[0], str | os.PathLike):
+            calls.add((name, os.path.abspath(arguments[0])))  # noqa: PTH100 - a string
+        return function(*arguments, **options)
+
+    return noting
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return stamps.built(tmp_path_factory.mktemp("built") / "project")
+
+
+@pytest.fixture
+def folder(built: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    shutil.copytree(built, tmp_path / "project")
+    monkeypatch.chdir(tmp_path / "project")
+    return tmp_path / "project"
+
+
+@pytest.mark.parametrize("command", [["build"], ["build", "--check"], ["status"], ["build", "--config=urdfsync.toml"]])
+def test_all_that_a_command_without_work_asks_for_is_taken_down(
+    folder: Path, command: list[str], asked: Callable[[Callable[[], object]], set[tuple[str, str]]]
+) -> None:
+    with looking.taken_down() as looks:
+        calls = asked(lambda: cli._main(command))
+    assert looks.complete
+    contents = set(_absolute(looks.contents[False]) | _absolute(looks.contents[True]))
+    known = contents | _absolute(looks.kinds[False]) | _absolute(looks.kinds[True])
+    calls = {(name, path) for name, path in calls if Path(path).is_relative_to(folder.parent)}
+    assert len(calls) > 100, "the calls are seen at all"
+    assert {(name, path) for name, path in calls if path not in (contents if name in READS else known)} == set()
+    wanted = ("modelica/Lab/package.order", "ros", "robots/leg_meshes/base.stl", ".urdfsync/robots", "own/notes")
+    assert {str(folder / path) for path in wanted} <= contents
+
+
+def _absolute(paths: dict[str, Any]) -> set[str]:
+    return {os.path.abspath(path) for path in paths}  # noqa: PTH100
+
+
+def test_what_is_read_and_rendered_is_not_taken_down_and_that_is_known(folder: Path) -> None:
+    with looking.taken_down() as looks:
+        assert cli._main(["build", "--full", "--quiet"]) == 0
+    assert not looks.complete
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_neither_is_what_is_written(folder: Path, jobs: int) -> None:
+    (folder / "modelica/Leg/Leg.mo").unlink()
+    with looking.taken_down() as looks:
+        assert cli._main(["build", "--quiet", "--jobs", str(jobs)]) == 0
+    assert not looks.complete
+
+
+def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_site: Path) -> None:
+    with looking.taken_down() as looks:
+        registry.domain("rcnetwork")
+    assert str(rc_site) in looks.contents[True]
+
+
+@pytest.fixture
+def looks() -> Iterator[looking.Looks]:
+    with looking.taken_down() as found:
+        yield found
+
+
+def test_nothing_is_taken_down_without_need(tmp_path: Path) -> None:
+    with looking.taken_down() as looks:
+        pass
+    assert not looking.is_file(tmp_path / "a")
+    assert looks.kinds == ({}, {})
+
+
+def test_a_file_that_changes_meanwhile(looks: looking.Looks, tmp_path: Path) -> None:
+    file = tmp_path / "file"
+    file.write_text("a")
+    assert looking.content(file) == b"a"
+    assert looks.complete
+    file.write_text("ab")
+    assert looking.content(file) == b"ab"
+    assert not looks.complete
+
+
+def test_a_file_that_comes_meanwhile(looks: looking.Looks, tmp_path: Path) -> None:
+    assert not looking.is_file(tmp_path / "file")
+    (tmp_path / "file").write_text("a")
+    assert looking.is_file(tmp_path / "file")
+    assert not looks.complete
+
+
+def test_links_are_seen_as_what_they_are_and_as_what_they_lead_to(looks: looking.Looks, tmp_path: Path) -> None:
+    target, link = tmp_path / "file", tmp_path / "link"
+    target.write_text("a")
+    link.symlink_to(target)
+    assert looking.content(link) == b"a"
+    assert looking.status(link) is not None
+    assert looks.contents[True][str(link)] == looking.facts_of(target.stat())
+    assert looks.contents[False][str(link)] == looking.facts_of(link.lstat())
+
+
+def test_what_can_not_be_told_is_in_doubt(looks: looking.Looks, tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="too long"):
+        looking.is_file(tmp_path / ("a" * 5000))
+    assert not looks.complete

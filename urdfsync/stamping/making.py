@@ -1,0 +1,152 @@
+"""Makes stamps, after a command has found that there is nothing to do.
+
+What a file was when it was looked at says something of what it is later only if it was not just being written: a
+change within the same tick of the clock gives the same time again. So nothing is believed that changed after, or
+shortly before, the command began, by the clock of the file system itself.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+from urdfsync import looking, streams
+from urdfsync.files import TEMPORARY
+from urdfsync.stamping import stamp
+from urdfsync.stamping.stamp import Paths, Stamp
+
+_TICK = 50_000_000
+"""No clock of a file system with fractions of seconds is coarser (ns)."""
+_COARSE_TICK = 2_000_000_000
+"""Nor any other; that of FAT is this coarse."""
+_SKEW = 60_000_000_000
+"""Clocks of different file systems, one perhaps of another machine, are at most so far apart (ns)."""
+_SECOND = 1_000_000_000
+_MOST_CLAIMS = 16
+_LONGEST = 100_000
+"""Characters of an answer."""
+_CURSOR = "\x1b[?"
+"""Begins what a progress bar writes, and nothing else."""
+
+
+def carry_out(arguments: list[str], run: Callable[[streams.Said | None], int]) -> int:
+    """Run a command, which takes down what it says, and stamp it if it can be said again. Returns its exit code."""
+    if not arguments or arguments[0] not in stamp.COMMANDS:
+        return run(None)
+    said: streams.Said = []
+    begin = time.monotonic_ns(), time.time_ns()
+    with looking.taken_down() as looks:
+        question, file = _question(arguments)
+        code = run(said)
+    if code == 0 and file is not None and looks.complete and _is_repeatable(said):
+        keep(file, {question: [text for pair in said for text in pair]}, looks, begin)
+    return code
+
+
+def keep(file: str, claims: dict[str, list[str]], looks: looking.Looks, begin: tuple[int, int]) -> None:
+    """Stamp what follows from looks since `begin` for a configuration; what can't be stamped is not."""
+    if not looks.complete:
+        return
+    with contextlib.suppress(OSError, ValueError):
+        made = Stamp(stamp.program(), *_paths(looks), claims)
+        if str(Path(file)) in made.contents[True]:
+            made.contents[True].update(_modules())
+            path = stamp.place(file)
+            _write(_with_older(made, path), looks, path, begin)
+
+
+def _question(arguments: list[str]) -> tuple[str, str | None]:
+    """The command as the stamp will be asked for it."""
+    try:
+        file = stamp.configuration(arguments)
+        return (stamp.question(arguments, file), file) if file and sys.stdout and sys.stderr else ("", None)
+    except OSError:
+        return "", None
+
+
+def _is_repeatable(said: streams.Said) -> bool:
+    """Whether an answer can be given again as it is."""
+    on_windows = os.name == "nt" and (sys.stdout.isatty() or sys.stderr.isatty())  # colours are no text there
+    return not on_windows and sum(len(text) for _, text in said) <= _LONGEST and all(_CURSOR not in t for _, t in said)
+
+
+def _paths(looks: looking.Looks) -> tuple[tuple[Paths, Paths], tuple[Paths, Paths]]:
+    """Contents and kinds with absolute paths; kinds that follow from contents are left out."""
+    folder = os.getcwd()  # noqa: PTH109
+    own, targets = (_absolute(group, folder) for group in looks.contents)
+    plain = {path for path, facts in own.items() if not _is_link(facts)}
+    of_links, of_targets = (_absolute({path: (kind,) for path, kind in group.items()}, folder) for group in looks.kinds)
+    of_links = {path: kind for path, kind in of_links.items() if path not in own}
+    of_targets = {path: kind for path, kind in of_targets.items() if path not in targets and path not in plain}
+    return (own, targets), (of_links, of_targets)
+
+
+def _absolute(group: Mapping[str, tuple[int, ...]], folder: str) -> Paths:
+    return {os.path.join(folder, path): facts for path, facts in group.items()}  # noqa: PTH118 - there are thousands
+
+
+def _is_link(facts: Sequence[int]) -> bool:
+    return facts[0] & 0o170000 == 0o120000
+
+
+def _modules() -> Iterator[tuple[str, looking.Facts]]:
+    """The program itself, with all that it loaded to come to its conclusions."""
+    for name, module in list(sys.modules.items()):
+        file = getattr(module, "__file__", None)
+        if file and name.partition(".")[0] not in sys.stdlib_module_names:
+            with contextlib.suppress(FileNotFoundError, NotADirectoryError):  # in an archive: its version has to do
+                yield os.path.abspath(file), looking.facts_of(os.stat(file))  # noqa: PTH100, PTH116
+
+
+def _with_older(made: Stamp, path: str) -> Stamp:
+    """A stamp with what the one that is there says as well, if that still stands."""
+    reading = stamp.read(path)
+    if reading is None or len(reading.claims) >= _MOST_CLAIMS or not reading.stands():
+        return made
+    older = reading.stamp()
+    for old, new in zip((*older.contents, *older.kinds), (*made.contents, *made.kinds), strict=True):
+        if any(new.get(path, facts) != facts for path, facts in old.items()):
+            return made  # it changes at this moment
+        old.update(new)
+    return Stamp(made.program, older.contents, older.kinds, older.claims | made.claims)
+
+
+def _write(made: Stamp, looks: looking.Looks, path: str, begin: tuple[int, int]) -> None:
+    """Write a stamp unless something that it rests on is too new to be trusted. Raises OSError or ValueError."""
+    folder, name = os.path.split(path)
+    temporary = os.path.join(folder, f".{name}-{os.getpid()}{TEMPORARY}")  # noqa: PTH118
+    with contextlib.suppress(FileNotFoundError):
+        os.unlink(temporary)  # noqa: PTH108 - of a process that was killed
+    with contextlib.ExitStack() as stack:
+        file = stack.enter_context(open(temporary, "xb"))  # noqa: PTH123
+        stack.callback(_remove, temporary)
+        now = os.fstat(file.fileno())  # the clock of the file system: our own may be another one's
+        seen = (facts for group in looks.contents for facts in group.values())
+        modules = (facts for _, facts in _modules())
+        if not _are_settled(seen, now, stamp.passed(begin)) or not _are_settled(modules, now, stamp.since_begin()):
+            return
+        file.write(made.dumps(now.st_ino, now.st_mtime_ns))
+        file.flush()
+        os.utime(file.fileno(), ns=(now.st_mtime_ns, now.st_mtime_ns))
+        file.close()
+        os.replace(temporary, path)  # noqa: PTH105
+
+
+def _remove(temporary: str) -> None:
+    with contextlib.suppress(OSError):
+        os.unlink(temporary)  # noqa: PTH108
+
+
+def _are_settled(seen: Iterable[looking.Facts], now: os.stat_result, passed: int) -> bool:
+    """Whether all of this has been as it is since before the time that has passed, for certain."""
+    limit = now.st_mtime_ns - passed
+    for _, _, device, _, changed, altered in seen:
+        coarse = changed % _SECOND == 0 or altered % _SECOND == 0 or now.st_mtime_ns % _SECOND == 0
+        margin = _SKEW if device != now.st_dev else _COARSE_TICK if coarse else _TICK
+        if altered <= 0 or max(changed, altered) >= limit - margin:
+            return False
+    return True
