@@ -43,6 +43,8 @@ SHELL_MODULES = tuple(f"urdfsync.{name}" for name in SHELL)
 
 FORBIDDEN: dict[str, tuple[str, ...]] = {
     "diagnostics": ("urdfsync", *IO, *HEAVY),
+    "looking": ("urdfsync", *HEAVY),
+    "stamping/making": ("urdfsync.config", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "domain": ("urdfsync.urdf", "urdfsync.render", "urdfsync.registry", "msgspec", *SHELL_MODULES, *IO, *HEAVY),
     "changes": ("rich", "pathlib", "jinja2", "urdfsync.urdf", *IO, *SHELL_MODULES),
     "difference": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
@@ -149,6 +151,8 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
 
 LIGHT = (
     "cli",
+    "looking",
+    "stamping/making",
     "config",
     "registry",
     "build",

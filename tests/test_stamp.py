@@ -171,11 +171,15 @@ def _link(path: str) -> Edit:
 EDITS: dict[str, Edit] = {
     **{
         f"{name} {path}": edit(path)
+        for path in (URDF, LEG)
+        for name, edit in (("rewrite", _rewrite), ("replace", _replace), ("delete", _delete), ("link", _link))
+    },
+    **{
+        f"rewrite {path}": _rewrite(path)
         for path in (
-            *(URDF, LEG, "urdfsync.toml", "robots/leg_meshes/base.stl", ".urdfsync/robots/leg.json"),
+            *("urdfsync.toml", "robots/leg_meshes/base.stl", ".urdfsync/robots/leg.json"),
             *(".urdfsync/robots/gone.toml", "modelica/Leg/package.order"),
         )
-        for name, edit in (("rewrite", _rewrite), ("replace", _replace), ("delete", _delete), ("link", _link))
     },
     "a mesh that is better placed": _write("robots/arm_meshes/base.stl", stamps.TETRAHEDRON),
     "a package that hides another": _write("ros/a/package.xml", "<name>arm_meshes</name>"),
@@ -225,13 +229,18 @@ def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
 
 
 def test_what_is_written_at_the_same_time_is_not_believed(folder: Path) -> None:
-    with looking.taken_down() as looks:
+    stamped(*BUILD)
+    Path(STAMP).unlink()
+    for written in (True, False):
+        time.sleep(0.1)  # what was before is old enough
         begin = time.monotonic_ns(), time.time_ns()
-        looking.content(folder / "urdfsync.toml")
-        Path(URDF).write_bytes(Path(URDF).read_bytes())
-        looking.content(folder / URDF)
-    making.keep(str(folder / "urdfsync.toml"), {"question": []}, looks, begin)
-    assert not Path(STAMP).exists()
+        with looking.taken_down() as looks:
+            looking.content(folder / "urdfsync.toml")
+            if written:
+                Path(URDF).write_bytes(Path(URDF).read_bytes())
+            looking.content(folder / URDF)
+        making.keep(str(folder / "urdfsync.toml"), {"question": []}, looks, begin)
+        assert Path(STAMP).exists() is not written
 
 
 @pytest.mark.parametrize(
@@ -382,7 +391,7 @@ def _full(command: list[str]) -> list[str] | None:
     said: streams.Said = []
     with streams.guarded(said):
         code = cli._main(command)
-    return [text for pair in said for text in pair] if code == 0 else None
+    return [text for pair in said if pair[1] for text in pair] if code == 0 else None
 
 
 # The whole program

@@ -1,6 +1,6 @@
 """All benchmarks, by one command.
 
-    python tests/benchmarks [--rounds N] [--peers FOLDER] [noop | build | hook | watch …]
+    python tests/benchmarks [--rounds N] [--peers FOLDER] [noop | build | hook | watch | check …]
 
 Every round takes each measurement once, in turn, so that other load on the machine meets all of them alike; a ratio
 is the median of those of the single rounds. `--peers` is a folder with the programs of other tools (ninja, doit, dvc),
@@ -18,14 +18,15 @@ import tempfile
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
-sys.path[:0] = [str(FOLDER), str(FOLDER.parent)]
+sys.path.insert(0, str(FOLDER.parent))
 
-import noop  # noqa: E402
 from rich.console import Console  # noqa: E402
 from rich.progress import track  # noqa: E402
 from support.timing import comparison  # noqa: E402
 
-SCRIPTS = {name: f"bench_{name}.py" for name in ("build", "hook", "watch")}
+from benchmarks import noop  # noqa: E402
+
+SCRIPTS = {name: f"bench_{name}.py" for name in ("build", "hook", "watch", "check")}
 """Benchmarks that print tables of their own."""
 
 

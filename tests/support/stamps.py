@@ -72,6 +72,7 @@ def stamped(*arguments: str, code: int = 0) -> None:
     """Run a command until it has left a stamp: not as long as what it looks at is as new as the command."""
     end = time.monotonic() + LIMIT
     while repeated(*arguments) is None:
+        time.sleep(0.06)
         assert cli.main(arguments) == code
         assert time.monotonic() < end, "no stamp"
 

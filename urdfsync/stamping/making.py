@@ -17,7 +17,7 @@ from pathlib import Path
 from urdfsync import looking, streams
 from urdfsync.files import TEMPORARY
 from urdfsync.stamping import stamp
-from urdfsync.stamping.stamp import Paths, Stamp
+from urdfsync.stamping.stamp import Facts, Stamp
 
 _TICK = 50_000_000
 """No clock of a file system with fractions of seconds is coarser (ns)."""
@@ -29,6 +29,7 @@ _SECOND = 1_000_000_000
 _MOST_CLAIMS = 16
 _LONGEST = 100_000
 """Characters of an answer."""
+_Paths = dict[str, Facts]
 _CURSOR = "\x1b[?"
 """Begins what a progress bar writes, and nothing else."""
 
@@ -43,7 +44,7 @@ def carry_out(arguments: list[str], run: Callable[[streams.Said | None], int]) -
         question, file = _question(arguments)
         code = run(said)
     if code == 0 and file is not None and looks.complete and _is_repeatable(said):
-        keep(file, {question: [text for pair in said for text in pair]}, looks, begin)
+        keep(file, {question: [text for pair in said if pair[1] for text in pair]}, looks, begin)
     return code
 
 
@@ -74,7 +75,7 @@ def _is_repeatable(said: streams.Said) -> bool:
     return not on_windows and sum(len(text) for _, text in said) <= _LONGEST and all(_CURSOR not in t for _, t in said)
 
 
-def _paths(looks: looking.Looks) -> tuple[tuple[Paths, Paths], tuple[Paths, Paths]]:
+def _paths(looks: looking.Looks) -> tuple[tuple[_Paths, _Paths], tuple[_Paths, _Paths]]:
     """Contents and kinds with absolute paths; kinds that follow from contents are left out."""
     folder = os.getcwd()  # noqa: PTH109
     own, targets = (_absolute(group, folder) for group in looks.contents)
@@ -85,7 +86,7 @@ def _paths(looks: looking.Looks) -> tuple[tuple[Paths, Paths], tuple[Paths, Path
     return (own, targets), (of_links, of_targets)
 
 
-def _absolute(group: Mapping[str, tuple[int, ...]], folder: str) -> Paths:
+def _absolute(group: Mapping[str, Facts], folder: str) -> _Paths:
     return {os.path.join(folder, path): facts for path, facts in group.items()}  # noqa: PTH118 - there are thousands
 
 
@@ -105,14 +106,33 @@ def _modules() -> Iterator[tuple[str, looking.Facts]]:
 def _with_older(made: Stamp, path: str) -> Stamp:
     """A stamp with what the one that is there says as well, if that still stands."""
     reading = stamp.read(path)
-    if reading is None or len(reading.claims) >= _MOST_CLAIMS or not reading.stands():
+    older = _unpacked(reading) if reading and len(reading.claims) < _MOST_CLAIMS else None
+    if older is None:
         return made
-    older = reading.stamp()
     for old, new in zip((*older.contents, *older.kinds), (*made.contents, *made.kinds), strict=True):
         if any(new.get(path, facts) != facts for path, facts in old.items()):
             return made  # it changes at this moment
         old.update(new)
-    return Stamp(made.program, older.contents, older.kinds, older.claims | made.claims)
+    older.claims.update(made.claims)
+    return older
+
+
+def _unpacked(reading: stamp.Reading) -> Stamp | None:
+    """A stamp with its facts, which are those of now; None if it does not stand."""
+    try:
+        own: _Paths = {path: looking.facts_of(os.lstat(path)) for path in reading.own}
+        targets: _Paths = {path: looking.facts_of(os.stat(path)) for path in reading.targets}  # noqa: PTH116
+        links, kinds = map(_kinds, reading.kinds, (False, True))
+    except (OSError, ValueError):
+        return None
+    facts = [*own.values(), *targets.values(), *links.values(), *kinds.values()]
+    if stamp.chain(facts) != reading.chained:
+        return None
+    return Stamp(reading.program, (own, targets), (links, kinds), reading.claims)
+
+
+def _kinds(paths: Iterable[str], follow: bool) -> _Paths:
+    return {path: (looking.kind(path, follow=follow),) for path in paths}
 
 
 def _write(made: Stamp, looks: looking.Looks, path: str, begin: tuple[int, int]) -> None:

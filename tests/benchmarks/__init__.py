@@ -1,0 +1,1 @@
+"""Benchmarks; `python tests/benchmarks` runs them all."""
