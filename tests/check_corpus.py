@@ -22,7 +22,7 @@ from support.corpus import FOLDER
 import urdfsync
 from urdfsync import config, init
 from urdfsync.checking import checker, library
-from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, Standing, Verdict
+from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, Verdict
 from urdfsync.checking.wishes import Wishes
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Deviation, Quantity
@@ -72,7 +72,12 @@ def _check(files: Sequence[Path], options: argparse.Namespace, folder: Path) -> 
         name = names[verdict.robot].relative_to(options.folder.absolute()).as_posix()
         _row([name, bases[verdict.robot], *_cells(verdict)])
         verdicts.append(verdict)
-    return int(any(verdict.standing(strict=True) is not Standing.RIGHT for verdict in verdicts))
+    return int(not all(_agrees(verdict) for verdict in verdicts))
+
+
+def _agrees(verdict: Verdict) -> bool:
+    """Whether the package compiles and is the robot; that it is not on disk does not matter here."""
+    return not verdict.failed and not verdict.gaps and verdict.generated is not None and verdict.generated.agrees
 
 
 def _refused(file: Path, root: Path, folder: Path) -> bool:
@@ -102,7 +107,7 @@ def _cells(verdict: Verdict) -> Iterator[str]:
     yield f"{verdict.seconds:.0f}"
     yield f"{verdict.megabytes:.0f}"
     said = [one.message for one in verdict.diagnostics if one.severity == "error"]
-    yield "; ".join([verdict.standing(strict=True), *said, *verdict.notes])
+    yield "; ".join(["agrees" if _agrees(verdict) else "wrong", *said, *verdict.gaps, *verdict.notes])
 
 
 def _error(worst: Deviation | None) -> str:

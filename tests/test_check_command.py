@@ -22,6 +22,7 @@ Capture = pytest.CaptureFixture[str]
 RIGHT = Verdict("ladder", "Ladder")
 CHANGED = Deviation(Quantity.EFFORT, "R2", 1.0, 10.0, 10.0, "A")
 EDITED = dataclasses.replace(RIGHT, effects=(Effect(("Elements/R2.mo",), (CHANGED,)),))
+INCOMPLETE = dataclasses.replace(RIGHT, gaps=("nothing was compiled: there is no library",))
 WRONG = dataclasses.replace(RIGHT, generated=Comparison((CHANGED,)))
 FAILED = dataclasses.replace(RIGHT, diagnostics=(Diagnostic(Severity.ERROR, "no-compiler", "there is no compiler"),))
 
@@ -84,6 +85,9 @@ def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capt
         (EDITED, ["--strict"], 1),
         (WRONG, [], 1),
         (dataclasses.replace(RIGHT, in_step=False), [], 1),
+        (dataclasses.replace(RIGHT, in_step=False, built=False), [], 1),
+        (INCOMPLETE, [], 0),
+        (INCOMPLETE, ["--strict"], 1),
         (FAILED, [], 2),
     ],
 )
@@ -118,6 +122,9 @@ def test_an_interruption_leaves_what_was_found(
         ["--tool", "dymola"],
         ["ladder", "--clear-cache"],
         ["--robot", "ladder", "--clear-cache"],
+        ["--clear-cache", "--physics"],
+        ["--clear-cache", "--timeout", "5"],
+        ["--clear-cache", "--wait", "5"],
     ],
 )
 def test_bad_usage(checker: Checker, capsys: Capture, arguments: list[str]) -> None:
@@ -126,6 +133,37 @@ def test_bad_usage(checker: Checker, capsys: Capture, arguments: list[str]) -> N
     assert streams.out == ""
     assert "[usage]" in streams.err
     assert checker.robots == []
+
+
+@pytest.mark.parametrize("option", ["--timeout", "--memory"])
+def test_a_limit_that_is_no_number_is_named(checker: Checker, capsys: Capture, option: str) -> None:
+    assert cli.main(["check", option, "abc"]) == 2
+    assert f"argument {option}: 'abc' is no limit; give a number greater than 0" in capsys.readouterr().err
+    assert checker.robots == []
+
+
+def test_emptying_the_cache_takes_no_compiler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    monkeypatch.setattr("urdfsync.checking.compiler._NEEDED", ("not_installed_anywhere",))
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path)
+    assert cli.main(["check", "--clear-cache"]) == 0
+    assert capsys.readouterr().out == "the cache was empty\n"
+
+
+def test_whoever_looks_sees_that_the_cache_is_being_emptied(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    seen = []
+
+    def clear(_: object) -> int:
+        seen.append(capsys.readouterr().err)
+        return 48
+
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path)
+    monkeypatch.setattr("urdfsync.checking.cache.Cache.clear", clear)
+    assert cli.main(["check", "--clear-cache"]) == 0
+    assert "emptying the cache" in seen[0]
+    assert capsys.readouterr().out == "cache emptied, 48 bytes freed\n"
 
 
 def test_the_cache_is_emptied_without_a_configuration(

@@ -110,7 +110,8 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "watching/checks": ("rich", "watchdog", "urdfsync.report", "urdfsync.views", "urdfsync.cli"),
     "checking/verdict": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "checking/words": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
-    "checking/cache": (*SHELL_MODULES, *HEAVY),
+    "checking/cache": (*(name for name in SHELL_MODULES if name != "urdfsync.state"), *HEAVY),
+    "checking/dependencies": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY, *EXTRAS),
     "checking/compiler": ("pathlib", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS),
     "checking/library": (*SHELL_MODULES, *HEAVY, *EXTRAS),
     "checking/process": ("urdfsync", *HEAVY),
@@ -172,6 +173,7 @@ LIGHT = (
     "checking/afterbuild",
     "checking/cache",
     "checking/compiler",
+    "checking/dependencies",
     "checking/memory",
     "checking/slim",
 )

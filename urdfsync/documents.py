@@ -109,6 +109,7 @@ def verdict(found: Verdict, strict: bool) -> dict[str, Any]:
         "failed": found.failed,
         "built": found.built,
         "in_step": found.in_step,
+        "conflicting": found.conflicting,
         "summary": words.summary(found, strict),
         "compiled": [
             {"model": one.model, "unknowns": one.unknowns or None, "states": one.states if one.unknowns else None}
@@ -119,11 +120,16 @@ def verdict(found: Verdict, strict: bool) -> dict[str, Any]:
         "agrees": found.generated.agrees if found.generated else None,
         "deviations": [_deviation(one) for one in found.generated.deviations] if found.generated else [],
         "edits": [
-            {"files": list(one.files), "deviations": [_deviation(each) for each in one.deviations]}
+            {
+                "files": list(one.files),
+                "owners": list(one.owners),
+                "deviations": [_deviation(each) for each in one.deviations],
+            }
             for one in found.effects
         ],
         "notes": list(found.notes),
         "unchecked": list(found.unchecked),
+        "gaps": list(found.gaps),
         "seconds": found.seconds,
         "megabytes": found.megabytes,
         "diagnostics": [finding(diagnostic) for diagnostic in found.diagnostics],

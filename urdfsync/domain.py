@@ -174,7 +174,9 @@ class Quantity(enum.StrEnum):
     ORIENTATION = "orientation"
     """Of a link's frame: elements of its rotation matrix."""
     EFFORT = "effort"
-    """Of what drives an axis, in N·m or N; or of the base, which is moved."""
+    """Of what drives an axis, in N·m or N."""
+    REACTION = "reaction"
+    """Of the force and of the torque that hold the root, in N and N·m."""
     ACCELERATION = "acceleration"
     """Of an axis that nothing drives, in rad/s² or m/s²."""
     MASS = "mass"
@@ -195,7 +197,7 @@ class Deviation:
     value: float
     """The greatest absolute value of the reference for this element, in `unit`."""
     size: float
-    """The greatest absolute value of the reference for this quantity over all elements, in `unit`."""
+    """The greatest absolute value of the reference for this quantity in this unit over all elements."""
     unit: str
 
     @property
@@ -232,10 +234,13 @@ class Experiment(Protocol):
     unchecked: tuple[str, ...]
     """What the comparison does not cover, and why: one sentence each, without a full stop."""
 
-    def compare(self, series: Mapping[str, Sequence[float]]) -> Sequence[Deviation]:
-        """Compare the values of `probe` (and `time`) with the reference, element by element.
+    def compare(
+        self, series: Mapping[str, Sequence[float]], baseline: Mapping[str, Sequence[float]] | None = None
+    ) -> Sequence[Deviation]:
+        """Compare the values of `probe` (and `time`) with the reference, element by element from the root outwards.
 
-        Raises SourceError if the reference can't be computed.
+        With a `baseline`, another simulation of the same probe, that takes the place of the reference. Raises
+        SourceError if the reference can't be computed.
         """
         ...
 

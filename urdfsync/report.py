@@ -61,15 +61,14 @@ class Report:
 
     def progress(self, what: str, done: int, total: int) -> None:
         """Show a step of the work, once the work takes long enough for anybody to wonder."""
-        if self._json or self._quiet or not sys.stderr.isatty() or time.monotonic() - self._begin < _PATIENCE:
-            return
-        if self._bar is None:
-            from rich.progress import Progress
+        if self._wants_bar and time.monotonic() - self._begin >= _PATIENCE:
+            bar, task = self._start_bar(what)
+            bar.update(task, description=what, completed=done, total=total)
 
-            bar = Progress(console=terminal.console(sys.stderr), transient=True)
-            self._bar = bar, bar.add_task(what, total=total)
-            bar.start()
-        self._bar[0].update(self._bar[1], description=what, completed=done, total=total)
+    def waiting(self, what: str) -> None:
+        """Show that there is work of which no steps are known, at once: it may be too long to say it later."""
+        if self._wants_bar:
+            self._start_bar(what)
 
     def warnings(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Findings that concern the whole command and do not stop it."""
@@ -148,6 +147,7 @@ class Report:
 
     def cleared(self, freed: int) -> None:
         """Show how many bytes there were in the cache of checks that was emptied."""
+        self._stop_bar()
         if self._json:
             self._document("check", Exit.IN_STEP, {"freed": freed})
         elif not self._quiet:
@@ -251,6 +251,20 @@ class Report:
             for line in self._checks.end():
                 console.print(line, soft_wrap=True)
             self._checks = None
+
+    @property
+    def _wants_bar(self) -> bool:
+        return not self._json and not self._quiet and sys.stderr.isatty()
+
+    def _start_bar(self, what: str) -> tuple[Progress, TaskID]:
+        """The bar, which moves to and fro until there is a number of steps."""
+        if self._bar is None:
+            from rich.progress import Progress
+
+            bar = Progress(console=terminal.console(sys.stderr), transient=True)
+            self._bar = bar, bar.add_task(what, total=None)
+            bar.start()
+        return self._bar
 
     def _stop_bar(self) -> None:
         if self._bar is not None:

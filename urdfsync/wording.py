@@ -47,6 +47,8 @@ def checked(what: Checked, diagnostics: Sequence[Diagnostic]) -> str:
             return "checked: compiles"
         case Checked.INCOMPLETE:
             return "not checked completely"
+        case Checked.UNCHECKED:
+            return "not checked"
         case Checked.WRONG:
             return f"checked: {counted(sum(found.severity is Severity.ERROR for found in diagnostics), 'error')}"
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import errno
 import importlib.util
+import shutil
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -110,6 +111,11 @@ def test_what_is_wrong_is_not_taken_for_what_was_right_before(project: Path) -> 
     assert examiner.asked == ["ladder"], "only the last check is remembered"
 
 
+def write(file: Path, text: str) -> None:
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text)
+
+
 def edit_model(project: Path) -> None:
     with (project / MODEL).open("a") as file:
         file.write("// mine\n")
@@ -125,21 +131,71 @@ def change_order(project: Path) -> None:
 
 
 def change_library(project: Path) -> None:
-    for name in ("Modelica", "ModelicaServices", "Complex"):
-        folder = project / "libraries" / f"{name} 4.1.0"
-        folder.mkdir(parents=True)
-        (folder / "package.mo").write_text(f"package {name} end {name};\n")
+    (project / "libraries" / "Complex 4.1.0" / "Mine.mo").touch()
 
 
-@pytest.mark.parametrize("change", [edit_model, add_class, change_order, change_library])
-def test_it_is_checked_again_when_something_matters_that_a_build_does_not_see(project: Path, change: Any) -> None:
+def remove_library(project: Path) -> None:
+    shutil.rmtree(project / "libraries" / "Complex 4.1.0")
+
+
+def change_other_library(project: Path) -> None:
+    (project / "path" / "Pumps" / "Small.mo").write_text("within Pumps;\nmodel Small Real x; end Small;\n")
+
+
+def change_library_of_library(project: Path) -> None:
+    (project / "path" / "Tanks.mo").write_text("package Tanks\n  // new\nend Tanks;\n")
+
+
+def remove_other_library(project: Path) -> None:
+    shutil.rmtree(project / "path" / "Pumps")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        *(edit_model, add_class, change_order, change_library, remove_library),
+        *(change_other_library, change_library_of_library, remove_other_library),
+    ],
+)
+def test_it_is_checked_again_when_something_matters_that_a_build_does_not_see(
+    project: Path, change: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
     add(project, '[check]\nlibrary = "libraries"\n')
+    for name in ("Modelica", "ModelicaServices", "Complex"):
+        write(project / "libraries" / f"{name} 4.1.0" / "package.mo", f"package {name} end {name};\n")
+    write(project / "path" / "Pumps" / "package.mo", "package Pumps\n  import Tanks;\nend Pumps;\n")
+    write(project / "path" / "Tanks.mo", "package Tanks\nend Tanks;\n")
+    write(project / "path" / "Unused.mo", "package Unused\nend Unused;\n")
+    monkeypatch.setenv("MODELICAPATH", str(project / "path"))
+    run(Examiner(RIGHT))
+    write(project / MODEL, (project / MODEL).read_text().replace("end R2;", "  Pumps.Small p;\nend R2;"))
     examiner = Examiner(RIGHT)
     run(examiner)
     change(project)
     run(examiner)
     run(examiner)
     assert examiner.asked == ["ladder"] * 2
+
+
+def test_it_is_checked_again_with_another_search_path(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write(project / "path" / "Ohm.mo", "package Ohm\nend Ohm;\n")
+    monkeypatch.setenv("MODELICAPATH", str(project / "path"))
+    run(Examiner(RIGHT))
+    write(project / MODEL, (project / MODEL).read_text().replace("end R2;", "  Ohm.Law law;\nend R2;"))
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    monkeypatch.setenv("MODELICAPATH", "")
+    run(examiner)
+    assert examiner.asked == ["ladder"] * 2
+
+
+def test_libraries_that_nothing_mentions_do_not_matter(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MODELICAPATH", str(project / "path"))
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    write(project / "path" / "Unused.mo", "package Unused\nend Unused;\n")
+    run(examiner)
+    assert examiner.asked == ["ladder"]
 
 
 def test_other_files_of_a_package_do_not_matter(project: Path) -> None:
@@ -236,10 +292,16 @@ NO_COMPILER = Diagnostic(Severity.ERROR, "no-compiler", "there is no compiler", 
 NO_LIBRARY = Diagnostic(Severity.ERROR, "wrong-library-folder", "there is no library", hint="name another folder")
 
 
-@pytest.mark.parametrize("way", [CompilerError(NO_COMPILER), Verdict("ladder", "Ladder", diagnostics=(NO_COMPILER,))])
-def test_a_machine_without_a_compiler_is_a_warning_and_no_fault(project: Path, way: Any) -> None:
+@pytest.mark.parametrize(
+    ("way", "checked"),
+    [
+        (CompilerError(NO_COMPILER), Checked.UNCHECKED),
+        (Verdict("ladder", "Ladder", diagnostics=(NO_COMPILER,)), Checked.INCOMPLETE),
+    ],
+)
+def test_a_machine_without_a_compiler_is_a_warning_and_no_fault(project: Path, way: Any, checked: Checked) -> None:
     (result,) = run(Examiner(way))
-    assert result.checked is Checked.INCOMPLETE
+    assert result.checked is checked
     assert result.diagnostics == (dataclasses.replace(NO_COMPILER, severity=Severity.WARNING),)
     assert run(Examiner(way))[0].diagnostics == result.diagnostics, "it is said at each build"
 
@@ -250,15 +312,26 @@ def test_what_keeps_one_package_from_being_checked_keeps_all(project: Path) -> N
     ladder, other = run(examiner)
     assert (ladder.checked, other.checked) == (Checked.RIGHT, Checked.WRONG)
     assert other.diagnostics == (BROKEN,)
-    assert [result.checked for result in run(Examiner(CompilerError(NO_COMPILER)), full=True)] == [
-        Checked.INCOMPLETE,
-        Checked.INCOMPLETE,
-    ]
+    without = run(Examiner(CompilerError(NO_COMPILER)), full=True)
+    assert [result.checked for result in without] == [Checked.UNCHECKED] * 2
 
 
 def test_what_a_check_leaves_out_when_it_compiles_is_not_worth_a_word(project: Path) -> None:
     (result,) = run(Examiner(dataclasses.replace(RIGHT, unchecked=("poses were not compared",))))
     assert (result.checked, result.diagnostics) == (Checked.RIGHT, ())
+
+
+def test_what_could_not_be_checked_at_all_is_not_remembered(project: Path) -> None:
+    """What was lacking may be there by now, and a look takes no time."""
+    run(Examiner(CompilerError(NO_COMPILER)))
+    assert run(Examiner(RIGHT))[0].checked is Checked.RIGHT
+
+
+def test_a_gap_is_said_also_if_something_compiles(project: Path) -> None:
+    verdict = dataclasses.replace(RIGHT, gaps=("half of it was not compiled",), unchecked=("poses were not compared",))
+    (result,) = run(Examiner(verdict))
+    assert result.checked is Checked.INCOMPLETE
+    assert [str(found) for found in result.diagnostics] == ["warning: half of it was not compiled [not-checked]"]
 
 
 def test_a_library_that_is_named_and_not_there_is_an_error(project: Path) -> None:
@@ -273,7 +346,7 @@ def test_without_the_extra_the_real_check_says_what_to_install(
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "rumoca" else find(name))
     assert cli.main(["build"]) == 0
     streams = capsys.readouterr()
-    assert "files written; not checked completely" in streams.out
+    assert streams.out.splitlines()[0].endswith("files written; not checked")
     assert "warning: there is no compiler: " in streams.err
     assert "pip install 'urdfsync[check]'" in streams.err
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import time
 from pathlib import Path
 
@@ -10,7 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.checking.cache import AFTER, FULL, GRACE, Cache, CacheError, Entry, surplus
+from urdfsync.checking.cache import AFTER, FULL, GRACE, LOCK, Cache, CacheError, Entry, surplus
+from urdfsync.state.lock import Lock
 
 NOW = 1e9
 BLOCK = 4096
@@ -112,6 +114,38 @@ def test_clearing_empties_it_and_says_how_much_that_was(cache: Cache) -> None:
     assert cache.clear() >= 30 * BLOCK
     assert cache.size() == 0
     assert [path.name for path in cache.folder.iterdir()] == ["CACHEDIR.TAG"]
+
+
+def test_what_a_check_works_with_is_not_cleared(cache: Cache) -> None:
+    record = put(cache, f"{RECORDS}/a.bin", 0)
+    idle, busy = put_folder(cache, "work/idle", 0), put_folder(cache, "work/busy", 0)
+    copied = put_folder(cache, "libraries/one", 0)
+    (idle / LOCK).touch()
+    with Lock(busy / LOCK, wait=0) as lock:
+        lock.acquire()
+        cache.clear()
+        assert [path.exists() for path in (record, idle, busy, copied)] == [False, False, True, True]
+        assert (busy / "some" / "file").exists()
+    cache.clear()
+    assert not busy.exists()
+    assert not copied.exists()
+
+
+def test_a_workspace_that_is_used_for_hours_is_not_trimmed(cache: Cache) -> None:
+    busy = put_folder(cache, "work/busy", GRACE + 60)
+    with Lock(busy / LOCK, wait=0) as lock:
+        lock.acquire()
+        os.utime(busy, (time.time() - GRACE - 60,) * 2)
+        cache.trim(limit=1)
+        assert (busy / "some" / "file").exists()
+    cache.trim(limit=1)
+    assert not busy.exists()
+
+
+def test_without_the_library_that_knows_its_place_there_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "platformdirs", None)
+    with pytest.raises(CacheError, match="platformdirs is not installed; pip install"):
+        Cache.of_user()
 
 
 def test_what_is_not_ours_stays(cache: Cache, tmp_path: Path) -> None:

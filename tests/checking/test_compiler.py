@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.checking import library, slim
+from urdfsync.checking import library, references, slim
 from urdfsync.checking.cache import Cache
-from urdfsync.checking.compiler import MISSING, Compiler, CompilerError, Rumoca
+from urdfsync.checking.compiler import MISSING, Compiler, CompilerError, Rumoca, require
 from urdfsync.checking.process import UNLIMITED, Limits
 from urdfsync.checking.tasks import Job, Outcome, Simulation, Task, compiling
 from urdfsync.config import library_folder
@@ -104,6 +104,19 @@ def test_a_compiler_that_is_not_installed_is_named(rumoca: Compiler, monkeypatch
     assert "rumoca is not installed" in diagnostic.message
 
 
+def test_each_tool_needs_its_own_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    absent = "rumoca"
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == absent else name)
+    monkeypatch.setattr("shutil.which", lambda name: name)
+    require("omc")
+    with pytest.raises(CompilerError, match="rumoca is not installed"):
+        require("rumoca")
+    absent = "OMPython"
+    require("rumoca")
+    with pytest.raises(CompilerError, match="OMPython is not installed"):
+        require("omc")
+
+
 def test_one_that_can_not_be_loaded_too(rumoca: Compiler, monkeypatch: pytest.MonkeyPatch) -> None:
     fake_worker(monkeypatch, f"sys.stderr.write('no such wheel'); sys.exit({MISSING})")
     diagnostic, _ = failure(rumoca, Job((), (BAD, GOOD)))
@@ -151,7 +164,7 @@ equation
 end Pendulum;
 """
     found = library.standard(os.environ, Path.home(), modelica_library)
-    roots = (*slim.roots(found, cache, [source]), str(library_folder() / "UrdfSync"))
+    roots = (*slim.Copies(found, cache).roots(references.mentioned([source])), str(library_folder() / "UrdfSync"))
     task = Task("Pendulum", source, (Simulation(0.001, 0.001),), ("a", "revolute.phi"))
     pendulum, example = rumoca.compile(Job(roots, (task, compiling("UrdfSync.Examples.HoldingTorque"))), UNLIMITED)
     assert pendulum.problem == ""

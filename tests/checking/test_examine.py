@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -14,7 +15,7 @@ from urdfsync import config
 from urdfsync.build import build
 from urdfsync.checking.examine import examine
 from urdfsync.checking.process import Limits
-from urdfsync.checking.verdict import Standing, Verdict
+from urdfsync.checking.verdict import Standing, Verdict, exit_code
 from urdfsync.checking.wishes import Wishes
 from urdfsync.planning.situation import Request
 
@@ -69,14 +70,29 @@ def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Pat
     replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
     verdict = check(physics=True)
     assert codes(verdict) == []
-    assert [one.model for one in verdict.compiled] == ["ArmRun", "ArmTest"]
+    assert [one.model for one in verdict.compiled] == ["Arm", "ArmRun", "ArmTest"]
     assert verdict.generated is not None
     assert verdict.generated.agrees
     assert (verdict.standing(strict=False), verdict.standing(strict=True)) == (Standing.RIGHT, Standing.DIFFERS)
-    elements = {effect.files[0]: {one.element for one in effect.deviations} for effect in verdict.effects}
-    assert elements["Joints/ElbowParameters.mo"] == {"joint elbow"}
-    assert elements["Links/HandParameters.mo"] >= {"robot", "joint elbow", "joint shoulder"}
-    assert elements["Links/Base.mo"] == set()
+    elements = {effect.files: {one.element for one in effect.deviations} for effect in verdict.effects}
+    assert elements.keys() == {("Joints/ElbowParameters.mo",), ("Links/HandParameters.mo",), ("Links/Base.mo",)}
+    assert elements["Joints/ElbowParameters.mo",] == {"joint elbow"}
+    assert elements["Links/HandParameters.mo",] >= {"robot", "joint elbow", "joint shoulder"}
+    assert elements["Links/Base.mo",] == set()
+    assert {effect.owners for effect in verdict.effects} == {("joint elbow",), ("link hand",), ("link base",)}
+
+
+@pytest.mark.slow
+def test_an_edited_robot_that_can_not_be_moved_is_not_right(arm: Path, modelica_library: Path) -> None:
+    """It compiles, and an assertion of the user's ends every simulation."""
+    replace(arm / "Joints" / "Elbow.mo", "equation\n", 'equation\n  assert(false, "not ready yet");\n')
+    verdict = check(physics=True)
+    assert codes(verdict) == []
+    assert len(verdict.compiled) == 3
+    assert verdict.standing(strict=False) is Standing.INCOMPLETE
+    (gap,) = verdict.gaps
+    assert "not ready yet" in gap
+    assert (exit_code([verdict], strict=False), exit_code([verdict], strict=True)) == (0, 1)
 
 
 @pytest.mark.slow
@@ -112,7 +128,7 @@ def test_without_a_library_nothing_is_compiled(arm: Path) -> None:
         file.write('[check]\nlibrary = "nothing"\n')
     verdict = check()
     assert codes(verdict) == ["wrong-library-folder"]
-    assert any("nothing was compiled" in sentence for sentence in verdict.unchecked)
+    assert any("nothing was compiled" in sentence for sentence in verdict.gaps)
 
 
 def test_nothing_is_compiled_that_does_not_parse(arm: Path) -> None:
@@ -123,7 +139,7 @@ def test_nothing_is_compiled_that_does_not_parse(arm: Path) -> None:
         ("modelica/Arm/Joints/Elbow.mo", 3)
     ]
     assert verdict.compiled == ()
-    assert any("nothing was compiled" in sentence for sentence in verdict.unchecked)
+    assert any("nothing was compiled" in sentence for sentence in verdict.gaps)
 
 
 def test_a_source_with_errors_is_told(arm: Path) -> None:
@@ -131,3 +147,25 @@ def test_a_source_with_errors_is_told(arm: Path) -> None:
     verdict = check()
     assert verdict.failed
     assert verdict.diagnostics[0].file == "arm.urdf"
+
+
+def test_a_robot_that_was_not_built_is_out_of_step(arm: Path) -> None:
+    """What would be generated is checked as far as it goes: here there is no library."""
+    shutil.rmtree(arm)
+    shutil.rmtree(".urdfsync")
+    Path("nothing").mkdir()
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('[check]\nlibrary = "nothing"\n')
+    verdict = check()
+    assert (verdict.built, verdict.in_step) == (False, False)
+    assert codes(verdict) == ["wrong-library-folder"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="links need rights there")
+def test_what_is_no_file_is_told_and_no_more(arm: Path) -> None:
+    (arm / "Links" / "Gone.mo").symlink_to("nowhere.mo")
+    (arm / "Joints" / "Elbow.mo").write_text("within Arm.Joints;\nmodel Elbow\n  Real x = ;\nend Elbow;\n")
+    found = check().diagnostics
+    assert [(one.code, one.file) for one in found if one.code == "no-file"] == [
+        ("no-file", "modelica/Arm/Links/Gone.mo")
+    ]

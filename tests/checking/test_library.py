@@ -131,6 +131,33 @@ def test_other_libraries_are_found_by_name(name: str, tmp_path: Path) -> None:
     assert library.find("pumps", places) is None
 
 
+def test_the_names_of_all_libraries_at_hand(tmp_path: Path) -> None:
+    put(tmp_path / "one", "Pumps 1.2.0", "Pumps 1.3.0", "Tanks.mo")
+    put(tmp_path / "two", "Valves")
+    assert library.names([tmp_path / "one", tmp_path / "absent", tmp_path / "two"]) == {"Pumps", "Tanks", "Valves"}
+
+
+@pytest.mark.parametrize("folders_only", [False, True])
+def test_the_state_of_a_library_changes_with_its_files(folders_only: bool, tmp_path: Path) -> None:
+    pumps = put(tmp_path, "Pumps") / "Pumps"
+    (pumps / "Sub").mkdir()
+    states = [library.state(pumps, folders_only=folders_only) for _ in range(2)]
+    (pumps / "Sub" / "Small.mo").write_text("model Small end Small;")
+    states.append(library.state(pumps, folders_only=folders_only))
+    (pumps / "Sub" / "Small.mo").unlink()
+    (pumps / "Sub" / "Large.mo").symlink_to("nowhere.mo")
+    states.append(library.state(pumps, folders_only=folders_only))
+    assert states[0] == states[1]
+    assert len(set(states)) == 3
+
+
+def test_the_state_of_a_file(tmp_path: Path) -> None:
+    pumps = put(tmp_path, "Pumps.mo") / "Pumps.mo"
+    before = library.state(pumps)
+    pumps.write_text("package Pumps end Pumps;")
+    assert library.state(pumps) != before
+
+
 @given(st.lists(st.lists(st.integers(0, 30), min_size=1, max_size=4).map(tuple), min_size=1, max_size=6))
 def test_the_newest_version_is_taken(versions: list[tuple[int, ...]]) -> None:
     names = [f"Pumps {library.dotted(version)}" for version in versions]

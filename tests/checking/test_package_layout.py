@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -80,7 +81,7 @@ def test_the_first_place_that_does_not_parse_is_named_in_every_file() -> None:
     shoulder = "Joints/Shoulder.mo"
     edits = {**arm.changed("useAxisFlange = true,", "useAxisFlange = true"), shoulder: "hello world"}
     lacks = "the file lacks `,` or `)` before `n`"
-    assert findings(edits)[:2] == [
+    assert findings(edits) == [
         f"{ELBOW}:{arm.line('n = parameters.axis')}: error: joint elbow: {lacks} [syntax]",
         f"{shoulder}:1: error: the file lacks a class before `hello` [syntax]",
     ]
@@ -165,6 +166,13 @@ def test_a_file_holds_one_class() -> None:
     ]
 
 
+@pytest.mark.parametrize("text", ["", "\n", "// nothing\n"])
+def test_of_an_empty_file_one_thing_is_said(text: str) -> None:
+    assert findings({ELBOW: text}) == [
+        f"{ELBOW}: error: joint elbow: the file holds no class; write the class `Elbow`, or delete the file [no-class]"
+    ]
+
+
 def test_files_are_in_utf8() -> None:
     message = "the file is not in UTF-8; save it as UTF-8 [not-utf8]"
     edits = {ELBOW: arm.text().encode().replace(b"Motion along", b"Bew\xe9gung"), ORDER: b"Elbow\nSt\xfctze\n"}
@@ -190,6 +198,28 @@ def test_a_folder_of_classes_is_a_package() -> None:
     ]
     (found,) = layout.check(Package("Arm", Path("Arm"), {}, str))
     assert (found.code, found.file) == ("no-package-file", "Arm")
+
+
+@pytest.mark.parametrize("name", ["X.mo", "old ones", "model"])
+def test_of_a_folder_that_can_be_no_package_one_thing_is_said(name: str) -> None:
+    within = f"within {arm.NAME};"
+    edits = {f"{name}/package.mo": f"{within}\npackage X\nend X;\n", f"{name}/Inner/Y.mo": "nonsense"}
+    message = f"`{name}` can't be the name of a package; rename the folder, or move it elsewhere"
+    assert findings(edits) == [f"{name}: error: {message} [wrong-name]"]
+    order = f"{arm.text('package.order')}{name}\n"
+    assert findings({**edits, "package.order": order}) == [f"{name}: error: {message} [wrong-name]"]
+
+
+@pytest.mark.parametrize("name", ["Elbow.old", "Elbow (copy)"])
+def test_of_a_file_that_can_hold_no_class_one_thing_is_said(name: str) -> None:
+    message = f"`{name}` can't be the name of a class; rename the file, or move it elsewhere"
+    assert findings({f"Joints/{name}.mo": arm.text()}) == [f"Joints/{name}.mo: error: {message} [wrong-name]"]
+
+
+def test_names_in_quotes_are_names() -> None:
+    text = f"{WITHIN}\nmodel 'my elbow'\nend 'my elbow';\n"
+    edits = {"Joints/'my elbow'.mo": text, ORDER: arm.text(ORDER) + "'my elbow'\n"}
+    assert findings(edits) == []
 
 
 def test_a_package_file_with_a_capital_is_found() -> None:
@@ -233,9 +263,30 @@ def test_the_order_names_what_is_there_once() -> None:
     ]
 
 
+def test_what_a_build_adds_to_an_order_nobody_has_to_add() -> None:
+    """The file is urdfsync's if the package is; whoever adds a class has to name it."""
+    names = [name for name in arm.text(ORDER).split() if name != "Turret"]
+    own = f"{WITHIN}\nmodel Own\nend Own;\n"
+    package = arm.package({ORDER: "\n".join(names), "Joints/Own.mo": own})
+    owners = {"Joints/package.mo": "robot", "Joints/Turret.mo": "joint turret"}
+    found = layout.check(dataclasses.replace(package, owners=owners))
+    hints = {one.message: one.hint for one in found}
+    advice = "add it where it belongs: tools put it last, or warn"
+    assert hints == {"`Own` is not named": advice, "`Turret` is not named": "`urdfsync build` adds it"}
+    elsewhere = dataclasses.replace(arm.package({ORDER: "\n".join(names)}), owners={"Joints/Turret.mo": "joint turret"})
+    assert [one.hint for one in layout.check(elsewhere)] == [advice]
+
+
+def test_what_a_build_adds_may_be_a_folder() -> None:
+    owners = {"package.mo": "robot", "Joints/package.mo": "robot"}
+    order = arm.text("package.order").replace("Joints\n", "")
+    (found,) = layout.check(dataclasses.replace(arm.package({"package.order": order}), owners=owners))
+    assert (found.message, found.hint) == ("`Joints` is not named", "`urdfsync build` adds it")
+
+
 def test_the_order_is_not_judged_by_a_package_file_that_does_not_parse() -> None:
     edits = {"Joints/package.mo": "package Joints\n  constant Real x = ;\n", ORDER: "x\n" + arm.text(ORDER)}
-    assert {one.split("[")[-1] for one in findings(edits)} == {"syntax]", "wrong-within]"}
+    assert [one.split("[")[-1] for one in findings(edits)] == ["syntax]"]
 
 
 def test_only_what_a_tool_may_load_all_the_same_is_a_warning() -> None:
@@ -247,3 +298,74 @@ def test_only_what_a_tool_may_load_all_the_same_is_a_warning() -> None:
     found = layout.check(arm.package(edits))
     assert {one.severity for one in found} == {Severity.WARNING}
     assert len({one.code for one in found}) == 4
+
+
+# --- files around the package -----------------------------------------------------------------------------------------
+
+OUTPUT = arm.HOME / "modelica"
+AROUND = {
+    "Plant/package.mo": "within;\npackage Plant\nend Plant;\n",
+    "Plant/package.order": "Robots\nGone\n",
+    "Plant/Robots/package.mo": "within Plant;\npackage Robots\nend Robots;\n",
+    "Plant/Control.mo": "within Plant;\nblock Control\nend Control;\n",
+    "Tools 2.1/package.mo": "package Tools\nend Tools;\n",
+    "Tools 2.1/Pump.mo": "within Tools;\nmodel Pump\nend Pump;\n",
+    "Alone 1.0.mo": "package Alone\nend Alone;\n",
+}
+
+
+def around(files: Mapping[str, str | bytes]) -> list[str]:
+    """What is said of files beside the package, some of them other than they should be."""
+    texts = {**AROUND, **files}
+    contents = {OUTPUT / path: text.encode() if isinstance(text, str) else text for path, text in texts.items()}
+    return [str(one) for one in layout.check_around(contents, lambda path: path.relative_to(OUTPUT).as_posix())]
+
+
+def test_packages_and_libraries_around_are_sound() -> None:
+    assert around({}) == []
+
+
+def test_a_file_around_that_does_not_parse_is_named() -> None:
+    lacks = "error: the file lacks a class before `nonsense` [syntax]"
+    broken = "within Plant;\nmodel Broken\n  Real x = ;\nend Broken;\n"
+    assert around({"Tools 2.1/Pump.mo": "nonsense((", "Plant/Broken.mo": broken, "Alone 1.0.mo": b"// \xe9"}) == [
+        "Alone 1.0.mo:1: error: the file is not in UTF-8; save it as UTF-8 [not-utf8]",
+        "Plant/Broken.mo:3: error: the file lacks an expression before `;` [syntax]",
+        f"Tools 2.1/Pump.mo:1: {lacks}",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "found"),
+    [
+        (
+            "Plant/Robots/Shelf.mo",
+            "within Plant;\nmodel Shelf\nend Shelf;\n",
+            "1: error: the file says `within Plant;`, but stands in `Plant.Robots`; write `within Plant.Robots;`",
+        ),
+        (
+            "Plant/Robots/package.mo",
+            "package Robots\nend Robots;\n",
+            "1: error: the file lacks `within Plant;`; put it into the first line",
+        ),
+        (
+            "Tools 2.1/Pump.mo",
+            "within Tool;\nmodel Pump\nend Pump;\n",
+            "1: error: the file says `within Tool;`, but stands in `Tools`; write `within Tools;`",
+        ),
+    ],
+)
+def test_files_around_say_in_which_package_they_stand(path: str, text: str, found: str) -> None:
+    assert around({path: text}) == [f"{path}:{found} [wrong-within]"]
+
+
+def test_what_keeps_no_compiler_from_reading_files_around_is_not_said() -> None:
+    twice = "  connect(a, b);\n" * 2
+    files = {
+        "Plant/Control.mo": f"within Plant;\nmodel Other\nequation\n{twice}end Other;\n",
+        "Plant/Old.v1.mo": "within Plant;\nmodel Old\nend Old;\n",
+        "Plant/X.mo/package.mo": "within Plant;\npackage X\nend X;\n",
+        "Plant/Resources/Notes.mo": "no Modelica",
+        "Plant/.#Control.mo": "no Modelica",
+    }
+    assert around(files) == []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from support.modelica import compile_task, execute
 
 from urdfsync.checking import layout, problems
 from urdfsync.checking.complaints import complaints
+from urdfsync.checking.package import Package
 from urdfsync.checking.problems import Case
 from urdfsync.diagnostics import Diagnostic, Severity
 
@@ -45,10 +47,10 @@ def explained(
     text: str,
     edits: Mapping[str, str | bytes | None] | None = None,
     said: Sequence[Diagnostic] = (),
-    absent: Sequence[str] = (),
+    model: str = "",
 ) -> list[str]:
     """The findings as people read them, without the folder."""
-    found = problems.explain(text, Case(arm.package(edits), FOLDERS, said, absent))
+    found = problems.explain(text, Case(arm.package(edits), FOLDERS, said, model))
     assert all(one.severity is Severity.ERROR for one in found)
     return [str(one).removeprefix("Plant/SixAxisArm").removeprefix("/") for one in found]
 
@@ -141,50 +143,74 @@ def test_a_library_that_is_not_there_explains_all_that_is_missing_of_it() -> Non
     )
 
 
-def test_without_the_standard_library_only_other_classes_are_missed() -> None:
-    text = unresolved(
-        kind(REVOLUTE), component("revolute.phi"), component("frame_a"), component("Modelica.Constants.pi")
-    )
-    assert explained(text, absent=("Modelica",)) == []
-    more = f"{text}\n- <resolve> [Resolve]: {kind('ElbwParameters')}"
-    (found,) = explained(
-        more, arm.changed("ElbowParameters parameters", "ElbwParameters parameters"), absent=("Modelica",)
-    )
-    assert "there is no class `ElbwParameters`; did you mean `ElbowParameters`?" in found
+@pytest.mark.parametrize("around", ["Plant", "Plant.Robots"])
+def test_a_top_level_package_of_another_name_is_told_where_it_is_declared(around: str) -> None:
+    """What is around the robot's package is at fault: its own `package.mo` is as it should be."""
+    name = f"{around}.Arm"
+    texts = {"package.mo": f"within {around};\npackage Arm\nend Arm;\n".encode()}
+    package = Package(name, Path(name.replace(".", "/")), texts, str, {"package.mo": "robot"})
+    text = unresolved("unresolved import: 'Plant'", f"base class not found: `{name}.Arm` does not exist")
+    (found,) = problems.explain(text, Case(package))
+    hint = "the class in this file has to be called so, like its folder"
+    assert str(found) == f"Plant/package.mo: error: there is no package `Plant`; {hint} [unresolved]"
 
 
-def test_names_are_told_for_others_to_judge() -> None:
-    text = unresolved(component("a.b"), kind("Modelica.Blocks.Nothing"), component("a.b"), "unresolved import: 'Tools'")
-    assert problems.unresolved(text) == ("a.b", "Modelica.Blocks.Nothing", "Tools")
-    assert problems.unresolved("unbalanced model: 3 equations, 2 unknowns") == ()
+def test_a_package_in_the_top_level_package_is_no_library() -> None:
+    package = dataclasses.replace(arm.package(name="Plant.Robots.Arm"), folder=arm.HOME / "Plant/Robots/Arm")
+    (found,) = problems.explain(unresolved("unresolved import: 'Plant.Robots'"), Case(package))
+    assert found.message == "there is no class `Plant.Robots`"
 
 
 # --- equations and unknowns -------------------------------------------------------------------------------------------
 
-BALANCE = "unknowns[state=148 algebraic=6037 output=0] equations[continuous=6186 discrete_real=0]"
+COUNTS = "unknowns[state=148 algebraic=6037 output=0] equations[continuous=6186 discrete_real=0]"
 
 
-@pytest.mark.parametrize(("equations", "words"), [(6354, "1 too many"), (6347, "6 too few")])
-def test_an_unbalanced_model_is_looked_for_in_the_edited_file(equations: int, words: str) -> None:
-    text = (
-        f"todae failed: Probe_ failed in ToDae: unbalanced model: {equations} equations, 6353 unknowns (balance = 1); "
-    )
-    message = f"joint elbow: there are {equations} equations for 6353 unknowns, {words}"
-    hint = f"look here first: {EDITED}"
-    edits = arm.changed("\nequation", "\n  Real z;\nequation")
-    assert explained(text + BALANCE, edits) == [f"{ELBOW}: error: {message}; {hint} [unbalanced]"]
+def unbalanced(equations: int, unknowns: int) -> str:
+    """What the compiler says of a model that has not as many equations as unknowns."""
+    balance = equations - unknowns
+    words = f"unbalanced model: {equations} equations, {unknowns} unknowns (balance = {balance}); {COUNTS}"
+    return f"todae failed: Probe_ failed in ToDae: {words}"
+
+
+EXTRA = arm.changed("\nequation", "\n  Real z;\nequation")
+
+
+def test_an_unbalanced_model_is_named_and_looked_for_in_the_edited_file() -> None:
+    """The joint need not be what lacks an equation."""
+    message = "`SixAxisArm` has 6,354 equations for 6,353 unknowns"
+    assert explained(unbalanced(6354, 6353), EXTRA, model="SixAxisArm") == [
+        f"{ELBOW}: error: {message}; look here first: {EDITED} [unbalanced]"
+    ]
+    (found,) = explained(unbalanced(1, 2), EXTRA)
+    assert "error: there are 1 equation for 2 unknowns" in found
 
 
 def test_several_edited_files_are_named() -> None:
-    text = "unbalanced model: 3 equations, 4 unknowns"
     files = (ELBOW, "Joints/Shoulder.mo", "Joints/Turret.mo", "SixAxisArm.mo")
     edits = {path: arm.text(path) + "\n" for path in files}
-    (found,) = explained(text, edits)
     named = ", ".join(f"Plant/SixAxisArm/{path}" for path in files[:3])
-    assert found == (
-        "error: there are 3 equations for 4 unknowns, 1 too few;"
-        f" look at what was edited: {named} and 1 more [unbalanced]".replace("error", ": error", 1)
-    )
+    assert explained(unbalanced(1824, 1825), edits, model="SixAxisArm") == [
+        ": error: `SixAxisArm` has 1,824 equations for 1,825 unknowns;"
+        f" look at what was edited: {named} and 1 more [unbalanced]"
+    ]
+
+
+def test_the_same_fault_in_other_models_is_said_once() -> None:
+    """The benches have other equations as well, and lack as many."""
+    said = problems.explain(unbalanced(1824, 1825), Case(arm.package(EXTRA), FOLDERS, model="SixAxisArm"))
+    assert explained(unbalanced(1854, 1855), EXTRA, said, "SixAxisArmRun") == []
+    assert len(explained(unbalanced(1853, 1855), EXTRA, said, "SixAxisArmTest")) == 1
+    warnings = [dataclasses.replace(one, severity=Severity.WARNING) for one in said]
+    assert len(explained(unbalanced(1854, 1855), EXTRA, warnings, "SixAxisArmRun")) == 1
+
+
+def test_a_class_of_the_users_is_unbalanced_in_its_own_file() -> None:
+    edits = {**EXTRA, "Tools/Own.mo": "model Own\n  Real z;\nend Own;\n"}
+    hint = f"look at Plant/SixAxisArm/{ELBOW}, which was edited"
+    assert explained(unbalanced(0, 1), edits, model="Tools.Own") == [
+        f"Tools/Own.mo: error: `Tools.Own` has 0 equations for 1 unknown; {hint} [unbalanced]"
+    ]
 
 
 # --- complaints with a place ------------------------------------------------------------------------------------------
@@ -274,6 +300,29 @@ def test_what_the_layout_has_said_is_not_said_again() -> None:
     for text in (UNPARSED, RULES, unresolved(component("elbow.axis"), kind("Joints.Elbow"))):
         assert explained(text, edits, said) == []
         assert explained(text, edits) != []
+
+
+def test_what_is_known_of_files_around_the_package_is_not_said_again() -> None:
+    folders = {Path("/cache/workspaces/7a/Plant"): arm.HOME / "Plant"}
+    text = UNPARSED.replace("SixAxisArm", "Plant")
+    broken = Diagnostic(Severity.ERROR, "syntax", "the file lacks a class before `x`", "Plant/Broken.mo", 1)
+    case = Case(arm.package(), folders)
+    assert [one.file for one in problems.explain(text, case)] == ["Plant"]
+    assert problems.explain(text, dataclasses.replace(case, said=[broken])) == ()
+    library = Diagnostic(Severity.ERROR, "syntax", "the file lacks a class before `x`", "/opt/Tools/package.mo", 1)
+    text = UNPARSED.replace(COPY, "/opt/Tools")
+    assert [one.file for one in problems.explain(text, case)] == ["/opt/Tools"]
+    assert problems.explain(text, dataclasses.replace(case, said=[library])) == ()
+
+
+def test_what_one_model_lacks_does_not_hide_what_another_lacks() -> None:
+    """Only files that are not in order make a compiler miss what they declare."""
+    said = problems.explain(unresolved(kind("Sensors.Elbow")), Case(arm.package(), FOLDERS))
+    at_elbow = [dataclasses.replace(one, file=f"Plant/SixAxisArm/{ELBOW}") for one in said]
+    text = unresolved("unresolved import: 'Tools'", kind("Joints.Elbow"))
+    found = explained(text, said=at_elbow)
+    assert ["`Tools`" in one for one in found] == [True, False]
+    assert "there is no class `Joints.Elbow`" in found[1]
 
 
 def test_what_is_known_of_other_files_does_not_count() -> None:

@@ -45,6 +45,22 @@ def test_an_import_counts_in_all_texts() -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("Pumps.Small p; extends Tanks . Round;", {"Pumps", "Tanks"}),
+        (".Pumps.Small p;", {"Pumps"}),
+        ("import Pumps; import T = Tanks; import V = Valves.Ball; import Pipes.{Bend, Tee}; import lib.*;",
+         {"Pumps", "Tanks", "Valves", "Pipes", "lib"}),
+        ("arm.frame_a; a[1].B.c; 'x y'.B.c; f(1) . B.c;", set()),
+        ('parameter String s = "Pumps.Small"; // Pumps.Small\n/* import Pumps; */', set()),
+        ("Real Pumps;", set()),
+    ],
+)  # fmt: skip
+def test_other_libraries_are_what_names_begin_with(text: str, names: set[str]) -> None:
+    assert references.beginnings([text]) == names
+
+
+@pytest.mark.parametrize(
     ("name", "entry"),
     [
         ("L.Bodies.Ball", "L.Bodies.Ball"),

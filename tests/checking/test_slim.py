@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+import shutil
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
-from urdfsync.checking import library, references, slim
+from urdfsync.checking import library, references
 from urdfsync.checking.cache import Cache, CacheError
-from urdfsync.checking.library import StandardLibrary
-from urdfsync.checking.slim import copy, covers
+from urdfsync.checking.library import LibraryError, StandardLibrary
+from urdfsync.checking.slim import Copies
 
 FILES = {
     "Modelica 4.1.0/package.mo": 'package Modelica annotation(version = "4.1.0"); end Modelica;',
     "Modelica 4.1.0/package.order": "UsersGuide\nBlocks\nMechanics\nFluid\nThermal\nUnits\nInside\n",
-    "Modelica 4.1.0/Units.mo": "within Modelica; package Units end Units;",
+    **{
+        f"Modelica 4.1.0/{name}.mo": "empty"
+        for name in ("Constants", "Icons", "Math", "Units", "Utilities", "Mechanics/Rotational")
+    },
+    "Modelica 4.1.0/Mechanics/Translational/package.mo": "empty",
     "Modelica 4.1.0/Blocks/package.mo": "within Modelica; package Blocks\n  package Examples\n    Fluid.Tank tank;\n"
     "  end Examples;\nend Blocks;",
     "Modelica 4.1.0/Mechanics/package.mo": "within Modelica; package Mechanics end Mechanics;",
@@ -54,8 +59,13 @@ def cache(tmp_path: Path) -> Cache:
     return Cache(tmp_path / "cache")
 
 
+def copy(small: StandardLibrary, cache: Cache, *, whole: bool = False) -> Path:
+    return Copies(small, cache).copy(whole=whole)
+
+
 def names(folder: Path) -> set[str]:
-    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+    """The files in a copy, but for what counts them."""
+    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()} - {"count.txt"}
 
 
 def test_what_multibody_needs_is_copied(small: StandardLibrary, cache: Cache) -> None:
@@ -96,29 +106,97 @@ def test_the_whole_library_is_copied_without_resources(small: StandardLibrary, c
     ],
 )
 def test_a_copy_knows_what_it_lacks(name: str, covered: bool, small: StandardLibrary, cache: Cache) -> None:
-    assert covers(small, copy(small, cache), [name]) is covered
+    copies = Copies(small, cache)
+    assert copies.covers(copies.copy(), [name]) is covered
 
 
 def test_the_compiler_gets_as_little_as_will_do(small: StandardLibrary, cache: Cache) -> None:
-    body = slim.roots(small, cache, ["model M Modelica.Mechanics.MultiBody.Body b; end M;"])
-    tank = slim.roots(small, cache, ["import Modelica.Fluid; model M Fluid.Tank t; end M;"])
-    assert body == (str(copy(small, cache)),)
-    assert tank == (str(copy(small, cache, whole=True)),)
+    copies = Copies(small, cache)
+    assert copies.roots({"Modelica.Mechanics.MultiBody.Body"}) == (str(copies.copy()),)
+    assert copies.roots({"Modelica.Fluid.Tank"}) == (str(copies.copy(whole=True)),)
 
 
 def test_a_copy_is_made_once(small: StandardLibrary, cache: Cache) -> None:
     copied = copy(small, cache)
-    (copied / "mark").touch()
+    made = (copied / "count.txt").stat().st_ino
     os.utime(copied, (0, 0))
     assert copy(small, cache) == copied
-    assert (copied / "mark").exists()
+    assert (copied / "count.txt").stat().st_ino == made
     assert copied.stat().st_mtime > 0, "its last use is noted"
 
 
-def test_another_state_of_the_library_gets_a_copy_of_its_own(small: StandardLibrary, cache: Cache) -> None:
+def test_one_that_has_lost_files_is_made_again(small: StandardLibrary, cache: Cache) -> None:
+    copied = copy(small, cache)
+    before = names(copied)
+    (copied / "Modelica" / "Thermal" / "Rod.mo").unlink()
+    assert copy(small, cache) == copied
+    assert names(copied) == before
+    (copied / "count.txt").unlink()
+    shutil.rmtree(copied / "Modelica")
+    assert copy(small, cache) == copied
+    assert names(copied) == before
+    assert list(cache.libraries.iterdir()) == [copied]
+
+
+def write_again(package: Path) -> None:
+    (package / "Thermal" / "Rod.mo").write_text("model Rod Real T; end Rod;")
+
+
+def take_away(package: Path) -> None:
+    (package / "Thermal" / "Rod.mo").unlink()
+
+
+def put_back_an_older_file(package: Path) -> None:
+    os.utime(package / "Thermal" / "Rod.mo", (1, 1))
+
+
+@pytest.mark.parametrize("change", [write_again, take_away, put_back_an_older_file])
+def test_another_state_of_any_file_gets_a_copy_of_its_own(
+    change: Callable[[Path], None], small: StandardLibrary, cache: Cache
+) -> None:
     first = copy(small, cache)
-    os.utime(small.modelica.text, (1, 1))
+    change(small.modelica.path)
     assert copy(small, cache) != first
+
+
+def test_resources_are_no_part_of_that(small: StandardLibrary, cache: Cache) -> None:
+    first = copy(small, cache)
+    (small.modelica.path / "Resources" / "large.bin").write_text("y")
+    assert copy(small, cache) == first
+
+
+def fault(folder: Path, files: Mapping[str, str]) -> str:
+    """What is said of a library of these files; nothing is copied."""
+    cache = Cache(folder / "cache")
+    with pytest.raises(LibraryError) as caught:
+        copy(written(folder / "libraries", files), cache)
+    assert not cache.folder.exists()
+    (found,) = caught.value.diagnostics
+    assert found.code == "broken-standard-library"
+    assert "`library`" in found.hint
+    return found.message.replace(str(folder / "libraries"), "")
+
+
+def test_a_library_without_what_robots_need_is_a_clear_error(tmp_path: Path) -> None:
+    without = {name: text for name, text in FILES.items() if "MultiBody" not in name}
+    assert fault(tmp_path / "a", without) == (
+        "the Modelica Standard Library in /Modelica 4.1.0 is broken: there is no `Modelica.Mechanics.MultiBody`"
+    )
+    alone = {name: text for name, text in FILES.items() if name.count("/") < 2 and "/package" in name}
+    alone["Complex 4.1.0.mo"] = FILES["Complex 4.1.0.mo"]
+    assert "there is no `Modelica.Blocks` and no `Modelica.Constants` and no" in fault(tmp_path / "b", alone)
+
+
+@pytest.mark.parametrize("name", ["Modelica 4.1.0/package.mo", "Complex 4.1.0.mo"])
+def test_so_is_one_with_an_empty_file(name: str, tmp_path: Path) -> None:
+    library = name.partition(" ")[0]
+    assert fault(tmp_path, FILES | {name: ""}).endswith(f"is broken: /{name} does not hold `{library}`")
+
+
+def test_and_one_that_is_a_single_file(tmp_path: Path) -> None:
+    files = {name: text for name, text in FILES.items() if not name.startswith("Modelica ")}
+    message = fault(tmp_path, files | {"Modelica 4.1.0.mo": "package Modelica end Modelica;"})
+    assert message.endswith("is broken: it is one file, and has to be a folder")
 
 
 def test_many_may_want_a_copy_at_the_same_time(small: StandardLibrary, cache: Cache) -> None:
@@ -135,7 +213,8 @@ def test_a_cache_that_is_no_folder_is_a_clear_error(small: StandardLibrary, tmp_
 
 def test_the_copy_of_the_real_one_is_closed(modelica_library: Path, cache: Cache) -> None:
     whole = library.standard({}, modelica_library, modelica_library)
-    copied = copy(whole, cache)
+    copies = Copies(whole, cache)
+    copied = copies.copy()
     texts = [path.read_text("utf-8") for path in (copied / "Modelica" / "Mechanics").rglob("*.mo")]
-    assert covers(whole, copied, references.mentioned(texts) - {"Modelica.Blocks.Examples"})
+    assert copies.covers(copied, references.mentioned(texts) - {"Modelica.Blocks.Examples"})
     assert len(names(copied)) < 700, "a quarter of all"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import pytest
@@ -23,7 +24,14 @@ WRIST = effort("joint wrist", 0.02, 1.0)
 ROLL = effort("joint roll", 0.01, 0.5)
 HAND = Deviation(Quantity.POSITION, "link hand", 0.0123, 0.9, 1.2, "m")
 TURNED = Deviation(Quantity.ORIENTATION, "link hand", math.sin(math.radians(3)), 1.0, 1.0, "")
+BENT = Deviation(Quantity.POSITION, "link finger", 0.02, 1.1, 1.2, "m")
+REACTIONS = [
+    Deviation(Quantity.REACTION, "link base", 7.5, 30.0, 30.0, "N"),
+    Deviation(Quantity.REACTION, "link base", 0.168, 12.0, 12.0, "N·m"),
+]
 MASS = Deviation(Quantity.MASS, "robot", 0.5, 25.0, 25.0, "kg")
+CENTRE = Deviation(Quantity.CENTRE, "robot", 0.0385, 0.3, 0.3, "m")
+BLIND = Deviation(Quantity.ACCELERATION, "link wheel", math.inf, 1.0, 1.0, "rad/s²")
 
 
 @pytest.mark.parametrize(
@@ -67,14 +75,14 @@ def test_no_percentage_is_absurd(difference: float, value: float) -> None:
         (["Links/Hand.mo"], [], "Links/Hand.mo was edited; nothing that is compared changed"),
         (
             ["Links/Hand.mo", "Links/Palm.mo"],
-            [ELBOW, SHOULDER, WRIST],
-            "joint elbow: torque differs by 3.2 % (joint shoulder by 0.5 %, joint wrist by 2 %) "
+            [SHOULDER, ELBOW, WRIST],
+            "joint wrist: torque differs by 2 % (joint elbow by 3.2 %, joint shoulder by 0.5 %) "
             "since Links/Hand.mo and Links/Palm.mo were edited",
         ),
         (
             ["a.mo", "b.mo", "c.mo", "d.mo", "e.mo"],
-            [ELBOW, SHOULDER, WRIST, ROLL],
-            "joint elbow: torque differs by 3.2 % (joint shoulder by 0.5 %, joint wrist by 2 %, and 1 more) "
+            [SHOULDER, ELBOW, WRIST, ROLL],
+            "joint roll: torque differs by 2 % (joint wrist by 2 %, joint elbow by 3.2 %, and 1 more) "
             "since a.mo, b.mo and 3 more were edited",
         ),
         (
@@ -85,9 +93,20 @@ def test_no_percentage_is_absurd(difference: float, value: float) -> None:
         ),
         (
             ["Joints/Elbow.mo"],
-            [ELBOW, Deviation(Quantity.ACCELERATION, "joint wheel", math.nan, 1.0, 1.0, "rad/s²")],
-            "joint elbow: torque differs by 3.2 % (angular acceleration of joint wheel not finite) "
+            [BLIND, ELBOW],
+            "joint elbow: torque differs by 3.2 % (angular acceleration of link wheel not finite) "
             "since Joints/Elbow.mo was edited",
+        ),
+        (
+            [f"Links/L{number}.mo" for number in range(12)],
+            [HAND, ELBOW],
+            "link hand: position differs by 12.3 mm; joint elbow: torque differs by 3.2 %, all because of 12 edited "
+            "files (Links/L0.mo, Links/L1.mo, …)",
+        ),
+        (
+            [f"Links/L{number}.mo" for number in range(7)],
+            [],
+            "7 edited files (Links/L0.mo, Links/L1.mo, …) change nothing that is compared",
         ),
     ],
 )
@@ -95,20 +114,127 @@ def test_what_an_edit_does_is_one_sentence(files: list[str], deviations: list[De
     assert words.effect(Effect(tuple(files), tuple(deviations))) == said
 
 
+@pytest.mark.parametrize(
+    ("owners", "deviations", "said"),
+    [
+        # the link that was edited, not the first that is displaced
+        ((), [HAND, BENT], "link hand: position differs by 12.3 mm (link finger by 20 mm)"),
+        (("link finger",), [HAND, BENT], "link finger: position differs by 20 mm (link hand by 12.3 mm)"),
+        # the joint that was edited, not the last one; all joints before what holds the root
+        (
+            (),
+            [*REACTIONS, SHOULDER, ELBOW],
+            "joint elbow: torque differs by 3.2 % (joint shoulder by 0.5 %, "
+            "reaction force of link base by 25 % and reaction torque by 1.4 %)",
+        ),
+        (
+            ("joint shoulder",),
+            [*REACTIONS, SHOULDER, ELBOW],
+            "joint shoulder: torque differs by 0.5 % (joint elbow by 3.2 %, "
+            "reaction force of link base by 25 % and reaction torque by 1.4 %)",
+        ),
+        (("link base",), REACTIONS, "link base: reaction force differs by 25 % and reaction torque by 1.4 %"),
+        # what differs is labelled where it is not the same as that of the first element
+        (
+            (),
+            [TURNED, BENT, dataclasses.replace(TURNED, element="link finger")],
+            "link hand: orientation differs by 3° (position of link finger by 20 mm and orientation by 3°)",
+        ),
+        (
+            (),
+            [HAND, TURNED, BENT, dataclasses.replace(TURNED, element="link finger")],
+            "link hand: position differs by 12.3 mm and orientation by 3° (link finger by 20 mm and 3°)",
+        ),
+        (
+            (),
+            [BLIND, *REACTIONS],
+            "link wheel: angular acceleration is not finite (reaction force of link base by 25 % "
+            "and reaction torque by 1.4 %)",
+        ),
+    ],
+)
+def test_the_element_nearest_to_the_cause_comes_first(
+    owners: tuple[str, ...], deviations: list[Deviation], said: str
+) -> None:
+    assert words.effect(Effect(("a.mo",), tuple(deviations), owners)) == f"{said} since a.mo was edited"
+
+
 def test_a_failure_says_by_how_much_and_against_what() -> None:
     exact = effort("joint roll", 1e-15, 0.5)
-    broken = Deviation(Quantity.ACCELERATION, "joint wheel", math.nan, 1.0, 1.0, "rad/s²")
-    found = Verdict("arm", "Arm", generated=Comparison((exact, SHOULDER, ELBOW, HAND)), reference="Pinocchio 3.4")
+    found = Verdict("arm", "Arm", generated=Comparison((SHOULDER, ELBOW, exact, HAND)), reference="Pinocchio 4.1.0")
     assert words.failures(found) == [
-        "link hand: position differs from Pinocchio 3.4 by 12.3 mm",
-        "joint elbow: torque differs from Pinocchio 3.4 by 3.2 %, 0.4 N·m of up to 12.5 N·m (joint shoulder by 0.5 %)",
+        "link hand: position differs from Pinocchio 4.1.0 by 12.3 mm",
+        "joint elbow: torque differs from Pinocchio 4.1.0 by 3.2 %, 0.4 N·m where up to 12.5 N·m are expected "
+        "(joint shoulder by 0.5 %)",
     ]
-    assert words.failures(Verdict("arm", "Arm", generated=Comparison((exact, broken)))) == [
-        "joint wheel: angular acceleration is not finite"
+    assert words.failures(Verdict("arm", "Arm", generated=Comparison((exact, BLIND)))) == [
+        "link wheel: angular acceleration is not finite"
     ]
     assert words.failures(Verdict("arm", "Arm")) == []
     assert words.advice([found, Verdict("cart", "Cart")]).startswith("arm as generated, whatever you edited; look at")
     assert words.advice([Verdict("cart", "Cart")]) == ""
+
+
+def test_two_quantities_of_one_element_are_told_apart() -> None:
+    mobile = Comparison((*REACTIONS, MASS, CENTRE))
+    assert words.failures(Verdict("arm", "Arm", generated=mobile, reference="Pinocchio 4.1.0")) == [
+        "link base: reaction force differs from Pinocchio 4.1.0 by 25 %, 7.5 N where up to 30 N are expected, and "
+        "reaction torque by 1.4 %, 0.168 N·m where up to 12 N·m are expected",
+        "robot: mass differs from Pinocchio 4.1.0 by 2 %, 0.5 kg where 25 kg are expected, and "
+        "centre of mass by 38.5 mm",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("deviations", "said"),
+    [
+        ([HAND, ELBOW], ["poses differ by 12.3 mm (link hand)", "torques differ by 3.2 % (joint elbow)"]),
+        ([*REACTIONS, ELBOW], ["torques differ by 25 % (reaction force of link base)"]),
+        ([BLIND], ["torques are not finite (link wheel)"]),
+        ([CENTRE], ["centre of mass differs by 38.5 mm"]),
+        ([MASS, CENTRE], ["mass differs by 2 % and centre of mass by 38.5 mm"]),
+        ([MASS, dataclasses.replace(CENTRE, difference=1e-17)], ["mass differs by 2 %"]),
+        (
+            [dataclasses.replace(MASS, difference=math.inf), CENTRE],
+            ["mass is not finite and centre of mass differs by 38.5 mm"],
+        ),
+        (
+            [dataclasses.replace(MASS, difference=0), dataclasses.replace(CENTRE, difference=0)],
+            ["masses agree exactly"],
+        ),
+    ],
+)
+def test_a_summary_names_what_differs_most(deviations: list[Deviation], said: list[str]) -> None:
+    found = Verdict("arm", "Arm", compiled=(Compiled("Arm", 0, 0),), generated=Comparison(tuple(deviations)))
+    assert words.parts(found) == ["1 model compiles", *said]
+
+
+GAP = "what edits do was not measured: the robot can't be simulated"
+
+
+@pytest.mark.parametrize(
+    ("found", "strict", "head"),
+    [
+        (Verdict("arm", "Arm"), False, "right"),
+        (Verdict("arm", "Arm", gaps=(GAP,)), False, "incomplete"),
+        (Verdict("arm", "Arm", gaps=(GAP,)), True, "incomplete"),
+        (Verdict("arm", "Arm", gaps=(GAP,), in_step=False), False, "out of step"),
+        (Verdict("arm", "Arm", in_step=False, conflicting=True), False, "out of step"),
+        (Verdict("arm", "Arm", in_step=False, built=False), False, "not built"),
+        (Verdict("arm", "Arm", effects=(Effect(("a.mo",), (ELBOW,)),)), False, "right"),
+        (Verdict("arm", "Arm", effects=(Effect(("a.mo",), (ELBOW,)),), gaps=(GAP,)), True, "differs"),
+        (Verdict("arm", "Arm", generated=Comparison((ELBOW,)), in_step=False), False, "differs"),
+    ],
+)
+def test_one_word_for_all(found: Verdict, strict: bool, head: str) -> None:
+    assert words.head(found, strict) == head
+
+
+def test_the_tally_has_a_number_for_each_word() -> None:
+    right, incomplete = Verdict("arm", "Arm"), Verdict("arm", "Arm", gaps=(GAP,))
+    assert words.tally([right, incomplete, right, right], strict=False) == "4 robots: 3 right, 1 incomplete"
+    wrong = Verdict("arm", "Arm", generated=Comparison((ELBOW,)))
+    assert words.tally([wrong, wrong], strict=False) == "2 robots: 2 differ"
 
 
 def test_nothing_compared_and_nothing_compiled_is_said_to_be_no_more() -> None:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from urdfsync import config
 from urdfsync.checking import workspace
 from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import OutputError
 
 CONFIG = """
 [robots.arm]
@@ -67,6 +71,61 @@ def test_the_files_of_a_package_are_its_classes_and_orders(plant: Config) -> Non
     found = workspace.package_texts(plant.root / "modelica" / "Plant")
     assert {"package.mo", "package.order", "Control.mo", "Robots/Crane/Hook.mo"} <= found.keys()
     assert not any("Resources" in path or ".git" in path for path in found)
+
+
+@pytest.fixture
+def odd(tmp_path: Path) -> Path:
+    """A package with what is no regular file; but one link leads to such."""
+    folder = tmp_path / "Odd"
+    write(tmp_path, **{"Odd/package.mo": "package Odd", "elsewhere/package.mo": "package Linked", "Real.mo": "model"})
+    (folder / "Dangling.mo").symlink_to("nowhere.mo")
+    (folder / "Circle.mo").symlink_to("Circle.mo")
+    (folder / "Linked").symlink_to(tmp_path / "elsewhere")
+    (folder / "images").symlink_to(tmp_path)
+    (folder / "Real.mo").symlink_to(tmp_path / "Real.mo")
+    if hasattr(os, "mkfifo"):
+        os.mkfifo(folder / "Pipe.mo")
+    return folder
+
+
+def test_what_is_no_regular_file_is_left_out(odd: Path) -> None:
+    assert workspace.package_texts(odd) == {"package.mo": b"package Odd", "Real.mo": b"model"}
+
+
+def test_and_is_told(odd: Path, plant: Config) -> None:
+    expected = {"Linked", "Dangling.mo", "Circle.mo", *(["Pipe.mo"] if hasattr(os, "mkfifo") else [])}
+    assert {path.relative_to(odd).as_posix() for path in workspace.oddities(odd)} == expected
+    assert workspace.oddities(plant.root / "modelica" / "Plant") == []
+    assert workspace.oddities(plant.root / "absent") == []
+
+
+@pytest.mark.parametrize("name", ["Plant/Control.mo", "Plant/Robots"])
+def test_what_can_not_be_read_is_named_as_people_see_it(
+    name: str, plant: Config, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(path: str, *rest: Any) -> Any:
+        if os.fspath(path).endswith(name):
+            raise PermissionError(errno.EACCES, "Permission denied", path)
+        return genuine(path, *rest)
+
+    owner, method = (Path, "read_bytes") if name.endswith(".mo") else (os, "scandir")
+    genuine = getattr(owner, method)
+    monkeypatch.chdir(plant.root)
+    monkeypatch.setattr(owner, method, refuse)
+    with pytest.raises(OutputError) as caught:
+        workspace.package_texts(plant.root / "modelica" / "Plant")
+    (found,) = caught.value.diagnostics
+    assert (found.file, found.message) == (f"modelica/{name}", "it can't be read: Permission denied")
+    assert found.hint
+
+
+def test_a_file_that_goes_meanwhile_is_none(plant: Config, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = plant.root / "modelica" / "Plant"
+    found = workspace._entries(folder, frozenset())
+    entries = list(found)
+    (folder / "Control.mo").unlink()
+    monkeypatch.setattr(workspace, "_entries", lambda *_: entries)
+    assert "Control.mo" not in workspace.package_texts(folder)
 
 
 def test_other_robots_are_left_out(plant: Config) -> None:

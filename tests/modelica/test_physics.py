@@ -17,7 +17,7 @@ from urdfsync.urdf.physics import amended
 from urdfsync.urdf.skeleton import Skeleton
 from urdfsync.urdf.source import read_robot
 
-MANY_JOINTS = 10
+MANY_JOINTS = 6
 """Robots with more moving joints take much longer: their number of equations grows, and the cost with it."""
 
 FAULTY = {"robots/random/spot_ros/spot_description/urdf/spot_arm.urdf"}

@@ -81,7 +81,7 @@ def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task], timeo
 
 def standard(library: Path) -> tuple[str, ...]:
     """The roots for the part of the standard library in the folder `library` that robots need."""
-    return slim.roots(libraries.standard(os.environ, Path.home(), library), CACHE, ())
+    return slim.Copies(libraries.standard(os.environ, Path.home(), library), CACHE).roots(())
 
 
 def compile_task(model: str) -> Task:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,11 @@ from urdfsync.checking.verdict import Comparison
 from urdfsync.domain import Experiment, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.physics import motion, probe
+from urdfsync.urdf.physics.reading import read
+from urdfsync.urdf.physics.reference import Instant, Reference
+from urdfsync.urdf.skeleton import Skeleton
+from urdfsync.urdf.source import read_robot
 
 
 @dataclasses.dataclass(frozen=True)
@@ -63,3 +68,40 @@ def compare(library: Path, folder: Path, cases: Iterable[Case]) -> list[Comparis
         series = {"time": run.times.tolist()} | {name: values.tolist() for name, values in run.values.items()}
         results.append(Comparison(tuple(case.experiment.compare(series))))
     return results
+
+
+def pinocchio_series(urdf: str) -> dict[str, list[float]]:
+    """What a simulation of the probe would give if it were Pinocchio's; free joints stay as they begin."""
+    found = read_robot(urdf.encode(), "robot.urdf", cross_check=False).robot
+    assert found is not None
+    skeleton = Skeleton.of(found)
+    axes, free = motion.driven_axes(skeleton), motion.free_joints(skeleton)
+    names = [[joint.name for joint in joints] for joints in (axes, free)]
+    reference = Reference(read(urdf.encode(), "robot.urdf"), *names)
+    starts = {joint.name: reference.start(joint.name, motion.free_start(joint)) for joint in free}
+    courses = [motion.axis_course(joint) for joint in axes]
+    series: dict[str, list[float]] = {}
+    for time in (0.0, motion.duration(skeleton)):
+        instant = reference.solve(reference.state(time, courses, starts))
+        for name, value in {"time": time, **_values(skeleton, instant)}.items():
+            series.setdefault(name, []).append(float(value))
+    return series
+
+
+def _values(skeleton: Skeleton, instant: Instant) -> dict[str, float]:
+    """What Pinocchio says, by the names of the probe's values."""
+    mass, centre = instant.mass_and_centre()
+    pairs: list[tuple[Sequence[str], Any]] = [
+        (probe.effort_names(skeleton), instant.efforts),
+        (probe.FORCE, -instant.force),
+        (probe.TORQUE, -instant.torque),
+        (probe.MASS, [mass]),
+        (probe.MOMENT, mass * centre),
+    ]
+    for link in skeleton.links:
+        frame, (linear, angular) = instant.frame(link.name), instant.acceleration(link.name)
+        pairs.append((probe.axes_names(skeleton, link.name), frame.axes.T.ravel()))
+        parts = {probe.PLACE: frame.place, probe.VELOCITY: frame.velocity, probe.ROTATION: frame.turning}
+        for part, values in (parts | {probe.ACCELERATION: linear, probe.ANGULAR: angular}).items():
+            pairs.append((probe.names(skeleton, link.name, part), values))
+    return {name: value for names, values in pairs for name, value in zip(names, values, strict=True)}

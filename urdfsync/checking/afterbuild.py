@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Examine: TypeAlias = "Callable[[Config, Sequence[RobotConfig], Request, Progress], Iterator[Verdict]]"
 """Checks the packages of robots that are on disk, in their order; whatever `Progress` raises gives it up."""
 
-_ABSENT = ("no-compiler", "no-standard-library", "standard-library-too-old")
+_ABSENT = ("no-compiler", "no-standard-library", "standard-library-too-old", "broken-standard-library", "no-cache")
 """Codes of what this machine lacks; the package is not to blame."""
 
 
@@ -87,9 +87,9 @@ class Inspector:
             yield found
 
     def _remember(self, robot: RobotConfig, fingerprint: str | None, found: Findings) -> None:
-        """Remember what was found, unless it is wrong, or somebody has saved meanwhile."""
-        note = None
-        if fingerprint is not None and found.checked is not Checked.WRONG and fingerprint == self.fingerprint(robot):
+        """Remember what was found, unless it is wrong, or nothing, or somebody has saved meanwhile."""
+        note, lasting = None, found.checked in (Checked.RIGHT, Checked.INCOMPLETE)
+        if fingerprint is not None and lasting and fingerprint == self.fingerprint(robot):
             note = Note(fingerprint, found.checked, tuple(one for one in found.diagnostics if is_general(one)))
         self._memory.keep(robot, note)
 
@@ -99,10 +99,10 @@ def findings(verdict: Verdict) -> Findings:
     diagnostics = _lenient(verdict.diagnostics)
     if any(found.severity is Severity.ERROR for found in diagnostics):
         return Findings(Checked.WRONG, diagnostics, verdict.seconds)
-    if verdict.compiled:
+    if verdict.compiled and not verdict.gaps:
         return Findings(Checked.RIGHT, diagnostics, verdict.seconds)
-    unchecked = (Diagnostic(Severity.WARNING, "not-checked", said) for said in verdict.unchecked)
-    return Findings(Checked.INCOMPLETE, (*diagnostics, *unchecked), verdict.seconds)
+    said = (Diagnostic(Severity.WARNING, "not-checked", sentence) for sentence in verdict.gaps or verdict.unchecked)
+    return Findings(Checked.INCOMPLETE, (*diagnostics, *said), verdict.seconds)
 
 
 def _trouble(error: UrdfsyncError | OSError) -> Findings:
@@ -113,7 +113,7 @@ def _trouble(error: UrdfsyncError | OSError) -> Findings:
         return Findings(Checked.WRONG, (Diagnostic(Severity.ERROR, "system", message, place),))
     diagnostics = _lenient(error.diagnostics)
     lacking = all(one.severity is not Severity.ERROR for one in diagnostics)
-    return Findings(Checked.INCOMPLETE if lacking else Checked.WRONG, diagnostics)
+    return Findings(Checked.UNCHECKED if lacking else Checked.WRONG, diagnostics)
 
 
 def _lenient(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:

@@ -1,7 +1,7 @@
 """The user's cache folder: copies of libraries, what the compiler remembers, and workspaces; kept below a limit.
 
 Everything in it can be made again. What was used longest ago goes first; a check that runs meanwhile loses nothing
-but time, since the compiler makes again what it misses, and what else was used within the last hour stays.
+but time, since the compiler makes again what it misses, and what else is in use or was within the last hour stays.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ import uuid
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
+from urdfsync.state.lock import Lock, LockedError
 
 LIMIT = 2**30
 """Bytes on disk that the cache never grows past: 1 GiB."""
@@ -26,13 +27,20 @@ AFTER = 0.5
 GRACE = 3600.0
 """Seconds for which folders that checks may work in are spared after their last use."""
 
+LOCK = "lock"
+"""The file in a workspace that whoever works there keeps locked."""
+
 _TAG = "Signature: 8a477f597d28d172789f06886806bc55\n# Made by urdfsync; may be deleted at any time.\n"
 _ACCESS = ".rumoca-access"
 """Suffix of the file beside another by which the compiler notes its last use."""
 
 
 class CacheError(UrdfsyncError):
-    """The cache folder can't be written to."""
+    """There is no cache that can be used; the code of the one diagnostic says why.
+
+    `cache-not-writable`: its folder can't be written to; `no-cache`: nobody says where it is;
+    `cache-emptied`: what was in it vanished again and again while it was used.
+    """
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -56,9 +64,16 @@ class Cache:
 
     @classmethod
     def of_user(cls) -> Cache:
-        """The cache where this system keeps such: on Linux `~/.cache/urdfsync`, or below XDG_CACHE_HOME."""
-        import platformdirs
+        """The cache where this system keeps such: on Linux `~/.cache/urdfsync`, or below XDG_CACHE_HOME.
 
+        Raises CacheError if the library that knows the place is not installed.
+        """
+        try:
+            import platformdirs
+        except ImportError:
+            message = "there is no cache: platformdirs is not installed"
+            hint = "pip install 'urdfsync[check]'"
+            raise CacheError(Diagnostic(Severity.ERROR, "no-cache", message, hint=hint)) from None
         return cls(platformdirs.user_cache_path("urdfsync", appauthor=False))
 
     def prepare(self) -> None:
@@ -105,9 +120,14 @@ class Cache:
         return sum(_delete(entry) for entry in surplus(list(self._entries()), limit, time.time()))
 
     def clear(self) -> int:
-        """Delete everything that is ours; the bytes that came free. A check that runs meanwhile may fail."""
-        freed = sum(_delete(entry) for entry in self._entries())
-        for folder in (self.libraries, self.compiler, self.workspaces):
+        """Delete everything that is ours, but for workspaces and libraries while checks run; the bytes that came free.
+
+        What the compiler remembers goes in any case: it makes again what it misses.
+        """
+        places = [Path(entry.path) for entry in _scan(self.workspaces)] if _is_folder(self.workspaces) else []
+        spared = self.libraries if any(map(_is_locked, places)) else None
+        freed = sum(_delete(entry) for entry in self._entries() if Path(entry.paths[0]).parent != spared)
+        for folder in (self.libraries, self.compiler, self.workspaces) if spared is None else ():
             if _is_folder(folder):
                 shutil.rmtree(folder, ignore_errors=True)  # what is left are empty folders, and what is being made
         return freed
@@ -201,13 +221,25 @@ def _is_folder(path: Path) -> bool:
     return path.is_dir() and not path.is_symlink()
 
 
+def _is_locked(folder: Path) -> bool:
+    """Whether somebody works in a workspace."""
+    if not (folder / LOCK).is_file():
+        return False
+    with Lock(folder / LOCK, wait=0) as lock, contextlib.suppress(OutputError):  # a lock that can't be used is none
+        try:
+            lock.acquire()
+        except LockedError:
+            return True
+    return False
+
+
 def _delete(entry: Entry) -> int:
     """Delete what belongs together, links themselves and not what they lead to; the bytes that came free."""
     for path in map(Path, entry.paths):
         with contextlib.suppress(OSError):
             if not _is_folder(path):
                 path.unlink()
-            elif path.stat().st_mtime <= entry.used:  # else somebody has begun to use it
+            elif path.stat().st_mtime <= entry.used and not _is_locked(path):  # else somebody has begun to use it
                 aside = path.with_name(f"old-{uuid.uuid4().hex}")  # nobody shall find half of it
                 path.rename(aside)
                 shutil.rmtree(aside, ignore_errors=True)

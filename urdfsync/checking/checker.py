@@ -45,7 +45,7 @@ def check(
     `command` starts the process for one robot. Raises CompilerError if what a check needs is not installed,
     CacheError if there is no place for its cache.
     """
-    compiler.require()
+    compiler.require(wishes.tool)
     crew = _Crew(config, robots, wishes, command)
     try:
         yield from crew.verdicts(progress)
@@ -123,8 +123,8 @@ class _Crew:
             result = process.run(self._command, text, hear, limits, process.importable(), self._tick)
         except _StoppedError:
             return
-        except (OSError, ValueError, msgspec.ValidationError) as error:
-            self._news.put((name, _failed(latest, "check-crashed", f"its process can't be used: {error}", _REPORT)))
+        except Exception as error:  # noqa: BLE001 - whoever waits for this thread must hear of it
+            self._news.put((name, _failed(latest, "check-crashed", f"its process can't be used: {error!r}", _REPORT)))
             return
         if result.ending is Ending.OUT_OF_MEMORY and memory < self._budget:
             self._alone.append(name)
@@ -171,16 +171,17 @@ def _free() -> float:
 def _ended(latest: Verdict, result: process.Result, limits: Limits) -> Verdict:
     """What was found until the process ended before it was through, and why it did."""
     if result.ending is Ending.OUT_OF_TIME:
-        message, hint = f"it was not done after {limits.seconds:g} s", "allow more with `--timeout`"
-        return _failed(latest, "check-out-of-time", message, hint)
+        message, hint = f"it was not done after {limits.seconds:g} s", "allow more with `urdfsync check --timeout`"
+        return _failed(latest, "check-out-of-time", message, hint, result.seconds)
     if result.ending is Ending.OUT_OF_MEMORY:
-        message = f"it takes more than the {limits.memory / 1e9:.1f} GB that it may"
-        return _failed(latest, "check-out-of-memory", message, "allow more with `--memory`, or use a larger machine")
+        message = f"it takes more than the {limits.memory / 1e9:.2g} GB that it may"
+        hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
+        return _failed(latest, "check-out-of-memory", message, hint, result.seconds)
     message = ": ".join([f"its process ended with {result.cause}", *result.words.splitlines()[-1:]])
-    return _failed(latest, "check-crashed", message, _REPORT)
+    return _failed(latest, "check-crashed", message, _REPORT, result.seconds)
 
 
-def _failed(latest: Verdict, code: str, message: str, hint: str) -> Verdict:
-    """A verdict that has come to nothing half way."""
+def _failed(latest: Verdict, code: str, message: str, hint: str, seconds: float = 0.0) -> Verdict:
+    """A verdict that has come to nothing half way, `seconds` after its begin if that is known."""
     found = Diagnostic(Severity.ERROR, code, f"the check of robot `{latest.robot}`: {message}", hint=hint)
-    return dataclasses.replace(latest, diagnostics=(*latest.diagnostics, found))
+    return dataclasses.replace(latest, diagnostics=(*latest.diagnostics, found), seconds=seconds or latest.seconds)

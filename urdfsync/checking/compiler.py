@@ -88,8 +88,13 @@ def missing(tool: Tool, reason: str) -> CompilerError:
     return CompilerError(_error("no-compiler", f"there is no compiler: {reason}", tool.install))
 
 
-def require() -> None:
-    """Raise CompilerError, with what to install, if anything of the extra `check` is missing."""
+def require(tool: str = "rumoca") -> None:
+    """Raise CompilerError, with what to install, if anything is missing that a check with `tool` (or `omc`) needs."""
+    if tool == "omc":
+        from urdfsync.checking import omc
+
+        omc.require()
+        return
     for name in _NEEDED:
         if importlib.util.find_spec(name) is None:
             raise missing(RUMOCA, f"{name} is not installed")

@@ -5,10 +5,10 @@ from __future__ import annotations
 import dataclasses
 import threading
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from urdfsync.checking.verdict import Compiled, Verdict
+from urdfsync.checking.verdict import Compiled, Effect, Verdict
 from urdfsync.diagnostics import Diagnostic
 
 
@@ -39,8 +39,19 @@ class Findings:
         """Add a model that compiles."""
         self._change(lambda v: dataclasses.replace(v, compiled=(*v.compiled, model)))
 
+    def effects(self, found: Iterable[Effect], owners: Mapping[str, str]) -> None:
+        """Set what edits do; `owners` are the elements that files belong to."""
+        named = (
+            dataclasses.replace(one, owners=tuple(dict.fromkeys(map(owners.__getitem__, one.files)))) for one in found
+        )
+        self.note(effects=tuple(named))
+
+    def miss(self, *sentences: str) -> None:
+        """Add what should have been checked and could not be, and why."""
+        self._change(lambda v: dataclasses.replace(v, gaps=tuple(dict.fromkeys((*v.gaps, *sentences)))))
+
     def leave_out(self, *sentences: str) -> None:
-        """Add what was not checked, and why."""
+        """Add what is not checked, and why."""
         self._change(lambda v: dataclasses.replace(v, unchecked=tuple(dict.fromkeys((*v.unchecked, *sentences)))))
 
     def used(self, megabytes: float) -> None:

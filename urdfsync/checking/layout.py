@@ -10,29 +10,33 @@ from __future__ import annotations
 import codecs
 import dataclasses
 import difflib
+import re
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
-from pathlib import PurePosixPath
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path, PurePosixPath
 
-from urdfsync.checking.package import Package
+from urdfsync.checking.package import Package, holds_class
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import normalised
 from urdfsync.merging.grammar import Declared, Outline, outline
 from urdfsync.merging.reading import Finding
 from urdfsync.merging.soundness import markers
-from urdfsync.modelica import within
+from urdfsync.modelica import is_identifier, within
 
 ORDER = "package.order"
 PACKAGE = "package.mo"
 _SUFFIX = ".mo"
-_NOT_CLASSES = frozenset({"Resources"})
-"""Folders of a package that hold no classes, whatever is in them."""
+_QUOTED = re.compile("'[^'.]+'")
 
 _TWICE = " twice"
 _ALLOWED_TWICE = ("has the equation", "connects", "extends")
 """What may well stand twice in a class as far as the language goes."""
 
 _BYTE_ORDER_MARK = "\ufeff"
+_UNREADABLE = ("not-utf8", "syntax")
+_REPEATED = "repeated"
+_WITHIN = "wrong-within"
+_NOTHING = Outline([], None, 0, [])
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -47,6 +51,8 @@ class _Folder:
     """Names of its `.mo` files."""
     folders: tuple[str, ...]
     """Names of the folders in it that have `.mo` files somewhere."""
+    odd: tuple[str, ...]
+    """Files and folders in it whose names no class can have; they are not among the others."""
 
     def below(self, name: str) -> str:
         """The path of something in it."""
@@ -78,26 +84,60 @@ def check(package: Package) -> tuple[Diagnostic, ...]:
     return tuple(found for folder in _folders(package) for found in _folder(package, folder))
 
 
+def check_around(files: Mapping[Path, bytes], shown: Callable[[Path], str]) -> tuple[Diagnostic, ...]:
+    """What keeps a compiler from reading files beside a package, and those of libraries: syntax, and `within`.
+
+    `files` are by absolute path, and hold each `package.mo` around a file; `shown` is how people see a path. Other
+    faults of theirs are left to those who make them.
+    """
+    return tuple(found for path in sorted(files) for found in _around(path, files, shown))
+
+
+def _around(file: Path, files: Mapping[Path, bytes], shown: Callable[[Path], str]) -> list[Diagnostic]:
+    top = next((folder for folder in reversed(file.parents) if folder / PACKAGE in files), None)
+    folder = top or file.parent
+    path = PurePosixPath(file.relative_to(folder).as_posix())
+    if not holds_class(path):
+        return []
+    parts = [*([top.name] if top else []), *path.with_suffix("").parts]
+    first, *others = parts[:-1] if top and path.name == PACKAGE else parts
+    name = ".".join((first.partition(" ")[0], *others))  # a version may follow the name of a library
+    _, said = _read(Package(name, folder, {str(path): files[file]}, shown), str(path), name)
+    ignored = (_REPEATED, _WITHIN) if _odd(path) else (_REPEATED,)
+    return [one for one in said if one.code not in ignored]
+
+
 def _folders(package: Package) -> list[_Folder]:
     """The folders that have files of Modelica, outer ones first."""
     files: defaultdict[PurePosixPath, set[str]] = defaultdict(set)
     inner: defaultdict[PurePosixPath, set[str]] = defaultdict(set)
+    odd: defaultdict[PurePosixPath, set[str]] = defaultdict(set)
     files[PurePosixPath()] = set()
-    for path in map(PurePosixPath, package.texts):
-        skipped = any(part in _NOT_CLASSES for part in path.parts[:-1]) or any(p[0] == "." for p in path.parts)
-        if path.suffix == _SUFFIX and not skipped:
-            files[path.parent].add(path.name)
-            for folder in path.parents[:-1]:
-                inner[folder.parent].add(folder.name)
+    for path in filter(holds_class, map(PurePosixPath, package.texts)):
+        culprit = _odd(path)
+        (odd if culprit else files)[(culprit or path).parent].add((culprit or path).name)
+        for folder in (culprit or path).parents[:-1]:
+            inner[folder.parent].add(folder.name)
     return [
         _Folder(
             "/".join(folder.parts),
             ".".join((package.name, *folder.parts)),
             tuple(sorted(files[folder])),
             tuple(sorted(inner[folder])),
+            tuple(sorted(odd[folder])),
         )
-        for folder in sorted({*files, *inner})
+        for folder in sorted({*files, *inner, *odd})
     ]
+
+
+def _odd(path: PurePosixPath) -> PurePosixPath | None:
+    """The outermost folder around a file, or the file itself, whose name no class can have."""
+    folder = next((folder for folder in reversed(path.parents[:-1]) if not _is_name(folder.name)), None)
+    return folder if folder or path.name == PACKAGE or _is_name(path.stem) else path
+
+
+def _is_name(name: str) -> bool:
+    return is_identifier(name) or _QUOTED.fullmatch(name) is not None
 
 
 def _folder(package: Package, folder: _Folder) -> Iterator[Diagnostic]:
@@ -109,6 +149,7 @@ def _folder(package: Package, folder: _Folder) -> Iterator[Diagnostic]:
         yield package.finding(Severity.ERROR, "no-package-file", message, folder.path, hint=hint)
     for file in folder.files:
         yield from _file(package, folder, file, contents)
+    yield from _named_oddly(package, folder)
     yield from _twice(package, folder, contents)
     yield from _cases(package, folder)
     if folder.below(ORDER) in package.texts:
@@ -121,28 +162,37 @@ def _folder(package: Package, folder: _Folder) -> Iterator[Diagnostic]:
 def _file(package: Package, folder: _Folder, file: str, contents: _Contents) -> Iterator[Diagnostic]:
     path = folder.below(file)
     whole = file == PACKAGE
-    fault = undecoded(package.texts[path])
-    if fault:
-        contents.certain &= not whole
-        hint = "save it as UTF-8"
-        yield package.finding(Severity.ERROR, "not-utf8", "the file is not in UTF-8", path, fault, hint=hint)
-        return
-    text = normalised(package.texts[path]).decode()
-    if text.startswith(_BYTE_ORDER_MARK):
-        message, hint = "the file begins with a byte order mark", "save it without: some compilers refuse it"
-        yield package.finding(Severity.WARNING, "byte-order-mark", message, path, 1, hint=hint)
-    found = outline(text)
-    syntax = _syntax(package, path, text, found.findings)
-    sound = not any(one.severity is Severity.ERROR for one in syntax)
-    yield from syntax
     name = folder.name if whole else f"{folder.name}.{file.removesuffix(_SUFFIX)}"
-    yield from _within(package, path, name, found)
+    found, said = _read(package, path, name)
+    yield from said
+    sound = not any(one.code in _UNREADABLE and one.severity is Severity.ERROR for one in said)
     yield from _names(package, path, name, found.declared, sound)
     if whole:
         contents.certain &= sound
         contents.inside |= {one.path[1]: one.line for one in reversed(found.declared) if len(one.path) == 2}
     else:
         contents.stored |= {one.path[0] for one in found.declared if len(one.path) == 1}
+
+
+def _read(package: Package, path: str, name: str) -> tuple[Outline, list[Diagnostic]]:
+    """What a file declares, and what is wrong with its text; `name` is the full name that its class should have."""
+    fault = undecoded(package.texts[path])
+    if fault:
+        message, hint = "the file is not in UTF-8", "save it as UTF-8"
+        return _NOTHING, [package.finding(Severity.ERROR, "not-utf8", message, path, fault, hint=hint)]
+    text = normalised(package.texts[path]).decode()
+    said = []
+    if text.startswith(_BYTE_ORDER_MARK):
+        message, hint = "the file begins with a byte order mark", "save it without: some compilers refuse it"
+        said.append(package.finding(Severity.WARNING, "byte-order-mark", message, path, 1, hint=hint))
+    found = outline(text)
+    said += _syntax(package, path, text, found.findings)
+    if any(len(one.path) == 1 for one in found.declared):
+        return found, [*said, *_within(package, path, name, found)]
+    if found.findings:
+        return found, said
+    hint = f"write the class `{name.rpartition('.')[2]}`, or delete the file"
+    return found, [*said, package.finding(Severity.ERROR, "no-class", "the file holds no class", path, hint=hint)]
 
 
 def undecoded(content: bytes) -> int:
@@ -168,7 +218,7 @@ def _syntax(package: Package, path: str, text: str, findings: Sequence[Finding])
 
 def _repeated(package: Package, path: str, finding: Finding) -> Diagnostic:
     if finding.reason.startswith(_ALLOWED_TWICE):
-        return package.finding(Severity.WARNING, "repeated", f"the file {finding.reason}", path, finding.line)
+        return package.finding(Severity.WARNING, _REPEATED, f"the file {finding.reason}", path, finding.line)
     return package.finding(Severity.ERROR, "syntax", f"the file {finding.reason}", path, finding.line)
 
 
@@ -183,7 +233,7 @@ def _within(package: Package, path: str, name: str, found: Outline) -> Iterator[
     else:
         stated = f"within {found.within};" if found.within else "within;"
         message, hint = f"the file says `{stated}`, but stands in `{parent or 'no package'}`", f"write `{within(name)}`"
-    yield package.finding(Severity.ERROR, "wrong-within", message, path, line, hint=hint)
+    yield package.finding(Severity.ERROR, _WITHIN, message, path, line, hint=hint)
 
 
 def _names(package: Package, path: str, name: str, declared: Sequence[Declared], sound: bool) -> Iterator[Diagnostic]:
@@ -191,9 +241,6 @@ def _names(package: Package, path: str, name: str, declared: Sequence[Declared],
     expected = name.rpartition(".")[2]
     stored = [one for one in declared if len(one.path) == 1]
     if not stored:
-        if sound:
-            hint = f"write the class `{expected}`, or delete the file"
-            yield package.finding(Severity.ERROR, "no-class", "the file holds no class", path, hint=hint)
         return
     main = next((one for one in stored if one.path == (expected,)), stored[0])
     if main.path != (expected,):
@@ -209,6 +256,16 @@ def _names(package: Package, path: str, name: str, declared: Sequence[Declared],
 
 
 # --- folders ----------------------------------------------------------------------------------------------------------
+
+
+def _named_oddly(package: Package, folder: _Folder) -> Iterator[Diagnostic]:
+    """Files and folders that can't hold the class that their name says; nothing else is said of them."""
+    for name in folder.odd:
+        path = folder.below(name)
+        is_file = path in package.texts
+        stem, kind, noun = (name.removesuffix(_SUFFIX), "class", "file") if is_file else (name, "package", "folder")
+        message, hint = f"`{stem}` can't be the name of a {kind}", f"rename the {noun}, or move it elsewhere"
+        yield package.finding(Severity.ERROR, "wrong-name", message, path, hint=hint)
 
 
 def _twice(package: Package, folder: _Folder, contents: _Contents) -> Iterator[Diagnostic]:
@@ -252,15 +309,24 @@ def _order(package: Package, folder: _Folder, contents: _Contents) -> Iterator[D
 def _order_findings(package: Package, folder: _Folder, contents: _Contents, path: str) -> Iterator[Diagnostic]:
     lines = _listed(normalised(package.texts[path]).decode())
     present = {*folder.stems, *folder.folders, *contents.inside}
+    known = {*present, *contents.stored, *(name.removesuffix(_SUFFIX) for name in folder.odd), *folder.odd}
     for name, numbers in lines.items():
-        if name not in present | contents.stored and contents.certain:
+        if name not in known and contents.certain:
             yield _unknown(package, path, name, numbers[0], present - lines.keys())
         for number in numbers[1:]:
             message, hint = f"`{name}` is named twice, first in line {numbers[0]}", "take one of the lines out"
             yield package.finding(Severity.WARNING, "order-twice", message, path, number, hint=hint)
     for name in sorted(present - lines.keys()):
-        message, hint = f"`{name}` is not named", "add it where it belongs: tools put it last, or warn"
-        yield package.finding(Severity.WARNING, "order-lacks", message, path, hint=hint)
+        hint = "add it where it belongs: tools put it last, or warn"
+        if _is_generated(package, folder, name):
+            hint = "`urdfsync build` adds it"
+        yield package.finding(Severity.WARNING, "order-lacks", f"`{name}` is not named", path, hint=hint)
+
+
+def _is_generated(package: Package, folder: _Folder, name: str) -> bool:
+    """Whether a class is one that urdfsync makes, in a folder of which it keeps the order."""
+    files = {folder.below(f"{name}{_SUFFIX}"), folder.below(f"{name}/{PACKAGE}")}
+    return folder.below(PACKAGE) in package.owners and not files.isdisjoint(package.owners)
 
 
 def _listed(text: str) -> Mapping[str, Sequence[int]]:

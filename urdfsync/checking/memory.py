@@ -1,6 +1,6 @@
 """Which packages a check found right, so that it need not look at them again: a small file per robot.
 
-A check is the same again if all that it rests on is: the package, what is around it, urdfsync, compiler and library.
+A check is the same again if all that it rests on is: the package, what is around it, urdfsync, compiler and libraries.
 The files are in the state folder, not committed, and safe to lose. One that can't be read, or not be written,
 costs one check more.
 """
@@ -16,7 +16,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import __version__
-from urdfsync.checking import library, workspace
+from urdfsync.checking import dependencies, library, workspace
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.files import TEMPORARY, Tree, digest
@@ -50,8 +50,10 @@ class Memory:
         try:
             texts = workspace.package_texts(robot.folder)
             around = workspace.surroundings(self._config, robot, texts)
-        except OSError:
+            libraries = dependencies.fingerprint(robot, [*texts.values(), *around.values()])
+        except (UrdfsyncError, OSError):
             return None
+        total.update(f"{libraries}\0".encode(errors="surrogateescape"))
         for files in (texts, around):
             for path, content in sorted(files.items()):
                 total.update(f"{path}\0{digest(content)}\n".encode(errors="surrogateescape"))
@@ -104,9 +106,10 @@ def compiler() -> str:
 
 
 def _library(configured: Path | None) -> str:
-    """Places and versions of the Modelica Standard Library; empty if there is none."""
+    """Places, versions and state of the Modelica Standard Library; why there is none if there is none."""
     try:
-        home = Path(os.path.expanduser("~"))  # noqa: PTH111 - it can't fail
-        return repr(library.standard(os.environ, home, configured))
-    except UrdfsyncError:
-        return ""
+        found = library.standard(os.environ, library.home(), configured)
+    except UrdfsyncError as error:
+        return str(error)
+    states = (library.state(one.path, folders_only=True) for one in (found.modelica, found.services, found.complex))
+    return repr((found, *states))

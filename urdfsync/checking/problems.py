@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
+import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
@@ -25,6 +26,11 @@ _NAMED = 3
 
 _SHADOW = "variability violation: "
 """What rumoca 0.10.2 says of sound models of the Modelica Standard Library as soon as something else is wrong."""
+
+_UNBALANCED = "unbalanced"
+_COMPILED = ("unresolved", "does-not-compile", _UNBALANCED)
+"""Codes of what is wrong with classes in files that are in order."""
+_BALANCE = re.compile(r"([\d,]+) equations? for ([\d,]+) unknowns?")
 
 _WORDS = {
     Kind.CLASS: "there is no class `{}`",
@@ -44,39 +50,42 @@ class Case:
     """Folders that the compiler reads → the ones that people know instead; those inside of others count first."""
     said: Sequence[Diagnostic] = ()
     """What is known of the package already: a compiler's words for the same are left out."""
-    absent: Collection[str] = ()
-    """Top-level packages that were not to be had, `Modelica` say: nothing is said of what follows from that."""
+    model: str = ""
+    """What was compiled: its name below the package."""
 
 
 def explain(text: str, case: Case) -> tuple[Diagnostic, ...]:
     """Findings in the order of their weight for a compiler's text.
 
-    There is at least one, unless all is said already or follows from a library that is absent.
+    There is at least one, unless all is said already.
     """
     found = complaints(text)
     kinds = {one.kind for one in found}
-    if kinds & {Kind.UNPARSED, Kind.LAYOUT} and _errors(case):
-        return ()
+    if kinds & {Kind.UNPARSED, Kind.LAYOUT}:
+        found = [] if _errors(case) else [one for one in found if not _is_known(one, case)]
     if kinds & UNRESOLVED:
         return _limited(list(_unresolved([one for one in found if one.kind in UNRESOLVED], case)))
     if Kind.BALANCE in kinds:
-        return (_unbalanced(found[0], case),)
+        return tuple(_unbalanced(found[0], case))
     return _limited([_placed(one, case) for one in _weighty(found, case)])
-
-
-def unresolved(text: str) -> tuple[str, ...]:
-    """The names that a compiler can't find, each once; empty if that is not what it complains about."""
-    return tuple(dict.fromkeys(one.reference for one in complaints(text) if one.kind in UNRESOLVED))
 
 
 def _errors(case: Case) -> list[Diagnostic]:
     """What is known to be wrong with the package's own files."""
-    folder = case.package.shown(case.package.folder)
+    return [one for one in _errors_below(case.package.folder, case) if one.code not in _COMPILED]
+
+
+def _errors_below(place: Path, case: Case) -> list[Diagnostic]:
+    """What is known to be wrong with a file, or with those in a folder."""
+    shown = case.package.shown(place)
     return [
-        one
-        for one in case.said
-        if one.severity is Severity.ERROR and one.file and Path(one.file).is_relative_to(folder)
+        one for one in case.said if one.severity is Severity.ERROR and one.file and Path(one.file).is_relative_to(shown)
     ]
+
+
+def _is_known(complaint: Complaint, case: Case) -> bool:
+    """Whether something is known to be wrong with a file that the compiler means, in the package or around it."""
+    return bool(complaint.file) and bool(_errors_below(_known(Path(complaint.file), case), case))
 
 
 def _limited(found: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
@@ -157,20 +166,38 @@ def _look_at(package: Package) -> str:
     return f"look at what was edited: {', '.join(files[:_NAMED])}{more}" if files else ""
 
 
-def _unbalanced(complaint: Complaint, case: Case) -> Diagnostic:
-    package, equations, unknowns = case.package, complaint.equations, complaint.unknowns
-    more = equations - unknowns
-    difference = f"{more} too many" if more > 0 else f"{-more} too few"
-    message = f"there are {equations} equations for {unknowns} unknowns, {difference}"
-    return _somewhere("unbalanced", message, package)
+def _unbalanced(complaint: Complaint, case: Case) -> Iterator[Diagnostic]:
+    """Whether equations lack or abound, unless as many do in a model of which that is said already."""
+    equations, unknowns = complaint.equations, complaint.unknowns
+    if any(_surplus(one) == equations - unknowns for one in case.said):
+        return
+    balance = f"{_number(equations, 'equation')} for {_number(unknowns, 'unknown')}"
+    message = f"`{case.model}` has {balance}" if case.model else f"there are {balance}"
+    own = f"{case.model.replace('.', '/')}.mo"
+    if own in case.package.texts and own not in case.package.owners:
+        yield case.package.finding(Severity.ERROR, _UNBALANCED, message, own, hint=_look_at(case.package))
+    else:
+        yield _somewhere(_UNBALANCED, message, case.package)
+
+
+def _surplus(said: Diagnostic) -> int | None:
+    """How many equations there are too many as an error says, or, below 0, too few; None if it says nothing of it."""
+    found = _BALANCE.search(said.message)
+    if found is None or (said.severity, said.code) != (Severity.ERROR, _UNBALANCED):
+        return None
+    equations, unknowns = (int(number.replace(",", "")) for number in found.groups())
+    return equations - unknowns
+
+
+def _number(count: int, noun: str) -> str:
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"
 
 
 def _somewhere(code: str, message: str, package: Package) -> Diagnostic:
-    """Something of which the compiler does not say where it is: in the edited file, if there is one."""
+    """Something of which the compiler does not say where it is: perhaps in the edited file, if there is one."""
     if len(package.edited) == 1:
-        (path,) = package.edited
-        hint = "look here first: the file was edited by hand"
-        return package.finding(Severity.ERROR, code, message, path, hint=hint)
+        file = package.shown(package.folder / next(iter(package.edited)))
+        return Diagnostic(Severity.ERROR, code, message, file, hint="look here first: the file was edited by hand")
     return Diagnostic(Severity.ERROR, code, message, package.shown(package.folder), hint=_look_at(package))
 
 
@@ -184,22 +211,27 @@ def _unresolved(found: Sequence[Complaint], case: Case) -> Iterator[Diagnostic]:
         kinds[one.reference] = min(kinds.get(one.reference, one.kind), one.kind, key=_FIRST.index)
     mentions = Mentions(case.package)
     classes = [name for name, kind in kinds.items() if kind is not Kind.COMPONENT]
-    roots = {name for name in classes if kinds[name] is Kind.CLASS and "." not in name and not mentions.exact(name)}
+    roots = {name for name in classes if kinds[name] is Kind.CLASS and _is_root(name, mentions)}
     for name in classes:
         if name in roots:
-            if name not in case.absent and not _errors(case):
+            if not _errors(case):
                 yield _no_library(name, case.package)
-        elif not _follows(name, {*case.absent, *roots}, case) and (mentions.of(name) or not case.absent):
+        elif not _follows(name, roots, case):
             yield _no_class(name, kinds[name], mentions)
-    if not case.absent and not roots:
+    if not roots:
         names = [name for name, kind in kinds.items() if kind is Kind.COMPONENT]
         yield from _components(names, classes, mentions)
 
 
-def _follows(name: str, absent: Collection[str], case: Case) -> bool:
-    """Whether a class is not there because a library is absent, or because there is a fault in its file."""
+def _is_root(name: str, mentions: Mentions) -> bool:
+    """Whether a name is that of a top-level package; the one that the package is in is mentioned in `within`."""
+    return "." not in name and (mentions.package.name.startswith(f"{name}.") or not mentions.exact(name))
+
+
+def _follows(name: str, roots: Collection[str], case: Case) -> bool:
+    """Whether a class is not there because its top-level package is not, or because there is a fault in its file."""
     head, _, rest = name.partition(".")
-    if head in absent:
+    if head in roots:
         return True
     faulty = {Path(one.file) for one in _errors(case)}
     last = rest.rpartition(".")[2] or head
@@ -210,8 +242,8 @@ def _follows(name: str, absent: Collection[str], case: Case) -> bool:
 
 def _no_library(name: str, package: Package) -> Diagnostic:
     if package.name.partition(".")[0] == name:
-        message, hint = f"there is no package `{name}`", "its folder and its `package.mo` have to say that name"
-        return package.finding(Severity.ERROR, "unresolved", message, "package.mo", hint=hint)
+        message, hint = f"there is no package `{name}`", "the class in this file has to be called so, like its folder"
+        return Diagnostic(Severity.ERROR, "unresolved", message, package.shown(package.top / "package.mo"), hint=hint)
     message, hint = f"there is no library `{name}`", "install it, or say where it is"
     return Diagnostic(Severity.ERROR, "unresolved", message, package.shown(package.folder), hint=hint)
 

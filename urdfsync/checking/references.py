@@ -16,6 +16,8 @@ _IMPORT = re.compile(
     r"\bimport\s+(?:([A-Za-z_]\w*)\s*=\s*)?\.?\s*([A-Za-z_]\w*(?:\s*\.\s*[A-Za-z_]\w*)*)"
     r"(\s*\.\s*\*|\s*\.\s*\{[^}]*\})?"
 )
+_FIRST = re.compile(r"([\])']\s*\.\s*)?([A-Za-z_]\w*)(?:\s*\.\s*[A-Za-z_]\w*)+")
+"""A name with dots; the first group is what makes it a part of something else, as in `a[1].b.c`."""
 _SPACE = re.compile(r"\s+")
 
 
@@ -34,6 +36,17 @@ def mentioned(texts: Iterable[str], library: str = "Modelica") -> set[str]:
         first, dot, others = name.partition(".")
         found |= {name, *(f"{full}{dot}{others}" for full in short.get(first, ()))}
     return {name for name in found if name.startswith(f"{library}.")}
+
+
+def beginnings(texts: Iterable[str]) -> set[str]:
+    """The top-level classes that Modelica texts may refer to: what they import, and what names with dots begin with.
+
+    Those names count only if they begin with a capital: components begin otherwise.
+    """
+    codes = [_code(text) for text in texts]
+    imported = {full.partition(".")[0] for code in codes for _, full, _ in _imports(code)}
+    names = (found for code in codes for found in _FIRST.finditer(_IMPORT.sub("", code)))
+    return imported | {found[2] for found in names if not found[1] and found[2][0].isupper()}
 
 
 def entry_of(name: str, entries: Collection[str]) -> str:

@@ -45,8 +45,8 @@ class Subject:
 
     @property
     def in_step(self) -> bool:
-        """Whether the package on disk is what a build would leave; also if there is none."""
-        return self.result.in_step or not self.built
+        """Whether the package on disk is what a build would leave."""
+        return self.built and self.result.in_step
 
     @functools.cached_property
     def generated(self) -> Mapping[str, bytes]:
@@ -62,7 +62,7 @@ class Subject:
     def package(self) -> Package:
         """The same, with what is known of its files."""
         robot = self.robot
-        edited = edits.edited(self.generated, self.disk, ()) if self.in_step else ()
+        edited = edits.edited(self.generated, self.disk) if self.in_step else ()
         return Package(robot.target.package, robot.folder, self.texts, shown, self.rendering.owners, edited)
 
     @property
@@ -70,14 +70,19 @@ class Subject:
         """The classes that have to compile by themselves, by their names below the package, the main one first."""
         return self.domain.models(self.robot.target)
 
-    @property
+    @functools.cached_property
     def edited(self) -> Sequence[str]:
         """The edited files that have a part in the main model."""
         benches = {f"{name.replace('.', '/')}.mo" for name in self.models[1:]}
         return [path for path in self.package.edited if path not in benches]
 
+    @functools.cached_property
+    def telling(self) -> Sequence[str]:
+        """Those of them in which more than comments and blanks differ."""
+        return [path for path in self.edited if not edits.is_cosmetic(self.generated[path], self.disk[path])]
+
     @property
-    def warnings(self) -> list[Diagnostic]:
+    def findings(self) -> list[Diagnostic]:
         """Errors that a build would report, and where edited records no longer agree."""
         found = [one for one in self.result.diagnostics if one.severity is Severity.ERROR]
         return found + records.differing(self.config, self.robot, self.result)

@@ -6,26 +6,32 @@ import contextlib
 import dataclasses
 import hashlib
 import os
-import re
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
 
 from urdfsync import modelica
-from urdfsync.checking import library, slim, workspace
-from urdfsync.checking.cache import Cache
-from urdfsync.checking.compiler import Compiler, Rumoca, ignore
+from urdfsync.checking import dependencies, library, references, slim, workspace
+from urdfsync.checking.cache import LOCK, Cache, CacheError, writing
+from urdfsync.checking.compiler import Compiler, CompilerError, Rumoca, ignore
+from urdfsync.checking.dependencies import Dependencies
 from urdfsync.checking.library import LibraryError, StandardLibrary
 from urdfsync.checking.process import Limits
 from urdfsync.checking.subject import Subject
 from urdfsync.checking.tasks import Job, Outcome, Task
 from urdfsync.checking.wishes import Wishes
 from urdfsync.config import Config, RobotConfig, library_folder
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.state.lock import Lock, LockedError
 
-_STANDARD = ("Modelica", "ModelicaServices", "Complex")
+_ATTEMPTS = 2
+"""So often a version is loaded if somebody deletes it."""
+_PAUSE = 1.0
+"""Seconds that somebody gets to be done with that."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -49,33 +55,67 @@ class Toolbox:
     """Compiles models of one robot's package, in the versions that are given; may be used from several threads."""
 
     def __init__(self, subject: Subject, wishes: Wishes, limits: Limits, cache: Cache, folder: Path) -> None:
-        """`folder` is for the copies of packages; `limits` are those of each compiler."""
+        """`folder` is for the copies of packages; `limits` are those of each compiler.
+
+        Raises LibraryError if the Modelica Standard Library is broken.
+        """
         self.subject, self._limits, self._cache, self._folder = subject, limits, cache, folder
         self._compiler = _compiler(wishes, cache)
-        self._places = [subject.robot.output, *library.folders(os.environ, Path.home())]
+        self._dependencies = Dependencies(dependencies.search_path(subject.robot))
+        self._loading = threading.Lock()
+        self._loads: dict[Path, _Load] = {}
         self.missing: LibraryError | None = None
         """Why there is no Modelica Standard Library; None if there is one."""
         self._standard: StandardLibrary | None = None
         try:
-            self._standard = library.standard(os.environ, Path.home(), subject.config.check.library)
+            self._standard = library.standard(os.environ, library.home(), subject.config.check.library)
         except LibraryError as error:
             self.missing = error
+        self._copies = slim.Copies(self._standard, cache) if self._standard else None
 
     def load(self, label: str, texts: Mapping[str, bytes]) -> Loaded:
-        """Put a version of the package, which `label` tells from others, where the compiler finds it."""
-        robot = self.subject.robot
-        around = workspace.surroundings(self.subject.config, robot, texts)
-        root = workspace.write(self._folder / label, robot, texts, around)
-        every = [content.decode(errors="replace") for content in (*texts.values(), *around.values())]
-        standard = slim.roots(self._standard, self._cache, every) if self._standard else ()
-        return Loaded(root, self._libraries(root.name, every), standard)
+        """Put a version of the package, which `label` tells from others, where the compiler finds it.
+
+        Raises CacheError if that can't be, OutputError for a library or a file around the package that can't be read.
+        """
+        with self._loading:
+            for _ in range(_ATTEMPTS):
+                try:
+                    return self._put(label, texts)
+                except CacheError as error:
+                    if not isinstance(error.__cause__, FileNotFoundError):
+                        raise
+                time.sleep(_PAUSE)
+            raise _emptied(self._cache)
 
     def run(
         self, loaded: Loaded, tasks: Sequence[Task], tell: Callable[[int, Outcome], None] = ignore
     ) -> list[Outcome]:
-        """Do tasks in a process of their own. Raises CompilerError."""
-        named = [_with_imports(task, list(loaded.libraries)) for task in tasks]
-        return self._compiler.compile(Job(loaded.roots, tuple(named)), self._limits, tell)
+        """Do tasks in a process of their own. Raises CompilerError, or CacheError if the cache is emptied all the time.
+
+        If somebody deletes meanwhile what the compiler reads, it is put there once more.
+        """
+        done: list[Outcome] = []
+
+        def heard(number: int, outcome: Outcome) -> None:  # noqa: ARG001 - it counts from the beginning of its job
+            if _is_problem(outcome) and not self._is_there(loaded):
+                raise _EmptiedError
+            done.append(outcome)
+            tell(len(done) - 1, outcome)
+
+        for _ in range(_ATTEMPTS):
+            left = [_with_imports(task, list(loaded.libraries)) for task in tasks[len(done) :]]
+            try:
+                self._compiler.compile(Job(loaded.roots, tuple(left)), self._limits, heard)
+            except (_EmptiedError, CompilerError) as error:
+                if isinstance(error, CompilerError) and self._is_there(loaded):
+                    raise
+            else:
+                return done
+            load = self._loads[loaded.root]
+            time.sleep(_PAUSE)
+            loaded = self.load(load.label, load.texts)
+        raise _emptied(self._cache)
 
     def folders(self, loaded: Loaded) -> dict[Path, Path]:
         """Folders that the compiler reads, and those that people know instead."""
@@ -87,15 +127,41 @@ class Toolbox:
             known[copied / "ModelicaServices"] = self._standard.services.path
         return known
 
-    def _libraries(self, top: str, texts: Sequence[str]) -> dict[str, Path]:
-        """The libraries at hand that the package needs or mentions, without the Modelica Standard Library."""
-        known = {modelica.LIBRARY: library_folder() / modelica.LIBRARY} if top != modelica.LIBRARY else {}
-        needed = {name for name, _ in self.subject.domain.uses} | _first_names(texts)
-        for name in sorted(needed - {top, *known, *_STANDARD}):
-            found = library.find(name, self._places)
-            if found is not None:
-                known[name] = found
-        return known
+    def _put(self, label: str, texts: Mapping[str, bytes]) -> Loaded:
+        robot = self.subject.robot
+        around = workspace.surroundings(self.subject.config, robot, texts)
+        with writing(self._cache.folder):
+            root = workspace.write(self._folder / label, robot, texts, around)
+        every = [content.decode(errors="replace") for content in (*texts.values(), *around.values())]
+        uses = (name for name, _ in self.subject.domain.uses)
+        libraries = self._dependencies.of(root.name, every, uses)
+        standard: tuple[str, ...] = ()
+        if self._copies is not None:
+            mentioned = references.mentioned(every) | self._dependencies.standard(libraries.values())
+            standard = self._copies.roots(mentioned)
+        own = {modelica.LIBRARY: library_folder() / modelica.LIBRARY} if root.name != modelica.LIBRARY else {}
+        loaded = Loaded(root, {**own, **libraries}, standard)
+        self._loads[root] = _Load(label, texts, _count((*standard, root)))
+        return loaded
+
+    def _is_there(self, loaded: Loaded) -> bool:
+        """Whether the compiler still finds all that it was given."""
+        all_there = all(Path(root).exists() for root in loaded.roots)
+        return all_there and _count((*loaded.standard, loaded.root)) == self._loads[loaded.root].files
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class _Load:
+    """What was put into a folder."""
+
+    label: str
+    texts: Mapping[str, bytes]
+    files: int
+    """How many there were then in all copies."""
+
+
+class _EmptiedError(Exception):
+    """A problem is due to what is not there any more."""
 
 
 @contextlib.contextmanager
@@ -106,11 +172,12 @@ def bench(cache: Cache, config: Config, robot: RobotConfig) -> Iterator[Path]:
     """
     name = hashlib.sha256(f"{config.file}\0{robot.name}".encode()).hexdigest()[:16]
     folder = cache.workspace(name)
-    with Lock(folder / "lock", wait=0) as lock:
+    with Lock(folder / LOCK, wait=0) as lock:
         try:
             lock.acquire()
         except LockedError:
-            with tempfile.TemporaryDirectory(dir=cache.workspaces) as other:
+            with tempfile.TemporaryDirectory(dir=cache.workspaces) as other, Lock(Path(other) / LOCK, wait=0) as own:
+                own.acquire()
                 yield Path(other)
         else:
             yield folder
@@ -124,9 +191,19 @@ def _compiler(wishes: Wishes, cache: Cache) -> Compiler:
     return Rumoca(cache)
 
 
-def _first_names(texts: Sequence[str]) -> set[str]:
-    """What stands before the first dot of names that begin with a capital, as those of libraries do."""
-    return {name for text in texts for name in re.findall(r"(?<![\w.])([A-Z]\w*)(?=\.[A-Za-z])", text)}
+def _is_problem(outcome: Outcome) -> bool:
+    return bool(outcome.problem) or any(run.problem for run in outcome.runs)
+
+
+def _count(folders: Iterable[str | Path]) -> int:
+    """How many files there are below folders."""
+    return sum(len(files) for folder in folders for _, _, files in os.walk(folder))
+
+
+def _emptied(cache: Cache) -> CacheError:
+    message = "somebody empties the cache while a check works with it"
+    hint = "check again, and leave it alone meanwhile"
+    return CacheError(Diagnostic(Severity.ERROR, "cache-emptied", message, str(cache.folder), hint=hint))
 
 
 def _with_imports(task: Task, names: Sequence[str]) -> Task:

@@ -15,7 +15,7 @@ TOLERANCE = 1e-10
 """The greatest difference that counts as agreement, against the greatest value of its kind or 1."""
 
 POSES = (Quantity.POSITION, Quantity.ORIENTATION)
-EFFORTS = (Quantity.EFFORT, Quantity.ACCELERATION)
+EFFORTS = (Quantity.EFFORT, Quantity.REACTION, Quantity.ACCELERATION)
 MASSES = (Quantity.MASS, Quantity.CENTRE)
 
 
@@ -23,6 +23,8 @@ class Standing(enum.StrEnum):
     """What a check says of a robot in one word."""
 
     RIGHT = "right"
+    INCOMPLETE = "incomplete"
+    """Nothing is wrong as far as it was checked, but something could not be that should have been."""
     DIFFERS = "differs"
     FAILED = "failed"
 
@@ -63,7 +65,9 @@ class Effect:
     files: tuple[str, ...]
     """The edited files that it comes from, below the package's folder; several if they work together."""
     deviations: tuple[Deviation, ...]
-    """Those beyond the tolerance, the greatest first; none if the edits change nothing that is compared."""
+    """Those beyond the tolerance, from the root outwards; none if the edits change nothing that is compared."""
+    owners: tuple[str, ...] = ()
+    """The elements that the files belong to, in the domain's words."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -76,6 +80,8 @@ class Verdict:
     """False if there is no package on disk yet: what would be generated was checked."""
     in_step: bool = True
     """Whether the package on disk is what a build would leave."""
+    conflicting: bool = False
+    """Whether it is out of step because edits and new texts contradict each other."""
     compiled: tuple[Compiled, ...] = ()
     generated: Comparison | None = None
     """The package as it is generated, without edits, against the reference; None if that was not compared."""
@@ -84,7 +90,9 @@ class Verdict:
     notes: tuple[str, ...] = ()
     """What was made up or amended for the comparison, and why: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
-    """What was not checked, and why: one sentence each, without a full stop."""
+    """What a check like this does not cover, and why: one sentence each, without a full stop."""
+    gaps: tuple[str, ...] = ()
+    """What it should have covered and could not, and why: one sentence each, without a full stop."""
     diagnostics: tuple[Diagnostic, ...] = ()
     seconds: float = 0.0
     """From beginning to end."""
@@ -108,13 +116,15 @@ class Verdict:
         if self.failed:
             return Standing.FAILED
         wrong = self.generated is not None and not self.generated.agrees
-        differs = wrong or not self.in_step or (strict and self.changed)
-        return Standing.DIFFERS if differs else Standing.RIGHT
+        if wrong or not self.in_step or (strict and self.changed):
+            return Standing.DIFFERS
+        return Standing.INCOMPLETE if self.gaps else Standing.RIGHT
 
 
 def exit_code(verdicts: Iterable[Verdict], strict: bool) -> Exit:
-    """2 if anything failed, 1 if anything differs, else 0."""
+    """2 if anything failed, 1 if anything differs or, with `strict`, is incomplete, else 0."""
     found = {verdict.standing(strict) for verdict in verdicts}
     if Standing.FAILED in found:
         return Exit.ERROR
-    return Exit.OUT_OF_STEP if Standing.DIFFERS in found else Exit.IN_STEP
+    wrong = {Standing.DIFFERS, Standing.INCOMPLETE} if strict else {Standing.DIFFERS}
+    return Exit.OUT_OF_STEP if found & wrong else Exit.IN_STEP

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, TOLERANCE, Comparison, Compiled, Effect, Standing, Verdict
 from urdfsync.diagnostics import Severity
@@ -15,6 +15,8 @@ _NAMED = 3
 """So many elements of a kind are named at most; of more, only their number."""
 _FILES = 3
 """So many files or robots are named at most; of more, only their number."""
+_MANY = 6
+"""Of more edited files than this, there is no telling which one it comes from: only their number is said of them."""
 _PERCENT = 999.5
 """From so many percent on, the reference is about zero, and a percentage says nothing."""
 _LEAST = 0.001
@@ -50,8 +52,7 @@ def parts(found: Verdict) -> list[str]:
     elif not errors:
         said.append("syntax and layout")
     if found.generated:
-        agreements = [(name, _agreement(found.generated, kinds)) for name, kinds in _KINDS]
-        said += [f"{name} {agreement}" for name, agreement in agreements if agreement]
+        said += filter(None, (_agreement(found.generated, name, kinds) for name, kinds in _KINDS))
     return said
 
 
@@ -68,15 +69,22 @@ def _size(model: Compiled, *, alone: bool) -> list[str]:
     return [size if alone else f"{size} in the largest"]
 
 
-def _agreement(found: Comparison, kinds: Sequence[Quantity]) -> str:
+def _agreement(found: Comparison, name: str, kinds: Sequence[Quantity]) -> str:
     """How far a package agrees in quantities of one kind; empty if they were not compared."""
     worst = found.worst(kinds)
     if worst is None:
         return ""
-    place = f" ({worst.element})" if kinds is not MASSES else ""  # which are of the whole model
+    if kinds is MASSES and not agrees(worst):  # a mass and a centre have no unit in common
+        return _differing([one for one in found.deviations if one.quantity in MASSES and not agrees(one)])
+    place = "" if kinds is MASSES else f" ({_place(worst)})"  # masses are of the whole model
     if agrees(worst):
-        return f"agree to {figure(worst.relative)}{place}" if worst.difference else "agree exactly"
-    return f"differ by {amount(worst)}{place}" if math.isfinite(worst.difference) else f"are not finite{place}"
+        return f"{name} agree to {figure(worst.relative)}{place}" if worst.difference else f"{name} agree exactly"
+    return f"{name} {f'differ by {amount(worst)}' if math.isfinite(worst.difference) else 'are not finite'}{place}"
+
+
+def _place(found: Deviation) -> str:
+    """The element, and what of it where that is no torque of an axis and no pose."""
+    return f"{quantity(found)} of {found.element}" if found.quantity is Quantity.REACTION else found.element
 
 
 def agrees(found: Deviation) -> bool:
@@ -101,9 +109,15 @@ def duration(seconds: float) -> str:
 def quantity(found: Deviation) -> str:
     """What differs, in a word or three."""
     if found.quantity is Quantity.EFFORT:
-        return "force" if found.unit == "N" else "torque"
+        return _load(found)
+    if found.quantity is Quantity.REACTION:
+        return f"reaction {_load(found)}"
     turns = found.quantity is Quantity.ACCELERATION and found.unit.startswith("rad")
     return f"angular {found.quantity}" if turns else str(found.quantity)
+
+
+def _load(found: Deviation) -> str:
+    return "force" if found.unit == "N" else "torque"
 
 
 def amount(found: Deviation) -> str:
@@ -141,7 +155,7 @@ def failures(found: Verdict) -> list[str]:
     """How what is generated differs from the reference: a line for poses, for torques and for masses."""
     if found.generated is None:
         return []
-    wrong = sorted((one for one in found.generated.deviations if not agrees(one)), key=_rank)
+    wrong = [one for one in found.generated.deviations if not agrees(one)]
     return list(_phrases(wrong, f" from {found.reference or 'the reference'}", size=True))
 
 
@@ -154,52 +168,84 @@ def advice(verdicts: Iterable[Verdict]) -> str:
     return f"{what}; look at `templates` of your own if there are some, else please report it as a bug, with the source"
 
 
-def _rank(found: Deviation) -> float:
-    return -math.inf if math.isnan(found.relative) else -found.relative
-
-
 def effect(found: Effect) -> str:
     """What an edit did, as a sentence without a full stop."""
-    edited = f"{listed(found.files)} {'was' if len(found.files) == 1 else 'were'} edited"
-    said = list(_phrases(found.deviations, "", size=False))
-    if not said:
-        return f"{edited}; nothing that is compared changed"
-    return f"{'; '.join(said)}{', all' if len(said) > 1 else ''} since {edited}"
+    said = list(_phrases(found.deviations, "", size=False, owners=found.owners))
+    every = ", all" if len(said) > 1 else ""
+    if len(found.files) > _MANY:
+        edited = f"{files(found)} ({', '.join(found.files[: _FILES - 1])}, …)"
+        return f"{'; '.join(said)}{every} because of {edited}" if said else f"{edited} change nothing that is compared"
+    edited = f"{files(found)} {'was' if len(found.files) == 1 else 'were'} edited"
+    return f"{'; '.join(said)}{every} since {edited}" if said else f"{edited}; nothing that is compared changed"
 
 
-def _phrases(found: Iterable[Deviation], against: str, *, size: bool) -> Iterator[str]:
-    """A phrase for each kind of what differs, in the order in which they come."""
-    kinds: dict[str, dict[str, list[Deviation]]] = {}
+def files(found: Effect) -> str:
+    """The edited files, or how many they are: `a.mo and b.mo`, `12 edited files`."""
+    return f"{len(found.files)} edited files" if len(found.files) > _MANY else listed(found.files)
+
+
+def _phrases(found: Sequence[Deviation], against: str, *, size: bool, owners: Collection[str] = ()) -> Iterator[str]:
+    """A phrase for each kind of what differs; `owners` are the elements that were edited."""
+    for _, kinds in _KINDS:
+        elements: dict[str, list[Deviation]] = {}
+        for one in found:
+            if one.quantity in kinds:
+                elements.setdefault(one.element, []).append(one)
+        if elements:
+            (first, leading), *others = _ranked(elements, owners, outwards=kinds is not EFFORTS)
+            yield f"{first}: {_differing(leading, against, size=size)}{_others(others, leading)}"
+
+
+def _ranked(
+    elements: Mapping[str, list[Deviation]], owners: Collection[str], *, outwards: bool
+) -> list[tuple[str, list[Deviation]]]:
+    """Elements, which come from the root outwards, with the one first that is nearest to what is wrong.
+
+    That is one that was edited. Else, since a link that is displaced takes along all that hangs on it, the first one;
+    and since each joint carries all that is behind it and the root carries everything, the last joint.
+    """
+
+    def rank(item: tuple[str, list[Deviation]]) -> tuple[bool, bool]:
+        element, deviations = item
+        return element not in owners, deviations[0].quantity is Quantity.REACTION
+
+    order = list(elements.items())
+    return sorted(order if outwards else reversed(order), key=rank)
+
+
+def _differing(found: Sequence[Deviation], against: str = "", *, size: bool = False) -> str:
+    """How one element differs: `torque differs by 3.2 %, 0.4 N·m where up to 12.5 N·m are expected`."""
+    said, verb, glue = [], f"differs{against} ", " and "
     for one in found:
-        kind = next(name for name, quantities in _KINDS if one.quantity in quantities)
-        kinds.setdefault(kind, {}).setdefault(one.element, []).append(one)
-    for elements in kinds.values():
-        (first, worst), *others = elements.items()
-        yield f"{first}: {_worst(worst, against, size=size)}{_others(others, worst[0])}"
+        if not math.isfinite(one.difference):
+            said.append(f"{quantity(one)} is not finite")
+            continue
+        by, more = amount(one), ""
+        if size and by.endswith("%"):
+            up, glue = "" if one.quantity is Quantity.MASS else "up to ", ", and "
+            more = f", {absolute(one)} where {up}{digits(one.value)} {one.unit} are expected"
+        said.append(f"{quantity(one)} {verb}by {by}{more}")
+        verb = ""
+    return glue.join(said)
 
 
-def _worst(found: Sequence[Deviation], against: str, *, size: bool) -> str:
-    """How one element differs: `torque differs by 3.2 %, 0.4 N·m of up to 12.5 N·m`."""
-    said = []
-    for count, one in enumerate(found):
-        by = amount(one)
-        more = f", {absolute(one)} of up to {digits(one.value)} {one.unit}" if size and by.endswith("%") else ""
-        differing = f"{'' if count else f'differs{against} '}by {by}{more}"
-        said.append(f"{quantity(one)} {differing if math.isfinite(one.difference) else 'is not finite'}")
-    return " and ".join(said)
-
-
-def _others(found: Sequence[tuple[str, list[Deviation]]], worst: Deviation) -> str:
+def _others(found: Sequence[tuple[str, list[Deviation]]], leading: Sequence[Deviation]) -> str:
     """The other elements: ` (joint wrist by 0.8 %, and 3 more)`."""
     few = found if len(found) < _NAMED else found[: _NAMED - 1]
-    said = []
-    for element, deviations in few:
-        what = "" if quantity(deviations[0]) == quantity(worst) else f"{quantity(deviations[0])} of "
-        by = "by " if math.isfinite(deviations[0].difference) else ""
-        said.append(f"{what}{element} {by}{' and '.join(map(amount, deviations))}")
+    said = [_other(element, deviations, leading) for element, deviations in few]
     if len(few) < len(found):
         said.append(f"and {len(found) - len(few)} more")
     return f" ({', '.join(said)})" if said else ""
+
+
+def _other(element: str, found: Sequence[Deviation], leading: Sequence[Deviation]) -> str:
+    """One of the other elements; what differs is told unless that is clear from the first one and the units."""
+    first, *rest = [f"{'by ' if math.isfinite(one.difference) else ''}{amount(one)}" for one in found]
+    whats = [quantity(one) for one in found]
+    if whats == [quantity(one) for one in leading] and (not rest or found[0].quantity in POSES):
+        return " and ".join([f"{element} {first}", *(by.removeprefix("by ") for by in rest)])
+    labelled = [f"{what} {by}" for what, by in zip(whats[1:], rest, strict=True)]
+    return " and ".join([f"{whats[0]} of {element} {first}", *labelled])
 
 
 def listed(names: Sequence[str]) -> str:
@@ -210,9 +256,9 @@ def listed(names: Sequence[str]) -> str:
 
 
 def tally(verdicts: Sequence[Verdict], strict: bool) -> str:
-    """`4 robots: 2 right, 1 differs, 1 failed`."""
+    """`4 robots: 2 right, 1 incomplete, 1 failed`."""
     heads = [head(found, strict) for found in verdicts]
-    words = ("right", "out of step", "not built", "differs", "failed")
+    words = ("right", "incomplete", "out of step", "not built", "differs", "failed")
     counts = [(heads.count(word), word) for word in words]
     said = [f"{number} {'differ' if word == 'differs' and number > 1 else word}" for number, word in counts if number]
     return f"{counted(len(verdicts), 'robot')}: {', '.join(said)}"

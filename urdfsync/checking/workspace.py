@@ -7,6 +7,7 @@ are left out, unless they are mentioned.
 from __future__ import annotations
 
 import codecs
+import contextlib
 import os
 import re
 import shutil
@@ -14,33 +15,45 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from urdfsync import modelica
-from urdfsync.config import Config, RobotConfig
+from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 
 _NOT_CLASSES = frozenset({"Resources"})
 """Folders of a package that hold no classes, whatever is in them."""
 
 
 def package_texts(folder: Path) -> dict[str, bytes]:
-    """The Modelica files below a package's folder, by their path below it; none if there is no such folder."""
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in _files(folder, frozenset())}
+    """The Modelica files below a package's folder, by their path below it; none if there is no such folder.
+
+    Only regular files count, and links to such; see `oddities`. Raises OutputError for one that can't be read.
+    """
+    return _read(folder, folder, frozenset())
+
+
+def oddities(folder: Path) -> list[Path]:
+    """What looks like a part of the package in `folder` and is left out, since it is no regular file or real folder.
+
+    Links that lead nowhere, pipes and the like, and links to folders of classes. Raises OutputError.
+    """
+    return [path for path, regular in _entries(folder, frozenset()) if not regular]
 
 
 def surroundings(config: Config, robot: RobotConfig, texts: Mapping[str, bytes]) -> dict[str, bytes]:
     """The files of the top-level package around a robot's package, by their path below the output folder.
 
     Packages of other robots are among them if `texts` (the robot's own), or anything else around, mention them.
-    Packages around the robot's that do not exist yet are made up.
+    Packages around the robot's that do not exist yet are made up. Raises OutputError for a file that can't be read.
     """
     top = robot.output / robot.target.package.partition(".")[0]
     others = {other.folder: _name(other) for other in config.robots if top in other.folder.parents}
     others.pop(robot.folder, None)
-    found = _read(robot, top, frozenset({robot.folder, *others})) if top != robot.folder else {}
+    found = _read(robot.output, top, frozenset({robot.folder, *others})) if top != robot.folder else {}
     waiting = [*texts.values(), *found.values()] if others else []
     while waiting:
         text = waiting.pop()
         for folder in [folder for folder, name in others.items() if _mentions(text, name)]:
             del others[folder]
-            more = _read(robot, folder, frozenset(others))
+            more = _read(robot.output, folder, frozenset(others))
             found |= more
             waiting += more.values()
     for name in _parents(robot.target.package):
@@ -71,21 +84,59 @@ def write(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: 
     return folder / robot.target.package.partition(".")[0]
 
 
-def _read(robot: RobotConfig, folder: Path, without: frozenset[Path]) -> dict[str, bytes]:
-    return {path.relative_to(robot.output).as_posix(): path.read_bytes() for path in _files(folder, without)}
+def _read(base: Path, folder: Path, without: frozenset[Path]) -> dict[str, bytes]:
+    """The files below `folder`, by their path below `base`."""
+    found = {}
+    for path, regular in _entries(folder, without):
+        if regular:
+            with _reading(), contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
+                found[path.relative_to(base).as_posix()] = path.read_bytes()
+    return found
 
 
-def _files(folder: Path, without: frozenset[Path]) -> Iterator[Path]:
-    """The Modelica files of a package and of those in it, but for the folders in `without`."""
-    for place, folders, files in os.walk(folder):
+def content(file: Path) -> bytes:
+    """The content of a regular file. Raises OutputError if it can't be read, FileNotFoundError if it is gone."""
+    with _reading():
+        return file.read_bytes()
+
+
+def _entries(folder: Path, without: frozenset[Path]) -> Iterator[tuple[Path, bool]]:
+    """The Modelica files of a package and of those in it, but for the folders in `without`.
+
+    With each whether it is a regular file, or a link to one; anything else must not be opened.
+    """
+    for place, folders, files in os.walk(folder, onerror=_refuse):
         here = Path(place)
         folders[:] = [
             name
             for name in sorted(folders)
             if name not in _NOT_CLASSES and not name.startswith(".") and here / name not in without
         ]
+        links = [here / name for name in folders if (here / name).is_symlink()]  # not followed: they may go in circles
+        yield from ((link, False) for link in links if os.path.isfile(link / "package.mo"))  # noqa: PTH113
         own = (name for name in sorted(files) if not name.startswith("."))  # editors leave some that do
-        yield from (here / name for name in own if name.endswith(".mo") or name == "package.order")
+        paths = (here / name for name in own if name.endswith(".mo") or name == "package.order")
+        yield from ((path, os.path.isfile(path)) for path in paths)  # noqa: PTH113 - no error for what can't be looked at
+
+
+def _refuse(error: OSError) -> None:
+    """Called for a folder that can't be listed, also for one that is not there."""
+    if not isinstance(error, FileNotFoundError | NotADirectoryError):
+        with _reading():
+            raise error
+
+
+@contextlib.contextmanager
+def _reading() -> Iterator[None]:
+    """Whatever the system refuses inside becomes an OutputError about the file, unless the file is gone."""
+    try:
+        yield
+    except FileNotFoundError:
+        raise
+    except OSError as error:
+        message, hint = f"it can't be read: {error.strerror or error}", "check the permissions of it and of its folder"
+        place = shown(Path(os.fsdecode(error.filename))) if error.filename else ""
+        raise OutputError(Diagnostic(Severity.ERROR, "unreadable", message, place, hint=hint)) from error
 
 
 def _name(other: RobotConfig) -> bytes:

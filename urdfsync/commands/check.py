@@ -15,6 +15,8 @@ from urdfsync.outcome import Exit
 from urdfsync.report import Report
 
 _DEFAULTS = Wishes()
+_WISHES = ("robot", "physics", "strict", "tool", "jobs", "timeout", "memory", "wait")
+"""What only a check has a use for."""
 
 
 def add(commands: common.Commands) -> None:
@@ -27,11 +29,13 @@ def add(commands: common.Commands) -> None:
         "the same source. Nothing is written. What your edits change is told, and is no fault.",
         epilog="examples: urdfsync check arm --physics\n"
         "          urdfsync check --physics --strict --timeout 60 --json\n\n"
-        "exit codes: 0 right, 1 differs or out of step, 2 error, 130 interrupted",
+        "exit codes: 0 right, 1 differs, out of step or not built, 2 error, 130 interrupted",
     )
     common.add_robots(parser)
     parser.add_argument("--physics", action="store_true", help="compare poses, torques and masses with a reference")
-    parser.add_argument("--strict", action="store_true", help="a difference that comes from an edit counts as well")
+    parser.add_argument(
+        "--strict", action="store_true", help="what comes from an edit, or could not be checked, counts as a difference"
+    )
     parser.add_argument(
         "--tool", choices=("rumoca", "omc"), default=_DEFAULTS.tool, help="what compiles (rumoca); omc: OpenModelica"
     )
@@ -60,7 +64,10 @@ def _count(text: str) -> int:
 
 
 def _amount(text: str) -> float:
-    number = float(text)
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
     if not 0 < number < math.inf:
         raise argparse.ArgumentTypeError(f"{text!r} is no limit; give a number greater than 0")
     return number
@@ -97,13 +104,17 @@ def _run(parser: common.Parser, options: argparse.Namespace, report: Report) -> 
 
 def _clear_cache(parser: common.Parser, options: argparse.Namespace, report: Report) -> int:
     """Empty the cache. Nothing else may be asked for: a check fills it again."""
-    if options.robots or options.robot:
-        error = Diagnostic(Severity.ERROR, "usage", "--clear-cache goes without robots", hint="the cache is for all")
+    if options.robots or any(getattr(options, name) != parser.get_default(name) for name in _WISHES):
+        error = Diagnostic(
+            Severity.ERROR,
+            "usage",
+            "--clear-cache goes without robots and without options of a check",
+            hint="it empties the cache of all robots, and checks none",
+        )
         report.bad_usage("check", parser.format_usage(), error)
         return Exit.ERROR
-    from urdfsync.checking import compiler
     from urdfsync.checking.cache import Cache
 
-    compiler.require()
+    report.waiting("emptying the cache")
     report.cleared(Cache.of_user().clear())
     return Exit.IN_STEP

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from urdfsync import wording
 from urdfsync.checking import words
 from urdfsync.checking.verdict import EFFORTS, POSES, TOLERANCE, Standing, Verdict
+from urdfsync.domain import Deviation, Quantity
 from urdfsync.views.terminal import has_marks, text
 
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.text import Text
 
-    from urdfsync.domain import Deviation
-
 _STYLES = {
     "right": ("✓", "green"),
+    "incomplete": ("?", "magenta"),
     "out of step": ("!", "yellow"),
     "not built": ("!", "yellow"),
     "differs": ("≠", "bold red"),
@@ -32,7 +33,12 @@ _MARGIN = "    "
 _LEAST, _FEWEST = 16, 3
 """The names in a listing have so many columns at least, for which all others give way but so many."""
 _NONE = "–"
+_UNIT = re.compile(r"(?<=\d) (?=(?:%|mm?|N(?:·m)?|kg|rad/s²|m/s²)(?:[\s,;)]|$))")
+"""The blank between a number and its unit, where no line ends."""
+_GLUE = "\ue000"
+"""Stands for that meanwhile: a character of no meaning that is as wide as a blank."""
 _STALE = "the package is not what a build would leave; run `urdfsync build`"
+_CONFLICTING = "your edits and what is new contradict each other; settle that with `urdfsync resolve`"
 _ABSENT = "there is no package yet, so what `urdfsync build` would write was checked"
 
 
@@ -156,17 +162,17 @@ class Checks:
             yield self._wrapped(self._indent, text((part, "")))
 
     def _remarks(self, found: Verdict) -> Iterator[Text]:
-        """What is behind the verdict: what differs and what to do about it, and what edits do."""
+        """What is behind the verdict: what differs, what edits do, what is missing, and what to do about it."""
         if words.differs(found):
             for said in words.failures(found):
                 yield self._wrapped(self._indent, _emphasised(said, "bold red"))
         for effect in found.effects:
             style = "dim" if not effect.deviations else "bold red" if self._look.strict else "bold cyan"
             yield self._wrapped(self._indent, _emphasised(words.effect(effect), style))
-        if not found.built and not found.failed:
-            yield self._wrapped(self._indent, text((_ABSENT, "yellow")))
-        if found.built and not found.in_step:
-            yield self._wrapped(self._indent, text((_STALE, "yellow")))
+        gaps = [(gap, _STYLES["incomplete"][1]) for gap in found.gaps]
+        for said, style in (*gaps, (_advice(found), "yellow")):
+            if said:
+                yield self._wrapped(self._indent, text((said, style)))
 
     def _wrapped(self, lead: str, line: Text) -> Text:
         """A line that is broken between words if it is too long for the terminal; what follows stands below it."""
@@ -174,10 +180,18 @@ class Checks:
         if not self._console.is_terminal or line.cell_len <= room:
             return text((lead, "")).append_text(line)
         whole = text()
+        line.plain = _UNIT.sub(_GLUE, line.plain)
         for count, piece in enumerate(line.wrap(self._console, max(room - 2 * (not lead), 20))):
-            piece.rstrip()
+            piece.plain = piece.plain.rstrip().replace(_GLUE, " ")
             whole.append(("\n" + " " * max(len(lead), 2)) if count else lead).append_text(piece)
         return whole
+
+
+def _advice(found: Verdict) -> str:
+    """What to do about a package that is not what a build would leave; empty if it is."""
+    if found.in_step:
+        return ""
+    return (_CONFLICTING if found.conflicting else _STALE) if found.built else _ABSENT
 
 
 def _columns(robots: Sequence[str], width: int) -> tuple[list[_Column], bool]:
@@ -223,7 +237,7 @@ def _elements(found: Verdict) -> list[str]:
 def _legend(verdicts: Sequence[Verdict]) -> str:
     reference = next((found.reference for found in verdicts if found.reference), "") or "the reference"
     return (
-        f"errors: largest difference from {reference} relative to the largest value of its kind, or to 1; "
+        f"errors: largest difference from {reference} relative to the largest value of its kind and unit, or to 1; "
         f"up to {TOLERANCE:.0e} agrees"
     )
 
@@ -237,7 +251,10 @@ def _emphasised(said: str, style: str) -> Text:
 def _models(found: Verdict, width: int) -> Iterator[Text]:
     """Each model that compiles, with its size."""
     columns = [_Column("", "model", 0, left=True), _Column("", "equations = unknowns", 0), _Column("", "states", 0)]
-    rows = [(one.model, f"{one.unknowns:,}" if one.unknowns else _NONE, f"{one.states:,}") for one in found.compiled]
+    rows = [
+        (one.model, *((f"{one.unknowns:,}", f"{one.states:,}") if one.unknowns else (_NONE, _NONE)))
+        for one in found.compiled
+    ]
     return _listing(columns, [(row, "") for row in rows], width)
 
 
@@ -248,12 +265,12 @@ def _deviations(found: Verdict, width: int) -> Iterator[Text]:
         rows = [(_deviation(one), "" if words.agrees(one) else "red") for one in found.generated.deviations]
         yield from _listing([_Column("", "element", 0, left=True), *values], rows, width)
     for effect in found.effects:
-        first = _Column("", f"since {words.listed(effect.files)}", 0, left=True)
+        first = _Column("", f"since {words.files(effect)}", 0, left=True)
         yield from _listing([first, *values], [(_deviation(one), "") for one in effect.deviations], width)
 
 
 def _deviation(one: Deviation) -> tuple[str, ...]:
-    value = f"{words.digits(one.value)} {one.unit}".rstrip()
+    value = "" if one.quantity is Quantity.ORIENTATION else f"{words.digits(one.value)} {one.unit}"  # it is about 1
     return one.element, words.quantity(one), words.figure(one.relative), words.absolute(one), value
 
 

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 import sys
 from collections.abc import Sequence
 
 import pytest
+from support.physics import pinocchio_series
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
+from urdfsync.checking.verdict import TOLERANCE
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Deviation, Experiment, Quantity, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 
 BOT = Target("Bot", "Bot")
+POSE = (("position", "m"), ("orientation", ""))
 ARM = robot(
     link("base", 4.0),
     link("arm", 2.5),
@@ -44,19 +48,18 @@ def key(one: Deviation) -> tuple[str, str, str]:
     return one.quantity.value, one.element, one.unit
 
 
-def test_every_element_has_its_deviations() -> None:
-    one = experiment(ARM)
-    links = ("base", "arm", "drone", "plate")
-    assert sorted(map(key, one.compare(zeros(one)))) == sorted(
-        [
-            *(("position", f"link {name}", "m") for name in links),
-            *(("orientation", f"link {name}", "") for name in links),
-            *(("effort", "joint elbow", "N·m"), ("effort", "joint slide", "N")),
-            *(("effort", "link base", "N"), ("effort", "link base", "N·m")),
-            *(("acceleration", "link plate", "m/s²"), ("acceleration", "link plate", "rad/s²")),
-            *(("mass", "robot", "kg"), ("centre of mass", "robot", "m")),
-        ]
-    )
+def test_every_element_has_its_deviations_from_the_root_outwards() -> None:
+    """Axes that slide and axes that turn are told in the order of the tree, not in that of flange vectors."""
+    one = experiment(ARM.replace('"slide"', '"a slide"'))
+    expected = [
+        *((quantity, f"link {name}", unit) for name in ("base", "drone", "arm", "plate") for quantity, unit in POSE),
+        *(("effort", "joint a slide", "N"), ("effort", "joint elbow", "N·m")),
+        *(("reaction", "link base", "N"), ("reaction", "link base", "N·m")),
+        *(("acceleration", "link plate", "m/s²"), ("acceleration", "link plate", "rad/s²")),
+        *(("mass", "robot", "kg"), ("centre of mass", "robot", "m")),
+    ]
+    assert list(map(key, one.compare(zeros(one)))) == expected
+    assert list(map(key, one.compare(zeros(one), zeros(one)))) == expected
 
 
 def test_differences_are_the_greatest_of_the_first_and_last_instant() -> None:
@@ -69,10 +72,72 @@ def test_differences_are_the_greatest_of_the_first_and_last_instant() -> None:
     assert mass.difference == 0.25
 
 
-def test_sizes_are_those_of_all_elements_of_a_quantity() -> None:
+def test_sizes_are_those_of_a_quantity_in_one_unit() -> None:
+    """A torque is not held against forces, and what drives an axis is not held against what holds the base."""
+    found = experiment(ARM).compare(zeros(experiment(ARM)))
+    sizes = {(one.quantity, one.unit): one.size for one in found}
+    kinds = {kind: max(one.value for one in found if (one.quantity, one.unit) == kind) for kind in sizes}
+    assert sizes == kinds
+    assert all(one.size == sizes[one.quantity, one.unit] for one in found)
+    assert len(set(sizes.values())) == len(sizes) == 10
+
+
+def test_a_heavy_base_hides_no_lost_damping() -> None:
+    """The base is held by 50 kN: against that, or against its torque, the loss would be nothing."""
+    heavy = ARM.replace(link("base", 4.0), link("base", 5000.0)).replace(dynamics(1, 1), dynamics(1e-7, 0))
+    found = experiment(heavy).compare(pinocchio_series(heavy.replace(dynamics(1e-7, 0), "")))
+    assert [key(one) for one in found if one.relative > TOLERANCE] == [("effort", "joint elbow", "N·m")]
+    sizes = {(one.quantity, one.unit): one.size for one in found}
+    (elbow,) = [one for one in found if one.element == "joint elbow"]
+    assert elbow.difference < TOLERANCE * sizes[Quantity.REACTION, "N"]
+
+
+def test_what_pinocchio_says_itself_agrees() -> None:
+    found = experiment(ARM).compare(pinocchio_series(ARM))
+    assert max(one.relative for one in found) < 1e-14
+
+
+def test_a_baseline_takes_the_place_of_the_reference() -> None:
+    """A lost damping of an edited robot, against the robot as it is generated."""
+    one, edited = experiment(ARM), pinocchio_series(ARM.replace(dynamics(1, 1), ""))
+    against_pinocchio, against_generated = one.compare(edited), one.compare(edited, pinocchio_series(ARM))
+    assert [key(each) for each in against_generated if each.difference] == [("effort", "joint elbow", "N·m")]
+    for this, that in zip(against_generated, against_pinocchio, strict=True):
+        numbers = (this.difference, this.value, this.size)
+        assert numbers == pytest.approx((that.difference, that.value, that.size), abs=1e-12)
+
+
+def test_differences_values_and_sizes_are_those_of_the_baseline() -> None:
     one = experiment(ARM)
-    efforts = [found for found in one.compare(zeros(one)) if found.quantity is Quantity.EFFORT]
-    assert {found.size for found in efforts} == {max(found.value for found in efforts)}
+    series, baseline = zeros(one), zeros(one)
+    elbow, slide = "robot.rotationalAxis[1].tau", "robot.translationalAxis[1].f"
+    series |= {elbow: (3.0, 0.0, -1.0)}
+    baseline |= {elbow: (1.0, 50.0, 2.0), slide: (0.0, 0.0, 7.0), "base.frame_b.t[2]": (0.0, 0.0, 90.0)}
+    efforts = [found for found in one.compare(series, baseline) if found.quantity is Quantity.EFFORT]
+    numbers = {found.element: (found.difference, found.value, found.size) for found in efforts}
+    assert numbers == {"joint elbow": (3.0, 2.0, 2.0), "joint slide": (7.0, 7.0, 7.0)}
+
+
+@pytest.mark.parametrize(
+    ("kind", "instant", "step", "told"),
+    [("planar", 2, 1e-8, 0.0), ("planar", 2, 1e-5, 1e-5), ("planar", 0, 1e-8, 1e-8), ("fixed", 2, 1e-8, 1e-8)],
+)
+def test_steps_of_a_solver_are_no_effect_of_an_edit(kind: str, instant: int, step: float, told: float) -> None:
+    """An edit may add states: free joints are then integrated in other steps. At the start nothing is integrated."""
+    one = experiment(ARM.replace('type="planar"', f'type="{kind}"'))
+    series = zeros(one)
+    series["robot.plate.frame_a.r_0[1]"] = [step if k == instant else 0.0 for k in range(3)]
+    assert max(found.difference for found in one.compare(series, zeros(one))) == told
+
+
+def test_a_value_that_either_simulation_lacks_is_infinitely_far_off() -> None:
+    one = experiment(ARM)
+    gone = {name: values for name, values in zeros(one).items() if "drone.frame_a.r_0" not in name}
+    for series, baseline in ((gone, zeros(one)), (zeros(one), gone), (gone, gone)):
+        found = one.compare(series, baseline)
+        infinite = [each for each in found if not math.isfinite(each.relative)]
+        assert [key(each) for each in infinite] == [("position", "link drone", "m")]
+        assert all(each.difference == math.inf and math.isfinite(each.value) for each in infinite)
 
 
 @pytest.mark.parametrize("values", [None, (), (math.nan, 0.0, 0.0), (0.0, 0.0, math.nan), (0.0, 0.0, math.inf)])
@@ -96,7 +161,9 @@ def test_nothing_at_all_agrees_with_nothing() -> None:
 def test_what_is_made_up_is_said_and_read_by_both_sides() -> None:
     bare = robot(link("base"), link("arm"), joint("elbow", "continuous", "base", "arm")).encode()
     one = experiment(bare)
-    assert one.notes == ("inertias were made up for 2 links, because the file gives no mass at all",)
+    assert one.notes == (
+        "inertias were made up for 2 links of the generated package only, because the file gives no mass at all",
+    )
     reading = DOMAIN.read(one.content, "robot.urdf", Options(cross_check=False))
     assert reading.snapshot is not None
     assert reading.snapshot["links"]["arm"]["inertial"]["mass"] > 0
@@ -117,17 +184,21 @@ SPHERE = "<geometry><sphere radius='1'/></geometry>"
 SHAPE = f"<visual>{SPHERE}</visual><collision>{SPHERE}</collision>"
 
 
+BENCHES = "Run and Test with the record of the whole robot (they are only compiled)"
+
+
 def test_what_is_not_compared_concerns_this_robot() -> None:
     assert experiment(robot(link("base", 1.0))).unchecked == (
         "no joint moves, so that only poses, masses and the forces on the root link are compared",
+        f"{BENCHES} are not compared",
     )
     free = robot(link("base", 1.0), link("wheel", 1.0), joint("axle", "continuous", "base", "wheel"))
-    assert experiment(free).unchecked == ()
+    assert experiment(free).unchecked == (f"{BENCHES} are not compared",)
     limited = free.replace("</joint>", "<limit effort='1' velocity='1'/></joint>").replace("</link>", f"{SHAPE}</link>")
-    idle = "limits and shapes are not compared: they change no motion"
-    assert experiment(limited).unchecked == (idle,)
-    contacts = "contacts with the ground are not compared: the robot moves high above it"
-    assert experiment(limited, base="floating").unchecked == (idle, contacts)
+    idle = "limits and shapes (they change no motion)"
+    assert experiment(limited).unchecked == (f"{idle} and {BENCHES} are not compared",)
+    contacts = "contacts with the ground (the robot moves high above it)"
+    assert experiment(limited, base="floating").unchecked == (f"{idle}, {contacts} and {BENCHES} are not compared",)
 
 
 def test_a_free_joint_that_moves_nothing_gets_ballast() -> None:
@@ -146,9 +217,24 @@ def test_free_joints_in_a_row_without_inertia_have_no_motion() -> None:
         joint("skate", "planar", "floor", "plate"),
         joint("slip", "planar", "plate", "puck"),
     )
+    one = experiment(rows, complete=False)
     with pytest.raises(SourceError, match="no simulation can tell how 'skate', 'slip' move"):
-        experiment(rows, complete=False)
-    assert experiment(rows).unchecked == ()
+        one.compare(zeros(one))
+    assert all(found.difference == 0 for found in one.compare(zeros(one), zeros(one))), "there is a baseline"
+    experiment(rows)  # has made-up inertias
+
+
+def test_points_that_move_freely_in_a_row_have_no_motion_either() -> None:
+    """They have masses, so that nothing is made up."""
+    point = '<inertial><mass value="1"/><inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial>'
+    names = [f"puck_{number}" for number in range(3)]
+    slips = [
+        joint(f"slip_{k}", "planar", a, b, xyz="0 0 0", rpy="0 0 0", axis="0 0 1")
+        for k, (a, b) in enumerate(itertools.pairwise(names))
+    ]
+    rows = robot(*(f'<link name="{name}">{point}</link>' for name in names), *slips)
+    with pytest.raises(SourceError, match="no simulation can tell how 'slip_0', 'slip_1' move"):
+        experiment(rows)
 
 
 def test_a_source_with_errors_says_what_is_wrong() -> None:

@@ -59,7 +59,9 @@ def with_inertias(content: bytes, skeleton: Skeleton) -> Amended:
     reason = (
         "the file gives no mass at all" if len(bare) == len(skeleton.links) else "joints move them without any mass"
     )
-    return Amended(_bytes(root), (f"inertias were made up for {links}, because {reason}",))
+    return Amended(
+        _bytes(root), (f"inertias were made up for {links} of the generated package only, because {reason}",)
+    )
 
 
 def _completed(root: Element) -> Iterator[str]:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
+
+_BENCHES = "Run and Test with the record of the whole robot (they are only compiled)"
+"""Of every robot, around what is compared."""
 
 
 def unchecked(skeleton: Skeleton, options: Options) -> Iterator[str]:
@@ -15,6 +18,12 @@ def unchecked(skeleton: Skeleton, options: Options) -> Iterator[str]:
         yield "no joint moves, so that only poses, masses and the forces on the root link are compared"
     if not any(link.inertial and link.inertial.mass > 0 for link in links):
         yield "no link has a mass, so that efforts show the losses of joints only"
+    yield f"{_listed([*_idle(skeleton, options), _BENCHES])} are not compared"
+
+
+def _idle(skeleton: Skeleton, options: Options) -> Iterator[str]:
+    """What the robot has and the motion does not show, and why."""
+    joints, links = skeleton.joints, skeleton.links
     idle = {
         "limits": any(joint.limit for joint in joints if joint.type in MOTIONS),
         "calibrations": any(joint.calibration for joint in joints),
@@ -22,7 +31,12 @@ def unchecked(skeleton: Skeleton, options: Options) -> Iterator[str]:
         "shapes": any(link.visuals or link.collisions for link in links),
     }
     if there := [noun for noun, is_there in idle.items() if is_there]:
-        *most, last = there
-        yield f"{', '.join(most)}{' and ' if most else ''}{last} are not compared: they change no motion"
+        yield f"{_listed(there)} (they change no motion)"
     if options.base == "floating" and options.collisions and any(link.collisions for link in links):
-        yield "contacts with the ground are not compared: the robot moves high above it"
+        yield "contacts with the ground (the robot moves high above it)"
+
+
+def _listed(parts: Sequence[str]) -> str:
+    """`a`, `a and b`, `a, b and c`."""
+    *most, last = parts
+    return f"{', '.join(most)}{' and ' if most else ''}{last}"

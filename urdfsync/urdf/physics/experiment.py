@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -14,13 +14,16 @@ from urdfsync.domain import Deviation, Quantity, Target
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import amended, motion, probe
 from urdfsync.urdf.physics.coverage import unchecked
+from urdfsync.urdf.physics.measured import Measured
 from urdfsync.urdf.physics.reading import Array, pinocchio, read
-from urdfsync.urdf.physics.reference import Frame, Instant, Reference, State
+from urdfsync.urdf.physics.reference import Frame, Reference, State
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 from urdfsync.urdf.source import read_robot
 
 _FIRST, _LAST = 0, -1
+_SOLVER = 1e-6
+"""Relative difference between two simulations of free joints that the steps of a solver may account for."""
 
 
 class _Key(NamedTuple):
@@ -31,18 +34,56 @@ class _Key(NamedTuple):
     unit: str
 
 
+class _Value(NamedTuple):
+    """What one side says at one instant."""
+
+    key: _Key
+    value: Array
+
+
 class _Pair(NamedTuple):
     """One comparison at one instant."""
 
-    key: _Key
-    found: Array
-    expected: Array
+    found: _Value
+    expected: _Value
+    blur: float
+    """Relative differences up to it say nothing."""
+
+    @property
+    def difference(self) -> float:
+        """The greatest; what is no number is infinitely far off."""
+        difference = float(np.max(np.abs(self.found.value - self.expected.value)))
+        if math.isnan(difference):
+            return math.inf
+        return 0.0 if difference <= self.blur * max(1.0, self.size) else difference
+
+    @property
+    def size(self) -> float:
+        """The greatest value that is expected; 0 if that is no number."""
+        size = float(np.max(np.abs(self.expected.value)))
+        return size if math.isfinite(size) else 0.0
+
+
+class _Side(Protocol):
+    """One of the two robots that are compared, at one instant."""
+
+    @property
+    def force(self) -> Array: ...
+    @property
+    def torque(self) -> Array: ...
+    @property
+    def efforts(self) -> Array: ...
+
+    def frame(self, link: str) -> Frame: ...
+    def acceleration(self, link: str) -> tuple[Array, Array]: ...
+    def mass_and_centre(self) -> tuple[float, Array]: ...
 
 
 class PinocchioExperiment:
     """A package that moves as `motion` says, against the same robot in Pinocchio. See `urdfsync.domain.Experiment`.
 
-    Raises SourceError if the source has errors, or if Pinocchio is not installed or can't read it.
+    Raises SourceError if the source has errors, or if Pinocchio is not installed or can't read it; with `complete`
+    also if free joints carry so little inertia that there is no reference, else `compare` without a baseline does.
     """
 
     def __init__(self, content: bytes, file: str, target: Target, options: Options, complete: bool) -> None:
@@ -58,7 +99,11 @@ class PinocchioExperiment:
         self._courses = [motion.axis_course(joint) for joint in self._axes]
         names = [[joint.name for joint in joints] for joints in (self._axes, self._free)]
         self._reference = Reference(read(self.content, file), *names)
-        self.probe = probe.probe(self._skeleton, target, options, ballast=self._needs_ballast(file))
+        self._insoluble: Diagnostic | None = None
+        ballast = self._needs_ballast(file)
+        if complete and self._insoluble:
+            raise SourceError(self._insoluble)
+        self.probe = probe.probe(self._skeleton, target, options, ballast)
         self.unchecked = tuple(unchecked(self._skeleton, options))
 
     def _needs_ballast(self, file: str) -> bool:
@@ -70,84 +115,65 @@ class PinocchioExperiment:
         if self._reference.is_singular(self._start()):
             message = f"no simulation can tell how {names} move: what they carry has no inertia"
             hint = "give each link that moves freely a mass and an inertia"
-            raise SourceError(Diagnostic(Severity.ERROR, "free-without-inertia", message, file, hint=hint))
+            self._insoluble = Diagnostic(Severity.ERROR, "free-without-inertia", message, file, hint=hint)
         weight = f"{motion.BALLAST_MASS} kg hang on each link without children"
         self.notes += (f"{weight}, because {names} would move without any inertia",)
         return True
 
-    def compare(self, series: Mapping[str, Sequence[float]]) -> Sequence[Deviation]:
+    def compare(
+        self, series: Mapping[str, Sequence[float]], baseline: Mapping[str, Sequence[float]] | None = None
+    ) -> Sequence[Deviation]:
         """See `urdfsync.domain.Experiment`; the first and the last instant count."""
-        values = _Values(series, self._skeleton)
+        pairs: list[_Pair] = []
         with np.errstate(all="ignore"):  # where the simulation gave no number, the reference may have none
-            pairs = [pair for instant in (_FIRST, _LAST) for pair in self._pairs(values, instant)]
+            for instant in (_FIRST, _LAST):
+                found = Measured(series, self._skeleton, instant)
+                expected = self._expected(found, baseline, instant)
+                blur = _SOLVER if baseline is not None and self._free and instant == _LAST else 0.0
+                both = zip(self._quantities(found), self._quantities(expected), strict=True)
+                pairs += (_Pair(*values, blur) for values in both)
             return list(_deviations(pairs))
 
-    def _pairs(self, values: _Values, instant: int) -> Iterator[_Pair]:
-        """All comparisons at one instant."""
-        now = self._expected(values, instant)
+    def _quantities(self, side: _Side) -> Iterator[_Value]:
+        """All that is compared at one instant, from the root outwards."""
         for link in self._skeleton.links:
-            found, expected, element = values.pose(link.name, instant), now.frame(link.name), f"link {link.name}"
-            yield _Pair(_Key(Quantity.POSITION, element, "m"), found[0], expected.place)
-            yield _Pair(_Key(Quantity.ORIENTATION, element, ""), found[1], expected.axes)
-        efforts = values.array(probe.effort_names(self._skeleton), instant)
-        for joint, effort, expected_effort in zip(self._axes, efforts, now.efforts, strict=True):
-            unit = "N·m" if MOTIONS[joint.type] == "rotational" else "N"
-            yield _Pair(_Key(Quantity.EFFORT, f"joint {joint.name}", unit), effort, expected_effort)
+            frame = side.frame(link.name)
+            yield _Value(_Key(Quantity.POSITION, f"link {link.name}", "m"), frame.place)
+            yield _Value(_Key(Quantity.ORIENTATION, f"link {link.name}", ""), frame.axes)
+        efforts = dict(zip((joint.name for joint in self._axes), side.efforts, strict=True))
+        for joint in self._skeleton.joints:
+            if joint.name in efforts:
+                unit = "N·m" if MOTIONS[joint.type] == "rotational" else "N"
+                yield _Value(_Key(Quantity.EFFORT, f"joint {joint.name}", unit), efforts[joint.name])
         root = f"link {self._skeleton.links[0].name}"
-        yield _Pair(_Key(Quantity.EFFORT, root, "N"), -values.array(probe.FORCE, instant), now.force)
-        yield _Pair(_Key(Quantity.EFFORT, root, "N·m"), -values.array(probe.TORQUE, instant), now.torque)
+        yield _Value(_Key(Quantity.REACTION, root, "N"), side.force)
+        yield _Value(_Key(Quantity.REACTION, root, "N·m"), side.torque)
         for joint in self._free:
-            linear, angular = now.acceleration(joint.child)
-            for unit, part, expected_part in (("m/s²", probe.ACCELERATION, linear), ("rad/s²", probe.ANGULAR, angular)):
-                found_part = values.vector(joint.child, part, instant)
-                yield _Pair(_Key(Quantity.ACCELERATION, f"link {joint.child}", unit), found_part, expected_part)
-        (mass,), moment = values.array(probe.MASS, instant), values.array(probe.MOMENT, instant)
-        expected_mass, centre = now.mass_and_centre()
-        yield _Pair(_Key(Quantity.MASS, "robot", "kg"), mass, np.array(expected_mass))
-        yield _Pair(_Key(Quantity.CENTRE, "robot", "m"), moment / mass if mass else moment, centre)
+            linear, angular = side.acceleration(joint.child)
+            yield _Value(_Key(Quantity.ACCELERATION, f"link {joint.child}", "m/s²"), linear)
+            yield _Value(_Key(Quantity.ACCELERATION, f"link {joint.child}", "rad/s²"), angular)
+        mass, centre = side.mass_and_centre()
+        yield _Value(_Key(Quantity.MASS, "robot", "kg"), np.array(mass))
+        yield _Value(_Key(Quantity.CENTRE, "robot", "m"), centre)
 
-    def _expected(self, values: _Values, instant: int) -> Instant:
-        """The reference; where free joints are later on follows from the simulation, whose solver is not tested."""
-        time = values.number("time", instant)
+    def _expected(self, found: Measured, baseline: Mapping[str, Sequence[float]] | None, instant: int) -> _Side:
+        """The baseline, or else the reference.
+
+        For the reference, where free joints are later on follows from the simulation, whose solver is not tested.
+        """
+        if baseline is not None:
+            return Measured(baseline, self._skeleton, instant)
+        if self._insoluble:
+            raise SourceError(self._insoluble)
         if instant == _FIRST:
-            return self._reference.solve(self._start(time))
-        free = {joint.name: values.frame(joint.child, instant) for joint in self._free}
-        return self._reference.solve(self._reference.state(time, self._courses, free))
+            return self._reference.solve(self._start(found.time))
+        free = {joint.name: found.frame(joint.child) for joint in self._free}
+        return self._reference.solve(self._reference.state(found.time, self._courses, free))
 
     def _start(self, time: float = 0.0) -> State:
         """How the robot begins."""
         free = {joint.name: self._reference.start(joint.name, motion.free_start(joint)) for joint in self._free}
         return self._reference.state(time, self._courses, free)
-
-
-class _Values:
-    """Series of a simulation; a value that is missing is NaN."""
-
-    def __init__(self, series: Mapping[str, Sequence[float]], skeleton: Skeleton) -> None:
-        self._series, self._skeleton = series, skeleton
-
-    def number(self, name: str, instant: int) -> float:
-        """One value."""
-        series = self._series.get(name, ())
-        return series[instant] if len(series) else math.nan
-
-    def array(self, names: Sequence[str], instant: int) -> Array:
-        """Several values."""
-        return np.array([self.number(name, instant) for name in names])
-
-    def vector(self, link: str, part: str, instant: int) -> Array:
-        """A vector of a link."""
-        return self.array(probe.names(self._skeleton, link, part), instant)
-
-    def pose(self, link: str, instant: int) -> tuple[Array, Array]:
-        """Place of a link's frame in the world, and its axes as columns."""
-        axes = self.array(probe.axes_names(self._skeleton, link), instant)
-        return self.vector(link, probe.PLACE, instant), axes.reshape(3, 3).T
-
-    def frame(self, link: str, instant: int) -> Frame:
-        """The frame of a link that a free joint carries."""
-        moves = (self.vector(link, part, instant) for part in (probe.VELOCITY, probe.ROTATION))
-        return Frame(*self.pose(link, instant), *moves)
 
 
 def _robot(content: bytes, file: str) -> Robot:
@@ -158,14 +184,14 @@ def _robot(content: bytes, file: str) -> Robot:
 
 
 def _deviations(pairs: Sequence[_Pair]) -> Iterator[Deviation]:
-    """The greatest difference per element, and the greatest values; what is no number is infinitely far off."""
+    """The greatest difference per element, and the greatest values."""
     differences: defaultdict[_Key, float] = defaultdict(float)
     values: defaultdict[_Key, float] = defaultdict(float)
-    sizes: defaultdict[Quantity, float] = defaultdict(float)
-    for key, found, expected in pairs:
-        difference, value = float(np.max(np.abs(found - expected))), float(np.max(np.abs(expected)))
-        differences[key] = max(differences[key], math.inf if math.isnan(difference) else difference)
-        values[key] = max(values[key], 0.0 if math.isnan(value) else value)
-        sizes[key.quantity] = max(sizes[key.quantity], values[key])
+    sizes: defaultdict[tuple[Quantity, str], float] = defaultdict(float)
+    for pair in pairs:
+        key = pair.found.key
+        differences[key] = max(differences[key], pair.difference)
+        values[key] = max(values[key], pair.size)
+        sizes[key.quantity, key.unit] = max(sizes[key.quantity, key.unit], values[key])
     for key, difference in differences.items():
-        yield Deviation(key.quantity, key.element, difference, values[key], sizes[key.quantity], key.unit)
+        yield Deviation(key.quantity, key.element, difference, values[key], sizes[key.quantity, key.unit], key.unit)
