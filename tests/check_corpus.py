@@ -1,13 +1,14 @@
 """Checks a folder of URDF files as `urdfsync check --physics` does, and prints a table.
 
-`python tests/check_corpus.py [FOLDER] [--only TEXT …] [--timeout S] [--jobs N]` takes all `*.urdf` below the folder,
-the public corpus if none is named; `--only` those with one of the texts in their path. Stationary or mobile is as
-`init` proposes. Exits with 1 if anything differs or fails that urdfsync can read.
+`python tests/check_corpus.py [FOLDER] [--only TEXT …] [--approach record] [--timeout S] [--jobs N]` takes all `*.urdf`
+below the folder, the public corpus if none is named; `--only` those with one of the texts in their path. Stationary or
+mobile is as `init` proposes. Exits with 1 if anything differs or fails that urdfsync can read.
 """
 
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import datetime
 import importlib.metadata
 import os
@@ -49,6 +50,7 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", nargs="?", type=Path, default=FOLDER / "robots")
     parser.add_argument("--only", nargs="*", default=[], metavar="TEXT")
+    parser.add_argument("--approach", choices=("package", "record"), default="package")
     parser.add_argument("--timeout", type=float, default=1800.0, metavar="S")
     parser.add_argument("--jobs", type=int, metavar="N")
     return parser.parse_args(arguments)
@@ -60,7 +62,8 @@ def _check(files: Sequence[Path], options: argparse.Namespace, folder: Path) -> 
     if not readable:
         return 0
     draft = init.draft(folder / config.FILE_NAME, readable, "urdf")
-    init.write(draft)
+    text = draft.text.replace("[defaults]\n", f'[defaults]\napproach = ["{options.approach}"]\n')
+    init.write(dataclasses.replace(draft, text=text))
     configuration = config.load(draft.file)
     wishes = Wishes(physics=True, timeout=options.timeout, jobs=options.jobs)
     bases = {

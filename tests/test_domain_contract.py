@@ -215,6 +215,27 @@ def test_proposals_are_options(case: Case) -> None:
     msgspec.convert(values, case.domain.options)
 
 
+def test_what_has_to_compile_is_in_the_package(case: Case) -> None:
+    models = case.domain.models(case.snapshot, TARGET, case.options)
+    assert models[0] == TARGET.name
+    assert {f"{model.replace('.', '/')}.mo" for model in models} <= case.generated().artifacts.keys()
+
+
+def test_a_record_alone_is_one_that_needs_nothing_around_it(case: Case) -> None:
+    reading = case.domain.read(SAMPLES[case.domain.name][0], "sample", case.options)
+    for package, within_clause in (("Plant", "within Plant;\n"), ("", "within ;\n")):
+        found = case.domain.record(reading, "sample", Target(package, "Whole"), case.options)
+        if found is None:
+            continue
+        assert found.artifact.role is Role.RECORD
+        assert {one.file for one in found.diagnostics} <= {"sample"}
+        folders = (config.templates_folder(case.domain),)
+        templates = Templates(folders, templates_digest(folders))
+        text = generate.Generated([found.artifact], templates).content(found.artifact.path).decode()
+        assert text.startswith(f"{within_clause}\nrecord Whole ")
+        assert text.endswith("end Whole;\n")
+
+
 def test_a_drawing_is_svg(case: Case) -> None:
     drawing = case.domain.drawing(case.snapshot, case.imports, TARGET, case.options)
     assert drawing is None or "<svg" in drawing

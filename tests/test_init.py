@@ -62,6 +62,7 @@ def test_choices_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     text = (tmp_path / "urdfsync.toml").read_text()
     assert 'base = "fixed"  # "fixed" or "floating"; guessed: ' in text
     assert '# visualizer = "standard"  # "standard" or "visualization2"' in text
+    assert '# approach = ["package"]  # "package" or "record", or several' in text
 
 
 def test_an_existing_file_is_never_overwritten(project: Path, capsys: Capture) -> None:

@@ -29,13 +29,31 @@ from urdfsync.views.watching import ForPrograms
 from urdfsync.watching import events
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
-BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, CHECK, CLEARED, RESOLVE, INIT, LIBRARY = (
+BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, CHECK, CLEARED, RESOLVE, INIT, RECORD, LIBRARY = (
     json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)
 )
 SESSION, OTHERS = (
     [json.loads(line) for line in text.splitlines()] for text in re.findall(r"```jsonl\n(.*?)```", PAGE, re.DOTALL)
 )
-EXAMPLES = [BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, CHECK, CLEARED, RESOLVE, INIT, LIBRARY, *SESSION, *OTHERS]
+EXAMPLES = [
+    BUILD,
+    CHANGED,
+    MISTAKE,
+    DIFF,
+    STATUS,
+    BUILT,
+    CHECK,
+    CLEARED,
+    RESOLVE,
+    INIT,
+    RECORD,
+    LIBRARY,
+    *SESSION,
+    *OTHERS,
+]
+
+LONG = {"text"}
+"""A whole record: no example shows it."""
 
 URDF = """<robot name="arm">
   <link name="base"/>
@@ -84,6 +102,12 @@ def keys(document: Any) -> set[str]:
 
 def test_init(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert matches(INIT, printed(capsys, folder, "init", "arm.urdf"))
+
+
+def test_record(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert matches(RECORD, printed(capsys, folder, "record", "arm.urdf", "-o", "Arm.mo"))
+    alone = printed(capsys, folder, "record", "arm.urdf")
+    assert alone.keys() == (RECORD.keys() - {"file", "written"}) | LONG
 
 
 def test_build(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -248,7 +272,7 @@ def test_library(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_tables_name_every_key_and_no_other() -> None:
     cells = re.findall(r"^\| (`[^|]*) \|", PAGE, re.MULTILINE)
     named = {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
-    assert named == keys(EXAMPLES)
+    assert named == keys(EXAMPLES) | LONG
 
 
 def test_values_that_are_one_of_a_few_are_all_named() -> None:

@@ -6,13 +6,13 @@ import sys
 from collections.abc import Sequence
 
 from urdfsync import __version__, streams
-from urdfsync.commands import build, check, common, diff, hook, init, library, resolve, status, watch
+from urdfsync.commands import build, check, common, diff, hook, init, library, record, resolve, status, watch
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit
 from urdfsync.report import Report
 from urdfsync.stamping import making
 
-_COMMANDS = (init, build, diff, status, watch, check, resolve, hook, library)
+_COMMANDS = (init, build, diff, status, watch, check, resolve, record, hook, library)
 """In the order of the help."""
 
 

@@ -114,6 +114,13 @@ class Reading:
     """Line of each element, keyed as the domain likes; passed back to `Domain.dependencies`."""
 
 
+class Standalone(NamedTuple):
+    """A record of a whole model, and what there is to say about it that reading the source did not say."""
+
+    artifact: Artifact
+    diagnostics: tuple[Diagnostic, ...]
+
+
 @dataclasses.dataclass(frozen=True, slots=True)
 class Lookup:
     """Where to look for the files that a source refers to."""
@@ -324,8 +331,16 @@ class Domain(Protocol):
         """The main model's diagram as SVG text, or None if the domain draws none. Pure."""
         ...
 
-    def models(self, target: Target) -> Sequence[str]:
+    def models(self, snapshot: Snapshot, target: Target, options: Any) -> Sequence[str]:
         """The classes that have to compile by themselves, by their names below the package, the main one first."""
+        ...
+
+    def record(self, reading: Reading, file: str, target: Target, options: Any) -> Standalone | None:
+        """The whole model as one record that needs nothing around it, or None if the domain has no such thing.
+
+        `reading` has a snapshot, `file` is how diagnostics name its source. `target.name` is the record's class,
+        `target.package` the package that it says it stands in, empty for none. Nothing is imported for it. Pure.
+        """
         ...
 
     def experiment(self, content: bytes, file: str, target: Target, options: Any, complete: bool) -> Experiment | None:

@@ -196,12 +196,17 @@ def _table(guess: Guess, domain: Domain) -> str:
 
 
 def _line(key: str, value: Any) -> str:
-    return tomli_w.dumps({key: msgspec.to_builtins(value)}).strip()
+    plain_value = msgspec.to_builtins(value)
+    if isinstance(plain_value, list | tuple):  # tomli_w gives each item a line, which can't be one comment
+        items = (_line("item", item).removeprefix("item = ") for item in plain_value)
+        return f"{key} = [{', '.join(items)}]"
+    return tomli_w.dumps({key: plain_value}).strip()
 
 
 def _choices(kind: Any) -> str:
     allowed = tables.choices(kind)
-    return " or ".join(f'"{choice}"' for choice in allowed) + "; " if allowed else ""
+    words = " or ".join(f'"{choice}"' for choice in allowed)
+    return f"{words}{', or several' if tables.is_list(kind) else ''}; " if allowed else ""
 
 
 def _comment(kind: Any) -> str:

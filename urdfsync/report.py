@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from urdfsync.checking.verdict import Verdict
     from urdfsync.comparing.comparison import Comparison
     from urdfsync.init import Draft
+    from urdfsync.standalone import Record
     from urdfsync.views.checks import Checks
     from urdfsync.views.watching import Watching
 
@@ -214,6 +215,20 @@ class Report:
             sys.stdout.write(f"{wording.visible(str(folder))}\n{wording.visible(line)}\n")
         else:
             sys.stdout.write(f"{line}\n")
+
+    def record(self, found: Record, file: Path | None, written: bool | None) -> None:
+        """Show the record of a source, or what became of the file that it belongs into."""
+        if self._json:
+            place = {"text": found.text} if file is None else {"file": str(file), "written": written}
+            target = {"class": found.target.name, "within": found.target.package}
+            self._document("record", Exit.IN_STEP, target | place, self._warnings)
+        elif file is None:
+            if hasattr(sys.stdout, "reconfigure") and not sys.stdout.isatty():
+                sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # a file is what Modelica tools read
+            sys.stdout.write(found.text)
+        elif not self._quiet:
+            said = "written" if written else "unchanged"
+            sys.stdout.write(f"{wording.visible(str(file))} {said}: record {found.target.name}\n")
 
     def _robots(self) -> list[dict[str, Any]]:
         return [

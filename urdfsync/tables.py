@@ -77,12 +77,21 @@ def read(table: Table, struct: type[Any]) -> tuple[Any, list[Diagnostic]]:
 
 
 def choices(kind: Any) -> tuple[Any, ...]:
-    """The values that a Literal type allows; empty for other types."""
+    """The values that a Literal type allows, or those of which a tuple type takes any number; empty for other types."""
+    if is_list(kind):
+        kind = get_args(kind)[0]
     return get_args(kind) if get_origin(kind) is Literal else ()
+
+
+def is_list(kind: Any) -> bool:
+    """Whether a type stands for a list."""
+    return get_origin(kind) is tuple
 
 
 def _in_words(key: str, value: Any, kind: Any, error: str) -> str:
     allowed = [f'"{choice}"' if isinstance(choice, str) else str(choice) for choice in choices(kind)]
+    if allowed and is_list(kind):
+        return f"`{key}` must be a list of {' and '.join(allowed)}, {_but(value, choices(kind))}"
     if allowed:
         return f"`{key}` must be {' or '.join(allowed)}, not {_as_written(value)}"
     match = _EXPECTED.match(error)
@@ -91,6 +100,13 @@ def _in_words(key: str, value: Any, kind: Any, error: str) -> str:
     names = [_WORDS.get(name.strip(), name.strip()) for name in match["type"].split("|") if name.strip() != "null"]
     got = f", not {_WORDS.get(match['got'], match['got'])}" if match["got"] else ""
     return f"`{key}`{match['at'] or ''} must be {' or '.join(names)}{got}"
+
+
+def _but(value: Any, allowed: tuple[Any, ...]) -> str:
+    """What stands where a list of these should be, or the first of its items that is none of them."""
+    if isinstance(value, list):
+        return f"and {next(_as_written(item) for item in value if item not in allowed)} is none of these"
+    return f"not {_as_written(value)}"
 
 
 def _as_written(value: Any) -> str:

@@ -168,8 +168,11 @@ class RcNetwork:
         texts = [f'<text y="{20 * (y + 1)}">{name}</text>' for y, name in enumerate(sorted(snapshot["elements"]))]
         return f'<svg xmlns="http://www.w3.org/2000/svg">{"".join(texts)}</svg>\n'
 
-    def models(self, target: Target) -> Sequence[str]:
+    def models(self, snapshot: Snapshot, target: Target, options: Options) -> Sequence[str]:
         return (target.name,)
+
+    def record(self, reading: Reading, file: str, target: Target, options: Options) -> None:
+        return None  # a network is no list of numbers
 
     def experiment(self, content: bytes, file: str, target: Target, options: Options, complete: bool) -> None:
         return None  # there is no second opinion on networks

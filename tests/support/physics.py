@@ -13,7 +13,7 @@ from urdfsync.checking.verdict import Comparison
 from urdfsync.domain import Experiment, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.physics import motion, probe
+from urdfsync.urdf.physics import motion, probe, variables
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Instant, Reference
 from urdfsync.urdf.skeleton import Skeleton
@@ -33,6 +33,7 @@ def prepare(source: bytes | Path, name: str = "Bot", *, complete: bool = True, *
     content = source if isinstance(source, bytes) else source.read_bytes()
     target = Target(name, name)
     experiment = DOMAIN.experiment(content, "robot.urdf", target, Options(cross_check=False, **options), complete)
+    assert experiment is not None
     if experiment.content != content:
         source = experiment.content
     return Case(experiment, generate(source, target, **options))
@@ -91,6 +92,7 @@ def pinocchio_series(urdf: str) -> dict[str, list[float]]:
 def _values(skeleton: Skeleton, instant: Instant) -> dict[str, float]:
     """What Pinocchio says, by the names of the probe's values."""
     mass, centre = instant.mass_and_centre()
+    called = variables.variables(skeleton, Target("Bot", "Bot"), Options())
     pairs: list[tuple[Sequence[str], Any]] = [
         (probe.effort_names(skeleton), instant.efforts),
         (probe.FORCE, -instant.force),
@@ -100,8 +102,8 @@ def _values(skeleton: Skeleton, instant: Instant) -> dict[str, float]:
     ]
     for link in skeleton.links:
         frame, (linear, angular) = instant.frame(link.name), instant.acceleration(link.name)
-        pairs.append((probe.axes_names(skeleton, link.name), frame.axes.T.ravel()))
-        parts = {probe.PLACE: frame.place, probe.VELOCITY: frame.velocity, probe.ROTATION: frame.turning}
-        for part, values in (parts | {probe.ACCELERATION: linear, probe.ANGULAR: angular}).items():
-            pairs.append((probe.names(skeleton, link.name, part), values))
+        pairs.append((called.axes(link.name), frame.axes.T.ravel()))
+        parts = {variables.PLACE: frame.place, variables.VELOCITY: frame.velocity, variables.ROTATION: frame.turning}
+        for part, values in (parts | {variables.ACCELERATION: linear, variables.ANGULAR: angular}).items():
+            pairs.append((called.vector(link.name, part), values))
     return {name: value for names, values in pairs for name, value in zip(names, values, strict=True)}

@@ -1,7 +1,8 @@
 """The files of a generated package: the text of a robot with one of everything, and what holds for every robot.
 
 `tests/golden/fixed` holds the package of `tests/golden/menagerie.urdf`, the other folders what their options change in
-it. `python tests/urdf/test_artifacts.py` writes them anew; review what changed before you commit it.
+it; `record` holds what the record approach makes of `tests/golden/twig.urdf`. `python tests/urdf/test_artifacts.py`
+writes them anew; review what changed before you commit it.
 """
 
 from __future__ import annotations
@@ -38,17 +39,28 @@ VARIANTS: Mapping[str, Mapping[str, Any]] = {
     "no-collisions": {"collisions": False},
 }
 
+TWIG = Target("Zoo.Twig", "Twig")
+
 every_variant = pytest.mark.parametrize("variant", VARIANTS)
+every_golden_folder = pytest.mark.parametrize("variant", [*VARIANTS, "record"])
 
 
 def menagerie(variant: str, target: Target = MENAGERIE) -> Package:
     return generate(GOLDEN / "menagerie.urdf", target, **VARIANTS[variant])
 
 
+def twig(*approach: str, **options: Any) -> Package:
+    return generate(GOLDEN / "twig.urdf", TWIG, approach=approach, **options)
+
+
+def golden(variant: str) -> Package:
+    return twig("record") if variant == "record" else menagerie(variant)
+
+
 def texts_to_keep(variant: str) -> dict[str, str]:
-    """The golden files of a variant: all of `fixed`, of the others those that differ from it."""
-    common = {} if variant == "fixed" else menagerie("fixed").texts
-    return {path: text for path, text in menagerie(variant).texts.items() if common.get(path) != text}
+    """The golden files of a variant: all of `fixed` and `record`, of the others those that differ from `fixed`."""
+    common = {} if variant in ("fixed", "record") else menagerie("fixed").texts
+    return {path: text for path, text in golden(variant).texts.items() if common.get(path) != text}
 
 
 def kept(variant: str) -> dict[str, str]:
@@ -82,20 +94,20 @@ def texts(robot: Robot, options: Options) -> Iterator[str]:
             yield RENDERER.render(artifact.template, artifact.data)
 
 
-@every_variant
+@every_golden_folder
 def test_the_text_is_the_golden_one(variant: str) -> None:
-    found, golden = texts_to_keep(variant), kept(variant)
-    assert found.keys() == golden.keys()
+    found, expected = texts_to_keep(variant), kept(variant)
+    assert found.keys() == expected.keys()
     for path, text in found.items():
-        assert text == golden[path], f"{variant}/{path}: run `python {Path(__file__).name}` and review what it wrote"
+        assert text == expected[path], f"{variant}/{path}: run `python {Path(__file__).name}` and review what it wrote"
 
 
-@every_variant
+@every_golden_folder
 def test_golden_files_are_modelica(variant: str, tmp_path: Path) -> None:
     rumoca = pytest.importorskip("rumoca")
-    folder = menagerie(variant).write(tmp_path)
+    folder = golden(variant).write(tmp_path)
     assert {path.name: found for path in folder.rglob("*.mo") if (found := rumoca.validate(str(path)))} == {}
-    assert [path for path, text in menagerie(variant).models.items() if unbalanced(words(text))] == []
+    assert [path for path, text in golden(variant).models.items() if unbalanced(words(text))] == []
 
 
 @pytest.mark.slow
@@ -109,8 +121,10 @@ def test_one_of_everything_compiles(tmp_path: Path, modelica_library: Path) -> N
 
 
 def test_every_template_is_in_use() -> None:
-    robot = menagerie("fixed").robot
-    used = {each.template for each in artifacts(robot, {}, MENAGERIE, Options()) if isinstance(each, Artifact)}
+    both = Options(approach=("package", "record"))
+    robots = menagerie("fixed").robot, twig("record").robot
+    made = [each for robot in robots for each in artifacts(robot, {}, MENAGERIE, both)]
+    used = {each.template for each in made if isinstance(each, Artifact)}
     for path in TEMPLATES.rglob("*.jinja"):
         used.update(re.findall(r'<%-? (?:import|include) "([^"]+\.jinja)"', path.read_text(encoding="utf-8")))
     used |= {f"link/{visualizer}.jinja" for visualizer in ("standard", "visualization2")}
@@ -193,7 +207,11 @@ def test_a_mesh_that_is_not_to_be_found_is_left_out_and_the_others_keep_their_nu
     assert "contact6" not in text
 
 
-@pytest.mark.parametrize("options", [Options(), Options(base="floating", visualizer="visualization2")], ids=str)
+@pytest.mark.parametrize(
+    "options",
+    [Options(), Options(base="floating", visualizer="visualization2"), Options(approach=("record",))],
+    ids=["package", "floating", "record"],
+)
 def test_work_and_text_grow_in_proportion_to_the_robot(options: Options) -> None:
     def effort(length: int) -> tuple[int, int]:
         robot = chain(length)
@@ -208,7 +226,7 @@ def test_work_and_text_grow_in_proportion_to_the_robot(options: Options) -> None
 
 
 def _write_golden_files() -> None:
-    for variant in VARIANTS:
+    for variant in [*VARIANTS, "record"]:
         for path in kept(variant):
             (GOLDEN / variant / path).unlink()
         for path, text in texts_to_keep(variant).items():

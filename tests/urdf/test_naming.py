@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from urdfsync.modelica import KEYWORDS
 from urdfsync.urdf import naming
+from urdfsync.urdf.modifiers import clauses
 from urdfsync.urdf.naming import Identifier, Key, identify, natural_key, spell
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "naming.md"
@@ -32,7 +33,8 @@ ROBOT_MODEL = {
     *("rotationalaxis", "rotationalsupport", "rotationalrange", "phi_start", "w_start"),
     *("translationalaxis", "translationalsupport", "translationalrange", "s_start", "v_start"),
 }
-ROBOT_RECORD = {"name", "standingheight", "connectionmatrix", "moveablejoints"}
+RECORD = Path(__file__).resolve().parents[2] / "modelica" / "UrdfSync" / "Records" / "Robot.mo"
+ROBOT_RECORD = {clause.name.partition("[")[0].lower() for clause in clauses(RECORD.read_text(encoding="utf-8"))} - {""}
 DEVICES = {"con", "prn", "aux", "nul", "com1", "com9", "lpt1", "lpt9"}
 
 
@@ -54,10 +56,16 @@ def test_no_two_names_meet_anywhere(names: frozenset[Key], taken: str) -> None:
     in_model = [name for identifier in identifiers.values() for name in names_in_robot_model(identifier)]
     assert len(in_model) == len(set(in_model))
     assert not {taken.lower(), *ROBOT_MODEL} & set(in_model)
-    assert not ROBOT_RECORD & {identifier.component.lower() for identifier in identifiers.values()}
+    assert not ROBOT_RECORD & set(in_model)
     files = [name.lower() for each in identifiers.values() for name in (each.type, each.record)]
     assert len(files) == len(set(files))
     assert not {"package", *DEVICES} & set(files)
+
+
+def test_every_field_of_the_robots_record_is_known() -> None:
+    assert {"name", "connectionmatrix", "jointtree", "linkinertias"} < ROBOT_RECORD
+    assert ROBOT_RECORD <= naming.GENERATED
+    assert identify([("link", "jointTree")]) == {("link", "jointTree"): Identifier("jointTree_link")}
 
 
 @given(SETS, TAKEN)

@@ -68,7 +68,7 @@ class Subject:
     @property
     def models(self) -> Sequence[str]:
         """The classes that have to compile by themselves, by their names below the package, the main one first."""
-        return self.domain.models(self.robot.target)
+        return self.domain.models(self.rendering.snapshot, self.robot.target, self.robot.options)
 
     @functools.cached_property
     def edited(self) -> Sequence[str]:

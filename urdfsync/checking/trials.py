@@ -79,7 +79,7 @@ class Trials:
         robot, content = subject.robot, subject.rendering.content
         found = subject.domain.experiment(content, shown(robot.source), robot.target, robot.options, complete)
         if found is None:
-            message = f"nothing can be compared: the domain `{subject.domain.name}` has no reference"
+            message = "nothing can be compared: there is no reference for this package"
             raise OutputError(Diagnostic(Severity.ERROR, "no-reference", message, hint="check without `--physics`"))
         return found
 

@@ -23,11 +23,12 @@ class Rendering:
         self.content = situation.content
         """The source's bytes."""
         self._templates = situation.templates
-        self._snapshot, self._imports = _model(situation)
+        self.snapshot, self._imports = _model(situation)
+        """The model of the source, and what is imported for it."""
 
     def package(self, content: bytes) -> Mapping[str, bytes]:
         """The Modelica files of the package by their path below it; `content` is the source or an amended copy."""
-        snapshot = self._snapshot
+        snapshot = self.snapshot
         if content != self.content:
             snapshot, _ = inputs.read(self.domain, self.robot.options, content, shown(self.robot.source))
         generated = self._generate(snapshot)
@@ -38,7 +39,7 @@ class Rendering:
     @property
     def owners(self) -> Mapping[str, str]:
         """The element that each file belongs to, in the domain's words, by its path below the package."""
-        return {path: artifact.owner for path, artifact in self._generate(self._snapshot).artifacts.items()}
+        return {path: artifact.owner for path, artifact in self._generate(self.snapshot).artifacts.items()}
 
     def _generate(self, snapshot: Snapshot) -> Generated:
         robot = self.robot

@@ -9,6 +9,7 @@ from typing import Any
 from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.urdf.model import assembly, notes, shapes
 from urdfsync.urdf.model.numbers import joint_numbers
+from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import Joint, Link, Robot
 from urdfsync.urdf.skeleton import Skeleton
@@ -16,6 +17,8 @@ from urdfsync.urdf.skeleton import Skeleton
 LINK_MODEL = "link/model.mo.jinja"
 LINK_RECORD = "link/record.mo.jinja"
 JOINT_RECORD = "joint/record.mo.jinja"
+ROBOT_RECORD = "robot/record.mo.jinja"
+_PARAMETERS = "Parameters"
 
 _Shapes = Sequence[Mapping[str, Any]]
 
@@ -25,12 +28,38 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
     skeleton = Skeleton.of(robot, taken=(target.name,))
     context = _Context(skeleton, imports, target, options)
     files: list[Artifact | Order] = [*_package(context)]
-    for link in skeleton.links:
-        files += _link(context, link)
-    for joint in skeleton.joints:
-        files += _joint(context, joint)
-    files += _robot(context, robot.name)
+    if "package" in options.approach:
+        files += _elements(context)
+        files += _robot(context)
+    if has_bench(skeleton.joints, options):
+        data = assembly.generic_data(skeleton, target, options)
+        files.append(Artifact(f"{target.name}Generic.mo", Role.MODEL, "robot/generic.mo.jinja", data, "robot"))
+    files.append(_record(context, robot.name))
     return files
+
+
+def record(robot: Robot, target: Target, options: Options) -> Artifact:
+    """The record of the whole robot without a package around it; `target` names the record itself.
+
+    It says what the record in a package says, if that is called like this one, and if no mesh has a part in it.
+    """
+    name = target.name.removesuffix(_PARAMETERS) or target.name
+    skeleton = Skeleton.of(robot, taken=(name,))
+    artifact = _record(_Context(skeleton, {}, Target(target.package, name), options), robot.name)
+    return dataclasses.replace(artifact, path=f"{target.name}.mo", data={**artifact.data, "record": target.name})
+
+
+def models(joints: Sequence[Joint], target: Target, options: Options) -> tuple[str, ...]:
+    """The classes of the package that have to compile by themselves, the main one first: benches are none."""
+    name = target.name
+    whole = "package" in options.approach
+    main = (name, f"{name}Run", f"{name}Test") if whole else (f"{name}{_PARAMETERS}",)
+    return (*main, *((f"{name}Generic",) if has_bench(joints, options) else ()))
+
+
+def has_bench(joints: Sequence[Joint], options: Options) -> bool:
+    """Whether there is a bench in which the generic robot reads the record: if it is asked for, and possible."""
+    return "record" in options.approach and has_tables(joints)
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -42,22 +71,33 @@ class _Context:
 
 
 def _package(context: _Context) -> Iterator[Artifact | Order]:
-    package, name = context.target.package, context.target.name
+    package, name, joints = context.target.package, context.target.name, context.skeleton.joints
     parent, _, last = package.rpartition(".")
+    whole = "package" in context.options.approach
     yield _package_file(
         "package.mo",
         within=parent,
         name=last,
         icon="RobotPackage",
-        title=f"Robot {name}: links, joints, robot and benches",
+        title=f"Robot {name}: links, joints, robot and benches" if whole else f"Robot {name} in one record",
         uses=() if parent else USES,
         note=notes.PACKAGE,
     )
-    models = (name, f"{name}Run", f"{name}Test", f"{name}Parameters")
-    yield Order("package.order", (*models, "Links", *(("Joints",) if context.skeleton.joints else ())))
-    yield from _subpackage(context, "Links", [context.skeleton.link(link.name) for link in context.skeleton.links])
-    if context.skeleton.joints:
-        yield from _subpackage(context, "Joints", [context.skeleton.joint(j.name) for j in context.skeleton.joints])
+    classes = dict.fromkeys((*models(joints, context.target, context.options), f"{name}{_PARAMETERS}"))
+    folders = ("Links", *(("Joints",) if joints else ())) if whole else ()
+    yield Order("package.order", (*classes, *folders))
+
+
+def _elements(context: _Context) -> Iterator[Artifact | Order]:
+    """What the package approach has of each link and joint."""
+    skeleton = context.skeleton
+    yield from _subpackage(context, "Links", [skeleton.link(link.name) for link in skeleton.links])
+    if skeleton.joints:
+        yield from _subpackage(context, "Joints", [skeleton.joint(joint.name) for joint in skeleton.joints])
+    for link in skeleton.links:
+        yield from _link(context, link)
+    for joint in skeleton.joints:
+        yield from _joint(context, joint)
 
 
 def _subpackage(context: _Context, name: str, identifiers: list[Any]) -> Iterator[Artifact | Order]:
@@ -141,11 +181,14 @@ def joint_template(joint: Joint) -> str:
     return f"joint/{joint.type}.mo.jinja"
 
 
-def _robot(context: _Context, urdf_name: str) -> Iterator[Artifact]:
+def _robot(context: _Context) -> Iterator[Artifact]:
     name = context.target.name
     data = assembly.robot_data(context.skeleton, context.target, context.options)
-    record = assembly.record_data(context.skeleton, context.imports, context.target, context.options, urdf_name)
     yield Artifact(f"{name}.mo", Role.MODEL, "robot/robot.mo.jinja", data, "robot")
     yield Artifact(f"{name}Run.mo", Role.MODEL, "robot/run.mo.jinja", data, "robot")
     yield Artifact(f"{name}Test.mo", Role.MODEL, "robot/test.mo.jinja", data, "robot")
-    yield Artifact(f"{name}Parameters.mo", Role.RECORD, "robot/record.mo.jinja", record, "robot")
+
+
+def _record(context: _Context, urdf_name: str) -> Artifact:
+    data = assembly.record_data(context.skeleton, context.imports, context.target, context.options, urdf_name)
+    return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, data, "robot")

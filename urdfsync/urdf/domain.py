@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from urdfsync.difference import Difference, Effect, ElementKey, Meaning, Version
 from urdfsync.domain import (
@@ -18,10 +19,12 @@ from urdfsync.domain import (
     Proposal,
     Reading,
     Snapshot,
+    Standalone,
     Target,
 )
 from urdfsync.urdf import naming
 from urdfsync.urdf.options import USES, Options
+from urdfsync.urdf.record_scope import out_of_scope
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
@@ -31,7 +34,7 @@ class UrdfDomain:
 
     name = "urdf"
     templates: Path | None = None
-    revision = 1
+    revision = 2
     converter = 1
     uses = USES
     options = Options
@@ -41,8 +44,12 @@ class UrdfDomain:
         from urdfsync.urdf.source import read_robot
 
         reading = read_robot(content, file, cross_check=options.cross_check)
-        snapshot = None if reading.robot is None else to_snapshot(reading.robot)
-        return Reading(snapshot, reading.diagnostics, reading.lines)
+        if reading.robot is None:
+            return Reading(None, reading.diagnostics, reading.lines)
+        said = reading.diagnostics
+        if "record" in options.approach:
+            said += tuple(out_of_scope(reading.robot, file, reading.lines))
+        return Reading(to_snapshot(reading.robot), said, reading.lines)
 
     def dependencies(
         self, snapshot: Snapshot, lookup: Lookup, options: Options, lines: Mapping[str, int]
@@ -117,30 +124,45 @@ class UrdfDomain:
         snapshot: Snapshot,
         imports: Mapping[str, Import],  # noqa: ARG002 - the diagram shows no shapes
         target: Target,
-        options: Options,  # noqa: ARG002 - nor do options change it
+        options: Options,
     ) -> str | None:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf.diagram.picture import draw
 
-        return draw(from_snapshot(snapshot), target)
+        return draw(from_snapshot(snapshot), target) if "package" in options.approach else None
 
-    def models(self, target: Target) -> Sequence[str]:
+    def models(self, snapshot: Snapshot, target: Target, options: Options) -> Sequence[str]:
         """See `urdfsync.domain.Domain`."""
-        return target.name, f"{target.name}Run", f"{target.name}Test"
+        from urdfsync.urdf.artifacts import models
 
-    def experiment(self, content: bytes, file: str, target: Target, options: Options, complete: bool) -> Experiment:
+        return models(from_snapshot(snapshot).joints, target, options)
+
+    def record(self, reading: Reading, file: str, target: Target, options: Options) -> Standalone | None:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf.physics.experiment import PinocchioExperiment
+        from urdfsync.urdf.artifacts import record
 
-        return PinocchioExperiment(content, file, target, options, complete)
+        if reading.snapshot is None:
+            return None
+        robot = from_snapshot(reading.snapshot)
+        return Standalone(record(robot, target, options), tuple(out_of_scope(robot, file, reading.lines)))
+
+    def experiment(
+        self, content: bytes, file: str, target: Target, options: Options, complete: bool
+    ) -> Experiment | None:
+        """See `urdfsync.domain.Domain`; None if there is only a record, and no generic robot that could read it."""
+        from urdfsync.urdf.physics.experiment import experiment
+
+        return experiment(content, file, target, options, complete)
 
 
 def _shown(snapshot: Snapshot, options: Options) -> Robot:
-    """The robot without the collisions, if they are not wanted."""
-    links = snapshot["links"]
-    if not options.collisions:
-        links = {name: {**link, "collisions": []} for name, link in links.items()}
-    return from_snapshot({**snapshot, "links": links})
+    """The robot without the shapes that nothing is made of: the record knows how high collisions stand, no more."""
+    absent: dict[str, list[Any]] = {}
+    if not options.collisions or ("package" not in options.approach and options.base == "fixed"):
+        absent["collisions"] = []
+    if "package" not in options.approach:
+        absent["visuals"] = []
+    return from_snapshot({**snapshot, "links": {name: {**link, **absent} for name, link in snapshot["links"].items()}})
 
 
 DOMAIN = UrdfDomain()

@@ -17,10 +17,12 @@ Key = tuple[str, str]
 """Kind (`link` or `joint`) and URDF name."""
 
 GENERATED = frozenset(
-    "animation checklimits connectionmatrix fixedstart frame_a frame_b ground joints links m moveablejoints name "
-    "parameters phi_start resources rotationalaxis rotationalrange rotationalsupport s_start showcollisions "
-    "standingheight translationalaxis translationalrange translationalsupport v_start visualizationsetup w_start "
-    "world".split()
+    "animation checklimits connectionmatrix firstjoints fixedstart followerratios followers frame_a frame_b ground "
+    "inertialangles jointangles jointaxes jointlimits jointlosses jointnames jointpositions joints jointtree "
+    "linkbodies linkcenters linkinertias linkmasses links m moveablejoints movingjoints name nextjoints parameters "
+    "phi_start resources rotationalaxes rotationalaxis rotationaljoints rotationalrange rotationalsupport s_start "
+    "showcollisions standingheight translationalaxes translationalaxis translationaljoints translationalrange "
+    "translationalsupport v_start visualizationsetup w_start world".split()
 )
 """Names, folded to lower case, that models and records of robots use beside those of links and joints."""
 

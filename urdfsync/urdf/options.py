@@ -23,3 +23,10 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Whether mesh files are brought into the package, or left out."""
     cross_check: bool = True
     """Whether yourdfpy reads each changed source, too, and has to agree."""
+    approach: tuple[Literal["package", "record"], ...] = ("package",)
+    """`package`: a model per link and joint; `record`: a bench for the generic robot. Both have the robot's record."""
+
+    def __post_init__(self) -> None:
+        """Raise ValueError for a choice that leaves nothing to write."""
+        if not self.approach:
+            raise ValueError('`approach` is empty: name "package", "record" or both')

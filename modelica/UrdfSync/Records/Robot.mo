@@ -15,10 +15,103 @@ record Robot "Numbers of a whole robot: what all robots have"
   Integer moveableJoints[:, 2] = fill(0, 0, 2)
     "One row per joint that is not fixed: {number of the joint, 1}";
 
+  parameter Integer movingJoints(min = 0) = 0
+    "Number of moving joints: those that turn or slide"
+    annotation (Evaluate=true);
+
+  parameter Integer rotationalAxes(min = 0) = 0
+    "Number of driven axes that turn"
+    annotation (Evaluate=true);
+
+  parameter Integer translationalAxes(min = 0) = 0
+    "Number of driven axes that slide"
+    annotation (Evaluate=true);
+
+  parameter Integer jointTree[:, 2] = fill(0, 0, 2)
+    "One row per moving joint: {number of the body that carries it, 1 if it turns or 2 if it slides}"
+    annotation (Evaluate=true);
+
+  parameter Integer firstJoints[:] = {1}
+    "Per body: the first moving joint that it carries; number of moving joints + 1 if there is none"
+    annotation (Evaluate=true);
+
+  parameter Integer nextJoints[:] = fill(0, 0)
+    "Per moving joint: the next one on the same body; number of moving joints + 1 if there is none"
+    annotation (Evaluate=true);
+
+  parameter Integer linkBodies[:] = {1}
+    "Per link: number of the body that it is part of; 1 is the base, i + 1 is what moving joint i moves"
+    annotation (Evaluate=true);
+
+  parameter Integer rotationalJoints[:] = fill(0, 0)
+    "Per driven axis that turns: number of its moving joint"
+    annotation (Evaluate=true);
+
+  parameter Integer translationalJoints[:] = fill(0, 0)
+    "Per driven axis that slides: number of its moving joint"
+    annotation (Evaluate=true);
+
+  parameter Integer followers[:, 2] = fill(0, 0, 2)
+    "One row per moving joint that follows another one: {its number, number of the driven one at the head, 0 if that does not move}"
+    annotation (Evaluate=true);
+
+  parameter Real jointAxes[:, 3](each unit = "1") = fill(0, 0, 3)
+    "Per moving joint: axis in the joint frame, a unit vector"
+    annotation (Evaluate=true);
+
+  JointName jointNames[movingJoints]
+    "Per moving joint: its name in the URDF";
+
+  Modelica.Units.SI.Position jointPositions[:, 3] = fill(0, 0, 3)
+    "Per joint, fixed ones included: origin in the frame of the parent link";
+
+  Modelica.Units.SI.Angle jointAngles[:, 3] = fill(0, 0, 3)
+    "Per joint, fixed ones included: roll, pitch and yaw in the frame of the parent link";
+
+  Real jointLimits[:, 4] = fill(0, 0, 4)
+    "Per moving joint: {lower, upper, velocity, effort}";
+
+  Real jointLosses[:, 2] = fill(0, 0, 2)
+    "Per moving joint: {damping, friction}";
+
+  Real followerRatios[:, 2] = fill(0, 0, 2)
+    "Per row of followers: {multiplier, offset} to the head";
+
+  Modelica.Units.SI.Mass linkMasses[:] = {0}
+    "Per link: mass";
+
+  Modelica.Units.SI.Position linkCenters[:, 3] = fill(0, 1, 3)
+    "Per link: centre of mass in the link frame";
+
+  Modelica.Units.SI.Angle inertialAngles[:, 3] = fill(0, 1, 3)
+    "Per link: roll, pitch and yaw of the inertial frame in the link frame";
+
+  Modelica.Units.SI.MomentOfInertia linkInertias[:, 6](each min = -Modelica.Constants.inf) = fill(0, 1, 6)
+    "Per link: elements {xx, yy, zz, xy, xz, yz} about the centre of mass, in the inertial frame";
+
   annotation (Documentation(info="<html>
 <p>
-The record of a generated robot adds one component per link and per joint. Links and joints are numbered
-depth-first from the root, siblings in natural order of their names: joint <code>k</code> leads to link <code>k + 1</code>.
+The record of a generated robot adds one component per link and per joint, and one constant <code>&lt;joint&gt;Axis</code> per driven axis: its
+number. Links and joints are numbered depth-first from the root, siblings in natural order of their names: joint <code>k</code> leads to link
+<code>k + 1</code>.
+</p>
+<p>
+The tables after <code>moveableJoints</code> are what <a href=\"modelica://UrdfSync.Robots.GenericRobot\">Robots.GenericRobot</a> and
+<a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a> read. Their numbers are references to the components of the links and joints, so that no
+number stands in the record twice, and a modifier of a link or joint reaches them.
+</p>
+<p>
+<i>Bodies:</i> links that fixed joints connect move as one body. Body 1 is that of the root link, and moving joint <code>i</code> moves body
+<code>i + 1</code>. A <i>moving joint</i> is revolute, continuous or prismatic; moving joints are counted in the order of the joints, so that what
+carries a joint has a smaller number than what it moves. The tables say which link belongs to which body;
+<a href=\"modelica://UrdfSync.Dynamics.bodyInertias\">Dynamics.bodyInertias</a> adds up the numbers.
+</p>
+<p>
+<i>Driven axes</i> are the moving joints that follow no other one, turning and sliding ones apart, each in the order of the joints. In a chain of
+mimic joints each follower names the joint at its head, and its ratio is that of the whole chain.
+</p>
+<p>
+A robot without a moving joint, or with a planar or floating joint, has no such tables: they keep the values of a single link.
 </p>
 </html>"));
 end Robot;

@@ -8,22 +8,77 @@ class RecordApproach "The whole robot as one record"
     Documentation(info="<html>
 <p>
 <code>&lt;Robot&gt;Parameters.mo</code> holds all numbers of the robot in one record: name, tables, and one component per link and per
-joint. It extends <a href=\"modelica://UrdfSync.Records.Robot\">Records.Robot</a>.
+joint. It extends <a href=\"modelica://UrdfSync.Records.Robot\">Records.Robot</a>. Pign&egrave;de and Oldemeyer call this the model structure
+defining record: one generic model can read the structure of any robot from it.
 </p>
-<dl>
-<dt><code>connectionMatrix</code></dt>
-<dd>One row per joint: number of the parent link, number of the child link.</dd>
-<dt><code>moveableJoints</code></dt>
-<dd>One row per joint that is not fixed: number of the joint, 1.</dd>
-</dl>
+<pre>
+inner Modelica.Mechanics.MultiBody.World world(n = {0, 0, -1});
+UrdfSync.Robots.GenericRobot robot(
+  redeclare parameter UrdfSync.Examples.SixAxisArm.SixAxisArmParameters data);
+equation
+  connect(world.frame_b, robot.frame_a);
+</pre>
+<p>
+Another record is another robot: see <a href=\"modelica://UrdfSync.Examples.GenericRobot\">Examples.GenericRobot</a> and
+<a href=\"modelica://UrdfSync.Examples.RobotStudy\">Examples.RobotStudy</a>. With <code>approach = [\"record\"]</code> in
+<code>urdfsync.toml</code> a package is the record and a bench with it; <code>urdfsync record robot.urdf</code> writes the record alone.
+</p>
+<h4>Tables</h4>
 <p>
 Links and joints are numbered from 1, depth-first from the root, siblings in natural order of their names. So link 1 is the root, and
-joint <code>k</code> leads to link <code>k + 1</code>.
+joint <code>k</code> leads to link <code>k + 1</code>. Links that fixed joints connect are one body, and are taken as such: body 1 is that of the root link,
+moving joint <code>i</code> moves body <code>i + 1</code>. <a href=\"modelica://UrdfSync.Records.Robot\">Records.Robot</a> describes each table.
 </p>
 <p>
-Pign&egrave;de and Oldemeyer call this the model structure defining record: one generic robot model can read the structure of any robot
-from it. This version of the library has the record but no generic robot model. The robot models that <code>urdfsync</code> generates take
-their numbers from the records of their links and joints, not from this one.
+Numbers in the tables are references to the components of links and joints. So each number stands once in the record; a modifier such as
+<code>data(elbow(origin(xyz = {0, 0, 0.5})))</code> reaches the motion, and so does an edit by hand.
 </p>
+<h4>Models</h4>
+<dl>
+<dt><a href=\"modelica://UrdfSync.Robots.GenericRobot\">Robots.GenericRobot</a></dt>
+<dd>Newton-Euler equations. Tools solve them for accelerations or for efforts, as the model asks. Take this one first.</dd>
+<dt><a href=\"modelica://UrdfSync.Robots.ArticulatedRobot\">Robots.ArticulatedRobot</a></dt>
+<dd>Articulated-body equations: explicit in the accelerations, for tools that do not solve the equations of motion as one system of the size of the number of axes.</dd>
+<dt><a href=\"modelica://UrdfSync.Robots.MultiBodyGenericRobot\">Robots.MultiBodyGenericRobot</a></dt>
+<dd>The published formulation, arrays of multibody components. It was checked for syntax and names only.</dd>
+<dt><a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a></dt>
+<dd>Functions over the same tables: mass matrix, Coriolis and gravity forces, the Jacobian of any link, poses, base and tool link. They can be used
+without the models.</dd>
+</dl>
+<p>
+All of them have flanges for the driven axes, damping and dry friction, mimic joints, limits that are checked, and the poses of all links as
+<code>r_0</code> and <code>R_0</code>. <code>frame_a</code> is connected to the world, or to a <a href=\"modelica://UrdfSync.Robots.FreeBase\">FreeBase</a>.
+</p>
+<h4>Both approaches</h4>
+<table border=\"1\" cellspacing=\"0\" cellpadding=\"4\">
+<tr><th align=\"left\"></th><th align=\"left\">package</th><th align=\"left\">record</th></tr>
+<tr><td>text files of the six-axis arm (9 moving joints, 13 links)</td><td>60</td><td>4</td></tr>
+<tr><td>their lines</td><td>4,437</td><td>646</td></tr>
+<tr><td>text files of a humanoid (30 moving joints, 60 links)</td><td>248</td><td>4</td></tr>
+<tr><td>their lines</td><td>14,745</td><td>2,329</td></tr>
+@TIMES@
+<tr><td>joint types</td><td>all six</td><td>revolute, continuous, prismatic, fixed</td></tr>
+<tr><td>shapes, contact with the ground</td><td>yes</td><td>no</td></tr>
+<tr><td>frames to connect parts to</td><td>of all links, by editing</td><td>of the root link</td></tr>
+<tr><td>what can be edited by hand</td><td>every link, every joint and their connections</td><td>numbers; the bench around the robot</td></tr>
+<tr><td>the structure changes</td><td>models are generated again, edits are kept or merged</td><td>the record is generated again</td></tr>
+<tr><td>numbers change</td><td>records are written, models are not</td><td>the record is written</td></tr>
+<tr><td>many robots in one study</td><td>replaceable models</td><td>a redeclared record</td></tr>
+</table>
+<p>
+@NOTE@
+</p>
+<h4>Limits</h4>
+<ul>
+<li>A robot with planar or floating joints, or without any moving joint, has a record without tables. The models refuse it by name; use the package
+approach. A planar joint can be written in the URDF as two prismatic joints and a continuous one; a floating joint at the root can be left out, and
+the robot put on a <code>FreeBase</code>.</li>
+<li>A link without mass behind a moving joint does no harm as long as something behind that joint has mass. If nothing has, the joint can be
+driven by position only, and a warning names it.</li>
+<li>Gravity is taken at <code>frame_a</code> and is the same for the whole robot.</li>
+<li>rumoca, the compiler behind <code>urdfsync check</code>, follows a redeclared record only in the declaration of the robot itself. One level further out,
+as in <code>bench(robot(redeclare parameter … data))</code>, it silently keeps the record that was there. It also wants literal numbers as sizes of
+drives beside the robot.</li>
+</ul>
 </html>"));
 end RecordApproach;

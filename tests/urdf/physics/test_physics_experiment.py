@@ -7,6 +7,7 @@ import math
 import re
 import sys
 from collections.abc import Sequence
+from typing import Any
 
 import pytest
 from support.physics import pinocchio_series
@@ -31,9 +32,9 @@ ARM = robot(
 )
 
 
-def experiment(urdf: str | bytes, complete: bool = True, **options: str) -> Experiment:
+def experiment(urdf: str | bytes, complete: bool = True, **options: Any) -> Experiment:
     content = urdf if isinstance(urdf, bytes) else urdf.encode()
-    found = DOMAIN.experiment(content, "robot.urdf", BOT, Options(**options), complete)  # type: ignore[arg-type]
+    found = DOMAIN.experiment(content, "robot.urdf", BOT, Options(**options), complete)
     assert found is not None
     return found
 
@@ -260,5 +261,37 @@ def test_followers_without_a_leader_that_moves_are_fine() -> None:
     assert not [value for value in experiment(held).probe.values if "Axis" in value]
 
 
-def test_classes_that_have_to_compile_come_with_the_main_one_first() -> None:
-    assert DOMAIN.models(Target("Plant.Arm", "Arm")) == ("Arm", "ArmRun", "ArmTest")
+def test_the_record_alone_is_compared_through_the_generic_robot() -> None:
+    urdf = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm", inside=[limit()]))
+    one = experiment(urdf, approach=("record",))
+    assert "UrdfSync.Robots.GenericRobot robot(redeclare parameter Bot.BotParameters data, " in one.probe.source
+    assert "robot.r_0[2,3]" in one.probe.values
+    assert "robot.R_0[2,1,3]" in one.probe.values
+    assert sorted({found.element for found in one.compare(zeros(one))}) == [
+        "joint elbow",
+        "link arm",
+        "link base",
+        "robot",
+    ]
+
+
+def test_axes_of_links_are_read_in_the_same_order_in_both_approaches() -> None:
+    urdf = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm", inside=[limit()]))
+    package, record = experiment(urdf), experiment(urdf, approach=("record",))
+    axes = [value for value in package.probe.values if "base.frame_a.R.T" in value]
+    transposed = [re.sub(r".*\[(.),(.)\]", r"robot.R_0[1,\2,\1]", value) for value in axes]
+    assert [value for value in record.probe.values if "R_0[1," in value] == transposed
+
+
+def test_with_both_approaches_the_package_is_compared_and_the_record_is_not() -> None:
+    urdf = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm", inside=[limit()]))
+    one = experiment(urdf, approach=("package", "record"))
+    assert "Bot.Bot robot(" in one.probe.source
+    assert any("the generic robot with the record" in sentence for sentence in one.unchecked)
+
+
+def test_there_is_nothing_to_compare_where_the_record_has_no_tables() -> None:
+    options = Options(approach=("record",))
+    assert DOMAIN.experiment(ARM.encode(), "robot.urdf", BOT, options, complete=True) is None
+    with pytest.raises(SourceError):
+        DOMAIN.experiment(b"<robot>", "robot.urdf", BOT, options, complete=True)

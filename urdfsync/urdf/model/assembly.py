@@ -9,10 +9,10 @@ from typing import Any
 from urdfsync.domain import Import, Target
 from urdfsync.urdf.diagram import layout
 from urdfsync.urdf.kinematics import compose, link_poses, lowest_point, pose, start_positions
-from urdfsync.urdf.model import notes
+from urdfsync.urdf.model import notes, tables
 from urdfsync.urdf.model.numbers import joint_numbers
 from urdfsync.urdf.model.shapes import hull
-from urdfsync.urdf.options import Options
+from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import Joint
 from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 
@@ -88,19 +88,37 @@ def robot_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str
     }
 
 
+def generic_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str, Any]:
+    """Data of the bench in which the generic robot reads the record: structure only."""
+    return {
+        "within": target.package,
+        "type": target.name,
+        "record": f"{target.name}Parameters",
+        "title": f"robot {target.name}",
+        "note": notes.generic_note(target.name, options.base),
+        "base": options.base,
+        "vectors": vectors(skeleton),
+    }
+
+
 def record_data(
     skeleton: Skeleton, imports: Mapping[str, Import], target: Target, options: Options, name: str
 ) -> dict[str, Any]:
-    """Data of the record of the whole robot."""
+    """Data of the record of the whole robot; a package around it names the libraries that it uses."""
     number = {link.name: k for k, link in enumerate(skeleton.links, 1)}
+    generic = tables.has_tables(skeleton.joints)
     return {
         "within": target.package,
         "record": f"{target.name}Parameters",
         "title": f"robot {target.name}",
+        "note": notes.record_note(target.name, generic),
+        "uses": () if target.package else USES,
         "name": name,
         "standing_height": standing_height(skeleton, imports) if options.base == "floating" else None,
         "connection_matrix": [(number[joint.parent], number[joint.child]) for joint in skeleton.joints],
         "moveable_joints": [(k, 1) for k, joint in enumerate(skeleton.joints, 1) if joint.type != "fixed"],
+        "tables": tables.record_tables(skeleton) if generic else [],
+        "vectors": vectors(skeleton) if generic else [],
         "links": [
             {"component": skeleton.link(link.name).component, "name": link.name, "inertial": link.inertial}
             for link in skeleton.links

@@ -7,6 +7,8 @@ from urdfsync.urdf.robot import Joint, Link
 
 _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
 
+_GENERIC = "<code>UrdfSync.Robots.GenericRobot</code>"
+
 PACKAGE = (
     "Made by urdfsync from a URDF. Every file can be edited: urdfsync keeps what you changed, brings everything else "
     "up to date, and reports where both changed."
@@ -46,6 +48,27 @@ def robot_note(name: str) -> str:
         "constants <code>...Axis</code> and <code>...Frame</code> are their numbers, and keep their meaning when the "
         f"robot changes. {_EDIT}"
     )
+
+
+def record_note(name: str, generic: bool) -> str:
+    """Documentation of the record of the whole robot, as HTML."""
+    numbers = f"All numbers of robot {name} in one record"
+    if not generic:
+        reason = "since no joint moves, or one is planar or floating"
+        return f"{numbers}, for studies that need them all. {_GENERIC} can't take it, {reason}."
+    return (
+        f"{numbers}, with the tables by which {_GENERIC} reads how links and joints hang together. The tables refer to "
+        "the numbers below them. A model that is generated per link and joint takes its numbers from its own record."
+    )
+
+
+def generic_note(name: str, base: str) -> str:
+    """Documentation of the Generic model, as HTML."""
+    text = f"Robot {name} as {_GENERIC} reads it from its record. It simulates without inputs: every axis moves inside "
+    text += "its limits and comes back. "
+    if base == "floating":
+        text += "The generic robot has no shapes, so nothing holds it: it falls. "
+    return text + _EDIT
 
 
 def run_note(name: str) -> str:

@@ -7,8 +7,12 @@ from collections.abc import Iterator, Sequence
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
-_BENCHES = "Run and Test with the record of the whole robot (they are only compiled)"
-"""Of every robot, around what is compared."""
+_BENCHES = {
+    ("package",): "Run and Test with the record of the whole robot (they are only compiled)",
+    ("record",): "the bench around the generic robot (it is only compiled)",
+    ("package", "record"): "Run, Test and the generic robot with the record (they are only compiled)",
+}
+"""Per approach, what is around that which is compared."""
 
 
 def unchecked(skeleton: Skeleton, options: Options) -> Iterator[str]:
@@ -18,7 +22,8 @@ def unchecked(skeleton: Skeleton, options: Options) -> Iterator[str]:
         yield "no joint moves, so that only poses, masses and the forces on the root link are compared"
     if not any(link.inertial and link.inertial.mass > 0 for link in links):
         yield "no link has a mass, so that efforts show the losses of joints only"
-    yield f"{_listed([*_idle(skeleton, options), _BENCHES])} are not compared"
+    approach = tuple(sorted(set(options.approach)))
+    yield f"{_listed([*_idle(skeleton, options), _BENCHES[approach]])} are not compared"
 
 
 def _idle(skeleton: Skeleton, options: Options) -> Iterator[str]:
@@ -32,7 +37,8 @@ def _idle(skeleton: Skeleton, options: Options) -> Iterator[str]:
     }
     if there := [noun for noun, is_there in idle.items() if is_there]:
         yield f"{_listed(there)} (they change no motion)"
-    if options.base == "floating" and options.collisions and any(link.collisions for link in links):
+    touches = options.base == "floating" and options.collisions and "package" in options.approach
+    if touches and any(link.collisions for link in links):
         yield "contacts with the ground (the robot moves high above it)"
 
 

@@ -11,12 +11,14 @@ import numpy as np
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Deviation, Quantity, Target
+from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import amended, motion, probe
 from urdfsync.urdf.physics.coverage import unchecked
 from urdfsync.urdf.physics.measured import Measured
 from urdfsync.urdf.physics.reading import Array, pinocchio, read
 from urdfsync.urdf.physics.reference import Frame, Reference, State
+from urdfsync.urdf.physics.variables import variables
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 from urdfsync.urdf.source import read_robot
@@ -79,6 +81,15 @@ class _Side(Protocol):
     def mass_and_centre(self) -> tuple[float, Array]: ...
 
 
+def experiment(
+    content: bytes, file: str, target: Target, options: Options, complete: bool
+) -> PinocchioExperiment | None:
+    """The experiment for a package; None if it holds no model of the robot. Raises as `PinocchioExperiment` does."""
+    if "package" not in options.approach and not has_tables(_robot(content, file).joints):
+        return None
+    return PinocchioExperiment(content, file, target, options, complete)
+
+
 class PinocchioExperiment:
     """A package that moves as `motion` says, against the same robot in Pinocchio. See `urdfsync.domain.Experiment`.
 
@@ -95,6 +106,7 @@ class PinocchioExperiment:
             self.notes += made_up
         robot = _robot(self.content, file)
         self._skeleton = Skeleton.of(robot, (target.name,))
+        self._names = variables(self._skeleton, target, options)
         self._axes, self._free = motion.driven_axes(self._skeleton), motion.free_joints(self._skeleton)
         self._courses = [motion.axis_course(joint) for joint in self._axes]
         names = [[joint.name for joint in joints] for joints in (self._axes, self._free)]
@@ -127,7 +139,7 @@ class PinocchioExperiment:
         pairs: list[_Pair] = []
         with np.errstate(all="ignore"):  # where the simulation gave no number, the reference may have none
             for instant in (_FIRST, _LAST):
-                found = Measured(series, self._skeleton, instant)
+                found = Measured(series, self._skeleton, self._names, instant)
                 expected = self._expected(found, baseline, instant)
                 blur = _SOLVER if baseline is not None and self._free and instant == _LAST else 0.0
                 both = zip(self._quantities(found), self._quantities(expected), strict=True)
@@ -162,7 +174,7 @@ class PinocchioExperiment:
         For the reference, where free joints are later on follows from the simulation, whose solver is not tested.
         """
         if baseline is not None:
-            return Measured(baseline, self._skeleton, instant)
+            return Measured(baseline, self._skeleton, self._names, instant)
         if self._insoluble:
             raise SourceError(self._insoluble)
         if instant == _FIRST:

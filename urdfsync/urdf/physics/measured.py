@@ -7,9 +7,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from urdfsync.urdf.physics import probe
+from urdfsync.urdf.physics import probe, variables
 from urdfsync.urdf.physics.reading import Array
 from urdfsync.urdf.physics.reference import Frame
+from urdfsync.urdf.physics.variables import Variables
 from urdfsync.urdf.skeleton import Skeleton
 
 
@@ -19,8 +20,10 @@ class Measured:
     A value that is missing is NaN.
     """
 
-    def __init__(self, series: Mapping[str, Sequence[float]], skeleton: Skeleton, instant: int) -> None:
-        self._series, self._skeleton, self._instant = series, skeleton, instant
+    def __init__(
+        self, series: Mapping[str, Sequence[float]], skeleton: Skeleton, names: Variables, instant: int
+    ) -> None:
+        self._series, self._skeleton, self._names, self._instant = series, skeleton, names, instant
 
     @property
     def time(self) -> float:
@@ -44,17 +47,17 @@ class Measured:
 
     def frame(self, link: str) -> Frame:
         """How the frame of a link moves; its velocities are known only if a free joint carries it."""
-        axes = self._array(probe.axes_names(self._skeleton, link)).reshape(3, 3).T
+        axes = self._array(self._names.axes(link)).reshape(3, 3).T
         return Frame(
-            self._vector(link, probe.PLACE),
+            self._vector(link, variables.PLACE),
             axes,
-            self._vector(link, probe.VELOCITY),
-            self._vector(link, probe.ROTATION),
+            self._vector(link, variables.VELOCITY),
+            self._vector(link, variables.ROTATION),
         )
 
     def acceleration(self, link: str) -> tuple[Array, Array]:
         """Of a link that a free joint carries: linear, resolved in the world, and angular, resolved in its frame."""
-        return self._vector(link, probe.ACCELERATION), self._vector(link, probe.ANGULAR)
+        return self._vector(link, variables.ACCELERATION), self._vector(link, variables.ANGULAR)
 
     def mass_and_centre(self) -> tuple[float, Array]:
         """Mass of the whole robot and its centre in the world; zero without any mass."""
@@ -62,7 +65,7 @@ class Measured:
         return float(mass), moment / mass if mass else moment
 
     def _vector(self, link: str, part: str) -> Array:
-        return self._array(probe.names(self._skeleton, link, part))
+        return self._array(self._names.vector(link, part))
 
     def _array(self, names: Sequence[str]) -> Array:
         return np.array([self._number(name) for name in names])

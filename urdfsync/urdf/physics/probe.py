@@ -1,7 +1,7 @@
 """The Modelica text that moves a generated robot as `motion` says, and the variables that are read from it.
 
-It relies on little, so that packages may be edited: on the components of links with their `frame_a` and `body`, on
-the flange vectors, on `m`, and on the start values of planar and floating joints.
+It relies on little, so that packages may be edited: on what `variables` says, on the flange vectors, on `m`, and on
+the start values of planar and floating joints.
 """
 
 from __future__ import annotations
@@ -13,6 +13,15 @@ from urdfsync.literals import vector
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
+from urdfsync.urdf.physics.variables import (
+    ACCELERATION,
+    ANGULAR,
+    PLACE,
+    ROTATION,
+    VELOCITY,
+    Variables,
+    variables,
+)
 from urdfsync.urdf.skeleton import Motion, Skeleton
 
 _DEPTH = 1e9
@@ -50,16 +59,6 @@ _BASE = """
   end MovingBase;
 """
 
-PLACE = "frame_a.r_0"
-"""Where the frame of a link is, in the world."""
-VELOCITY = "body.v_0"
-"""Of a link's frame, resolved in the world."""
-ROTATION = "body.w_a"
-"""Angular velocity of a link's frame, resolved in it."""
-ACCELERATION = "body.a_0"
-"""Of a link's frame, resolved in the world."""
-ANGULAR = "body.z_a"
-"""Angular acceleration of a link's frame, resolved in it."""
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
 TORQUE = tuple(f"base.frame_b.t[{i}]" for i in (1, 2, 3))
 """What the robot does to the base that moves it, resolved in the root link's frame."""
@@ -73,7 +72,8 @@ def probe(skeleton: Skeleton, target: Target, options: Options, ballast: bool = 
 
     With `ballast`, a body hangs on each link without children.
     """
-    robot = ", ".join(["animation = false", "checkLimits = false", "fixedStart = false", *_starts(skeleton)])
+    names = variables(skeleton, target, options)
+    modifiers = ", ".join(["checkLimits = false", "fixedStart = false", *_starts(skeleton)])
     lines = [
         "package Probe_",
         *(f"  import {library};" for library in _libraries(target, options)),
@@ -82,11 +82,11 @@ def probe(skeleton: Skeleton, target: Target, options: Options, ballast: bool = 
         "  model Probe",
         *(f"    {line};" for line in _surroundings(options)),
         "    MovingBase base;",
-        f"    {target.package}.{target.name} robot({robot});",
+        f"    {names.model}{modifiers});",
         *(f"    {line};" for line in _drives(skeleton)),
         *([f"    {_ballast(skeleton)};"] if ballast else []),
         "    Real mass = robot.m;",
-        f"    Real moment[3] = {_moment(skeleton)};",
+        f"    Real moment[3] = {names.moment};",
         "  equation",
         "    connect(base.frame_b, robot.frame_a);",
         *(f"    connect({kind}Drive.flange, robot.{kind}Axis);" for kind, *_ in _VECTORS if skeleton.axes(kind)),
@@ -96,17 +96,7 @@ def probe(skeleton: Skeleton, target: Target, options: Options, ballast: bool = 
         "",
     ]
     stop = motion.duration(skeleton)
-    return Probe("\n".join(lines), "Probe_.Probe", stop, stop / 4, tuple(_values(skeleton)))
-
-
-def names(skeleton: Skeleton, link: str, part: str) -> tuple[str, ...]:
-    """The three elements of a vector of a link, for example of `PLACE`."""
-    return tuple(f"{_link(skeleton, link)}.{part}[{i}]" for i in (1, 2, 3))
-
-
-def axes_names(skeleton: Skeleton, link: str) -> tuple[str, ...]:
-    """The axes of a link's frame in the world, one after the other."""
-    return tuple(f"{_link(skeleton, link)}.frame_a.R.T[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3))
+    return Probe("\n".join(lines), "Probe_.Probe", stop, stop / 4, tuple(_values(skeleton, names)))
 
 
 def effort_names(skeleton: Skeleton) -> tuple[str, ...]:
@@ -118,13 +108,13 @@ def effort_names(skeleton: Skeleton) -> tuple[str, ...]:
     )
 
 
-def _values(skeleton: Skeleton) -> Iterator[str]:
+def _values(skeleton: Skeleton, names: Variables) -> Iterator[str]:
     for link in skeleton.links:
-        yield from names(skeleton, link.name, PLACE)
-        yield from axes_names(skeleton, link.name)
+        yield from names.vector(link.name, PLACE)
+        yield from names.axes(link.name)
     for joint in motion.free_joints(skeleton):
         for part in (VELOCITY, ROTATION, ACCELERATION, ANGULAR):
-            yield from names(skeleton, joint.child, part)
+            yield from names.vector(joint.child, part)
     yield from (*effort_names(skeleton), *FORCE, *TORQUE, *MASS, *MOMENT)
 
 
@@ -162,19 +152,6 @@ def _ballast(skeleton: Skeleton) -> str:
     centre = vector(motion.BALLAST_CENTRE)
     body = f"each animation = false, each m = {motion.BALLAST_MASS!r}, each r_CM = {centre}, {tensor}"
     return f"Modelica.Mechanics.MultiBody.Parts.Body ballast[{len(skeleton.leaves())}]({body})"
-
-
-def _moment(skeleton: Skeleton) -> str:
-    terms = []
-    for link in skeleton.links:
-        name = _link(skeleton, link.name)
-        centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({name}.frame_a.R, {name}.body.r_CM)"
-        terms.append(f"{name}.body.m*({name}.frame_a.r_0 + {centre})")
-    return " + ".join(terms)
-
-
-def _link(skeleton: Skeleton, link: str) -> str:
-    return f"robot.{skeleton.link(link).component}"
 
 
 def _text(course: Course) -> str:

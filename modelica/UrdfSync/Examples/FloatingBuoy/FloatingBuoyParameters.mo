@@ -67,7 +67,7 @@ record FloatingBuoyParameters "Numbers of robot FloatingBuoy as a whole"
 
   annotation (Documentation(info="<html>
 <p>
-All numbers of robot FloatingBuoy in one record. The robot model takes its numbers from the records of its links and joints; this one is for studies that need them all.
+All numbers of robot FloatingBuoy in one record, for studies that need them all. <code>UrdfSync.Robots.GenericRobot</code> can't take it, since no joint moves, or one is planar or floating.
 </p>
 </html>"));
 end FloatingBuoyParameters;

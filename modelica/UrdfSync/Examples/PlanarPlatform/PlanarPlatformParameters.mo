@@ -74,7 +74,7 @@ record PlanarPlatformParameters "Numbers of robot PlanarPlatform as a whole"
 
   annotation (Documentation(info="<html>
 <p>
-All numbers of robot PlanarPlatform in one record. The robot model takes its numbers from the records of its links and joints; this one is for studies that need them all.
+All numbers of robot PlanarPlatform in one record, for studies that need them all. <code>UrdfSync.Robots.GenericRobot</code> can't take it, since no joint moves, or one is planar or floating.
 </p>
 </html>"));
 end PlanarPlatformParameters;

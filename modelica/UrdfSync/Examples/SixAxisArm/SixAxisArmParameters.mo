@@ -4,7 +4,178 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
   extends UrdfSync.Records.Robot(
     name = "six_axis_arm",
     connectionMatrix = [1, 2; 2, 3; 3, 4; 4, 5; 5, 6; 6, 7; 7, 8; 8, 9; 9, 10; 9, 11; 9, 12; 9, 13],
-    moveableJoints = [1, 1; 2, 1; 3, 1; 4, 1; 5, 1; 6, 1; 9, 1; 11, 1; 12, 1]);
+    moveableJoints = [1, 1; 2, 1; 3, 1; 4, 1; 5, 1; 6, 1; 9, 1; 11, 1; 12, 1],
+    movingJoints = 9,
+    rotationalAxes = 6,
+    translationalAxes = 1,
+    jointTree = {{1, 1}, {2, 1}, {3, 1}, {4, 1}, {5, 1}, {6, 1}, {7, 2}, {7, 2}, {7, 1}},
+    firstJoints = {1, 2, 3, 4, 5, 6, 7, 10, 10, 10},
+    nextJoints = {10, 10, 10, 10, 10, 10, 8, 9, 10},
+    linkBodies = {
+      1, 2, 3, 4, 5, 6, 7, 7, 7, 8,
+      7, 9, 10},
+    rotationalJoints = {1, 2, 3, 4, 5, 6},
+    translationalJoints = {8},
+    followers = {{7, 8}, {9, 8}},
+    jointNames(name = {
+      turret.name,
+      shoulder.name,
+      elbow.name,
+      forearm_roll.name,
+      wrist_pitch.name,
+      flange_roll.name,
+      finger_coupling.name,
+      gripper_stroke.name,
+      pinion_coupling.name}),
+    jointAxes = {
+      turret.axis,
+      shoulder.axis,
+      elbow.axis,
+      forearm_roll.axis,
+      wrist_pitch.axis,
+      flange_roll.axis,
+      finger_coupling.axis,
+      gripper_stroke.axis,
+      pinion_coupling.axis},
+    jointLimits = {
+      {turret.limits.lower, turret.limits.upper, turret.limits.velocity, turret.limits.effort},
+      {shoulder.limits.lower, shoulder.limits.upper, shoulder.limits.velocity, shoulder.limits.effort},
+      {elbow.limits.lower, elbow.limits.upper, elbow.limits.velocity, elbow.limits.effort},
+      {forearm_roll.limits.lower, forearm_roll.limits.upper, forearm_roll.limits.velocity, forearm_roll.limits.effort},
+      {wrist_pitch.limits.lower, wrist_pitch.limits.upper, wrist_pitch.limits.velocity, wrist_pitch.limits.effort},
+      {flange_roll.limits.lower, flange_roll.limits.upper, flange_roll.limits.velocity, flange_roll.limits.effort},
+      {finger_coupling.limits.lower, finger_coupling.limits.upper, finger_coupling.limits.velocity, finger_coupling.limits.effort},
+      {gripper_stroke.limits.lower, gripper_stroke.limits.upper, gripper_stroke.limits.velocity, gripper_stroke.limits.effort},
+      {pinion_coupling.limits.lower, pinion_coupling.limits.upper, pinion_coupling.limits.velocity, pinion_coupling.limits.effort}},
+    jointLosses = {
+      {turret.dynamics.damping, turret.dynamics.friction},
+      {shoulder.dynamics.damping, shoulder.dynamics.friction},
+      {elbow.dynamics.damping, elbow.dynamics.friction},
+      {forearm_roll.dynamics.damping, forearm_roll.dynamics.friction},
+      {wrist_pitch.dynamics.damping, wrist_pitch.dynamics.friction},
+      {flange_roll.dynamics.damping, flange_roll.dynamics.friction},
+      {finger_coupling.dynamics.damping, finger_coupling.dynamics.friction},
+      {gripper_stroke.dynamics.damping, gripper_stroke.dynamics.friction},
+      {pinion_coupling.dynamics.damping, pinion_coupling.dynamics.friction}},
+    jointPositions = {
+      turret.origin.xyz,
+      shoulder.origin.xyz,
+      elbow.origin.xyz,
+      forearm_roll.origin.xyz,
+      wrist_pitch.origin.xyz,
+      flange_roll.origin.xyz,
+      flange_to_tool.origin.xyz,
+      gripper_mount.origin.xyz,
+      finger_coupling.origin.xyz,
+      grasp_frame.origin.xyz,
+      gripper_stroke.origin.xyz,
+      pinion_coupling.origin.xyz},
+    jointAngles = {
+      turret.origin.rpy,
+      shoulder.origin.rpy,
+      elbow.origin.rpy,
+      forearm_roll.origin.rpy,
+      wrist_pitch.origin.rpy,
+      flange_roll.origin.rpy,
+      flange_to_tool.origin.rpy,
+      gripper_mount.origin.rpy,
+      finger_coupling.origin.rpy,
+      grasp_frame.origin.rpy,
+      gripper_stroke.origin.rpy,
+      pinion_coupling.origin.rpy},
+    followerRatios = {
+      {finger_coupling.mimic.multiplier, finger_coupling.mimic.offset},
+      {pinion_coupling.mimic.multiplier, pinion_coupling.mimic.offset}},
+    linkMasses = {
+      base_link.inertial.mass,
+      carousel.inertial.mass,
+      upper_arm.inertial.mass,
+      elbow_housing.inertial.mass,
+      forearm.inertial.mass,
+      wrist.inertial.mass,
+      mounting_flange.inertial.mass,
+      tool0.inertial.mass,
+      gripper_body.inertial.mass,
+      finger_right.inertial.mass,
+      grasp_point.inertial.mass,
+      finger_left.inertial.mass,
+      drive_pinion.inertial.mass},
+    linkCenters = {
+      base_link.inertial.origin.xyz,
+      carousel.inertial.origin.xyz,
+      upper_arm.inertial.origin.xyz,
+      elbow_housing.inertial.origin.xyz,
+      forearm.inertial.origin.xyz,
+      wrist.inertial.origin.xyz,
+      mounting_flange.inertial.origin.xyz,
+      tool0.inertial.origin.xyz,
+      gripper_body.inertial.origin.xyz,
+      finger_right.inertial.origin.xyz,
+      grasp_point.inertial.origin.xyz,
+      finger_left.inertial.origin.xyz,
+      drive_pinion.inertial.origin.xyz},
+    inertialAngles = {
+      base_link.inertial.origin.rpy,
+      carousel.inertial.origin.rpy,
+      upper_arm.inertial.origin.rpy,
+      elbow_housing.inertial.origin.rpy,
+      forearm.inertial.origin.rpy,
+      wrist.inertial.origin.rpy,
+      mounting_flange.inertial.origin.rpy,
+      tool0.inertial.origin.rpy,
+      gripper_body.inertial.origin.rpy,
+      finger_right.inertial.origin.rpy,
+      grasp_point.inertial.origin.rpy,
+      finger_left.inertial.origin.rpy,
+      drive_pinion.inertial.origin.rpy},
+    linkInertias = {
+      {base_link.inertial.inertia.ixx, base_link.inertial.inertia.iyy, base_link.inertial.inertia.izz,
+       base_link.inertial.inertia.ixy, base_link.inertial.inertia.ixz, base_link.inertial.inertia.iyz},
+      {carousel.inertial.inertia.ixx, carousel.inertial.inertia.iyy, carousel.inertial.inertia.izz,
+       carousel.inertial.inertia.ixy, carousel.inertial.inertia.ixz, carousel.inertial.inertia.iyz},
+      {upper_arm.inertial.inertia.ixx, upper_arm.inertial.inertia.iyy, upper_arm.inertial.inertia.izz,
+       upper_arm.inertial.inertia.ixy, upper_arm.inertial.inertia.ixz, upper_arm.inertial.inertia.iyz},
+      {elbow_housing.inertial.inertia.ixx, elbow_housing.inertial.inertia.iyy, elbow_housing.inertial.inertia.izz,
+       elbow_housing.inertial.inertia.ixy, elbow_housing.inertial.inertia.ixz, elbow_housing.inertial.inertia.iyz},
+      {forearm.inertial.inertia.ixx, forearm.inertial.inertia.iyy, forearm.inertial.inertia.izz,
+       forearm.inertial.inertia.ixy, forearm.inertial.inertia.ixz, forearm.inertial.inertia.iyz},
+      {wrist.inertial.inertia.ixx, wrist.inertial.inertia.iyy, wrist.inertial.inertia.izz,
+       wrist.inertial.inertia.ixy, wrist.inertial.inertia.ixz, wrist.inertial.inertia.iyz},
+      {mounting_flange.inertial.inertia.ixx, mounting_flange.inertial.inertia.iyy, mounting_flange.inertial.inertia.izz,
+       mounting_flange.inertial.inertia.ixy, mounting_flange.inertial.inertia.ixz, mounting_flange.inertial.inertia.iyz},
+      {tool0.inertial.inertia.ixx, tool0.inertial.inertia.iyy, tool0.inertial.inertia.izz,
+       tool0.inertial.inertia.ixy, tool0.inertial.inertia.ixz, tool0.inertial.inertia.iyz},
+      {gripper_body.inertial.inertia.ixx, gripper_body.inertial.inertia.iyy, gripper_body.inertial.inertia.izz,
+       gripper_body.inertial.inertia.ixy, gripper_body.inertial.inertia.ixz, gripper_body.inertial.inertia.iyz},
+      {finger_right.inertial.inertia.ixx, finger_right.inertial.inertia.iyy, finger_right.inertial.inertia.izz,
+       finger_right.inertial.inertia.ixy, finger_right.inertial.inertia.ixz, finger_right.inertial.inertia.iyz},
+      {grasp_point.inertial.inertia.ixx, grasp_point.inertial.inertia.iyy, grasp_point.inertial.inertia.izz,
+       grasp_point.inertial.inertia.ixy, grasp_point.inertial.inertia.ixz, grasp_point.inertial.inertia.iyz},
+      {finger_left.inertial.inertia.ixx, finger_left.inertial.inertia.iyy, finger_left.inertial.inertia.izz,
+       finger_left.inertial.inertia.ixy, finger_left.inertial.inertia.ixz, finger_left.inertial.inertia.iyz},
+      {drive_pinion.inertial.inertia.ixx, drive_pinion.inertial.inertia.iyy, drive_pinion.inertial.inertia.izz,
+       drive_pinion.inertial.inertia.ixy, drive_pinion.inertial.inertia.ixz, drive_pinion.inertial.inertia.iyz}});
+
+  constant Integer turretAxis = 1
+    "Number of joint \"turret\" in rotationalAxis";
+
+  constant Integer shoulderAxis = 2
+    "Number of joint \"shoulder\" in rotationalAxis";
+
+  constant Integer elbowAxis = 3
+    "Number of joint \"elbow\" in rotationalAxis";
+
+  constant Integer forearm_rollAxis = 4
+    "Number of joint \"forearm_roll\" in rotationalAxis";
+
+  constant Integer wrist_pitchAxis = 5
+    "Number of joint \"wrist_pitch\" in rotationalAxis";
+
+  constant Integer flange_rollAxis = 6
+    "Number of joint \"flange_roll\" in rotationalAxis";
+
+  constant Integer gripper_strokeAxis = 1
+    "Number of joint \"gripper_stroke\" in translationalAxis";
 
   UrdfSync.Records.Link base_link(
     name = "base_link",
@@ -387,7 +558,7 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
 
   annotation (Documentation(info="<html>
 <p>
-All numbers of robot SixAxisArm in one record. The robot model takes its numbers from the records of its links and joints; this one is for studies that need them all.
+All numbers of robot SixAxisArm in one record, with the tables by which <code>UrdfSync.Robots.GenericRobot</code> reads how links and joints hang together. The tables refer to the numbers below them. A model that is generated per link and joint takes its numbers from its own record.
 </p>
 </html>"));
 end SixAxisArmParameters;

@@ -5,7 +5,166 @@ record WheeledRobotParameters "Numbers of robot WheeledRobot as a whole"
     name = "wheeled_robot",
     standingHeight = 0.100000000536,
     connectionMatrix = [1, 2; 2, 3; 1, 4; 1, 5; 1, 6; 6, 7; 7, 8; 8, 9; 9, 10; 1, 11; 11, 12],
-    moveableJoints = [1, 1; 2, 1; 3, 1; 4, 1; 6, 1; 7, 1; 8, 1; 11, 1]);
+    moveableJoints = [1, 1; 2, 1; 3, 1; 4, 1; 6, 1; 7, 1; 8, 1; 11, 1],
+    movingJoints = 8,
+    rotationalAxes = 7,
+    translationalAxes = 1,
+    jointTree = {{1, 1}, {2, 1}, {1, 1}, {1, 1}, {1, 2}, {6, 1}, {7, 1}, {1, 1}},
+    firstJoints = {1, 2, 9, 9, 9, 6, 7, 9, 9},
+    nextJoints = {3, 9, 4, 5, 8, 9, 9, 9},
+    linkBodies = {
+      1, 2, 3, 4, 5, 1, 6, 7, 8, 8,
+      1, 9},
+    rotationalJoints = {1, 2, 3, 4, 6, 7, 8},
+    translationalJoints = {5},
+    jointNames(name = {
+      caster_swivel.name,
+      caster_roll.name,
+      drive_left.name,
+      drive_right.name,
+      lift.name,
+      head_pan.name,
+      head_tilt.name,
+      lidar_spin.name}),
+    jointAxes = {
+      caster_swivel.axis,
+      caster_roll.axis,
+      drive_left.axis,
+      drive_right.axis,
+      lift.axis,
+      head_pan.axis,
+      head_tilt.axis,
+      lidar_spin.axis},
+    jointLimits = {
+      {-Modelica.Constants.inf, Modelica.Constants.inf, caster_swivel.limits.velocity, caster_swivel.limits.effort},
+      {-Modelica.Constants.inf, Modelica.Constants.inf, caster_roll.limits.velocity, caster_roll.limits.effort},
+      {-Modelica.Constants.inf, Modelica.Constants.inf, drive_left.limits.velocity, drive_left.limits.effort},
+      {-Modelica.Constants.inf, Modelica.Constants.inf, drive_right.limits.velocity, drive_right.limits.effort},
+      {lift.limits.lower, lift.limits.upper, lift.limits.velocity, lift.limits.effort},
+      {head_pan.limits.lower, head_pan.limits.upper, head_pan.limits.velocity, head_pan.limits.effort},
+      {head_tilt.limits.lower, head_tilt.limits.upper, head_tilt.limits.velocity, head_tilt.limits.effort},
+      {-Modelica.Constants.inf, Modelica.Constants.inf, lidar_spin.limits.velocity, lidar_spin.limits.effort}},
+    jointLosses = {
+      {caster_swivel.dynamics.damping, caster_swivel.dynamics.friction},
+      {caster_roll.dynamics.damping, caster_roll.dynamics.friction},
+      {drive_left.dynamics.damping, drive_left.dynamics.friction},
+      {drive_right.dynamics.damping, drive_right.dynamics.friction},
+      {lift.dynamics.damping, lift.dynamics.friction},
+      {head_pan.dynamics.damping, head_pan.dynamics.friction},
+      {head_tilt.dynamics.damping, head_tilt.dynamics.friction},
+      {lidar_spin.dynamics.damping, lidar_spin.dynamics.friction}},
+    jointPositions = {
+      caster_swivel.origin.xyz,
+      caster_roll.origin.xyz,
+      drive_left.origin.xyz,
+      drive_right.origin.xyz,
+      guide_mount.origin.xyz,
+      lift.origin.xyz,
+      head_pan.origin.xyz,
+      head_tilt.origin.xyz,
+      camera_mount.origin.xyz,
+      mast_mount.origin.xyz,
+      lidar_spin.origin.xyz},
+    jointAngles = {
+      caster_swivel.origin.rpy,
+      caster_roll.origin.rpy,
+      drive_left.origin.rpy,
+      drive_right.origin.rpy,
+      guide_mount.origin.rpy,
+      lift.origin.rpy,
+      head_pan.origin.rpy,
+      head_tilt.origin.rpy,
+      camera_mount.origin.rpy,
+      mast_mount.origin.rpy,
+      lidar_spin.origin.rpy},
+    linkMasses = {
+      base_link.inertial.mass,
+      caster_fork.inertial.mass,
+      caster_wheel.inertial.mass,
+      wheel_left.inertial.mass,
+      wheel_right.inertial.mass,
+      column_guide.inertial.mass,
+      column.inertial.mass,
+      neck.inertial.mass,
+      head.inertial.mass,
+      camera_optical_frame.inertial.mass,
+      lidar_mast.inertial.mass,
+      lidar.inertial.mass},
+    linkCenters = {
+      base_link.inertial.origin.xyz,
+      caster_fork.inertial.origin.xyz,
+      caster_wheel.inertial.origin.xyz,
+      wheel_left.inertial.origin.xyz,
+      wheel_right.inertial.origin.xyz,
+      column_guide.inertial.origin.xyz,
+      column.inertial.origin.xyz,
+      neck.inertial.origin.xyz,
+      head.inertial.origin.xyz,
+      camera_optical_frame.inertial.origin.xyz,
+      lidar_mast.inertial.origin.xyz,
+      lidar.inertial.origin.xyz},
+    inertialAngles = {
+      base_link.inertial.origin.rpy,
+      caster_fork.inertial.origin.rpy,
+      caster_wheel.inertial.origin.rpy,
+      wheel_left.inertial.origin.rpy,
+      wheel_right.inertial.origin.rpy,
+      column_guide.inertial.origin.rpy,
+      column.inertial.origin.rpy,
+      neck.inertial.origin.rpy,
+      head.inertial.origin.rpy,
+      camera_optical_frame.inertial.origin.rpy,
+      lidar_mast.inertial.origin.rpy,
+      lidar.inertial.origin.rpy},
+    linkInertias = {
+      {base_link.inertial.inertia.ixx, base_link.inertial.inertia.iyy, base_link.inertial.inertia.izz,
+       base_link.inertial.inertia.ixy, base_link.inertial.inertia.ixz, base_link.inertial.inertia.iyz},
+      {caster_fork.inertial.inertia.ixx, caster_fork.inertial.inertia.iyy, caster_fork.inertial.inertia.izz,
+       caster_fork.inertial.inertia.ixy, caster_fork.inertial.inertia.ixz, caster_fork.inertial.inertia.iyz},
+      {caster_wheel.inertial.inertia.ixx, caster_wheel.inertial.inertia.iyy, caster_wheel.inertial.inertia.izz,
+       caster_wheel.inertial.inertia.ixy, caster_wheel.inertial.inertia.ixz, caster_wheel.inertial.inertia.iyz},
+      {wheel_left.inertial.inertia.ixx, wheel_left.inertial.inertia.iyy, wheel_left.inertial.inertia.izz,
+       wheel_left.inertial.inertia.ixy, wheel_left.inertial.inertia.ixz, wheel_left.inertial.inertia.iyz},
+      {wheel_right.inertial.inertia.ixx, wheel_right.inertial.inertia.iyy, wheel_right.inertial.inertia.izz,
+       wheel_right.inertial.inertia.ixy, wheel_right.inertial.inertia.ixz, wheel_right.inertial.inertia.iyz},
+      {column_guide.inertial.inertia.ixx, column_guide.inertial.inertia.iyy, column_guide.inertial.inertia.izz,
+       column_guide.inertial.inertia.ixy, column_guide.inertial.inertia.ixz, column_guide.inertial.inertia.iyz},
+      {column.inertial.inertia.ixx, column.inertial.inertia.iyy, column.inertial.inertia.izz,
+       column.inertial.inertia.ixy, column.inertial.inertia.ixz, column.inertial.inertia.iyz},
+      {neck.inertial.inertia.ixx, neck.inertial.inertia.iyy, neck.inertial.inertia.izz,
+       neck.inertial.inertia.ixy, neck.inertial.inertia.ixz, neck.inertial.inertia.iyz},
+      {head.inertial.inertia.ixx, head.inertial.inertia.iyy, head.inertial.inertia.izz,
+       head.inertial.inertia.ixy, head.inertial.inertia.ixz, head.inertial.inertia.iyz},
+      {camera_optical_frame.inertial.inertia.ixx, camera_optical_frame.inertial.inertia.iyy, camera_optical_frame.inertial.inertia.izz,
+       camera_optical_frame.inertial.inertia.ixy, camera_optical_frame.inertial.inertia.ixz, camera_optical_frame.inertial.inertia.iyz},
+      {lidar_mast.inertial.inertia.ixx, lidar_mast.inertial.inertia.iyy, lidar_mast.inertial.inertia.izz,
+       lidar_mast.inertial.inertia.ixy, lidar_mast.inertial.inertia.ixz, lidar_mast.inertial.inertia.iyz},
+      {lidar.inertial.inertia.ixx, lidar.inertial.inertia.iyy, lidar.inertial.inertia.izz,
+       lidar.inertial.inertia.ixy, lidar.inertial.inertia.ixz, lidar.inertial.inertia.iyz}});
+
+  constant Integer caster_swivelAxis = 1
+    "Number of joint \"caster_swivel\" in rotationalAxis";
+
+  constant Integer caster_rollAxis = 2
+    "Number of joint \"caster_roll\" in rotationalAxis";
+
+  constant Integer drive_leftAxis = 3
+    "Number of joint \"drive_left\" in rotationalAxis";
+
+  constant Integer drive_rightAxis = 4
+    "Number of joint \"drive_right\" in rotationalAxis";
+
+  constant Integer head_panAxis = 5
+    "Number of joint \"head_pan\" in rotationalAxis";
+
+  constant Integer head_tiltAxis = 6
+    "Number of joint \"head_tilt\" in rotationalAxis";
+
+  constant Integer lidar_spinAxis = 7
+    "Number of joint \"lidar_spin\" in rotationalAxis";
+
+  constant Integer liftAxis = 1
+    "Number of joint \"lift\" in translationalAxis";
 
   UrdfSync.Records.Link base_link(
     name = "base_link",
@@ -356,7 +515,7 @@ record WheeledRobotParameters "Numbers of robot WheeledRobot as a whole"
 
   annotation (Documentation(info="<html>
 <p>
-All numbers of robot WheeledRobot in one record. The robot model takes its numbers from the records of its links and joints; this one is for studies that need them all.
+All numbers of robot WheeledRobot in one record, with the tables by which <code>UrdfSync.Robots.GenericRobot</code> reads how links and joints hang together. The tables refer to the numbers below them. A model that is generated per link and joint takes its numbers from its own record.
 </p>
 </html>"));
 end WheeledRobotParameters;

@@ -1,0 +1,119 @@
+within UrdfSync.Robots;
+
+partial model PartialGenericRobot "Kinematics of a robot that is read from its record"
+  extends UrdfSync.Robots.PartialRecordRobot;
+
+  final parameter Real jointFrames[n, 15] = UrdfSync.Dynamics.jointFrames(
+    data.connectionMatrix,
+    data.linkBodies,
+    data.jointPositions,
+    data.jointAngles,
+    data.jointAxes)
+    "One row per moving joint: its frame at position zero in the body that carries it, and its axis";
+
+protected
+  outer Modelica.Mechanics.MultiBody.World world
+    "Gravity";
+
+  parameter Real R_j[n, 3, 3] = {{{jointFrames[i, 3*j + k] for k in 1:3} for j in 0:2} for i in 1:n}
+    "Rotations of the joints at position zero in the bodies that carry them";
+
+  parameter Real R_l[nLinks, 3, 3] = {{{linkFrames[i, 3*j + k] for k in 1:3} for j in 0:2} for i in 1:nLinks}
+    "Rotations of the links in their bodies";
+
+  parameter Real e_t[n, 3] = {(if data.jointTree[i, 2] == 1 then {jointFrames[i, 13], jointFrames[i, 14], jointFrames[i, 15]} else {0, 0, 0}) for i in 1:n}
+    "Axes of the joints that turn; zero for the others";
+
+  parameter Real e_s[n, 3] = {(if data.jointTree[i, 2] == 2 then {jointFrames[i, 13], jointFrames[i, 14], jointFrames[i, 15]} else {0, 0, 0}) for i in 1:n}
+    "Axes of the joints that slide; zero for the others";
+
+  parameter Real J[n + 1, 3, 3] = {[bodies[i, 5], bodies[i, 8], bodies[i, 9]; bodies[i, 8], bodies[i, 6], bodies[i, 10]; bodies[i, 9], bodies[i, 10], bodies[i, 7]] for i in 1:n + 1}
+    "Inertia tensors of the bodies about their origins";
+
+  Real cosine[n]
+    "Of the angle; 1 for joints that slide";
+
+  Real sine[n]
+    "Of the angle; 0 for joints that slide";
+
+  Real R[n, 3, 3]
+    "Rotations of the bodies in those that carry them: v_carrier = R[i, :, :]*v_body";
+
+  Modelica.Units.SI.Position r[n, 3]
+    "Origins of the bodies in those that carry them";
+
+  Real x_b[n + 1, 3]
+    "x axis of the world, resolved in the bodies";
+
+  Real y_b[n + 1, 3]
+    "y axis of the world, resolved in the bodies";
+
+  Real z_b[n + 1, 3]
+    "z axis of the world, resolved in the bodies";
+
+  Modelica.Units.SI.Position r_b[n + 1, 3]
+    "Origins of the bodies, resolved in the world";
+
+  Modelica.Units.SI.AngularVelocity w[n + 1, 3]
+    "Angular velocities of the bodies, resolved in them";
+
+  Modelica.Units.SI.AngularVelocity w_a[3]
+    "Angular velocity of frame_a, resolved in it";
+
+  Modelica.Units.SI.AngularAcceleration z_a[3]
+    "Angular acceleration of frame_a, resolved in it";
+
+  Modelica.Units.SI.Velocity v_0[3]
+    "Velocity of frame_a, resolved in the world";
+
+  Modelica.Units.SI.Acceleration a_0[3]
+    "Acceleration of frame_a, resolved in the world";
+
+  Modelica.Units.SI.Acceleration b_a[3]
+    "Acceleration of frame_a minus gravity, resolved in frame_a";
+
+equation
+  r_b[1, :] = frame_a.r_0;
+  x_b[1, :] = {frame_a.R.T[1, 1], frame_a.R.T[2, 1], frame_a.R.T[3, 1]};
+  y_b[1, :] = {frame_a.R.T[1, 2], frame_a.R.T[2, 2], frame_a.R.T[3, 2]};
+  z_b[1, :] = {frame_a.R.T[1, 3], frame_a.R.T[2, 3], frame_a.R.T[3, 3]};
+  w_a = Modelica.Mechanics.MultiBody.Frames.angularVelocity2(frame_a.R);
+  z_a = der(w_a);
+  v_0 = der(frame_a.r_0);
+  a_0 = der(v_0);
+  b_a = Modelica.Mechanics.MultiBody.Frames.resolve2(frame_a.R, a_0 - world.gravityAcceleration(frame_a.r_0));
+  w[1, :] = w_a;
+
+  for i in 1:n loop
+    cosine[i] = if data.jointTree[i, 2] == 1 then cos(q[i]) else 1;
+    sine[i] = if data.jointTree[i, 2] == 1 then sin(q[i]) else 0;
+    R[i, :, :] = R_j[i, :, :]*[
+      cosine[i] + e_t[i, 1]*e_t[i, 1]*(1 - cosine[i]), e_t[i, 1]*e_t[i, 2]*(1 - cosine[i]) - e_t[i, 3]*sine[i], e_t[i, 1]*e_t[i, 3]*(1 - cosine[i]) + e_t[i, 2]*sine[i];
+      e_t[i, 2]*e_t[i, 1]*(1 - cosine[i]) + e_t[i, 3]*sine[i], cosine[i] + e_t[i, 2]*e_t[i, 2]*(1 - cosine[i]), e_t[i, 2]*e_t[i, 3]*(1 - cosine[i]) - e_t[i, 1]*sine[i];
+      e_t[i, 3]*e_t[i, 1]*(1 - cosine[i]) - e_t[i, 2]*sine[i], e_t[i, 3]*e_t[i, 2]*(1 - cosine[i]) + e_t[i, 1]*sine[i], cosine[i] + e_t[i, 3]*e_t[i, 3]*(1 - cosine[i])];
+    r[i, :] = {jointFrames[i, 10], jointFrames[i, 11], jointFrames[i, 12]} + R_j[i, :, :]*e_s[i, :]*q[i];
+    x_b[i + 1, :] = x_b[data.jointTree[i, 1], :]*R[i, :, :];
+    y_b[i + 1, :] = y_b[data.jointTree[i, 1], :]*R[i, :, :];
+    z_b[i + 1, :] = z_b[data.jointTree[i, 1], :]*R[i, :, :];
+    r_b[i + 1, :] = r_b[data.jointTree[i, 1], :] + {x_b[data.jointTree[i, 1], :]*r[i, :], y_b[data.jointTree[i, 1], :]*r[i, :], z_b[data.jointTree[i, 1], :]*r[i, :]};
+    w[i + 1, :] = w[data.jointTree[i, 1], :]*R[i, :, :] + e_t[i, :]*v[i];
+  end for;
+
+  for k in 1:nLinks loop
+    R_0[k, 1, :] = x_b[data.linkBodies[k], :]*R_l[k, :, :];
+    R_0[k, 2, :] = y_b[data.linkBodies[k], :]*R_l[k, :, :];
+    R_0[k, 3, :] = z_b[data.linkBodies[k], :]*R_l[k, :, :];
+    r_0[k, :] = r_b[data.linkBodies[k], :] + {x_b[data.linkBodies[k], :]*linkFrames[k, 10:12], y_b[data.linkBodies[k], :]*linkFrames[k, 10:12], z_b[data.linkBodies[k], :]*linkFrames[k, 10:12]};
+  end for;
+
+  annotation (Documentation(info="<html>
+<p>
+What the two recursions have in common. <i>Kinematics:</i> from the base outwards, body by body, in vectors of three (Featherstone: Rigid Body Dynamics
+Algorithms, 2008, section 4.3). A turn about a unit vector is the formula of Rodrigues (section 2.8). The frames of all links are outputs.
+</p>
+<p>
+The motion of the base comes through <code>frame_a</code>. Gravity is that of the <code>world</code> at the origin of <code>frame_a</code>, and the same
+for the whole robot.
+</p>
+</html>"));
+end PartialGenericRobot;

@@ -1,0 +1,251 @@
+within UrdfSync.Robots;
+
+partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a robot that is read from its record"
+  extends UrdfSync.Icons.StationaryRobot;
+
+  replaceable parameter UrdfSync.Records.Robot data
+    "Numbers of the whole robot"
+    annotation (choicesAllMatching=true);
+
+  parameter Boolean checkLimits = true
+    "= true, if a joint that passes one of its limits is reported by a warning";
+
+  parameter UrdfSync.Types.RotationalSteepness rotationalSteepness = 100
+    "How sharply the dry friction of turning joints changes its sign around standstill"
+    annotation (Dialog(group="Friction"));
+
+  parameter UrdfSync.Types.TranslationalSteepness translationalSteepness = 100
+    "How sharply the dry friction of sliding joints changes its sign around standstill"
+    annotation (Dialog(group="Friction"));
+
+  parameter Boolean fixedStart = true
+    "= true, if the simulation begins at the start values below; = false, if they are guesses, for axes that are driven by position"
+    annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
+
+  parameter Modelica.Units.SI.Angle phi_start[data.rotationalAxes] = UrdfSync.Dynamics.axisStarts(rotationalRange)
+    "Start values of the positions of the axes that turn"
+    annotation (Dialog(tab="Initialization"));
+
+  parameter Modelica.Units.SI.AngularVelocity w_start[data.rotationalAxes] = zeros(data.rotationalAxes)
+    "Start values of the speeds of the axes that turn"
+    annotation (Dialog(tab="Initialization"));
+
+  parameter Modelica.Units.SI.Position s_start[data.translationalAxes] = UrdfSync.Dynamics.axisStarts(translationalRange)
+    "Start values of the positions of the axes that slide"
+    annotation (Dialog(tab="Initialization"));
+
+  parameter Modelica.Units.SI.Velocity v_start[data.translationalAxes] = zeros(data.translationalAxes)
+    "Start values of the speeds of the axes that slide"
+    annotation (Dialog(tab="Initialization"));
+
+  final parameter Integer n = data.movingJoints
+    "Number of moving joints";
+
+  final parameter Integer nLinks = size(data.linkBodies, 1)
+    "Number of links";
+
+  final parameter Integer nFollowers = size(data.followers, 1)
+    "Number of moving joints that follow others";
+
+  final parameter Real rotationalRange[data.rotationalAxes, 3] = UrdfSync.Dynamics.axisRanges(
+    data.jointLimits,
+    data.followers,
+    data.followerRatios,
+    data.rotationalJoints)
+    "Ranges of rotationalAxis, those of joints that follow an axis included: {lower, upper, velocity}";
+
+  final parameter Real translationalRange[data.translationalAxes, 3] = UrdfSync.Dynamics.axisRanges(
+    data.jointLimits,
+    data.followers,
+    data.followerRatios,
+    data.translationalJoints)
+    "Ranges of translationalAxis, those of joints that follow an axis included: {lower, upper, velocity}";
+
+  final parameter Real linkFrames[nLinks, 12] = UrdfSync.Dynamics.linkFrames(
+    data.connectionMatrix,
+    data.linkBodies,
+    data.jointPositions,
+    data.jointAngles)
+    "One row per link: its frame in the body that it is part of";
+
+  final parameter Real bodies[n + 1, 10] = UrdfSync.Dynamics.bodyInertias(
+    data.linkBodies,
+    linkFrames,
+    data.linkMasses,
+    data.linkCenters,
+    data.inertialAngles,
+    data.linkInertias,
+    n)
+    "One row per body: {mass, first moment, inertia about its origin}";
+
+  final parameter Modelica.Units.SI.Mass m = sum(data.linkMasses)
+    "Mass of the whole robot";
+
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_a frame_a
+    "Frame of the root link"
+    annotation (Placement(transformation(extent={{-116, -16}, {-84, 16}})));
+
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis[data.rotationalAxes]
+    "Drives"
+    annotation (Placement(transformation(extent={{-70, 90}, {-50, 110}})));
+
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b rotationalSupport[data.rotationalAxes]
+    "Housings of the drives"
+    annotation (Placement(transformation(extent={{-40, 90}, {-20, 110}})));
+
+  Modelica.Mechanics.Translational.Interfaces.Flange_a translationalAxis[data.translationalAxes]
+    "Drives"
+    annotation (Placement(transformation(extent={{20, 90}, {40, 110}})));
+
+  Modelica.Mechanics.Translational.Interfaces.Flange_b translationalSupport[data.translationalAxes]
+    "Housings of the drives"
+    annotation (Placement(transformation(extent={{50, 90}, {70, 110}})));
+
+  output Modelica.Units.SI.Position r_0[nLinks, 3]
+    "Per link: origin of its frame, resolved in the world frame";
+
+  output Real R_0[nLinks, 3, 3](each unit = "1")
+    "Per link: rotation of its frame, v_world = R_0[k, :, :]*v_link";
+
+  Modelica.Units.SI.Angle phi[data.rotationalAxes](
+    start = phi_start,
+    each fixed = fixedStart,
+    each stateSelect = StateSelect.prefer)
+    "Positions of the axes that turn";
+
+  Modelica.Units.SI.AngularVelocity w_phi[data.rotationalAxes](
+    start = w_start,
+    each fixed = fixedStart,
+    each stateSelect = StateSelect.prefer)
+    "Speeds of the axes that turn";
+
+  Modelica.Units.SI.AngularAcceleration a_phi[data.rotationalAxes]
+    "Accelerations of the axes that turn";
+
+  Modelica.Units.SI.Position s[data.translationalAxes](
+    start = s_start,
+    each fixed = fixedStart,
+    each stateSelect = StateSelect.prefer)
+    "Positions of the axes that slide";
+
+  Modelica.Units.SI.Velocity v_s[data.translationalAxes](
+    start = v_start,
+    each fixed = fixedStart,
+    each stateSelect = StateSelect.prefer)
+    "Speeds of the axes that slide";
+
+  Modelica.Units.SI.Acceleration a_s[data.translationalAxes]
+    "Accelerations of the axes that slide";
+
+  Real q[n]
+    "Positions of the moving joints, in rad or m";
+
+  Real v[n]
+    "Speeds of the moving joints";
+
+  Real a[n]
+    "Accelerations of the moving joints";
+
+  Real effort[n]
+    "Torques and forces that move what is behind the joints";
+
+  Real load[n]
+    "The same with losses";
+
+  Real drive[n]
+    "Loads of the drives, those of joints that follow included; zero for joints that follow";
+
+protected
+  parameter Integer driven[n] = UrdfSync.Dynamics.drivenJoints(n, cat(1, data.rotationalJoints, data.translationalJoints))
+    "1 for joints with a drive, 0 for those that follow"
+    annotation (Evaluate=true);
+
+  parameter Real shares[n, nFollowers + 1] = UrdfSync.Dynamics.followerShares(n, data.followers, data.followerRatios)
+    "Motion of each follower per motion of each joint; the last column is empty, so that there is one";
+
+  parameter Real massBehind[n] = UrdfSync.Dynamics.massBehind(data.jointTree, bodies, cat(1, data.followers[:, 1], {1}), shares)
+    "Zero for joints that move nothing, those that follow them included";
+
+  parameter Real steepness[n] = {(if data.jointTree[i, 2] == 1 then rotationalSteepness else translationalSteepness) for i in 1:n}
+    "Steepness of the dry friction";
+
+  Real followerLoad[nFollowers + 1]
+    "Loads of the joints that follow others";
+
+equation
+  assert(n > 0 or size(data.moveableJoints, 1) > 0,
+    getInstanceName() + ": robot " + data.name + " has no moving joint. Put a Modelica.Mechanics.MultiBody.Parts.Body in its place");
+  assert(n > 0 or size(data.moveableJoints, 1) == 0,
+    getInstanceName() + ": robot " + data.name + " has planar or floating joints, which its tables leave out. Use the package approach, "
+    + "or write in the URDF a planar joint as two prismatic joints and a continuous one");
+  for i in 1:n loop
+    assert(not checkLimits or q[i] >= data.jointLimits[i, 1] - 1e-6,
+      getInstanceName() + " (joint " + data.jointNames[i].name + ") is below its lower position limit", AssertionLevel.warning);
+    assert(not checkLimits or q[i] <= data.jointLimits[i, 2] + 1e-6,
+      getInstanceName() + " (joint " + data.jointNames[i].name + ") is above its upper position limit", AssertionLevel.warning);
+    assert(not checkLimits or 0.999999*abs(v[i]) <= data.jointLimits[i, 3] + 1e-6,
+      getInstanceName() + " (joint " + data.jointNames[i].name + ") is faster than its velocity limit", AssertionLevel.warning);
+    assert(not checkLimits or 0.999999*abs(drive[i]) <= data.jointLimits[i, 4] + 1e-6,
+      getInstanceName() + " (joint " + data.jointNames[i].name + ") is driven above its effort limit", AssertionLevel.warning);
+    assert(not fixedStart or driven[i] == 0 or massBehind[i] > 0,
+      getInstanceName() + " (joint " + data.jointNames[i].name + ") moves no mass: it can be driven by position only", AssertionLevel.warning);
+  end for;
+
+  for k in 1:data.rotationalAxes loop
+    rotationalSupport[k].phi = 0;
+    phi[k] = rotationalAxis[k].phi - rotationalSupport[k].phi;
+    w_phi[k] = der(phi[k]);
+    a_phi[k] = der(w_phi[k]);
+    q[data.rotationalJoints[k]] = phi[k];
+    v[data.rotationalJoints[k]] = w_phi[k];
+    a[data.rotationalJoints[k]] = a_phi[k];
+    rotationalAxis[k].tau = drive[data.rotationalJoints[k]];
+  end for;
+
+  for k in 1:data.translationalAxes loop
+    translationalSupport[k].s = 0;
+    s[k] = translationalAxis[k].s - translationalSupport[k].s;
+    v_s[k] = der(s[k]);
+    a_s[k] = der(v_s[k]);
+    q[data.translationalJoints[k]] = s[k];
+    v[data.translationalJoints[k]] = v_s[k];
+    a[data.translationalJoints[k]] = a_s[k];
+    translationalAxis[k].f = drive[data.translationalJoints[k]];
+  end for;
+
+  for k in 1:nFollowers loop
+    q[data.followers[k, 1]] = (if data.followers[k, 2] > 0 then data.followerRatios[k, 1]*q[max(1, data.followers[k, 2])] else 0) + data.followerRatios[k, 2];
+    v[data.followers[k, 1]] = if data.followers[k, 2] > 0 then data.followerRatios[k, 1]*v[max(1, data.followers[k, 2])] else 0;
+    a[data.followers[k, 1]] = if data.followers[k, 2] > 0 then data.followerRatios[k, 1]*a[max(1, data.followers[k, 2])] else 0;
+    followerLoad[k] = load[data.followers[k, 1]];
+  end for;
+  followerLoad[nFollowers + 1] = 0;
+
+  for i in 1:n loop
+    drive[i] = driven[i]*(load[i] + shares[i, :]*followerLoad);
+    load[i] = effort[i] + data.jointLosses[i, 1]*v[i] + data.jointLosses[i, 2]*tanh(0.5*steepness[i]*v[i]);
+  end for;
+
+  annotation (Documentation(info="<html>
+<p>
+The record <code>data</code> says how many links and axes there are and how they hang together; so <code>data</code> is to be redeclared as the
+record of a robot, in the declaration of the component:
+<code>UrdfSync.Robots.GenericRobot robot(redeclare parameter MyRobotParameters data)</code>. Numbers of the record can be changed between
+simulations, integers and axes of joints cannot.
+</p>
+<p>
+<code>frame_a</code> is connected to what carries the robot: to the world, or for a robot that moves freely to a
+<a href=\"modelica://UrdfSync.Robots.FreeBase\">FreeBase</a>. Driven axes have flanges as the robot model of the package approach has them, in the same
+order; where nothing is connected the axis moves freely. The constants <code>data.&lt;joint&gt;Axis</code> are their numbers.
+</p>
+<p>
+<i>Losses</i> are those of <a href=\"modelica://UrdfSync.Friction.Rotational\">Friction</a>: <code>d*v + f*tanh(s*v/2)</code>.
+<i>Mimic joints:</i> <code>q = k*q_head + c</code>, and the axis of the head bears <code>k</code> times the load of the follower (principle of virtual work).
+</p>
+<p>
+<i>Limits</i> are checked as in the package approach: a warning names the joint. Another warning names a joint that moves no mass; its free motion has no
+solution. Robots without any moving joint, and robots with planar or floating joints, are refused by name. A tool that can't translate empty
+tables stops before it gets there.
+</p>
+</html>"));
+end PartialRecordRobot;

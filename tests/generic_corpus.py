@@ -1,0 +1,211 @@
+"""The generic robots and the corpus: prescribed motion against Pinocchio, free motion, and times beside the package.
+
+`python tests/generic_corpus.py moves [--only TEXT …] [--most N]` compares poses and efforts of every robot in scope
+that has at most N moving joints; `… falls FILE …` compares 0.5 s of free motion of the generic robots and of the
+package with Pinocchio; `… times FILE …` compiles and simulates the same motion of package and generic robots. Files
+without inertias get made-up ones, for all sides. Exits with 1 if anything differs or fails.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+from support import corpus, exact, generic, physics
+from support.corpus import REPOSITORY
+from support.modelica import Array, Outcome, Run, Task, compile_task, execute
+
+from urdfsync.checking import library
+from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, Comparison
+from urdfsync.diagnostics import SourceError
+from urdfsync.urdf.model.tables import has_tables
+from urdfsync.urdf.physics import amended, motion
+from urdfsync.urdf.skeleton import MOTIONS, Skeleton
+from urdfsync.urdf.source import read_robot
+
+COUNTED = ("file", "moving joints", "axes", "links")
+STOP = 0.5
+STEPS = (500, 1000, 2000, 4000, 8000, 16000, 32000)
+"""Of the reference, more and more until it changes no more; friction around standstill is stiff."""
+CLOSE = 1e-6
+"""At the end of free motion, in rad or m."""
+CONVERGED = 1e-7
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Print a table with a row per robot, as soon as it is known."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=("moves", "falls", "times"))
+    parser.add_argument("files", nargs="*", type=Path)
+    parser.add_argument("--only", nargs="*", default=[], metavar="TEXT")
+    parser.add_argument("--most", type=int, default=1000, metavar="N")
+    options = parser.parse_args(arguments)
+    folder = library.standard(os.environ, Path.home()).modelica.path.parent
+    table: Callable[[Path, Iterable[Path]], bool] = {"moves": _moves, "falls": _falls, "times": _times}[options.what]
+    return int(not table(folder, options.files or _all(options)))
+
+
+def _all(options: argparse.Namespace) -> list[Path]:
+    """Robots of the corpus in scope, the smallest first."""
+    counts = {corpus.FOLDER / file: count for file, count in corpus.moving_joints().items() if count <= options.most}
+    files = [file for file in counts if not options.only or any(text in str(file) for text in options.only)]
+    return sorted(filter(_in_scope, files), key=lambda file: (counts[file], str(file)))
+
+
+def _in_scope(file: Path) -> bool:
+    robot = read_robot(file.read_bytes(), file.name, cross_check=False).robot
+    return robot is not None and has_tables(robot.joints)
+
+
+def _moves(standard: Path, files: Iterable[Path]) -> bool:
+    _row(*COUNTED, "pose error", "effort error", "mass error", "CPU s", "MB", "result")
+    _row(*["---"] * 10)
+    good = [_moved(standard, file) for file in files]
+    return all(good)
+
+
+def _moved(standard: Path, file: Path) -> bool:
+    """One row of `moves`."""
+    try:
+        case = physics.prepare(file.read_bytes(), approach=("record",))
+    except SourceError as error:
+        _row(_name(file), *[""] * 8, f"no reference: {error.diagnostics[0].code}")
+        return True
+    probe = case.experiment.probe
+    with tempfile.TemporaryDirectory() as folder:
+        package = case.package.write(Path(folder))
+        task = Task(probe.source, probe.model, [Run(probe.stop, probe.step)], probe.values)
+        (outcome,) = execute(standard, [package], [task])
+    problem = outcome.error or outcome.runs[0].error
+    sizes = (f"{outcome.seconds:.1f}", f"{outcome.megabytes:.0f}")
+    if problem:
+        _row(_name(file), *_counts(case.package.skeleton), "", "", "", *sizes, problem.splitlines()[0])
+        return False
+    comparison = _compared(case, outcome)
+    worst = [comparison.worst(quantities) for quantities in (POSES, EFFORTS, MASSES)]
+    errors = [f"{one.relative:.0e}" if one else "" for one in worst]
+    notes = ["agrees" if comparison.agrees else "DIFFERS", *case.experiment.notes]
+    _row(_name(file), *_counts(case.package.skeleton), *errors, *sizes, "; ".join(notes))
+    return comparison.agrees
+
+
+def _compared(case: physics.Case, outcome: Outcome) -> Comparison:
+    (run,) = outcome.runs
+    series = {"time": run.times.tolist()} | {name: values.tolist() for name, values in run.values.items()}
+    return Comparison(tuple(case.experiment.compare(series)))
+
+
+def _falls(standard: Path, files: Iterable[Path]) -> bool:
+    forms = ("package", *generic.FORMS)
+    _row(
+        "file",
+        "moving joints",
+        "axes",
+        "links",
+        *(f"{form}, rad or m" for form in forms),
+        "change of the reference, half the steps",
+    )
+    _row(*["---"] * 8)
+    good = [_fallen(standard, file, forms) for file in files]
+    return all(good)
+
+
+def _fallen(standard: Path, file: Path, forms: Sequence[str]) -> bool:
+    """One row of `falls`: the greatest difference of an axis at the end."""
+    robot = generic.prepare(_complete(file), approach=("package", "record"))
+    start = [motion.axis_course(joint)._replace(acceleration=0) for joint in motion.driven_axes(robot.skeleton)]
+    with tempfile.TemporaryDirectory() as folder:
+        package = robot.package.write(Path(folder))
+        tasks = [generic.free_task(robot, form, start, STOP) for form in forms]
+        outcomes = exact.execute(standard, [package], tasks)
+    expected, change = _reference(robot, start)
+    found: list[float | str] = []
+    for outcome in outcomes:
+        problem = outcome.problem or outcome.runs[0].problem
+        ends = [] if problem else [outcome.runs[0].values[name][-1] for name in generic.axis_values(robot)]
+        found.append(problem.splitlines()[0] if problem else float(np.abs(np.array(ends) - expected).max()))
+    cells = [one if isinstance(one, str) else f"{one:.0e}" for one in found]
+    _row(_name(file), *_counts(robot.skeleton), *cells, f"{change:.0e}")
+    return all(not isinstance(one, str) and one < CLOSE for one in found)
+
+
+def _reference(robot: generic.Robot, start: Sequence[motion.Course]) -> tuple[Array, float]:
+    """Where the axes are at the end, and how much that changed with the last refinement of steps."""
+    last, change = generic.free_motion(robot, start, STOP, STEPS[0]), np.inf
+    for steps in STEPS[1:]:
+        before, last = last, generic.free_motion(robot, start, STOP, steps)
+        change = float(np.abs(last - before).max())
+        if change < CONVERGED:
+            break
+    return last, change
+
+
+def _times(standard: Path, files: Iterable[Path]) -> bool:
+    _row(
+        "file",
+        "moving joints",
+        "axes",
+        "links",
+        "motion",
+        "package, CPU s",
+        *(f"{form}, CPU s" for form in generic.FORMS),
+    )
+    _row(*["---"] * 8)
+    good = [_timed(standard, file, task) for file in files for task in ("prescribed", "free")]
+    return all(good)
+
+
+def _timed(standard: Path, file: Path, kind: str) -> bool:
+    """One row of `times`: each in a process of its own that has loaded the libraries already."""
+    content, cells, good = _complete(file), [], True
+    for form in ("package", *generic.FORMS):
+        approach = ("package",) if form == "package" else ("record",)
+        if kind == "free":
+            robot = generic.prepare(content, approach=approach)
+            start = [motion.axis_course(joint)._replace(acceleration=0) for joint in motion.driven_axes(robot.skeleton)]
+            package, task = robot.package, generic.free_task(robot, form, start, 0.01)
+        else:
+            case = physics.prepare(content, complete=False, approach=approach)
+            package, probe = case.package, case.experiment.probe
+            source = probe.source.replace("UrdfSync.Robots.GenericRobot ", f"UrdfSync.Robots.{form} ")
+            task = Task(source, probe.model, [Run(probe.stop, probe.step)], probe.values)
+        with tempfile.TemporaryDirectory() as folder:
+            warm = compile_task("UrdfSync.Examples.DoublePendulum")
+            outcome = execute(standard, [package.write(Path(folder))], [warm, task])[-1]
+        problem = outcome.error or outcome.runs[0].error
+        good = good and not problem
+        cells.append(problem.splitlines()[0] if problem else f"{outcome.seconds:.1f}")
+    _row(_name(file), *_counts(package.skeleton), kind, *cells)
+    return good
+
+
+def _complete(file: Path) -> bytes:
+    """The file as Pinocchio reads it, with inertias."""
+    content = amended.readable(file.read_bytes()).content
+    robot = read_robot(content, file.name, cross_check=False).robot
+    assert robot is not None
+    return amended.with_inertias(content, Skeleton.of(robot)).content
+
+
+def _counts(skeleton: Skeleton) -> Iterator[str]:
+    yield str(sum(joint.type in MOTIONS for joint in skeleton.joints))
+    yield str(len(motion.driven_axes(skeleton)))
+    yield str(len(skeleton.links))
+
+
+def _name(file: Path) -> str:
+    known = next((folder for folder in (corpus.FOLDER, REPOSITORY) if file.is_relative_to(folder)), file.parent)
+    return file.relative_to(known).as_posix()
+
+
+def _row(*cells: str) -> None:
+    print(f"| {' | '.join(cells)} |", flush=True)  # noqa: T201
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

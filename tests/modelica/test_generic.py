@@ -1,0 +1,160 @@
+"""The generic robots against Pinocchio: any robot, read from its record.
+
+Two robots have all there is: joints that turn and slide, on a chain and on branches, links behind fixed joints, mimic
+joints in a chain and at a joint that does not move, damping and dry friction.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pytest
+import test_limits
+from support import exact, generic, modelica, physics
+from support.modelica import URDFSYNC, Run, Series, Task, execute
+from support.packages import generate
+from support.urdfs import dynamics, joint, limit, link, mimic, robot
+
+from urdfsync.domain import Target
+from urdfsync.urdf.physics import motion
+
+pytestmark = pytest.mark.slow
+
+GRIPPER = robot(
+    link("base", 2.0),
+    link("plate", 1.0),
+    *(link(name, 1.5) for name in ("arm", "slide", "wheel", "finger", "thumb")),
+    link("sensor", 0.3),
+    joint("bolts", "fixed", "base", "plate"),
+    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[dynamics(0.4, 0.2), limit()]),
+    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[dynamics(3.0, 0.5), limit()]),
+    joint("mount", "fixed", "slide", "sensor"),
+    joint("roll", "continuous", "sensor", "wheel", axis="1 0 0"),
+    joint("grip", "prismatic", "slide", "finger", axis="1 0 0", inside=[mimic("shoulder", 0.1, 0.02), limit()]),
+    joint("press", "revolute", "slide", "thumb", axis="0 0 1", inside=[mimic("grip", -4.0, 0.3), limit()]),
+)
+"""A chain with branches; press follows grip, and grip follows shoulder."""
+
+LADDER = robot(
+    link("base"),
+    *(link(name, 2.0) for name in ("car", "mast", "left", "right")),
+    joint("drive", "prismatic", "base", "car", axis="1 0 0", inside=[dynamics(2.0, 0.0), limit()]),
+    joint("lift", "prismatic", "car", "mast", axis="0.6 0 0.8", inside=[limit()]),
+    joint("left swing", "revolute", "mast", "left", axis="0 1 0", inside=[limit()]),
+    joint("right swing", "revolute", "mast", "right", axis="0 1 0", inside=[mimic("left swing", -1.0), limit()]),
+)
+"""Two sliding joints first; a base without mass; a name with a space."""
+
+ROBOTS = {"gripper": GRIPPER, "ladder": LADDER}
+START = motion.Course(0.3, 0.2, 0.0)
+STOP = 0.5
+PRESCRIBED = (("gripper", "GenericRobot"), ("gripper", "ArticulatedRobot"), ("ladder", "GenericRobot"))
+"""What is compared at prescribed motion; at free motion it is everything."""
+CLASSES = ("PartialRecordRobot", "PartialGenericRobot", "GenericRobot")
+PASSING = ("lower", "backward", "slide", "effort", "leader", "follower")
+INSIDE = ("at rest", "leading as strong as allowed")
+"""Of the motions of the tests of limits, those that stand for the others."""
+AXES = {"my_elbowAxis": 2, "lidAxis": 1, "rollAxis": 3, "railAxis": 1}
+"""Of the robot of the tests of limits, in the order of its record."""
+
+
+def test_poses_and_efforts_of_prescribed_motion_agree_with_pinocchio(modelica_library: Path, tmp_path: Path) -> None:
+    """Base and axes move; efforts of all axes, what acts on the base, mass and centre are compared."""
+    cases = [in_form(name, form) for name, form in PRESCRIBED]
+    for comparison in physics.compare(modelica_library, tmp_path, cases):
+        assert comparison.agrees, comparison.worst()
+
+
+def in_form(name: str, form: str) -> physics.Case:
+    """The experiment with one of the robots in one of the formulations."""
+    case = physics.prepare(ROBOTS[name].encode(), name.title(), approach=("record",))
+    probe = case.experiment.probe
+    assert probe.source.count(".GenericRobot ") == 1
+    source = probe.source.replace(".GenericRobot ", f".{form} ")
+    case.experiment.probe = dataclasses.replace(probe, source=source)
+    return case
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_free_motion_agrees_with_pinocchio(name: str, modelica_library: Path, tmp_path: Path) -> None:
+    own = generic.prepare(ROBOTS[name].encode())
+    start = [START] * len(own.reference.axes)
+    tasks = [generic.free_task(own, form, start, STOP) for form in generic.FORMS]
+    outcomes = exact.execute(modelica_library, [own.package.write(tmp_path)], tasks)
+    expected = generic.free_motion(own, start, STOP, 500)
+    assert np.abs(expected - START.position).min() > 0.1, "every axis moves"
+    for outcome in outcomes:
+        assert outcome.problem == ""
+        (series,) = outcome.runs
+        assert series.problem == ""
+        found = [series.values[value][-1] for value in generic.axis_values(own)]
+        assert np.abs(found - expected).max() < 1e-6
+
+
+def test_the_reference_converges() -> None:
+    """With half the steps it changes far less than the comparison tolerates."""
+    own = generic.prepare(GRIPPER.encode())
+    start = [START] * len(own.reference.axes)
+    coarse, fine = (generic.free_motion(own, start, STOP, steps) for steps in (250, 500))
+    assert np.abs(coarse - fine).max() < 1e-7
+
+
+def strict_generic() -> str:
+    """The generic robot as it is, but passing a limit is an error, which the compiler tells."""
+    texts = [(URDFSYNC / "Robots" / f"{name}.mo").read_text("utf-8") for name in CLASSES]
+    joined = "".join(text.replace("within UrdfSync.Robots;", "") for text in texts)
+    joined = re.sub(rf"UrdfSync\.Robots\.({'|'.join(CLASSES)})\b", r"\1", joined)
+    assert joined.count("AssertionLevel.warning") == 5
+    return joined.replace("AssertionLevel.warning", "AssertionLevel.error")
+
+
+@pytest.fixture(scope="module")
+def at_limits(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Series]:
+    """What comes of the motions of the tests of limits, by their names."""
+    robot = "GenericRobot robot(redeclare parameter Bot.BotParameters data, fixedStart = false, checkLimits = true)"
+    check = test_limits.CHECK.replace("Bot.Bot robot(fixedStart = false, checkLimits = %s)", robot)
+    check = re.sub(r"robot\.(\w+Axis)\]", lambda name: f"{AXES[name[1]]}]", check)
+    source = check.replace("  model Check\n", f"  import Bot;\n{strict_generic()}\n  model Check\n")
+    passing = {name: Run(1.0, 0.1, test_limits.PASSING[name][0]) for name in PASSING}
+    inside = {
+        name: Run(stop, stop / 10, motion) for name, (motion, stop) in test_limits.INSIDE.items() if name in INSIDE
+    }
+    package = generate(test_limits.ROBOT.encode(), Target("Bot", "Bot"), approach=("record",))
+    folder = package.write(tmp_path_factory.mktemp("limits"))
+    task = Task(source, "Check_.Check", [*passing.values(), *inside.values()])
+    (outcome,) = execute(modelica_library, [folder], [task])
+    assert not outcome.error, outcome.error
+    return dict(zip([*passing, *inside], outcome.runs, strict=True))
+
+
+def test_a_limit_that_is_passed_is_named(at_limits: Mapping[str, Series]) -> None:
+    for limit_name in PASSING:
+        _, time, message = test_limits.PASSING[limit_name]
+        found = re.search(r"assert failed at t=([\d.]+): (.*)", at_limits[limit_name].error)
+        assert found, at_limits[limit_name].error or f"{limit_name}: the simulation ran to its end"
+        assert float(found[1]) == pytest.approx(time, rel=1e-3)
+        assert found[2].strip() == "Check.robot " + message[message.index("(joint") :]
+
+
+def test_nothing_is_said_inside_the_limits(at_limits: Mapping[str, Series]) -> None:
+    assert [at_limits[name].error for name in INSIDE] == [""] * len(INSIDE)
+
+
+def test_a_study_redeclares_the_record(modelica_library: Path) -> None:
+    """Three robots in one model; the second one has other numbers in the record of the first one."""
+    study = modelica.compile_task("UrdfSync.Examples.RobotStudy")
+    tools = [f"r_tool[{number},{i}]" for number in (1, 2, 3) for i in (1, 2, 3)]
+    (outcome,) = execute(modelica_library, [], [Task(study.source, study.model, [Run(0.2, 0.1)], tools)])
+    assert not outcome.error, outcome.error
+    (series,) = outcome.runs
+    assert not series.error, series.error
+    arm, long_arm, wheeled = np.array([series.values[name] for name in tools]).reshape(3, 3, -1)
+    longer = arm[:, 0] + (0.25, 0, -0.01)
+    assert long_arm[:, 0] == pytest.approx(longer, abs=1e-6)
+    assert wheeled[:, 0] == pytest.approx((-0.05, 0.042, 0.673), abs=1e-6)
+    assert arm[2, 0] - arm[2, -1] > 0.01, "the arm drops"
+    assert long_arm[2, 0] - long_arm[2, -1] > 0.01

@@ -1,0 +1,255 @@
+"""Builds with the record approach: what is written, what numbers change, and how one approach becomes another."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from urdfsync.build import Request, build
+from urdfsync.checking.subject import Subject
+from urdfsync.config import load
+from urdfsync.difference import ChangeClass
+from urdfsync.outcome import Result
+from urdfsync.plan import Kind
+
+SOURCES = Path(__file__).parent / "golden"
+RECORD = {"package.mo", "package.order", "TwigParameters.mo", "TwigGeneric.mo"}
+
+
+class Project:
+    """A project that builds one robot, in package `Plant.Twig` or `Twig`."""
+
+    def __init__(self, folder: Path, source: str = "twig.urdf") -> None:
+        self.folder, self.source, self.file = folder, folder / source, folder / "urdfsync.toml"
+        shutil.copy(SOURCES / source, self.source)
+        shutil.copytree(SOURCES / "meshes", folder / "meshes")
+
+    def build(self, approach: str, **options: str) -> Result:
+        """Build with these options, all as TOML."""
+        lines = ["[robots.twig]", f'source = "{self.source.name}"', 'package = "Twig"', "cross_check = false"]
+        lines += [f"{key} = {value}" for key, value in {"approach": approach, **options}.items()]
+        self.file.write_text("\n".join(lines) + "\n")
+        config = load(self.file)
+        (result,) = build(config, config.robots, Request())
+        return result
+
+    def change(self, old: str, new: str) -> None:
+        """Replace one place in the source."""
+        text = self.source.read_text()
+        assert text.count(old) == 1
+        self.source.write_text(text.replace(old, new))
+
+    @property
+    def package(self) -> Path:
+        return self.folder / "modelica" / "Twig"
+
+    def files(self) -> set[str]:
+        """The files of the package, by their path below it."""
+        return {path.relative_to(self.package).as_posix() for path in self.package.rglob("*") if path.is_file()}
+
+    def models(self) -> tuple[str, ...]:
+        """What a check would compile."""
+        config = load(self.file)
+        return tuple(Subject(config, config.robots[0], Request(dry=True)).models)
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return Project(tmp_path)
+
+
+@pytest.fixture
+def zoo(tmp_path: Path) -> Project:
+    """One with planar and floating joints, and with meshes."""
+    return Project(tmp_path, "menagerie.urdf")
+
+
+def written(result: Result) -> set[str]:
+    return {Path(action.path).name for action in result.actions if action.writes}
+
+
+def test_the_record_alone(project: Project) -> None:
+    assert [found.code for found in project.build('["record"]').diagnostics] == ["mimic-of-fixed"]
+    assert project.files() == RECORD
+    assert project.models() == ("TwigParameters", "TwigGeneric")
+    assert (project.package / "package.order").read_text().split() == ["TwigParameters", "TwigGeneric"]
+
+
+def test_both_approaches(project: Project) -> None:
+    project.build('["package", "record"]')
+    assert project.files() > RECORD | {
+        "Twig.mo",
+        "TwigRun.mo",
+        "TwigTest.mo",
+        "Links/Stem.mo",
+        "Joints/BendParameters.mo",
+    }
+    assert project.models() == ("Twig", "TwigRun", "TwigTest", "TwigGeneric")
+    order = (project.package / "package.order").read_text().split()
+    assert order == ["Twig", "TwigRun", "TwigTest", "TwigGeneric", "TwigParameters", "Links", "Joints"]
+
+
+def test_the_package_alone_has_the_tables_too(project: Project) -> None:
+    project.build('["package"]')
+    assert "TwigGeneric.mo" not in project.files()
+    assert project.models() == ("Twig", "TwigRun", "TwigTest")
+    assert "jointTree = " in (project.package / "TwigParameters.mo").read_text()
+
+
+def test_the_record_says_the_same_in_every_approach(project: Project) -> None:
+    texts = set()
+    for approach in ('["package"]', '["record"]', '["record", "package"]'):
+        project.build(approach)
+        texts.add((project.package / "TwigParameters.mo").read_text())
+    assert len(texts) == 1
+
+
+def test_one_approach_becomes_the_other_and_back(project: Project) -> None:
+    project.build('["package"]')
+    before = project.files()
+    result = project.build('["record"]')
+    assert project.files() == RECORD
+    assert {action.kind for action in result.actions if "/Links/" in action.path} == {Kind.DELETE}
+    project.build('["package"]')
+    assert project.files() == before
+
+
+def test_an_edited_model_outlives_its_approach(project: Project) -> None:
+    project.build('["package"]')
+    model = project.package / "Links" / "Stem.mo"
+    model.write_text(model.read_text().replace("equation", "equation  // mine", 1) + "// mine\n")
+    project.build('["record"]')
+    around = {"Links/package.mo", "Links/package.order", "Links/StemParameters.mo"}
+    assert project.files() == RECORD | {"Links/Stem.mo"} | around
+
+
+CHANGES: dict[str, tuple[str, str]] = {
+    "mass": ('<mass value="1.5"/>', '<mass value="1.625"/>'),
+    "origin": ('<origin xyz="0.1 0 0.2" rpy="0.5 0 0"/>', '<origin xyz="0.1 0.3 0.2" rpy="0.5 0 0"/>'),
+    "axis": ('<axis xyz="0 1 0"/>', '<axis xyz="0 -1 0"/>'),
+    "limit": ('upper="0.15"', 'upper="0.25"'),
+    "damping": ('damping="0.01"', 'damping="0.02"'),
+    "multiplier": ('multiplier="-2"', 'multiplier="-2.5"'),
+    "name of the robot": ('<robot name="twig">', '<robot name="sprig">'),
+    "inertial": ('<link name="bud"/>', '<link name="bud"><inertial><mass value="1"/></inertial></link>'),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+def test_numbers_rewrite_the_record_and_nothing_else(project: Project, change: tuple[str, str]) -> None:
+    project.build('["record"]')
+    project.change(*change)
+    result = project.build('["record"]')
+    assert written(result) == {"TwigParameters.mo"}
+    assert result.changes is not None
+    assert {found.change_class for found in result.changes.changes} == {ChangeClass.PARAMETER}
+
+
+def test_numbers_leave_the_tables_alone(project: Project) -> None:
+    project.build('["record"]')
+
+    def lines() -> list[str]:
+        return (project.package / "TwigParameters.mo").read_text().splitlines()
+
+    before = lines()
+    project.change(*CHANGES["mass"])
+    project.build('["record"]')
+    assert [(old, new) for old, new in zip(before, lines(), strict=True) if old != new] == [
+        ("      mass = 1.5,", "      mass = 1.625,")
+    ]
+
+
+def test_an_axis_more_reaches_the_bench_as_well(project: Project) -> None:
+    project.build('["record"]')
+    project.change('<mimic joint="grow" multiplier="8"/>', "")
+    assert written(project.build('["record"]')) == {"TwigParameters.mo", "TwigGeneric.mo"}
+
+
+def test_a_link_more_leaves_the_bench_alone(project: Project) -> None:
+    project.build('["record"]')
+    joint = '<joint name="sit" type="fixed"><parent link="bud"/><child link="bee"/></joint><link name="bee"/>'
+    project.change("</robot>", f"{joint}</robot>")
+    assert written(project.build('["record"]')) == {"TwigParameters.mo"}
+
+
+def test_an_edit_in_the_record_and_a_new_link_merge(project: Project) -> None:
+    project.build('["record"]')
+    record = project.package / "TwigParameters.mo"
+    record.write_text(record.read_text().replace("mass = 1.5,", "mass = 1.75,  // weighed"))
+    joint = '<joint name="sit" type="fixed"><parent link="bud"/><child link="bee"/></joint><link name="bee"/>'
+    project.change("</robot>", f"{joint}</robot>")
+    result = project.build('["record"]', on_conflict='"merge"')
+    assert not result.conflicts
+    text = record.read_text()
+    assert "mass = 1.75,  // weighed" in text
+    assert "bee.inertial.mass" in text
+
+
+def test_an_edited_bench_is_kept(project: Project) -> None:
+    project.build('["record"]')
+    bench = project.package / "TwigGeneric.mo"
+    bench.write_text(bench.read_text() + "// mine\n")
+    project.change(*CHANGES["mass"])
+    assert not project.build('["record"]').conflicts
+    assert bench.read_text().endswith("// mine\n")
+
+
+def test_where_the_generic_robot_can_not_read_the_record_there_is_no_bench(zoo: Project) -> None:
+    result = zoo.build('["record"]')
+    assert {"planar-not-generic", "floating-not-generic"} < {found.code for found in result.diagnostics}
+    assert zoo.files() == {"package.mo", "package.order", "TwigParameters.mo"}
+    assert zoo.models() == ("TwigParameters",)
+    assert "jointTree" not in (zoo.package / "TwigParameters.mo").read_text()
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [({}, set()), ({"base": '"floating"'}, {"wedge"}), ({"base": '"floating"', "collisions": "false"}, set())],
+    ids=["fixed", "floating", "without collisions"],
+)
+def test_only_meshes_that_the_robot_stands_on_are_imported(
+    zoo: Project, options: dict[str, str], expected: set[str]
+) -> None:
+    zoo.build('["record"]', **options)
+    assert {Path(name).stem.partition("_")[0] for name in zoo.files() if "Resources/" in name} == expected
+
+
+def height(text: str) -> str:
+    return next((line for line in text.splitlines() if "standingHeight = " in line), "")
+
+
+def test_a_mobile_robot_stands_as_high_in_both_approaches(zoo: Project) -> None:
+    heights = set()
+    for approach in ('["package"]', '["record"]'):
+        zoo.build(approach, base='"floating"')
+        heights.add(height((zoo.package / "TwigParameters.mo").read_text()))
+    assert len(heights) == 1
+    assert heights != {""}
+
+
+def test_a_floating_base_is_in_the_bench(project: Project) -> None:
+    project.build('["record"]', base='"floating"')
+    bench = (project.package / "TwigGeneric.mo").read_text()
+    assert "UrdfSync.Robots.FreeBase base(r_start = {0, 0, robot.data.standingHeight})" in bench
+    assert "connect(base.frame_b, robot.frame_a)" in bench
+
+
+@pytest.fixture
+def refused(project: Project) -> Callable[[str], str]:
+    from urdfsync.diagnostics import ConfigError
+
+    def message(approach: str) -> str:
+        with pytest.raises(ConfigError) as found:
+            project.build(approach)
+        return str(found.value)
+
+    return message
+
+
+def test_what_is_no_approach_is_an_error_in_words(refused: Callable[[str], str]) -> None:
+    assert '`approach` is empty: name "package", "record" or both' in refused("[]")
+    assert '`approach` must be a list of "package" and "record", and "recrd" is none of these' in refused('["recrd"]')
+    assert '`approach` must be a list of "package" and "record", not "record"' in refused('"record"')

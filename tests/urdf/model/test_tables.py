@@ -1,0 +1,243 @@
+"""The tables of the record: bodies, joints and followers of every tree, and references that hold."""
+
+from __future__ import annotations
+
+import itertools
+import random
+import re
+from collections.abc import Iterator, Mapping
+from types import SimpleNamespace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from support.trees import SCALAR, robots
+
+from urdfsync.urdf.model.numbers import joint_numbers
+from urdfsync.urdf.model.tables import Structure, has_tables, obstacles, ratios, record_tables, structure
+from urdfsync.urdf.robot import Joint, Link, Mimic, Robot
+from urdfsync.urdf.skeleton import MOTIONS, Skeleton
+
+TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: has_tables(robot.joints))
+few = settings(max_examples=30)  # trees are small, and take their time to be drawn
+REFERENCE = re.compile(r"\b[a-z]\w*(?:\.[a-zA-Z_]\w*)+")
+
+GRIPPER = (
+    Joint("turn", "continuous", "base", "palm"),
+    Joint("mount", "fixed", "palm", "camera"),
+    Joint("lock", "revolute", "camera", "lens", mimic=Mimic("mount", 1, 0.5)),
+    Joint("slide", "prismatic", "palm", "left"),
+    Joint("other", "prismatic", "palm", "right", mimic=Mimic("slide", -1)),
+    Joint("pinion", "continuous", "left", "gear", mimic=Mimic("other", 80)),
+)
+"""In canonical order: turn, mount, lock, other, slide, pinion."""
+
+
+def skeleton(*joints: Joint) -> Skeleton:
+    names = {joint.parent: None for joint in joints} | {joint.child: None for joint in joints}
+    return Skeleton.of(Robot("r", tuple(map(Link, names)), joints))
+
+
+def tables(of: Skeleton) -> Mapping[str, str]:
+    """The modifiers by their names, on one line each."""
+    found = {}
+    for modifier in record_tables(of):
+        text = " ".join(modifier.split()).replace("(name = ", " = ")
+        name, _, value = text.partition(" = ")
+        found[name] = value.removesuffix(")")
+    return found
+
+
+def moving(of: Skeleton) -> list[Joint]:
+    return [joint for joint in of.joints if joint.type in MOTIONS]
+
+
+def carried(found: Structure, body: int) -> Iterator[int]:
+    """The joints of a body, as the tables chain them."""
+    number = found.first_joints[body - 1]
+    while number <= len(found.joint_tree):
+        yield number
+        number = found.next_joints[number - 1]
+
+
+def test_a_gripper() -> None:
+    found = structure(skeleton(*GRIPPER))
+    assert found.link_bodies == (1, 2, 2, 3, 4, 5, 6)
+    assert found.joint_tree == ((1, 1), (2, 1), (2, 2), (2, 2), (5, 1))
+    assert found.first_joints == (1, 2, 6, 6, 5, 6)
+    assert found.next_joints == (6, 3, 4, 6, 6)
+    assert found.axes == {"rotational": (1,), "translational": (4,)}
+    assert found.followers == ((2, 0), (3, 4), (5, 4))
+
+
+def test_the_text_of_a_gripper() -> None:
+    found = tables(skeleton(*GRIPPER))
+    assert found["movingJoints"] == "5"
+    assert found["jointTree"] == "{{1, 1}, {2, 1}, {2, 2}, {2, 2}, {5, 1}}"
+    assert found["followerRatios"] == (
+        "{ {lock.mimic.multiplier, lock.mimic.offset}, {other.mimic.multiplier, other.mimic.offset}, "
+        "{pinion.mimic.multiplier*other.mimic.multiplier, pinion.mimic.multiplier*other.mimic.offset + "
+        "pinion.mimic.offset}}"
+    )
+    assert found["jointLimits"].startswith("{ {-Modelica.Constants.inf, Modelica.Constants.inf, turn.limits.velocity, ")
+    assert (
+        "{slide.limits.lower, slide.limits.upper, slide.limits.velocity, slide.limits.effort}" in found["jointLimits"]
+    )
+
+
+def test_an_element_more_is_a_line_more() -> None:
+    def lines(*joints: Joint) -> list[str]:
+        return [line.rstrip(",})") for modifier in record_tables(skeleton(*joints)) for line in modifier.splitlines()]
+
+    before, after = lines(*GRIPPER), lines(*GRIPPER, Joint("plate", "fixed", "base", "plate_link"))
+    added = [line.strip() for line in after if line not in before]
+    assert [line for line in before if line not in after] == ["    linkBodies = {1, 2, 2, 3, 4, 5, 6".strip()]
+    assert len(added) == 8
+    assert {re.split(r"\W+", line.lstrip("{ "))[0] for line in added} == {"linkBodies", "plate", "plate_link"}
+
+
+def test_ten_numbers_stand_on_a_line() -> None:
+    chain = [Joint(f"j{n}", "revolute", f"l{n}", f"l{n + 1}") for n in range(24)]
+    (bodies,) = (text for text in record_tables(skeleton(*chain)) if text.startswith("linkBodies"))
+    rows = bodies.splitlines()[1:]
+    assert [len(re.findall(r"\d+", row)) for row in rows] == [10, 10, 5]
+    assert rows[2].split(",")[0].strip() == "21"
+
+
+def test_tables_that_would_be_empty_are_left_out() -> None:
+    found = tables(skeleton(Joint("j", "revolute", "a", "b")))
+    assert not {"translationalAxes", "translationalJoints", "followers", "followerRatios"} & found.keys()
+    assert found["rotationalAxes"] == "1"
+
+
+@pytest.mark.parametrize("kind", ["planar", "floating"])
+def test_planar_and_floating_joints_have_no_place(kind: str) -> None:
+    joint = Joint("j", kind, "a", "b")  # type: ignore[arg-type]
+    assert list(obstacles([joint])) == [joint]
+    assert not has_tables([Joint("i", "revolute", "b", "c"), joint])
+
+
+def test_a_robot_that_does_not_move_has_no_tables() -> None:
+    assert not has_tables([])
+    assert not has_tables([Joint("j", "fixed", "a", "b")])
+    assert has_tables([Joint("j", "prismatic", "a", "b")])
+
+
+@few
+@given(TREES)
+def test_every_link_is_part_of_one_body_and_every_body_has_links(robot: Robot) -> None:
+    of = Skeleton.of(robot)
+    found = structure(of)
+    bodies = dict(zip((link.name for link in of.links), found.link_bodies, strict=True))
+    numbers = {joint.name: number for number, joint in enumerate(moving(of), 1)}
+    assert set(found.link_bodies) == set(range(1, len(numbers) + 2))
+    for joint in of.joints:
+        if joint.type == "fixed":
+            assert bodies[joint.child] == bodies[joint.parent]
+        else:
+            number = numbers[joint.name]
+            assert bodies[joint.child] == number + 1
+            turns = 1 if MOTIONS[joint.type] == "rotational" else 2
+            assert found.joint_tree[number - 1] == (bodies[joint.parent], turns)
+
+
+@few
+@given(TREES)
+def test_what_carries_a_joint_comes_before_what_it_moves(robot: Robot) -> None:
+    found = structure(Skeleton.of(robot))
+    assert all(body <= number for number, (body, _) in enumerate(found.joint_tree, 1))
+    for body in range(1, len(found.joint_tree) + 2):
+        assert list(carried(found, body)) == [
+            n for n, (carrier, _) in enumerate(found.joint_tree, 1) if carrier == body
+        ]
+
+
+@few
+@given(TREES)
+def test_sums_over_bodies_are_sums_over_links(robot: Robot) -> None:
+    of = Skeleton.of(robot)
+    found = structure(of)
+    mass = {link.name: 2.0**k for k, link in enumerate(of.links)}  # sums of these are exact, and no two are equal
+    bodies = [0.0] * (len(found.joint_tree) + 1)
+    for link, body in zip(of.links, found.link_bodies, strict=True):
+        bodies[body - 1] += mass[link.name]
+    for number, (carrier, _) in reversed(list(enumerate(found.joint_tree, 1))):
+        bodies[carrier - 1] += bodies[number]
+    children = of.children()
+
+    def behind(link: str) -> float:
+        return mass[link] + sum(behind(joint.child) for joint in children.get(link, ()))
+
+    assert bodies == [behind(of.links[0].name), *(behind(joint.child) for joint in moving(of))]
+
+
+@few
+@given(TREES, st.lists(st.floats(-2, 2), min_size=7, max_size=7))
+def test_followers_are_where_the_whole_chain_puts_them(robot: Robot, positions: list[float]) -> None:
+    of = Skeleton.of(robot)
+    found, names = structure(of), [joint.name for joint in moving(of)]
+    driven = {number for axes in found.axes.values() for number in axes}
+    place = {joint.name: at for joint, at in zip(of.joints, positions, strict=False) if joint.type != "fixed"}
+    mimics = {of.joint(j.name).component: SimpleNamespace(mimic=j.mimic) for j in of.joints if j.mimic is not None}
+
+    def position(joint: Joint) -> float:
+        """By the definition of mimic, one joint after the other; a fixed one stays at zero."""
+        if joint.type == "fixed":
+            return 0.0
+        if joint.mimic is None:
+            return place[joint.name]
+        leader = next(other for other in of.joints if other.name == joint.mimic.joint)
+        return joint.mimic.multiplier * position(leader) + joint.mimic.offset
+
+    assert {number for number, _ in found.followers} == set(range(1, len(names) + 1)) - driven
+    for (number, head), ratio in zip(found.followers, ratios(of).values(), strict=True):
+        assert head == 0 or head in driven
+        multiplier, offset = (eval(text, {}, mimics) for text in (ratio.multiplier, ratio.offset))
+        follower = moving(of)[number - 1]
+        expected = multiplier * (place[names[head - 1]] if head else 0.0) + offset
+        assert expected == pytest.approx(position(follower), abs=1e-9)
+
+
+@few
+@given(TREES, st.randoms())
+def test_the_order_of_elements_makes_no_difference(robot: Robot, chance: random.Random) -> None:
+    links, joints = list(robot.links), list(robot.joints)
+    chance.shuffle(links)
+    chance.shuffle(joints)
+    shuffled = Robot(robot.name, tuple(links), tuple(joints))
+    assert record_tables(Skeleton.of(shuffled)) == record_tables(Skeleton.of(robot))
+
+
+@few
+@given(TREES)
+def test_references_are_to_what_the_record_has_and_no_number_is_written(robot: Robot) -> None:
+    of = Skeleton.of(robot)
+    fields = {of.link(link.name).component: {"inertial"} for link in of.links}
+    for joint in of.joints:
+        numbers = joint_numbers(joint)
+        groups = {"limits", "dynamics", "mimic"} if joint.type != "fixed" else set()
+        groups |= {"axis"} if numbers["axis"] else set()
+        fields[of.joint(joint.name).component] = {"name", "origin", *groups}
+    text = " ".join(record_tables(of)).replace("Modelica.Constants.inf", "")
+    for reference in REFERENCE.findall(text):
+        component, field, *_ = reference.split(".")
+        assert field in fields[component], reference
+    assert not re.search(r"\d\.\d|\de-?\d", REFERENCE.sub("", text))
+
+
+@few
+@given(TREES)
+def test_rows_are_as_many_as_there_are_elements(robot: Robot) -> None:
+    of = Skeleton.of(robot)
+    found = tables(of)
+
+    def rows(name: str) -> int:
+        depths = itertools.accumulate((char == "{") - (char == "}") for char in found[name])
+        return 1 + sum(char == "," and depth == 1 for char, depth in zip(found[name], depths, strict=True))
+
+    for name in ("linkBodies", "linkMasses", "linkCenters", "inertialAngles", "linkInertias"):
+        assert rows(name) == len(of.links)
+    assert rows("jointPositions") == rows("jointAngles") == len(of.joints)
+    for name in ("jointTree", "nextJoints", "jointNames", "jointAxes", "jointLimits", "jointLosses"):
+        assert rows(name) == int(found["movingJoints"]) == len(moving(of))
+    assert rows("firstJoints") == len(moving(of)) + 1
