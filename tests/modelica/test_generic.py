@@ -49,6 +49,26 @@ LADDER = robot(
 )
 """Two sliding joints first; a base without mass; a name with a space."""
 
+MASSLESS = robot(
+    *(link(name, mass) for name, mass in {"base": 1.0, "arm": 1.0, "tip": None}.items()),
+    joint("lift", "revolute", "base", "arm", axis="0 1 0", inside=[limit()]),
+    joint("twist", "revolute", "arm", "tip", axis="0 0 1", inside=[limit()]),
+)
+LIGHT = """
+package Light_
+  import Modelica;
+  import UrdfSync;
+  import Light;
+  {generic}
+  model Free
+    inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, enableAnimation = false);
+    GenericRobot robot(redeclare parameter Light.LightParameters data);
+  equation
+    connect(world.frame_b, robot.frame_a);
+  end Free;
+end Light_;
+"""
+
 ROBOTS = {"gripper": GRIPPER, "ladder": LADDER}
 START = motion.Course(0.3, 0.2, 0.0)
 STOP = 0.5
@@ -79,18 +99,18 @@ def in_form(name: str, form: str) -> physics.Case:
     return case
 
 
-@pytest.mark.parametrize("name", ROBOTS)
-def test_free_motion_agrees_with_pinocchio(name: str, modelica_library: Path, tmp_path: Path) -> None:
-    own = generic.prepare(ROBOTS[name].encode())
-    start = [START] * len(own.reference.axes)
-    tasks = [generic.free_task(own, form, start, STOP) for form in generic.FORMS]
-    outcomes = exact.execute(modelica_library, [own.package.write(tmp_path)], tasks)
-    expected = generic.free_motion(own, start, STOP, 500)
-    assert np.abs(expected - START.position).min() > 0.1, "every axis moves"
-    for outcome in outcomes:
+def test_free_motion_agrees_with_pinocchio(modelica_library: Path, tmp_path: Path) -> None:
+    robots = [generic.prepare(text.encode(), name.title()) for name, text in ROBOTS.items()]
+    starts = [[START] * len(own.reference.axes) for own in robots]
+    todo = [(own, start, form) for own, start in zip(robots, starts, strict=True) for form in generic.FORMS]
+    tasks = [generic.free_task(own, form, start, STOP) for own, start, form in todo]
+    outcomes = exact.execute(modelica_library, [own.package.write(tmp_path) for own in robots], tasks)
+    for (own, start, _), outcome in zip(todo, outcomes, strict=True):
         assert outcome.problem == ""
         (series,) = outcome.runs
         assert series.problem == ""
+        expected = generic.free_motion(own, start, STOP, 250)
+        assert np.abs(expected - START.position).min() > 0.1, "every axis moves"
         found = [series.values[value][-1] for value in generic.axis_values(own)]
         assert np.abs(found - expected).max() < 1e-6
 
@@ -123,12 +143,19 @@ def at_limits(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) 
     inside = {
         name: Run(stop, stop / 10, motion) for name, (motion, stop) in test_limits.INSIDE.items() if name in INSIDE
     }
-    package = generate(test_limits.ROBOT.encode(), Target("Bot", "Bot"), approach=("record",))
-    folder = package.write(tmp_path_factory.mktemp("limits"))
-    task = Task(source, "Check_.Check", [*passing.values(), *inside.values()])
-    (outcome,) = execute(modelica_library, [folder], [task])
-    assert not outcome.error, outcome.error
-    return dict(zip([*passing, *inside], outcome.runs, strict=True))
+    folder = tmp_path_factory.mktemp("limits")
+    packages = [
+        generate(text.encode(), Target(name, name), approach=("record",)).write(folder)
+        for text, name in ((test_limits.ROBOT, "Bot"), (MASSLESS, "Light"))
+    ]
+    light = LIGHT.format(generic=strict_generic())
+    tasks = [
+        Task(source, "Check_.Check", [*passing.values(), *inside.values()]),
+        Task(light, "Light_.Free", [Run(), Run(parameters={"robot.data.tip.inertial.mass": 1.0})]),
+    ]
+    limits, mass = execute(modelica_library, packages, tasks)
+    assert (limits.error, mass.error) == ("", "")
+    return dict(zip([*passing, *inside, "massless", "with mass"], [*limits.runs, *mass.runs], strict=True))
 
 
 def test_a_limit_that_is_passed_is_named(at_limits: Mapping[str, Series]) -> None:
@@ -142,6 +169,12 @@ def test_a_limit_that_is_passed_is_named(at_limits: Mapping[str, Series]) -> Non
 
 def test_nothing_is_said_inside_the_limits(at_limits: Mapping[str, Series]) -> None:
     assert [at_limits[name].error for name in INSIDE] == [""] * len(INSIDE)
+
+
+def test_a_free_joint_that_moves_no_mass_is_named(at_limits: Mapping[str, Series]) -> None:
+    message = "Free.robot (joint twist) moves no mass: it can be driven by position only"
+    assert message in at_limits["massless"].error
+    assert at_limits["with mass"].error == ""
 
 
 def test_a_study_redeclares_the_record(modelica_library: Path) -> None:
@@ -158,3 +191,24 @@ def test_a_study_redeclares_the_record(modelica_library: Path) -> None:
     assert wheeled[:, 0] == pytest.approx((-0.05, 0.042, 0.673), abs=1e-6)
     assert arm[2, 0] - arm[2, -1] > 0.01, "the arm drops"
     assert long_arm[2, 0] - long_arm[2, -1] > 0.01
+
+
+def declared(library: Path, name: str) -> set[str]:
+    """Words of a class of the standard library and of the interfaces that it may inherit from."""
+    (top, *inner, last), root = name.split("."), library
+    folder = next(path for path in (root / top, *root.glob(f"{top} *")) if path.is_dir()).joinpath(*inner)
+    source = next(path for path in (folder / f"{last}.mo", folder.with_suffix(".mo")) if path.exists())
+    interfaces = [folder.parent / "Interfaces.mo", *(folder.parent / "Interfaces").glob("*.mo")]
+    texts = [path.read_text("utf-8") for path in (source, *interfaces) if path.exists()]
+    return set(re.findall(r"\w+", "\n".join(texts)))
+
+
+def test_the_multibody_form_names_what_the_standard_library_has(modelica_library: Path) -> None:
+    """No tool of ours translates it: modifiers and connectors of its components are looked up."""
+    text = (URDFSYNC / "Robots" / "MultiBodyGenericRobot.mo").read_text("utf-8")
+    components = re.findall(r"^  (Modelica\.\S+) (\w+)\[\w+\]\((.*?)\)\n    \"", text, re.MULTILINE | re.DOTALL)
+    assert len(components) == 6
+    for kind, name, modifiers in components:
+        used = re.findall(r"(\w+) = ", modifiers) + re.findall(rf"\b{name}\[[^)=]*?\]\.(\w+)", text)
+        assert len(used) > 3, f"{name} is connected"
+        assert set(used) <= declared(modelica_library, kind), name

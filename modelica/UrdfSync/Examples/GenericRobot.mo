@@ -34,7 +34,7 @@ Drives are off: the robot drops from where it starts, braked by its losses. Noth
 modifier of its component:
 </p>
 <pre>
-extends UrdfSync.Examples.GenericRobot(
+model WheeledBench = UrdfSync.Examples.GenericRobot(
   robot(redeclare parameter UrdfSync.Examples.WheeledRobot.WheeledRobotParameters data));
 </pre>
 <p>

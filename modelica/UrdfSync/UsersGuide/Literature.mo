@@ -14,7 +14,11 @@ Modelica Conference, 2025. The method of this library: the package approach, the
 <dd><strong>The New Modelica MultiBody Library</strong>. Modelica Conference, Link&ouml;ping, 2003, pages 311 to 330. The parts that links
 and joints are made of.</dd>
 <dt>R. Featherstone:</dt>
-<dd><strong>Rigid Body Dynamics Algorithms</strong>. Springer, 2008. Tensors and coordinate transformations.</dd>
+<dd><strong>Rigid Body Dynamics Algorithms</strong>. Springer, 2008. Tensors and coordinate transformations; the composite-rigid-body and the
+articulated-body algorithm.</dd>
+<dt>J. Y. S. Luh, M. W. Walker and R. P. C. Paul:</dt>
+<dd><strong>On-Line Computational Scheme for Mechanical Manipulators</strong>. Journal of Dynamic Systems, Measurement, and Control 102, 1980.
+The recursive Newton-Euler algorithm.</dd>
 <dt>J. J. Craig:</dt>
 <dd><strong>Introduction to Robotics: Mechanics and Control</strong>. Angles about fixed axes: chapter 2.</dd>
 <dt>K. H. Hunt and F. R. E. Crossley:</dt>

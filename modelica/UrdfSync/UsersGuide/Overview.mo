@@ -17,7 +17,9 @@ need: they use its records, friction, couplings, shapes, contacts, functions and
 <tr><td><a href=\"modelica://UrdfSync.Examples\">Examples</a></td>
 <td>robots that <code>urdfsync</code> generated from the URDF files in <code>Resources/robots</code></td></tr>
 <tr><td><a href=\"modelica://UrdfSync.Robots\">Robots</a></td>
-<td>base classes of stationary and mobile robots and of their benches</td></tr>
+<td>base classes of stationary and mobile robots and of their benches, and robots that read a whole record</td></tr>
+<tr><td><a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a></td>
+<td>mass matrix, gravity, Jacobian and poses from the tables of a record</td></tr>
 <tr><td><a href=\"modelica://UrdfSync.Links\">Links</a>, <a href=\"modelica://UrdfSync.Joints\">Joints</a></td>
 <td>link and joint models that stand alone: drop one into any multibody model and give it a record</td></tr>
 <tr><td><a href=\"modelica://UrdfSync.Couplings\">Couplings</a></td><td>mimic joints</td></tr>
@@ -37,7 +39,8 @@ need: they use its records, friction, couplings, shapes, contacts, functions and
 </ol>
 <p>
 A package per robot, with a record and a model per link and per joint, is the package approach of Pign&egrave;de and Oldemeyer
-(see <a href=\"modelica://UrdfSync.UsersGuide.Literature\">Literature</a>).
+(see <a href=\"modelica://UrdfSync.UsersGuide.Literature\">Literature</a>). One record and one model for all robots is their record approach: see
+<a href=\"modelica://UrdfSync.UsersGuide.RecordApproach\">Record approach</a>.
 </p>
 </html>"));
 end Overview;
