@@ -13,7 +13,7 @@ from support.packages import Package, generate, proposed_base
 from urdfsync.domain import Target
 from urdfsync.modelica import class_name
 
-MANY_JOINTS = 4
+MANY_JOINTS = 3
 """Larger ones take long, and their robots are compiled for the comparison with Pinocchio anyway."""
 FAULTY = {"robots/random/spot_ros/spot_description/urdf/spot_arm.urdf"}
 """Without a package: see the tests of the reader."""

@@ -153,6 +153,13 @@ def test_who_wants_no_checks_any_more_gets_none(project: Path, start: Start) -> 
     assert len(compiler.saw) == 1
 
 
+NEEDED = """
+    Modelica.Blocks Modelica.Constants Modelica.Icons Modelica.Math Modelica.Units Modelica.Utilities
+    Modelica.Mechanics.MultiBody Modelica.Mechanics.Rotational Modelica.Mechanics.Translational
+""".split()
+"""What a library has to have to be one that robots can use."""
+
+
 @pytest.fixture
 def stuck(project: Path, rc_site: Path, tmp_path: Path) -> Iterator[Watch]:
     """A daemon in a process of its own, with a small library and a compiler that is never done."""
@@ -164,8 +171,13 @@ def stuck(project: Path, rc_site: Path, tmp_path: Path) -> Iterator[Watch]:
         (tmp_path / "libraries" / name / "package.mo").write_text(
             f'package {name} annotation(version = "4.1.0"); end {name};\n'
         )
-    constants = "within Modelica;\npackage Constants end Constants;\n"
-    (tmp_path / "libraries" / "Modelica" / "Constants.mo").write_text(constants)
+    for name in NEEDED:
+        file = tmp_path.joinpath("libraries", *name.split(".")).with_suffix(".mo")
+        file.parent.mkdir(exist_ok=True)
+        parent, _, last = name.rpartition(".")
+        if parent.count("."):
+            (file.parent / "package.mo").write_text("within Modelica;\npackage Mechanics end Mechanics;\n")
+        file.write_text(f"within {parent};\npackage {last} end {last};\n")
     with (project / "urdfsync.toml").open("a") as file:
         file.write('on_build = "check"\n[check]\nlibrary = "../libraries"\n')
     path = [tmp_path / "site", rc_site, REPOSITORY / "tests" / "rcnetwork"]
