@@ -172,12 +172,12 @@ def stuck(project: Path, rc_site: Path, tmp_path: Path) -> Iterator[Watch]:
             f'package {name} annotation(version = "4.1.0"); end {name};\n'
         )
     for name in NEEDED:
-        file = tmp_path.joinpath("libraries", *name.split(".")).with_suffix(".mo")
-        file.parent.mkdir(exist_ok=True)
+        place = tmp_path.joinpath("libraries", *name.split(".")).with_suffix(".mo")
+        place.parent.mkdir(exist_ok=True)
         parent, _, last = name.rpartition(".")
         if parent.count("."):
-            (file.parent / "package.mo").write_text("within Modelica;\npackage Mechanics end Mechanics;\n")
-        file.write_text(f"within {parent};\npackage {last} end {last};\n")
+            (place.parent / "package.mo").write_text("within Modelica;\npackage Mechanics end Mechanics;\n")
+        place.write_text(f"within {parent};\npackage {last} end {last};\n")
     with (project / "urdfsync.toml").open("a") as file:
         file.write('on_build = "check"\n[check]\nlibrary = "../libraries"\n')
     path = [tmp_path / "site", rc_site, REPOSITORY / "tests" / "rcnetwork"]
