@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import hashlib
+import os
 import stat
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -36,6 +38,17 @@ def text_digest(content: bytes) -> str:
 def normalised(content: bytes) -> bytes:
     r"""A text file's bytes with `\r\n` and `\r` as `\n`."""
     return content.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in content else content
+
+
+def put(file: Path, content: bytes) -> None:
+    """Write a file that is in no package and no state, as a whole or not at all. Raises OSError."""
+    temporary = file.with_name(f".{file.name}-{os.getpid()}{TEMPORARY}")
+    try:
+        temporary.write_bytes(content)
+        temporary.replace(file)
+    finally:
+        with contextlib.suppress(OSError):  # what could not be made can't be removed
+            temporary.unlink(missing_ok=True)
 
 
 def templates_digest(folders: Sequence[Path]) -> str:

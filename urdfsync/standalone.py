@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
 from pathlib import Path
 
@@ -10,8 +9,8 @@ from urdfsync import config, modelica, registry
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError, UrdfsyncError
 from urdfsync.domain import Domain, Reading, Target, Templates
-from urdfsync.files import TEMPORARY, kind_of, normalised, templates_digest
-from urdfsync.manifest import plain
+from urdfsync.files import kind_of, normalised, put, templates_digest
+from urdfsync.planning import inputs
 from urdfsync.planning.generate import Generated
 
 _SUFFIX = "Parameters"
@@ -36,11 +35,8 @@ def make(source: Path, domain_name: str, name: str, within: str, file: Path | No
     domain = registry.domain(domain_name)
     target = Target(_package(within), _class_name(source, name, file))
     options = domain.options()
-    reading = domain.read(_content(source), shown(source), options)
-    if reading.snapshot is None or any(found.severity is Severity.ERROR for found in reading.diagnostics):
-        raise SourceError(*reading.diagnostics)
-    reading = dataclasses.replace(reading, snapshot=plain(reading.snapshot))
-    return _render(domain, reading, shown(source), target)
+    snapshot, reading = inputs.read(domain, options, _content(source), shown(source))
+    return _render(domain, dataclasses.replace(reading, snapshot=snapshot), shown(source), target)
 
 
 def write(record: Record, file: Path, force: bool) -> bool:
@@ -56,7 +52,7 @@ def write(record: Record, file: Path, force: bool) -> bool:
         if found is not None and not force:
             message, hint = "the file exists, and holds something else", "name another one, or replace it with --force"
             raise _problem("file-exists", message, file, hint)
-        _replace(file.resolve(), record.text.encode())
+        put(file.resolve(), record.text.encode())
     except OSError as error:
         hint = "check that its folder exists and may be written to, and that there is space on the disk"
         raise _problem("output-not-writable", f"it can't be written: {error.strerror}", file, hint) from None
@@ -110,16 +106,6 @@ def _present(file: Path) -> bytes | None:
     if not file.is_file():
         raise _problem("output-in-the-way", f"{kind_of(mode)} is in its place", file, "name a file")
     return file.read_bytes()
-
-
-def _replace(file: Path, content: bytes) -> None:
-    temporary = file.with_name(f".{file.name}{TEMPORARY}")
-    try:
-        temporary.write_bytes(content)
-        temporary.replace(file)
-    finally:
-        with contextlib.suppress(OSError):  # what could not be made can't be removed
-            temporary.unlink(missing_ok=True)
 
 
 def _problem(code: str, message: str, file: Path, hint: str) -> UrdfsyncError:

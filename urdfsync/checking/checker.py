@@ -19,6 +19,7 @@ from urdfsync.checking.verdict import Verdict
 from urdfsync.checking.wishes import Wishes
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.planning.crew import cores
 from urdfsync.planning.situation import Progress
 
 _EXPECTED = 1.5e9
@@ -58,9 +59,8 @@ class _Crew:
 
     def __init__(self, config: Config, robots: Sequence[RobotConfig], wishes: Wishes, command: Sequence[str]) -> None:
         self._command = command
-        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-        self._most = min(wishes.jobs or cores, len(robots)) or 1
-        self._wishes = dataclasses.replace(wishes, workers=max(1, cores // self._most))
+        self._most = min(wishes.jobs or cores(), len(robots)) or 1
+        self._wishes = dataclasses.replace(wishes, workers=max(1, cores() // self._most))
         self._config, self._cache = config, Cache.of_user()
         self._budget = wishes.memory * 1e9 if wishes.memory else _SHARE * _free()
         self._order = [robot.name for robot in robots]

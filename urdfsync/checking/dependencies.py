@@ -8,7 +8,6 @@ from __future__ import annotations
 import dataclasses
 import functools
 import os
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
@@ -78,18 +77,13 @@ def fingerprint(robot: RobotConfig, texts: Iterable[bytes]) -> str:
     waiting = list(texts) if names else []
     while waiting:
         text = waiting.pop()
-        for name in [name for name in names if _has(text, name)]:
+        for name in [name for name in names if workspace.mentions(text, os.fsencode(name))]:
             names.discard(name)
             path = library.find(name, places)
             if path is not None:
                 lines.append(f"{name}\0{path}\0{library.state(path)}\n")
                 waiting += _texts(path).values() if names else ()
     return "".join(sorted(lines))
-
-
-def _has(text: bytes, name: str) -> bool:
-    word = name.encode(errors="surrogateescape")
-    return word in text and re.search(rb"\b" + re.escape(word) + rb"\b", text) is not None
 
 
 def _mentioned(path: Path) -> Mentioned:

@@ -57,8 +57,7 @@ def examine(
 def _files(subject: Subject) -> list[Diagnostic]:
     """What is wrong with the files of the package, and with those around it."""
     robot = subject.robot
-    around = workspace.surroundings(subject.config, robot, subject.texts)
-    files = {robot.output / path: content for path, content in around.items()}
+    files = {robot.output / path: content for path, content in subject.around.items()}
     odd = [_odd(path) for path in workspace.oddities(robot.folder)] if subject.built else []
     return [*layout.check(subject.package), *layout.check_around(files, shown), *odd]
 

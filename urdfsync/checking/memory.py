@@ -19,7 +19,7 @@ from urdfsync import __version__
 from urdfsync.checking import dependencies, library, workspace
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, UrdfsyncError
-from urdfsync.files import TEMPORARY, Tree, digest
+from urdfsync.files import Tree, digest, put
 from urdfsync.outcome import Checked
 
 _COMPILER = "rumoca"
@@ -72,18 +72,13 @@ class Memory:
     def keep(self, robot: RobotConfig, note: Note | None) -> None:
         """Remember a check, or forget the last one for None."""
         path = self._path(robot)
-        temporary = path.with_name(f".{robot.name}-{os.getpid()}{TEMPORARY}")
         with contextlib.suppress(UrdfsyncError, OSError):
             if not Tree(self._config.root).check_folder(path.parent):
                 path.parent.mkdir(parents=True, exist_ok=True)
             if note is None:
                 path.unlink(missing_ok=True)
                 return
-            try:
-                temporary.write_bytes(msgspec.json.encode(note))
-                temporary.replace(path)
-            finally:
-                temporary.unlink(missing_ok=True)
+            put(path, msgspec.json.encode(note))
 
     def _path(self, robot: RobotConfig) -> Path:
         return self._folder / f"{robot.name}.json"

@@ -53,6 +53,16 @@ class Subject:
         """The files of the package as it is generated, by their path below it."""
         return self.rendering.package(self.rendering.content)
 
+    def generated_from(self, content: bytes) -> Mapping[str, bytes]:
+        """The files of the package as it is generated from the source, or from an amended copy of it."""
+        same = content == self.rendering.content
+        return self.generated if same else self.rendering.package(content)
+
+    @functools.cached_property
+    def around(self) -> Mapping[str, bytes]:
+        """The files around the package, by their path below the output folder; see `workspace.surroundings`."""
+        return workspace.surroundings(self.config, self.robot, self.texts)
+
     @property
     def texts(self) -> Mapping[str, bytes]:
         """What is checked: the package on disk, or what would be generated if there is none."""

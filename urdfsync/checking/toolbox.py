@@ -121,15 +121,14 @@ class Toolbox:
         """Folders that the compiler reads, and those that people know instead."""
         robot, top = self.subject.robot, loaded.root
         known = {top: robot.output / top.name}
-        if self._standard and len(loaded.standard) == 1:
-            copied = Path(loaded.standard[0])
+        if self._standard:
+            copied = Path(*loaded.standard)
             known[copied / "Modelica"] = self._standard.modelica.path
             known[copied / "ModelicaServices"] = self._standard.services.path
         return known
 
     def _put(self, label: str, texts: Mapping[str, bytes]) -> Loaded:
-        robot = self.subject.robot
-        around = workspace.surroundings(self.subject.config, robot, texts)
+        robot, around = self.subject.robot, self.subject.around
         with writing(self._cache.folder):
             root = workspace.write(self._folder / label, robot, texts, around)
         every = [content.decode(errors="replace") for content in (*texts.values(), *around.values())]

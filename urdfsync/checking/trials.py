@@ -89,7 +89,7 @@ class Trials:
         experiment, content = self._experiment(complete=True), self._subject.rendering.content
         self._findings.note(notes=experiment.notes, reference=experiment.reference)
         self._findings.leave_out(*experiment.unchecked)
-        loaded = self._tools.load("generated", self._subject.rendering.package(experiment.content))
+        loaded = self._tools.load("generated", self._subject.generated_from(experiment.content))
         values = self._moved(experiment, loaded)
         self._findings.note(generated=Comparison(tuple(experiment.compare(values))))
         if experiment.content == content:

@@ -51,7 +51,7 @@ def surroundings(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
     waiting = [*texts.values(), *found.values()] if others else []
     while waiting:
         text = waiting.pop()
-        for folder in [folder for folder, name in others.items() if _mentions(text, name)]:
+        for folder in [folder for folder, name in others.items() if mentions(text, name)]:
             del others[folder]
             more = _read(robot.output, folder, frozenset(others))
             found |= more
@@ -143,8 +143,9 @@ def _name(other: RobotConfig) -> bytes:
     return other.target.package.rpartition(".")[2].encode()
 
 
-def _mentions(text: bytes, name: bytes) -> bool:
-    return name in text and re.search(rb"\b" + name + rb"\b", text) is not None
+def mentions(text: bytes, name: bytes) -> bool:
+    """Whether a name stands in a text as a word of its own."""
+    return name in text and re.search(rb"\b" + re.escape(name) + rb"\b", text) is not None
 
 
 def _parents(package: str) -> Iterator[str]:

@@ -68,7 +68,7 @@ class Crew:
     def _survey(self) -> None:
         """Find out which robots have to be read and rendered, and start with that if they are many."""
         self._surveyed = True
-        jobs = self._request.jobs or _cores()
+        jobs = self._request.jobs or cores()
         if jobs < 2 or len(self._robots) < _ENOUGH:
             return
         changed = []
@@ -156,6 +156,6 @@ def _join(folder: str) -> None:
     threading.Thread(target=follow, daemon=True).start()
 
 
-def _cores() -> int:
+def cores() -> int:
     """The cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
