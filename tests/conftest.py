@@ -139,6 +139,14 @@ def project(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     return folder
 
 
+@pytest.fixture(scope="session")
+def in_step(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A project with all that a decision may look at, built; tests work on copies of it."""
+    from support import stamps  # needs what only its tests import
+
+    return stamps.built(tmp_path_factory.mktemp("built") / "project")
+
+
 @pytest.fixture
 def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
     """A function that gives time of change and content of every file below a folder."""

@@ -19,15 +19,10 @@ pytestmark = [NEEDS_GIT, pytest.mark.skipif(not hasattr(os, "posix_spawnp"), rea
 MODEL = "modelica/Leg/Links/Tip.mo"
 
 
-@pytest.fixture(scope="module")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return stamps.built(tmp_path_factory.mktemp("built") / "project")
-
-
 @pytest.fixture
-def repository(built: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
+def repository(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
     """A project in step, all of it committed, with a stamp of the hook; the working folder."""
-    shutil.copytree(built, tmp_path / "project")
+    shutil.copytree(in_step, tmp_path / "project")
     found = Repository(tmp_path / "project", monkeypatch)
     Path(found.folder / "notes.txt").write_text("notes\n")
     found.commit()

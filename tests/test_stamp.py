@@ -31,16 +31,11 @@ URDF = "robots/leg.urdf"
 IN_STEP = "arm: in step, 18 files, 1 kept because you edited it\nleg: in step, 17 files, 1 kept because you edited it"
 
 
-@pytest.fixture(scope="module")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return stamps.built(tmp_path_factory.mktemp("built") / "project")
-
-
 @pytest.fixture
-def folder(built: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A project in step, which is the working folder; no command has left a stamp in it."""
     place = tmp_path / "project"
-    shutil.copytree(built, place)
+    shutil.copytree(in_step, place)
     (place / STAMP).unlink(missing_ok=True)
     stamps.program(tmp_path, monkeypatch)
     monkeypatch.chdir(place)
@@ -331,12 +326,12 @@ STEPS = st.lists(st.one_of(CHANGES, st.sampled_from([BUILD, CHECK, STATUS, "rest
 @settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(STEPS)
 def test_stamp_and_decision_agree(
-    built: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch, steps: list[object]
+    in_step: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch, steps: list[object]
 ) -> None:
     """About 15 s of CPU."""
     site = tmp_path_factory.mktemp("site")
     place = site / "project"
-    shutil.copytree(built, place)
+    shutil.copytree(in_step, place)
     first = {path: _state(place / path) for path in PATHS}
     with monkeypatch.context() as patch:
         patch.chdir(place)
