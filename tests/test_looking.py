@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support import stamps
 
 from urdfsync import cli, looking, registry
 
