@@ -22,7 +22,8 @@ from support.corpus import FOLDER
 
 import urdfsync
 from urdfsync import config, init
-from urdfsync.checking import checker, library
+from urdfsync.checking import checker
+from urdfsync.checking.libraries import library
 from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, Verdict
 from urdfsync.checking.wishes import Wishes
 from urdfsync.diagnostics import SourceError

@@ -12,8 +12,8 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
-from urdfsync.checking import library
-from urdfsync.checking.library import LibraryError
+from urdfsync.checking.libraries import library
+from urdfsync.checking.libraries.library import LibraryError
 
 REPOSITORY = Path(__file__).parents[1]
 RC_FOLDER = Path(__file__).parent / "rcnetwork"

@@ -20,7 +20,7 @@ from support import corpus, exact, generic, physics
 from support.corpus import REPOSITORY
 from support.modelica import Array, Outcome, Run, Task, compile_task, execute
 
-from urdfsync.checking import library
+from urdfsync.checking.libraries import library
 from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, Comparison
 from urdfsync.diagnostics import SourceError
 from urdfsync.urdf.model.tables import has_tables

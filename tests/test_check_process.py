@@ -60,7 +60,7 @@ def test_no_process_is_left_by_an_end_in_the_midst(arm: Path, number: signal.Sig
         deadline = time.monotonic() + 60
         while not compilers and time.monotonic() < deadline:
             children = process.children(recursive=True)
-            compilers = [child for child in children if any("checking.worker" in word for word in child.cmdline())]
+            compilers = [child for child in children if any("compilers.worker" in word for word in child.cmdline())]
             time.sleep(0.02)
         assert compilers
         time.sleep(0.5)  # until it is at work

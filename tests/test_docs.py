@@ -10,7 +10,7 @@ import pytest
 from urdfsync import cli
 from urdfsync.checking.cache import LIMIT
 from urdfsync.checking.edits import MANY
-from urdfsync.checking.library import NEXT, OLDEST, dotted
+from urdfsync.checking.libraries.library import NEXT, OLDEST, dotted
 from urdfsync.checking.verdict import TOLERANCE
 from urdfsync.checking.wishes import Wishes
 from urdfsync.domain import Target

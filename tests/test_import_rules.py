@@ -113,22 +113,30 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "checking/verdict": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "checking/words": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "checking/cache": (*(name for name in SHELL_MODULES if name != "urdfsync.state"), *HEAVY),
-    "checking/dependencies": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY, *EXTRAS),
-    "checking/compiler": ("pathlib", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS),
-    "checking/library": (*SHELL_MODULES, *HEAVY, *EXTRAS),
+    "checking/libraries/dependencies": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY, *EXTRAS),
+    "checking/compilers/compiler": ("pathlib", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS),
+    "checking/libraries/library": (*SHELL_MODULES, *HEAVY, *EXTRAS),
     "checking/process": ("urdfsync", *HEAVY),
-    "checking/references": ("urdfsync", "pathlib", *IO, *HEAVY, *EXTRAS),
-    "checking/slim": (*SHELL_MODULES, *HEAVY, *EXTRAS),
-    "checking/worker": (
+    "checking/libraries/references": ("urdfsync", "pathlib", *IO, *HEAVY, *EXTRAS),
+    "checking/libraries/slim": (*SHELL_MODULES, *HEAVY, *EXTRAS),
+    "checking/compilers/worker": (
         *SHELL_MODULES,
         *("jinja2", "rich", "lxml", "yourdfpy", "trimesh", "numpy", "collada", "deepdiff", "watchdog"),
     ),
     **{
-        f"checking/{name}": ("urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS)
+        f"checking/diagnosis/{name}": ("urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS)
         for name in ("package", "complaints", "mentions", "problems")
     },
-    "checking/layout": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *IO, *HEAVY, *EXTRAS),
-    "checking/omc": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY, *EXTRAS),
+    "checking/diagnosis/layout": (
+        "urdfsync.manifest",
+        "urdfsync.build",
+        "urdfsync.report",
+        "urdfsync.cli",
+        *IO,
+        *HEAVY,
+        *EXTRAS,
+    ),
+    "checking/compilers/omc": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY, *EXTRAS),
     "checking/memory": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "checking/afterbuild": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "watching/observer": ("rich", "urdfsync.build", "urdfsync.report", "urdfsync.views", "urdfsync.cli"),
@@ -175,10 +183,10 @@ LIGHT = (
     "commands/record",
     "checking/afterbuild",
     "checking/cache",
-    "checking/compiler",
-    "checking/dependencies",
+    "checking/compilers/compiler",
+    "checking/libraries/dependencies",
     "checking/memory",
-    "checking/slim",
+    "checking/libraries/slim",
 )
 """Modules on the way of a build that has nothing to do: no heavy library, not even through others."""
 
@@ -210,12 +218,12 @@ PURE = (
         "documents",
         "modelica",
         "literals",
-        "checking/references",
+        "checking/libraries/references",
         "checking/verdict",
         "checking/words",
         "watching/standing",
         "watching/words",
-        *(f"checking/{name}" for name in ("package", "layout", "complaints", "mentions", "problems")),
+        *(f"checking/diagnosis/{name}" for name in ("package", "layout", "complaints", "mentions", "problems")),
     ),
     *(name for name in MODULES if name in ("merge", "state/repair") or name.startswith(("urdf/", "merging/"))),
 )

@@ -15,8 +15,8 @@ import pytest
 from urdfsync import cli, config, looking
 from urdfsync.build import build
 from urdfsync.checking import afterbuild, memory
-from urdfsync.checking.compiler import CompilerError
-from urdfsync.checking.library import LibraryError
+from urdfsync.checking.compilers.compiler import CompilerError
+from urdfsync.checking.libraries.library import LibraryError
 from urdfsync.checking.verdict import Compiled, Verdict
 from urdfsync.commands import building
 from urdfsync.config import Config, RobotConfig

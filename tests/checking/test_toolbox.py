@@ -10,15 +10,15 @@ import pytest
 
 from urdfsync import config
 from urdfsync.build import build
-from urdfsync.checking import toolbox
+from urdfsync.checking import loading, toolbox
 from urdfsync.checking.cache import Cache, CacheError
-from urdfsync.checking.compiler import CompilerError
-from urdfsync.checking.library import LibraryError
+from urdfsync.checking.compilers.compiler import CompilerError, ignore
+from urdfsync.checking.compilers.tasks import Job, Outcome, Task
+from urdfsync.checking.libraries.library import LibraryError
+from urdfsync.checking.loading import Loader
 from urdfsync.checking.process import Limits
 from urdfsync.checking.subject import Subject
-from urdfsync.checking.tasks import Job, Outcome, Task
 from urdfsync.checking.toolbox import Toolbox
-from urdfsync.checking.wishes import Wishes
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.planning.situation import Request
 
@@ -43,7 +43,7 @@ class Compiler:
         self._meanwhile, self._faults = meanwhile, faults
         self._files: dict[tuple[str, ...], set[Path]] = {}
 
-    def compile(self, job: Job, limits: Limits, tell: Callable[[int, Outcome], None]) -> list[Outcome]:
+    def compile(self, job: Job, limits: Limits, tell: Callable[[int, Outcome], None] = ignore) -> list[Outcome]:
         self.jobs.append(job)
         whole = self._files.setdefault(job.roots, files(job.roots))
         for number, task in enumerate(job.tasks):
@@ -77,7 +77,7 @@ def bench(project: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture(autouse=True)
 def without_pauses(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(toolbox, "_PAUSE", 0.0)
+    monkeypatch.setattr(loading, "_PAUSE", 0.0)
 
 
 def put(name: str, text: str) -> None:
@@ -88,16 +88,14 @@ def put(name: str, text: str) -> None:
 def tools(cache: Path, compiler: Compiler | None = None) -> Toolbox:
     loaded = config.load(Path("urdfsync.toml").absolute())
     subject = Subject(loaded, loaded.robots[0], Request(dry=True))
-    made = Toolbox(subject, Wishes(), Limits(), Cache(cache), Cache(cache).workspace("ladder"))
-    if compiler is not None:
-        made._compiler = compiler  # type: ignore[assignment]
-    return made
+    loader = Loader(subject, Cache(cache), Cache(cache).workspace("ladder"))
+    return Toolbox(loader, compiler or toolbox.compiler("rumoca", Cache(cache)), Limits())
 
 
 def test_a_library_of_the_users_is_there_with_what_it_needs_of_the_standard_library(bench: Path) -> None:
     made = tools(bench)
-    plain = made.load("plain", {"package.mo": b"package Ladder end Ladder;"})
-    pumps = made.load("pumps", {"package.mo": b"package Ladder Pumps.Small p; end Ladder;"})
+    plain = made.loader.load("plain", {"package.mo": b"package Ladder end Ladder;"})
+    pumps = made.loader.load("pumps", {"package.mo": b"package Ladder Pumps.Small p; end Ladder;"})
     assert "Pumps" not in plain.libraries
     assert not Path(plain.standard[0], "Modelica/Electrical").exists()
     assert pumps.libraries["Pumps"] == Path("path/Pumps").absolute()
@@ -113,7 +111,7 @@ def test_a_broken_standard_library_is_a_clear_error(bench: Path) -> None:
 def test_tasks_import_the_libraries(bench: Path) -> None:
     compiler = Compiler()
     made = tools(bench, compiler)
-    loaded = made.load("pumps", {"package.mo": b"package Ladder Pumps.Small p; end Ladder;"})
+    loaded = made.loader.load("pumps", {"package.mo": b"package Ladder Pumps.Small p; end Ladder;"})
     assert made.run(loaded, TASKS[:1]) == [RIGHT]
     assert "  import Pumps;\n" in compiler.jobs[0].tasks[0].source
 
@@ -133,7 +131,7 @@ def test_a_cache_that_is_emptied_meanwhile_is_no_fault_of_the_package(what: str,
     compiler.crashes = crashes
     made = tools(bench, compiler)
     told: list[tuple[int, Outcome]] = []
-    loaded = made.load("disk", made.subject.texts)
+    loaded = made.loader.load("disk", made.loader.subject.texts)
     assert made.run(loaded, TASKS, lambda *news: told.append(news)) == [RIGHT] * 3
     assert told == list(enumerate([RIGHT] * 3))
     assert [len(job.tasks) for job in compiler.jobs] == [3, 2]
@@ -142,7 +140,7 @@ def test_a_cache_that_is_emptied_meanwhile_is_no_fault_of_the_package(what: str,
 def test_one_that_is_emptied_all_the_time_is_a_clear_error(bench: Path) -> None:
     made = tools(bench, Compiler(lambda _: shutil.rmtree(bench / "work")))
     with pytest.raises(CacheError) as caught:
-        made.run(made.load("disk", made.subject.texts), TASKS)
+        made.run(made.loader.load("disk", made.loader.subject.texts), TASKS)
     (found,) = caught.value.diagnostics
     assert (found.code, found.file) == ("cache-emptied", str(bench))
     assert found.hint
@@ -151,7 +149,7 @@ def test_one_that_is_emptied_all_the_time_is_a_clear_error(bench: Path) -> None:
 def test_a_problem_with_everything_in_place_is_one_of_the_package(bench: Path) -> None:
     compiler = Compiler(lambda _: None, "Two")
     made = tools(bench, compiler)
-    assert made.run(made.load("disk", made.subject.texts), TASKS) == [RIGHT, WRONG, RIGHT]
+    assert made.run(made.loader.load("disk", made.loader.subject.texts), TASKS) == [RIGHT, WRONG, RIGHT]
     assert len(compiler.jobs) == 1
 
 
@@ -162,7 +160,7 @@ def test_a_library_that_the_user_takes_away_meanwhile_is_missed(bench: Path) -> 
 
     compiler = Compiler(take_away, "Two")
     made = tools(bench, compiler)
-    loaded = made.load("pumps", {"package.mo": b"package Ladder Pumps.Small p; end Ladder;"})
+    loaded = made.loader.load("pumps", {"package.mo": b"package Ladder Pumps.Small p; end Ladder;"})
     assert made.run(loaded, TASKS) == [RIGHT, WRONG, RIGHT]
     assert not any("Pumps" in root for root in compiler.jobs[1].roots)
 
@@ -170,7 +168,7 @@ def test_a_library_that_the_user_takes_away_meanwhile_is_missed(bench: Path) -> 
 def test_two_checks_of_a_robot_have_a_folder_each_which_clearing_spares(bench: Path) -> None:
     loaded, cache = config.load(Path("urdfsync.toml").absolute()), Cache(bench)
     robot = loaded.robots[0]
-    with toolbox.bench(cache, loaded, robot) as first, toolbox.bench(cache, loaded, robot) as second:
+    with loading.bench(cache, loaded, robot) as first, loading.bench(cache, loaded, robot) as second:
         assert first != second
         (first / "file").touch()
         (second / "file").touch()
@@ -178,5 +176,5 @@ def test_two_checks_of_a_robot_have_a_folder_each_which_clearing_spares(bench: P
         assert (first / "file").exists()
         assert (second / "file").exists()
     assert not second.exists()
-    with toolbox.bench(cache, loaded, robot) as again:
+    with loading.bench(cache, loaded, robot) as again:
         assert again == first

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from support.corpus import REPOSITORY
-from urdfsync.checking.package import Package
+from urdfsync.checking.diagnosis.package import Package
 from urdfsync.checking.workspace import package_texts
 
 FOLDER = REPOSITORY / "modelica" / "UrdfSync" / "Examples" / "SixAxisArm"

@@ -10,7 +10,7 @@ from pathlib import Path
 from unittest import mock
 
 from support.modelica import CACHE, URDFSYNC, Task, standard
-from urdfsync.checking import compiler, tasks, worker
+from urdfsync.checking.compilers import compiler, tasks, worker
 from urdfsync.checking.process import Limits
 
 TOLERANCE = 1e-9

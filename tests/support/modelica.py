@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from support.corpus import REPOSITORY
-from urdfsync.checking import library as libraries
-from urdfsync.checking import slim, tasks
 from urdfsync.checking.cache import Cache
-from urdfsync.checking.compiler import CompilerError, Rumoca
+from urdfsync.checking.compilers import tasks
+from urdfsync.checking.compilers.compiler import CompilerError, Rumoca
+from urdfsync.checking.libraries import library as libraries
+from urdfsync.checking.libraries import slim
 from urdfsync.checking.process import Limits
 
 Array = NDArray[np.float64]

@@ -31,7 +31,7 @@ def on_disk(config: Config, robots: Sequence[RobotConfig], request: Request, tel
 
     Raises CompilerError if what this needs is not installed.
     """
-    from urdfsync.checking import compiler
+    from urdfsync.checking.compilers import compiler
 
     compiler.require()  # before anything is imported that comes with it
     from urdfsync.checking import checker

@@ -12,8 +12,9 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.checking import child, compiler, process
+from urdfsync.checking import child, process
 from urdfsync.checking.cache import Cache
+from urdfsync.checking.compilers import compiler
 from urdfsync.checking.process import Ending, Limits
 from urdfsync.checking.verdict import Verdict
 from urdfsync.checking.wishes import Wishes

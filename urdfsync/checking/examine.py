@@ -10,14 +10,16 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from urdfsync.checking import layout, problems, toolbox, workspace
+from urdfsync.checking import loading, toolbox, workspace
 from urdfsync.checking.cache import Cache
+from urdfsync.checking.compilers.tasks import Outcome, Task, compiling
+from urdfsync.checking.diagnosis import layout, problems
+from urdfsync.checking.diagnosis.problems import Case
 from urdfsync.checking.findings import Findings
-from urdfsync.checking.problems import Case
+from urdfsync.checking.loading import Loaded, Loader
 from urdfsync.checking.process import Limits
 from urdfsync.checking.subject import Subject
-from urdfsync.checking.tasks import Outcome, Task, compiling
-from urdfsync.checking.toolbox import Loaded, Toolbox
+from urdfsync.checking.toolbox import Toolbox
 from urdfsync.checking.trials import Trials
 from urdfsync.checking.verdict import Compiled, Verdict
 from urdfsync.checking.wishes import Wishes
@@ -48,8 +50,8 @@ def examine(
             findings.miss("nothing was compiled, since the files are not in order")
         else:
             cache = Cache.of_user()
-            with toolbox.bench(cache, config, robot) as folder:
-                tools = Toolbox(subject, wishes, limits, cache, folder)
+            with loading.bench(cache, config, robot) as folder:
+                tools = Toolbox(Loader(subject, cache, folder), toolbox.compiler(wishes.tool, cache), limits)
                 _Stages(subject, tools, findings, wishes, tell).run()
     return findings.verdict
 
@@ -88,8 +90,8 @@ class _Stages:
 
     def run(self) -> None:
         """Compile, and compare if that is wanted."""
-        if self._tools.missing is not None:
-            self._without_library(self._tools.missing)
+        if self._tools.loader.missing is not None:
+            self._without_library(self._tools.loader.missing)
             return
         trials = self._trials()
         models = list(self._subject.models)
@@ -124,7 +126,7 @@ class _Stages:
 
     @functools.cached_property
     def _loaded(self) -> Loaded:
-        return self._tools.load("package", self._subject.texts)
+        return self._tools.loader.load("package", self._subject.texts)
 
     def _compilations(self, models: Sequence[str]) -> list[Callable[[], None]]:
         """The models by themselves, in as many processes as may work."""
@@ -167,7 +169,9 @@ class _Stages:
 
     def _explained(self, text: str, loaded: Loaded, model: str) -> Sequence[Diagnostic]:
         said = self._findings.verdict.diagnostics
-        return problems.explain(text, Case(self._subject.package, self._tools.folders(loaded), said, model=model))
+        return problems.explain(
+            text, Case(self._subject.package, self._tools.loader.folders(loaded), said, model=model)
+        )
 
     def _progress(self, what: str) -> None:
         self._tell(f"{self._subject.robot.name}: {what}", 0, 0)

@@ -16,7 +16,8 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import __version__
-from urdfsync.checking import dependencies, library, workspace
+from urdfsync.checking import workspace
+from urdfsync.checking.libraries import dependencies, library
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.files import Tree, digest, put

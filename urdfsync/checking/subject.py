@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from urdfsync import records
 from urdfsync.build import build
 from urdfsync.checking import edits, workspace
-from urdfsync.checking.package import Package
+from urdfsync.checking.diagnosis.package import Package
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.domain import Domain

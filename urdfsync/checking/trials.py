@@ -5,13 +5,15 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Mapping
 
-from urdfsync.checking import edits, problems
+from urdfsync.checking import edits
+from urdfsync.checking.compilers.tasks import Simulation, Task
+from urdfsync.checking.diagnosis import problems
+from urdfsync.checking.diagnosis.problems import Case
 from urdfsync.checking.edits import Values
 from urdfsync.checking.findings import Findings
-from urdfsync.checking.problems import Case
+from urdfsync.checking.loading import Loaded
 from urdfsync.checking.subject import Subject
-from urdfsync.checking.tasks import Simulation, Task
-from urdfsync.checking.toolbox import Loaded, Toolbox
+from urdfsync.checking.toolbox import Toolbox
 from urdfsync.checking.verdict import Comparison, Compiled, Effect
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
@@ -89,7 +91,7 @@ class Trials:
         experiment, content = self._experiment(complete=True), self._subject.rendering.content
         self._findings.note(notes=experiment.notes, reference=experiment.reference)
         self._findings.leave_out(*experiment.unchecked)
-        loaded = self._tools.load("generated", self._subject.generated_from(experiment.content))
+        loaded = self._tools.loader.load("generated", self._subject.generated_from(experiment.content))
         values = self._moved(experiment, loaded)
         self._findings.note(generated=Comparison(tuple(experiment.compare(values))))
         if experiment.content == content:
@@ -109,14 +111,14 @@ class Trials:
 
     def _move_baseline(self) -> None:
         self._progress("moving what is generated, as it is")
-        self._baseline = self._moved(self._plain, self._tools.load("baseline", self._subject.generated))
+        self._baseline = self._moved(self._plain, self._tools.loader.load("baseline", self._subject.generated))
 
     def _move_variant(self, file: str, texts: Mapping[str, bytes]) -> None:
         """The package with one edit alone, if that works at all."""
         self._progress(f"moving the package with {file}")
         label = f"with-{file.replace('/', '-').removesuffix('.mo')}"
         try:
-            self._single[file] = self._moved(self._plain, self._tools.load(label, texts))
+            self._single[file] = self._moved(self._plain, self._tools.loader.load(label, texts))
         except NotMovedError:
             return  # the edit needs another one: it is told together with it
 
@@ -133,7 +135,7 @@ class Trials:
         (outcome,) = self._tools.run(loaded, [task])
         self._findings.used(outcome.megabytes)
         if outcome.problem:
-            case = Case(self._subject.package, self._tools.folders(loaded), model="the comparison")
+            case = Case(self._subject.package, self._tools.loader.folders(loaded), model="the comparison")
             raise NotMovedError(*problems.explain(outcome.problem, case))  # at least one: nothing is said yet
         (series,) = outcome.runs
         if series.problem:

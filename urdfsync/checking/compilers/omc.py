@@ -15,13 +15,13 @@ import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from urdfsync.checking.compiler import Tool, ask, ignore, missing
+from urdfsync.checking.compilers.compiler import Tool, ask, ignore, missing
+from urdfsync.checking.compilers.tasks import Job, Outcome, Series, Task
 from urdfsync.checking.process import Limits
-from urdfsync.checking.tasks import Job, Outcome, Series, Task
 
 OMC = Tool(
     "OpenModelica",
-    "urdfsync.checking.omc_worker",
+    "urdfsync.checking.compilers.omc_worker",
     "install OpenModelica and `pip install 'urdfsync[check,omc]'`, or check without `--tool omc`",
     "check without `--tool omc`, and report it to the authors of OpenModelica",
 )

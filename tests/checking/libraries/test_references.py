@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.checking import references
+from urdfsync.checking.libraries import references
 
 LIBRARY = {
     "L": "package L end L;",

@@ -13,10 +13,10 @@ from typing import Any, TypeAlias
 
 import msgspec
 
-from urdfsync.checking import omc
-from urdfsync.checking.compiler import MISSING
+from urdfsync.checking.compilers import omc
+from urdfsync.checking.compilers.compiler import MISSING
+from urdfsync.checking.compilers.tasks import Job, Outcome, Task
 from urdfsync.checking.process import end_with_parent
-from urdfsync.checking.tasks import Job, Outcome, Task
 
 Ask: TypeAlias = Callable[[str], str]
 """Sends an expression to `omc`, and returns its answer as it comes."""

@@ -14,12 +14,13 @@ from hypothesis import strategies as st
 from support import fake_omc
 from support.modelica import URDFSYNC
 
-from urdfsync.checking import omc, omc_worker, process
-from urdfsync.checking.compiler import CompilerError
-from urdfsync.checking.complaints import Kind, complaints
-from urdfsync.checking.omc import NOT_SIMULATED, OpenModelica
+from urdfsync.checking import process
+from urdfsync.checking.compilers import omc, omc_worker
+from urdfsync.checking.compilers.compiler import CompilerError
+from urdfsync.checking.compilers.omc import NOT_SIMULATED, OpenModelica
+from urdfsync.checking.compilers.tasks import Job, Outcome, Simulation, Task, compiling
+from urdfsync.checking.diagnosis.complaints import Kind, complaints
 from urdfsync.checking.process import Limits
-from urdfsync.checking.tasks import Job, Outcome, Simulation, Task, compiling
 
 TASK = Task("Probe_", 'model Probe_ "a \\ b"\nend Probe_;\n')
 BALANCED = '"Check of Probe_ completed successfully.\nClass Probe_ has 4 equation(s) and 4 variable(s).\n1 of these."\n'

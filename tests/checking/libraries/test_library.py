@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.checking import library
-from urdfsync.checking.library import LibraryError
+from urdfsync.checking.libraries import library
+from urdfsync.checking.libraries.library import LibraryError
 
 PACKAGE = 'package %s\n  annotation (\n    uses(Complex(version="9.9")),\n    version="%s");\nend %s;\n'
 
@@ -85,7 +85,7 @@ def test_a_later_generation_is_the_last_resort(tmp_path: Path) -> None:
 
 
 def test_there_may_be_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("urdfsync.checking.library._OPENMODELICA", ())
+    monkeypatch.setattr("urdfsync.checking.libraries.library._OPENMODELICA", ())
     assert code(lambda: library.standard({}, tmp_path)) == "no-standard-library"
     put(tmp_path / "lone", "Modelica 4.1.0")
     assert code(lambda: library.standard({"MODELICAPATH": str(tmp_path / "lone")}, tmp_path)) == "no-standard-library"
@@ -93,7 +93,7 @@ def test_there_may_be_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 @pytest.mark.parametrize("version", ["4.0.0", "3.2.3", "4.0.0+maint.om"])
 def test_one_that_is_too_old_is_named(version: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("urdfsync.checking.library._OPENMODELICA", ())
+    monkeypatch.setattr("urdfsync.checking.libraries.library._OPENMODELICA", ())
     environment = {"MODELICAPATH": str(whole(tmp_path, version))}
     with pytest.raises(
         LibraryError, match=rf"is {version.partition('+')[0]}; the compiler takes 4\.1 and newer"

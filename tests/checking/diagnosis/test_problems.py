@@ -13,10 +13,10 @@ from support import arm
 from support.arm import ELBOW
 from support.modelica import compile_task, execute
 
-from urdfsync.checking import layout, problems
-from urdfsync.checking.complaints import complaints
-from urdfsync.checking.package import Package
-from urdfsync.checking.problems import Case
+from urdfsync.checking.diagnosis import layout, problems
+from urdfsync.checking.diagnosis.complaints import complaints
+from urdfsync.checking.diagnosis.package import Package
+from urdfsync.checking.diagnosis.problems import Case
 from urdfsync.diagnostics import Diagnostic, Severity
 
 COPY = "/cache/workspaces/7a/SixAxisArm"

@@ -10,8 +10,8 @@ import pytest
 from support import arm, corpus, packages
 from support.arm import ELBOW
 
-from urdfsync.checking import layout
-from urdfsync.checking.package import Package
+from urdfsync.checking.diagnosis import layout
+from urdfsync.checking.diagnosis.package import Package
 from urdfsync.checking.workspace import package_texts
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import Target

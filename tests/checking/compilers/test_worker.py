@@ -13,10 +13,11 @@ import msgspec
 import numpy as np
 import pytest
 
-from urdfsync.checking import process, worker
-from urdfsync.checking.compiler import MISSING
+from urdfsync.checking import process
+from urdfsync.checking.compilers import worker
+from urdfsync.checking.compilers.compiler import MISSING
+from urdfsync.checking.compilers.tasks import Job, Outcome, Series, Simulation, Task
 from urdfsync.checking.process import Ending, Result
-from urdfsync.checking.tasks import Job, Outcome, Series, Simulation, Task
 
 DECAY = """
 model M
@@ -42,7 +43,7 @@ def work(*tasks: Task, roots: tuple[str, ...] = (), **environment: str) -> tuple
     """What comes of tasks, and of the process."""
     lines: list[str] = []
     text = msgspec.json.encode(Job(roots, tasks)).decode() + "\n"
-    command = process.python("urdfsync.checking.worker")
+    command = process.python("urdfsync.checking.compilers.worker")
     result = process.run(command, text, lines.append, environment=process.importable() | environment)
     return result, [msgspec.json.decode(line, type=Outcome) for line in lines]
 
@@ -130,7 +131,7 @@ def test_a_series_holds_numbers_only() -> None:
 
 def test_what_native_code_prints_is_no_answer() -> None:
     program = (
-        "import os, sys; from urdfsync.checking import worker; answers = worker._reserve_stdout(); "
+        "import os, sys; from urdfsync.checking.compilers import worker; answers = worker._reserve_stdout(); "
         "os.write(1, b'noise'); answers.write(b'answer'); answers.flush()"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.checking import library, references
 from urdfsync.checking.cache import Cache, CacheError
-from urdfsync.checking.library import LibraryError, StandardLibrary
-from urdfsync.checking.slim import Copies
+from urdfsync.checking.libraries import library, references
+from urdfsync.checking.libraries.library import LibraryError, StandardLibrary
+from urdfsync.checking.libraries.slim import Copies
 
 FILES = {
     "Modelica 4.1.0/package.mo": 'package Modelica annotation(version = "4.1.0"); end Modelica;',

@@ -15,9 +15,9 @@ from typing import IO, TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.checking.compiler import MISSING
+from urdfsync.checking.compilers.compiler import MISSING
+from urdfsync.checking.compilers.tasks import Job, Outcome, Series, Simulation, Task
 from urdfsync.checking.process import end_with_parent
-from urdfsync.checking.tasks import Job, Outcome, Series, Simulation, Task
 
 if TYPE_CHECKING:
     import rumoca

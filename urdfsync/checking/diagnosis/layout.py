@@ -15,7 +15,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
-from urdfsync.checking.package import Package, holds_class
+from urdfsync.checking.diagnosis.package import Package, holds_class
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import normalised
 from urdfsync.merging.grammar import Declared, Outline, outline

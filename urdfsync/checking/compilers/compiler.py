@@ -11,8 +11,8 @@ import msgspec
 
 from urdfsync.checking import process
 from urdfsync.checking.cache import Cache
+from urdfsync.checking.compilers.tasks import Job, Outcome
 from urdfsync.checking.process import Ending, Limits, Result
-from urdfsync.checking.tasks import Job, Outcome
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 
 MISSING = 3
@@ -61,7 +61,7 @@ class Tool:
     """What to do if it breaks down."""
 
 
-RUMOCA = Tool("the compiler", "urdfsync.checking.worker", _INSTALL, "report it to the authors of rumoca")
+RUMOCA = Tool("the compiler", "urdfsync.checking.compilers.worker", _INSTALL, "report it to the authors of rumoca")
 
 
 def ask(
@@ -91,7 +91,7 @@ def missing(tool: Tool, reason: str) -> CompilerError:
 def require(tool: str = "rumoca") -> None:
     """Raise CompilerError, with what to install, if anything is missing that a check with `tool` (or `omc`) needs."""
     if tool == "omc":
-        from urdfsync.checking import omc
+        from urdfsync.checking.compilers import omc
 
         omc.require()
         return

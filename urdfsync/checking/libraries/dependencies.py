@@ -12,7 +12,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync import modelica
-from urdfsync.checking import library, references, workspace
+from urdfsync.checking import workspace
+from urdfsync.checking.libraries import library, references
 from urdfsync.config import RobotConfig
 
 _KNOWN = frozenset((*library.PARTS, modelica.LIBRARY))

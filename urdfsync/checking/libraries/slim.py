@@ -15,9 +15,9 @@ import tempfile
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 
-from urdfsync.checking import references
 from urdfsync.checking.cache import Cache, writing
-from urdfsync.checking.library import PARTS, StandardLibrary, broken, state
+from urdfsync.checking.libraries import references
+from urdfsync.checking.libraries.library import PARTS, StandardLibrary, broken, state
 
 REVISION = 1
 """Counts up when other parts are copied."""

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.checking.dependencies import Dependencies
+from urdfsync.checking.libraries.dependencies import Dependencies
 from urdfsync.diagnostics import OutputError
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.checking.package import Package
+from urdfsync.checking.diagnosis.package import Package
 
 
 def package(**texts: str) -> Package:

@@ -7,7 +7,7 @@ import functools
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from urdfsync.checking.package import Package
+from urdfsync.checking.diagnosis.package import Package
 from urdfsync.merging.grammar import Declared, outline
 from urdfsync.merging.reading import Reader, Token, is_identifier
 

@@ -12,9 +12,9 @@ import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
-from urdfsync.checking.complaints import UNRESOLVED, Complaint, Kind, complaints
-from urdfsync.checking.mentions import Mention, Mentions
-from urdfsync.checking.package import Package
+from urdfsync.checking.diagnosis.complaints import UNRESOLVED, Complaint, Kind, complaints
+from urdfsync.checking.diagnosis.mentions import Mention, Mentions
+from urdfsync.checking.diagnosis.package import Package
 from urdfsync.diagnostics import Diagnostic, Severity
 
 _MOST = 5

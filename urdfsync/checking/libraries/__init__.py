@@ -1,0 +1,1 @@
+"""The Modelica libraries that a package needs: where they are, and which part of them."""
