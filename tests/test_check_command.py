@@ -143,7 +143,7 @@ def test_a_limit_that_is_no_number_is_named(checker: Checker, capsys: Capture, o
 
 
 def test_emptying_the_cache_takes_no_compiler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    monkeypatch.setattr("urdfsync.checking.compilers.compiler._NEEDED", ("not_installed_anywhere",))
+    monkeypatch.setattr("urdfsync.checking.compilers.rumoca._NEEDED", ("not_installed_anywhere",))
     monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path)
     assert cli.main(["check", "--clear-cache"]) == 0
     assert capsys.readouterr().out == "the cache was empty\n"

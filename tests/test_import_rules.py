@@ -114,7 +114,10 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "checking/words": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "checking/cache": (*(name for name in SHELL_MODULES if name != "urdfsync.state"), *HEAVY),
     "checking/libraries/dependencies": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY, *EXTRAS),
-    "checking/compilers/compiler": ("pathlib", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS),
+    **{
+        f"checking/compilers/{name}": ("pathlib", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS)
+        for name in ("compiler", "rumoca")
+    },
     "checking/libraries/library": (*SHELL_MODULES, *HEAVY, *EXTRAS),
     "checking/process": ("urdfsync", *HEAVY),
     "checking/libraries/references": ("urdfsync", "pathlib", *IO, *HEAVY, *EXTRAS),
@@ -183,7 +186,7 @@ LIGHT = (
     "commands/record",
     "checking/afterbuild",
     "checking/cache",
-    "checking/compilers/compiler",
+    *(f"checking/compilers/{name}" for name in ("choice", "compiler", "rumoca")),
     "checking/libraries/dependencies",
     "checking/memory",
     "checking/libraries/slim",

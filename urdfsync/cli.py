@@ -9,7 +9,7 @@ from urdfsync import __version__, streams
 from urdfsync.commands import build, check, common, diff, hook, init, library, record, resolve, status, watch
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit
-from urdfsync.report import Report
+from urdfsync.report import Report, unwritten
 from urdfsync.stamping import making
 
 _COMMANDS = (init, build, diff, status, watch, check, resolve, record, hook, library)
@@ -26,13 +26,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return unwritten(output) if output.trouble else code
 
     return making.carry_out(given, run)
-
-
-def unwritten(output: streams.Stream) -> int:
-    """Say that not all of the output could be written; returns the exit code."""
-    found = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {output.trouble}")
-    Report().problems("", [found])
-    return Exit.ERROR
 
 
 def _main(arguments: list[str]) -> int:

@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfsync import documents, wording
+from urdfsync import documents, streams, wording
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.documents import VERSION
 from urdfsync.outcome import Checked, Exit, Result
@@ -286,3 +286,10 @@ class Report:
             self._bar[0].stop()
             self._bar = None
         self._begin = time.monotonic()
+
+
+def unwritten(output: streams.Stream) -> int:
+    """Say that not all of the output could be written; returns the exit code."""
+    found = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {output.trouble}")
+    Report().problems("", [found])
+    return Exit.ERROR

@@ -10,8 +10,9 @@ import pytest
 
 from urdfsync import config
 from urdfsync.build import build
-from urdfsync.checking import loading, toolbox
+from urdfsync.checking import loading
 from urdfsync.checking.cache import Cache, CacheError
+from urdfsync.checking.compilers import choice
 from urdfsync.checking.compilers.compiler import CompilerError, ignore
 from urdfsync.checking.compilers.tasks import Job, Outcome, Task
 from urdfsync.checking.libraries.library import LibraryError
@@ -89,7 +90,7 @@ def tools(cache: Path, compiler: Compiler | None = None) -> Toolbox:
     loaded = config.load(Path("urdfsync.toml").absolute())
     subject = Subject(loaded, loaded.robots[0], Request(dry=True))
     loader = Loader(subject, Cache(cache), Cache(cache).workspace("ladder"))
-    return Toolbox(loader, compiler or toolbox.compiler("rumoca", Cache(cache)), Limits())
+    return Toolbox(loader, compiler or choice.compiler("rumoca", Cache(cache)), Limits())
 
 
 def test_a_library_of_the_users_is_there_with_what_it_needs_of_the_standard_library(bench: Path) -> None:

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from support.corpus import REPOSITORY
 from urdfsync.checking.cache import Cache
 from urdfsync.checking.compilers import tasks
-from urdfsync.checking.compilers.compiler import CompilerError, Rumoca
+from urdfsync.checking.compilers.compiler import CompilerError
+from urdfsync.checking.compilers.rumoca import Rumoca
 from urdfsync.checking.libraries import library as libraries
 from urdfsync.checking.libraries import slim
 from urdfsync.checking.process import Limits

@@ -31,9 +31,9 @@ def on_disk(config: Config, robots: Sequence[RobotConfig], request: Request, tel
 
     Raises CompilerError if what this needs is not installed.
     """
-    from urdfsync.checking.compilers import compiler
+    from urdfsync.checking.compilers import rumoca
 
-    compiler.require()  # before anything is imported that comes with it
+    rumoca.require()  # before anything is imported that comes with it
     from urdfsync.checking import checker
     from urdfsync.checking.wishes import Wishes
 

@@ -14,7 +14,7 @@ import msgspec
 
 from urdfsync.checking import child, process
 from urdfsync.checking.cache import Cache
-from urdfsync.checking.compilers import compiler
+from urdfsync.checking.compilers import choice
 from urdfsync.checking.process import Ending, Limits
 from urdfsync.checking.verdict import Verdict
 from urdfsync.checking.wishes import Wishes
@@ -47,7 +47,7 @@ def check(
     `command` starts the process for one robot. Raises CompilerError if what a check needs is not installed,
     CacheError if there is no place for its cache.
     """
-    compiler.require(wishes.tool)
+    choice.require(wishes.tool)
     crew = _Crew(config, robots, wishes, command)
     try:
         yield from crew.verdicts(progress)

@@ -10,8 +10,9 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from urdfsync.checking import loading, toolbox, workspace
+from urdfsync.checking import loading, workspace
 from urdfsync.checking.cache import Cache
+from urdfsync.checking.compilers import choice
 from urdfsync.checking.compilers.tasks import Outcome, Task, compiling
 from urdfsync.checking.diagnosis import layout, problems
 from urdfsync.checking.diagnosis.problems import Case
@@ -51,7 +52,7 @@ def examine(
         else:
             cache = Cache.of_user()
             with loading.bench(cache, config, robot) as folder:
-                tools = Toolbox(Loader(subject, cache, folder), toolbox.compiler(wishes.tool, cache), limits)
+                tools = Toolbox(Loader(subject, cache, folder), choice.compiler(wishes.tool, cache), limits)
                 _Stages(subject, tools, findings, wishes, tell).run()
     return findings.verdict
 

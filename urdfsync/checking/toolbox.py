@@ -6,8 +6,7 @@ from collections.abc import Callable, Sequence
 
 import msgspec
 
-from urdfsync.checking.cache import Cache
-from urdfsync.checking.compilers.compiler import Compiler, CompilerError, Rumoca, ignore
+from urdfsync.checking.compilers.compiler import Compiler, CompilerError, ignore
 from urdfsync.checking.compilers.tasks import Job, Outcome, Task
 from urdfsync.checking.loading import ATTEMPTS, Loaded, Loader
 from urdfsync.checking.process import Limits
@@ -50,15 +49,6 @@ class Toolbox:
 
 class _EmptiedError(Exception):
     """A problem is due to what is not there any more."""
-
-
-def compiler(tool: str, cache: Cache) -> Compiler:
-    """The compiler of this name: `rumoca` or `omc`."""
-    if tool == "omc":
-        from urdfsync.checking.compilers.omc import OpenModelica
-
-        return OpenModelica()
-    return Rumoca(cache)
 
 
 def _is_problem(outcome: Outcome) -> bool:

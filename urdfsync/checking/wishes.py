@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypeAlias
+
+Tool: TypeAlias = Literal["rumoca", "omc"]
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -15,7 +17,7 @@ class Wishes:
     """Whether poses, efforts and masses are compared with the domain's reference."""
     strict: bool = False
     """Whether a difference that comes from an edit counts as one."""
-    tool: Literal["rumoca", "omc"] = "rumoca"
+    tool: Tool = "rumoca"
     """The compiler."""
     jobs: int | None = None
     """How many robots may be checked at the same time; None for what cores and memory allow."""

@@ -202,9 +202,9 @@ def repeat(arguments: list[str]) -> int | None:
         for name, text in zip(said[::2], said[1::2], strict=True):
             (output if name == streams.OUTPUT else sys.stderr).write(text)
         if output.trouble:
-            from urdfsync import cli
+            from urdfsync import report
 
-            return cli.unwritten(output)
+            return report.unwritten(output)
     return 0
 
 

@@ -10,7 +10,9 @@ from pathlib import Path
 import pytest
 
 from urdfsync.checking.cache import Cache
-from urdfsync.checking.compilers.compiler import MISSING, Compiler, CompilerError, Rumoca, require
+from urdfsync.checking.compilers.choice import require
+from urdfsync.checking.compilers.compiler import MISSING, Compiler, CompilerError
+from urdfsync.checking.compilers.rumoca import Rumoca
 from urdfsync.checking.compilers.tasks import Job, Outcome, Simulation, Task, compiling
 from urdfsync.checking.libraries import library, references, slim
 from urdfsync.checking.process import UNLIMITED, Limits
@@ -138,7 +140,7 @@ def test_the_parent_imports_nothing_native(rumoca: Compiler, tmp_path: Path) -> 
 
     program = (
         "import sys; from pathlib import Path; from urdfsync.checking.cache import Cache; "
-        "from urdfsync.checking.compilers.compiler import *; from urdfsync.checking.compilers.tasks import *; "
+        "from urdfsync.checking.compilers.rumoca import *; from urdfsync.checking.compilers.tasks import *; "
         f"Rumoca(Cache(Path({str(tmp_path)!r}))).compile(Job((), (Task('M', 'model M end M;'),)), Limits()); "
         "print(sorted(sys.modules.keys() & {'rumoca', 'numpy', 'pinocchio', 'lxml'}))"
     )

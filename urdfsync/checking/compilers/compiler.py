@@ -1,16 +1,14 @@
-"""A Modelica compiler as the check sees it, and the embedded one: rumoca, in a process of its own."""
+"""A Modelica compiler as the check sees it: it works in a process of its own, and whatever ends that is explained."""
 
 from __future__ import annotations
 
 import dataclasses
-import importlib.util
 from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
 import msgspec
 
 from urdfsync.checking import process
-from urdfsync.checking.cache import Cache
 from urdfsync.checking.compilers.tasks import Job, Outcome
 from urdfsync.checking.process import Ending, Limits, Result
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
@@ -18,8 +16,6 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 MISSING = 3
 """The exit code of a worker without a compiler; the last line that it writes to stderr says why there is none."""
 
-_INSTALL = "pip install 'urdfsync[check]'"
-_NEEDED = ("rumoca", "psutil", "platformdirs")
 _KILLED = 9
 
 
@@ -61,9 +57,6 @@ class Tool:
     """What to do if it breaks down."""
 
 
-RUMOCA = Tool("the compiler", "urdfsync.checking.compilers.worker", _INSTALL, "report it to the authors of rumoca")
-
-
 def ask(
     tool: Tool, job: Job, limits: Limits, environment: Mapping[str, str], tell: Callable[[int, Outcome], None]
 ) -> list[Outcome]:
@@ -86,33 +79,6 @@ def ask(
 def missing(tool: Tool, reason: str) -> CompilerError:
     """There is no such compiler."""
     return CompilerError(_error("no-compiler", f"there is no compiler: {reason}", tool.install))
-
-
-def require(tool: str = "rumoca") -> None:
-    """Raise CompilerError, with what to install, if anything is missing that a check with `tool` (or `omc`) needs."""
-    if tool == "omc":
-        from urdfsync.checking.compilers import omc
-
-        omc.require()
-        return
-    for name in _NEEDED:
-        if importlib.util.find_spec(name) is None:
-            raise missing(RUMOCA, f"{name} is not installed")
-
-
-class Rumoca:
-    """The embedded compiler; what it remembers is part of `cache`."""
-
-    def __init__(self, cache: Cache) -> None:
-        self._environment = {
-            "XDG_CACHE_HOME": str(cache.compiler.parent),  # it adds its own name
-            "MODELICAPATH": "",  # it looks there too, for whatever the roots do not have
-        }
-
-    def compile(self, job: Job, limits: Limits, tell: Callable[[int, Outcome], None] = ignore) -> list[Outcome]:
-        """See `Compiler.compile`."""
-        require()
-        return ask(RUMOCA, job, limits, self._environment, tell)
 
 
 def _explained(tool: Tool, result: Result, limits: Limits, job: Job, done: int) -> Diagnostic:
