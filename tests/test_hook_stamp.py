@@ -84,3 +84,27 @@ def test_an_ignored_source_is_left_to_the_full_way(repository: Repository) -> No
     time.sleep(0.1)  # so that it would be stamped
     assert hook._nothing_to_do()
     assert not hook._is_stamped()
+
+
+def test_the_answer_belongs_to_the_folder_and_the_environment(
+    repository: Repository, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Entries of ROS_PACKAGE_PATH may be relative."""
+    with monkeypatch.context() as patch:
+        patch.chdir("robots")
+        assert not hook._is_stamped()
+    with monkeypatch.context() as patch:
+        patch.setenv("PYTHONPATH", str(repository.folder))
+        assert not hook._is_stamped()
+    assert hook._is_stamped()
+
+
+def test_a_source_by_a_link_is_left_to_the_full_way(repository: Repository) -> None:
+    """The link may lead elsewhere while nothing that was looked at changes."""
+    Path("robots/leg.urdf").rename("real.urdf")
+    Path("robots/leg.urdf").symlink_to("../real.urdf")
+    repository.git("add", ".")
+    Path(".urdfsync/stamp").unlink()
+    time.sleep(0.1)  # so that it would be stamped
+    assert hook._nothing_to_do()
+    assert not hook._is_stamped()

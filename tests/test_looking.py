@@ -29,6 +29,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], object]], s
         with monkeypatch.context() as patch:
             for module, name in (
                 *((os, name) for name in ("stat", "lstat", "listdir", "scandir", "readlink", "access", "open")),
+                (os.path, "realpath"),
                 *((module, "open") for module in (io, builtins)),
             ):
                 patch.setattr(module, name, _noting(getattr(module, name), name, calls))
@@ -56,8 +57,14 @@ def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pa
 
 @pytest.mark.parametrize("command", [["build"], ["build", "--check"], ["status"], ["build", "--config=urdfsync.toml"]])
 def test_all_that_a_command_without_work_asks_for_is_taken_down(
-    folder: Path, command: list[str], asked: Callable[[Callable[[], object]], set[tuple[str, str]]]
+    folder: Path,
+    command: list[str],
+    asked: Callable[[Callable[[], object]], set[tuple[str, str]]],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    """Also where folders to be searched are missing, or may not be read."""
+    monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join([str(folder / "later"), str(folder / "closed")]))
+    (folder / "closed").mkdir(mode=0)
     with looking.taken_down() as looks:
         calls = asked(lambda: cli._main(command))
     assert looks.complete
@@ -65,9 +72,12 @@ def test_all_that_a_command_without_work_asks_for_is_taken_down(
     known = contents | _absolute(looks.kinds[False]) | _absolute(looks.kinds[True])
     calls = {(name, path) for name, path in calls if Path(path).is_relative_to(folder.parent)}
     assert len(calls) > 100, "the calls are seen at all"
-    assert {(name, path) for name, path in calls if path not in (contents if name in READS else known)} == set()
+    absent = {path for path in known - contents if not os.path.lexists(path)}  # there is nothing to read
+    seen = contents | absent
+    assert {(name, path) for name, path in calls if path not in (seen if name in READS else known)} == set()
     wanted = ("modelica/Lab/package.order", "ros", "robots/leg_meshes/base.stl", ".urdfsync/robots", "own/notes")
-    assert {str(folder / path) for path in wanted} <= contents
+    assert {str(folder / path) for path in (*wanted, "closed")} <= contents
+    assert str(folder / "later") in absent
 
 
 def _absolute(paths: dict[str, Any]) -> set[str]:

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from support import stamps
 from support.stamps import repeated, stamped
 
-from urdfsync import cli, looking, streams
+from urdfsync import cli, looking, report, streams
 from urdfsync.checking import afterbuild
 from urdfsync.stamping import making, stamp
 
@@ -191,11 +191,19 @@ EDITS: dict[str, Edit] = {
     "an interrupted build": _write(".urdfsync/journal/apply.json"),
     "a file that may not be read": lambda folder: (folder / URDF).chmod(0),
     "a linked folder": _link("modelica/Leg"),
+    "a search path that comes": _write("later/src/leg_meshes/package.xml", "<name>leg_meshes</name>"),
+    "a folder that may be read at last": lambda folder: (folder / "ros/closed").chmod(0o700),
+    "a mark of a package, by a link": lambda folder: (folder / "target").rmdir(),
 }
 
 
 @pytest.mark.parametrize("name", EDITS)
-def test_whatever_matters_ends_a_stamp(folder: Path, name: str) -> None:
+def test_whatever_matters_ends_a_stamp(folder: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(folder / "later"))
+    (folder / "ros/closed").mkdir(mode=0)
+    (folder / "ros/marked").mkdir()
+    (folder / "target").mkdir()
+    (folder / "ros/marked/package.xml").symlink_to(folder / "target")
     stamped(*BUILD)
     EDITS[name](folder)
     assert repeated(*BUILD) is None
@@ -209,6 +217,9 @@ def test_so_does_another_program(folder: Path, tmp_path: Path, monkeypatch: pyte
     with monkeypatch.context() as patch:
         patch.setattr(os, "geteuid", lambda: 12345, raising=False)
         assert repeated(*BUILD) is None, "another user may not be allowed to read all that"
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "getgroups", lambda: [12345], raising=False)
+        assert repeated(*BUILD) is None, "nor one of other groups"
     _rewrite("program.py")(tmp_path)
     assert repeated(*BUILD) is None, "a version that is being worked on"
 
@@ -248,6 +259,8 @@ def test_what_is_written_at_the_same_time_is_not_believed(folder: Path) -> None:
         (59, {"device": 2}, False),
         (61, {"device": 2}, True),
         (-10, {}, False),
+        (-10, {"altered": 0.06}, True),
+        (-10, {"altered": 61, "device": 2}, False),
         (100, {"altered": 0}, False),
         (100, {"altered": 0.01}, False),
     ],
@@ -288,6 +301,41 @@ def test_a_copy_of_a_stamp_is_none(folder: Path) -> None:
     shutil.copy2(STAMP, "copy")
     Path("copy").replace(STAMP)
     assert repeated(*BUILD) is None, "such as one that somebody has committed"
+
+
+def test_a_pipe_in_its_place_is_none(folder: Path) -> None:
+    os.mkfifo(STAMP)
+    assert repeated(*BUILD) is None, "nobody waits for it"
+
+
+def test_there_is_none_where_nobody_knows_when_a_file_changed(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    time.sleep(0.1)  # so that it would be written
+    with monkeypatch.context() as patch:
+        patch.setattr(making, "_HAS_CHANGE_TIMES", False)
+        assert cli.main(BUILD) == 0
+        assert not Path(STAMP).exists()
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "fstat", lambda descriptor, original=os.fstat: _as_on_fat(original(descriptor)))
+        assert cli.main(BUILD) == 0
+        assert not Path(STAMP).exists()
+    stamped(*BUILD)
+
+
+def _as_on_fat(status: os.stat_result) -> os.stat_result:
+    """The time of change of status is that of content."""
+    times = {"st_mtime_ns": status.st_mtime_ns, "st_ctime_ns": status.st_mtime_ns, "st_atime_ns": status.st_atime_ns}
+    return os.stat_result(tuple(status), times)
+
+
+def test_a_progress_bar_is_not_said_again(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(report, "_PATIENCE", 0.0)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    stamped(*BUILD)
+    assert "━" in capsys.readouterr().err, "there was one"
+    assert stamp.repeat(BUILD) == 0
+    said = capsys.readouterr()
+    assert "━" not in said.err
+    assert said.out.count("in step") == 2
 
 
 def test_a_stamp_that_can_not_be_written_is_no_error(folder: Path, capsys: Capture) -> None:

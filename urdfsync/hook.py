@@ -49,7 +49,8 @@ def _is_stamped_as(top: str, path: str, files: set[str]) -> bool:
 
 
 def _question(top: str, file: str) -> str:
-    return repr(("hook", top, file, os.environ.get("ROS_PACKAGE_PATH")))
+    variables = map(os.environ.get, ("ROS_PACKAGE_PATH", "PYTHONPATH"))
+    return repr(("hook", top, file, os.getcwd(), *variables))  # noqa: PTH109 - no pathlib here
 
 
 def _nothing_to_do() -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import importlib
 import sys
+from pathlib import Path
 from typing import cast
 
 from urdfsync import looking
@@ -41,6 +42,8 @@ def names() -> list[str]:
 def _installed() -> dict[str, str]:
     import importlib.metadata
 
-    for folder in sys.path:
+    for folder in map(Path, sys.path):
         looking.rests_on(folder)
+        for file in folder.glob("*-info/entry_points.txt"):
+            looking.rests_on(file)
     return {entry.name: entry.value for entry in importlib.metadata.entry_points(group=GROUP)}

@@ -276,7 +276,8 @@ class Report:
         if self._bar is None:
             from rich.progress import Progress
 
-            bar = Progress(console=terminal.console(sys.stderr), transient=True)
+            console = terminal.console(streams.unrecorded(sys.stderr))
+            bar = Progress(console=console, transient=True, redirect_stdout=False, redirect_stderr=False)
             self._bar = bar, bar.add_task(what, total=None)
             bar.start()
         return self._bar

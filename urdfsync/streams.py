@@ -70,6 +70,11 @@ class Stream:
             return  # it has no descriptor
 
 
+def unrecorded(stream: "Any") -> "Any":
+    """The same stream for what is gone again at the end, such as a progress bar: nobody takes that down."""
+    return Stream(stream._inner, stream._name) if isinstance(stream, Stream) else stream
+
+
 class guarded:  # noqa: N801 - used as a function; contextlib is another import
     """Replaces both standard streams while a command runs; gives the output stream.
 

@@ -11,6 +11,7 @@ from urdfsync import looking
 
 _NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 _IGNORED = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
+_MARKS = _IGNORED | {"package.xml"}
 _DEPTH = 8
 
 
@@ -31,9 +32,11 @@ def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
 
 
 def _below(top: Path) -> Iterator[tuple[str, Path]]:
-    for current, folders, files in os.walk(top):
+    for current, folders, files in os.walk(top, onerror=_passed_over):
         path = Path(current)
         looking.rests_on(path)
+        for mark in _MARKS.intersection(folders):
+            looking.kind(path / mark)  # a link may lead to a file later
         if _IGNORED.intersection(files):
             folders.clear()
         elif "package.xml" in files:
@@ -43,6 +46,11 @@ def _below(top: Path) -> Iterator[tuple[str, Path]]:
         elif len(path.relative_to(top).parts) >= _DEPTH:
             folders.clear()
         folders[:] = sorted(folder for folder in folders if not folder.startswith("."))
+
+
+def _passed_over(error: OSError) -> None:
+    """A folder is not there, or can't be read: that may change."""
+    looking.rests_on(error.filename)
 
 
 def _package_name(folder: Path) -> str | None:

@@ -65,6 +65,8 @@ class Index:
         parent = file.parent
         if parent not in self._folders:
             self._folders[parent] = os.path.realpath(parent) + os.sep
+            if self._folders[parent] != str(parent) + os.sep:
+                looking.beyond()  # nobody takes down where links lead to
         top = str(self.top).rstrip(os.sep) + os.sep
         place = self._folders[parent]
         if not place.startswith(top):

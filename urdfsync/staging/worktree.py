@@ -143,6 +143,8 @@ class Worktree:
 def _sources(robot: RobotConfig) -> list[Path]:
     """Source and templates, whatever git makes of them."""
     files = [robot.source, Path(os.path.realpath(robot.source))]
+    if files[0] != files[1]:
+        looking.beyond()  # nobody takes down where links lead to
     if robot.templates is not None and robot.templates.is_dir():
         files += [path for path in sorted(robot.templates.rglob("*")) if not path.name.startswith(".")]
     return files

@@ -30,27 +30,27 @@ _MOST_CLAIMS = 16
 _LONGEST = 100_000
 """Characters of an answer."""
 _Paths = dict[str, Facts]
-_CURSOR = "\x1b[?"
-"""Begins what a progress bar writes, and nothing else."""
+_HAS_CHANGE_TIMES = os.name != "nt"
+"""Whether files have a time of change that nobody can set: on Windows it is that of their creation."""
 
 
 def carry_out(arguments: list[str], run: Callable[[streams.Said | None], int]) -> int:
     """Run a command, which takes down what it says, and stamp it if it can be said again. Returns its exit code."""
-    if not arguments or arguments[0] not in stamp.COMMANDS:
+    if not _HAS_CHANGE_TIMES or not arguments or arguments[0] not in stamp.COMMANDS:
         return run(None)
     said: streams.Said = []
     begin = time.monotonic_ns(), time.time_ns()
     with looking.taken_down() as looks:
         question, file = _question(arguments)
         code = run(said)
-    if code == 0 and file is not None and looks.complete and _is_repeatable(said):
+    if code == 0 and file is not None and looks.complete and sum(len(text) for _, text in said) <= _LONGEST:
         keep(file, {question: [text for pair in said if pair[1] for text in pair]}, looks, begin)
     return code
 
 
 def keep(file: str, claims: dict[str, list[str]], looks: looking.Looks, begin: tuple[int, int]) -> None:
     """Stamp what follows from looks since `begin` for a configuration; what can't be stamped is not."""
-    if not looks.complete:
+    if not looks.complete or not _HAS_CHANGE_TIMES:
         return
     with contextlib.suppress(OSError, ValueError):
         made = Stamp(stamp.program(), *_paths(looks), claims)
@@ -67,12 +67,6 @@ def _question(arguments: list[str]) -> tuple[str, str | None]:
         return (stamp.question(arguments, file), file) if file and sys.stdout and sys.stderr else ("", None)
     except OSError:
         return "", None
-
-
-def _is_repeatable(said: streams.Said) -> bool:
-    """Whether an answer can be given again as it is."""
-    on_windows = os.name == "nt" and (sys.stdout.isatty() or sys.stderr.isatty())  # colours are no text there
-    return not on_windows and sum(len(text) for _, text in said) <= _LONGEST and all(_CURSOR not in t for _, t in said)
 
 
 def _paths(looks: looking.Looks) -> tuple[tuple[_Paths, _Paths], tuple[_Paths, _Paths]]:
@@ -138,9 +132,9 @@ def _kinds(paths: Iterable[str], follow: bool) -> _Paths:
 def _write(made: Stamp, looks: looking.Looks, path: str, begin: tuple[int, int]) -> None:
     """Write a stamp unless something that it rests on is too new to be trusted. Raises OSError or ValueError."""
     folder, name = os.path.split(path)
-    temporary = os.path.join(folder, f".{name}-{os.getpid()}{TEMPORARY}")  # noqa: PTH118
+    temporary = os.path.join(folder, f".{name}{TEMPORARY}")  # noqa: PTH118
     with contextlib.suppress(FileNotFoundError):
-        os.unlink(temporary)  # noqa: PTH108 - of a process that was killed
+        os.unlink(temporary)  # noqa: PTH108 - of a process that was killed, or that has none then
     with contextlib.ExitStack() as stack:
         file = stack.enter_context(open(temporary, "xb"))  # noqa: PTH123
         stack.callback(_remove, temporary)
@@ -149,6 +143,9 @@ def _write(made: Stamp, looks: looking.Looks, path: str, begin: tuple[int, int])
         modules = (facts for _, facts in _modules())
         if not _are_settled(seen, now, stamp.passed(begin)) or not _are_settled(modules, now, stamp.since_begin()):
             return
+        os.utime(file.fileno(), ns=(0, 0))
+        if os.fstat(file.fileno()).st_ctime_ns < now.st_ctime_ns:
+            return  # on this file system anybody can set the time of the last change of status
         file.write(made.dumps(now.st_ino, now.st_mtime_ns))
         file.flush()
         os.utime(file.fileno(), ns=(now.st_mtime_ns, now.st_mtime_ns))
@@ -167,6 +164,7 @@ def _are_settled(seen: Iterable[looking.Facts], now: os.stat_result, passed: int
     for _, _, device, _, changed, altered in seen:
         coarse = changed % _SECOND == 0 or altered % _SECOND == 0 or now.st_mtime_ns % _SECOND == 0
         margin = _SKEW if device != now.st_dev else _COARSE_TICK if coarse else _TICK
-        if altered <= 0 or max(changed, altered) >= limit - margin:
+        newest = altered if device == now.st_dev else max(changed, altered)  # somebody may have set `changed`
+        if altered <= 0 or newest >= limit - margin:
             return False
     return True

@@ -23,6 +23,8 @@ _BEGUN = time.monotonic_ns(), time.time_ns()
 _MAGIC = b"urdfsync-stamp 1 "
 _HEAD = len(_MAGIC) + 9
 _FOLDER, _NAME = ".urdfsync", "stamp"
+_FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)
+"""A pipe in the place of a stamp is none; nobody waits for it."""
 _TYPE = 0o170000
 """The bits of a mode that `stat.S_IFMT` leaves."""
 _VARIABLES = (
@@ -107,8 +109,9 @@ class Reading:
         return [f"{folder}{os.sep}{name}" for folder, *names in groups for name in names]
 
     def stands(self) -> bool:
-        """Whether all is as it was when the stamp was written."""
+        """Whether all is as it was when the stamp was written. Raises OSError if there is no way back here."""
         here = os.getcwd()  # noqa: PTH109
+        os.chdir(here)  # fails before it is left if nobody could come back
         try:
             return self._chained() == self.chained
         except (OSError, ValueError):
@@ -138,8 +141,11 @@ class Reading:
 
 
 def program() -> str:
-    """Who says what a stamp says: another version or another user may come to other conclusions."""
-    user = os.geteuid() if hasattr(os, "geteuid") else 0
+    """Who says what a stamp says: another version or another user may come to other conclusions.
+
+    Rights that a process has beside those of its user and groups are left out.
+    """
+    user = (os.geteuid(), os.getegid(), *sorted(os.getgroups())) if hasattr(os, "geteuid") else 0
     return repr((__version__, sys.version, sys.prefix, sys.byteorder, user, __file__))
 
 
@@ -172,7 +178,7 @@ def place(file: str) -> str:
 def read(path: str) -> Reading | None:
     """The stamp at a path, if there is one of this program's."""
     try:
-        with open(path, "rb") as file:  # noqa: PTH123
+        with open(os.open(path, _FLAGS), "rb") as file:  # noqa: PTH123
             status = os.fstat(file.fileno())
             reading = Reading(file.read(), status.st_ino, status.st_mtime_ns)
     except (OSError, ValueError, LookupError):
