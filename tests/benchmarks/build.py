@@ -49,6 +49,7 @@ def _first(tools: Tools) -> Study:
     rows = [
         *(Row(f"{links:,} links", _theirs(f"{links:,} links"), bar) for links, bar in BARS.items()),
         Row(many, _theirs(many), 0.8, Quantity.PEAK),
+        *(Row(label, _theirs(label), None, Quantity.CPU) for label in places),
         Row(MESHES, _theirs(MESHES)),
         *(Row(label, NOTHING) for label in places),
     ]
@@ -65,6 +66,7 @@ def _changed(tools: Tools) -> Study:
             found[_theirs(f"{links:,} links")] = changed_by(tools.published, place / "robot0.urdf", other)
     rows = [
         Row("100 links", _theirs("100 links"), 1.5),
+        Row("100 links", _theirs("100 links"), None, Quantity.CPU),
         Row("11 links", _theirs("11 links")),
         *(Row(f"{links:,} links", NOTHING) for links in BARS),
     ]

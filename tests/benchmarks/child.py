@@ -1,7 +1,7 @@
 """Run a command as the only child, and say what it cost: `python -I -S child.py OUTPUT COMMAND …`.
 
 It is a process of its own, and small: the peak memory that the kernel reports of a process is at least that of the
-one that started it. The command's standard output goes to the file OUTPUT. What is printed: exit code, wall-clock
+one that started it. What the command says goes to the file OUTPUT. What is printed: exit code, wall-clock
 seconds, processor seconds of it and of all that it started, peak memory in bytes of the command itself (or of the
 largest process that it waited for), and of the largest process that it left to itself, such as the workers of a fork
 server.
@@ -26,8 +26,9 @@ def main(output: str, *command: str) -> None:
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_SUBREAPER, 1, 0, 0, 0)
     opened = (os.POSIX_SPAWN_OPEN, 1, output, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
+    errors = (os.POSIX_SPAWN_DUP2, 1, 2)
     begin = time.perf_counter()
-    group = os.posix_spawnp(command[0], command, os.environ, file_actions=[opened], setpgroup=0)
+    group = os.posix_spawnp(command[0], command, os.environ, file_actions=[opened, errors], setpgroup=0)
     try:
         _, status, usage = os.wait4(group, 0)
         wall = time.perf_counter() - begin

@@ -62,7 +62,7 @@ def measure(command: Sequence[str], folder: Path, said: str = "") -> Cost:
     """The cost of a process in a folder.
 
     Raises:
-        UnexpectedError: it failed, or its standard output does not contain `said`.
+        UnexpectedError: it failed, or does not say `said`, on one of its output streams.
     """
     with tempfile.NamedTemporaryFile() as output:
         watched = [sys.executable, "-I", "-S", str(_CHILD), output.name, *command]

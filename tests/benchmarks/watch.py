@@ -2,7 +2,7 @@
 
 Latency is the time from the moment at which an edited source is in place to the moment at which the element's record
 has the new mass, in a daemon that is told to wait for nothing (`--settle 0 --sample 0`): what is left is what comes
-after settling, and the way of the event to the daemon. The record is looked at every 0.2 ms, by a process that does
+after settling, and the way of the event to the daemon. The record is looked at every 0.5 ms, by a process that does
 nothing else; that is included. Idling is measured with 50 robots that have 200 MB of meshes; memory is what the process
 holds (RSS), there and over many rebuilds. Reads /proc, so it needs Linux.
 """
@@ -30,7 +30,7 @@ BARS: dict[int, float] = {11: 8, 133: 15, 1000: 120}
 REFERENCE = 12.0
 ROBOTS, MEGABYTES = 50, 200
 _AT_ONCE = ("--settle", "0", "--sample", "0", "--rescan", "3600")
-_POLL = 0.0002
+_POLL = 0.0005
 _QUIET = 0.3
 """Seconds in which a daemon that has done its work uses no processor time."""
 _STEPS = 5
