@@ -38,19 +38,20 @@ def _links(tools: Tools) -> Study:
         Row(many, few, None, Quantity.WALL, growth(LINKS[1] / LINKS[0])),
         Row(many, few, None, Quantity.PEAK, growth(LINKS[1] / LINKS[0])),
     )
-    return Study("growth with links", {label: first(tools, place) for label, place in places.items()}, rows, places)
+    return Study("growth with links", {label: first(tools, place) for label, place in places.items()}, rows, {many})
 
 
 def _robots(tools: Tools) -> Study:
-    found, rows = {}, []
+    found, rows, slow = {}, [], set()
     for name, arguments in (("one process", ("--jobs", "1")), ("a process per core", ())):
         few, many = (f"{robots} robots, {name}" for robots in ROBOTS)
         for label, robots in zip((few, many), ROBOTS, strict=True):
             found[label] = first(tools, write_workspace(tools.folder / label, robots, EACH), arguments)
+        slow.add(many)
         rows += [
             Row(many, few, AT_MOST, Quantity.CPU, growth(ROBOTS[1] / ROBOTS[0])),
             Row(many, few, None, Quantity.WALL, growth(ROBOTS[1] / ROBOTS[0])),
             Row(many, few, None, Quantity.PEAK),
         ]
     rows.append(Row(many, few, None, Quantity.CREW))
-    return Study(f"growth with robots of {EACH} links", found, rows, found)
+    return Study(f"growth with robots of {EACH} links", found, rows, slow)

@@ -56,7 +56,7 @@ class Study:
     measurements: Mapping[str, Callable[[], Cost]]
     rows: Sequence[Row]
     slow: Collection[str] = ()
-    """Labels of those that take so long that they are measured in few rounds only, without a round to warm up."""
+    """Labels of those that take so long that rows with them are measured in few rounds, without one to warm them up."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -109,20 +109,22 @@ def find(row: Row, rounds: Sequence[Round]) -> Finding | None:
 
 
 def measured(study: Study, count: int, slow: int, tell: Callable[[str], None]) -> list[Round]:
-    """Take all measurements `count` times, the slow ones in the first `slow` rounds, each round in another order.
+    """Take all measurements `count` times, rows with slow ones `slow` times, each round in another order.
 
-    A round before them fills caches and is not counted. `tell` is told what is being measured.
+    A round before them fills caches, without the slow ones, and is not counted. `tell` is told what is being measured.
     """
     order, shuffle = list(study.measurements), random.Random(study.title).shuffle
+    rows = [row for row in study.rows if {row.what, row.against} <= set(order)]
+    limits = {row: slow if {row.what, row.against} & set(study.slow) else count for row in rows}
+    chosen = set(order) - set(study.slow)
     rounds: list[Round] = []
-    for number in range(-1, max(count, slow if study.slow else 0)):
+    for number in range(max(limits.values(), default=0) + 1):
         shuffle(order)
-        limits = {label: slow if label in study.slow else count for label in order}
-        chosen = [label for label in order if number < limits[label] and (number >= 0 or label not in study.slow)]
         found = {}
-        for label in chosen:
-            tell(f"{study.title}: round {number + 1}, {label}")
+        for label in filter(chosen.__contains__, order):
+            tell(f"{study.title}: round {number}, {label}")
             found[label] = study.measurements[label]()
-        if number >= 0:
+        if number:
             rounds.append(found)
+        chosen = {label for row in rows if number < limits[row] for label in (row.what, row.against)}
     return rounds
