@@ -20,7 +20,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TextIO
 
-sys.path[0] = str(Path(__file__).resolve().parents[1])  # not this folder: its names are those of other packages, too
+# not this folder: its names are those of other packages, too; and what is measured is the tree that it is part of
+sys.path[:1] = [str(folder) for folder in Path(__file__).resolve().parents[1:3]]
 
 from rich.console import Console  # noqa: E402
 from rich.table import Table  # noqa: E402
