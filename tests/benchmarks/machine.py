@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import platform
 import re
+import shutil
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -20,7 +21,7 @@ def described(tools: Tools) -> Iterator[str]:
     yield f"{_processor()}, {os.cpu_count()} cores, {_memory()}{platform.system()} {platform.release()}"
     yield f"Python {platform.python_version()}"
     for name in _PROGRAMS:
-        program = tools.program(name)
+        program = shutil.which(name, path=tools.path)
         if program:
             command = [program, "--version"]
             told = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=variables()).stdout

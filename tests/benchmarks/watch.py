@@ -1,10 +1,12 @@
 """How fast `urdfsync watch` is, and what it costs: latency, idling, memory.
 
-Latency is the time from the moment at which an edited source is in place to the moment at which the element's record
-has the new mass, in a daemon that is told to wait for nothing (`--settle 0 --sample 0`): what is left is what comes
-after settling, and the way of the event to the daemon. The record is looked at every 0.5 ms, by a process that does
-nothing else; that is included. Idling is measured with 50 robots that have 200 MB of meshes; memory is what the process
-holds (RSS), there and over many rebuilds. Reads /proc, so it needs Linux.
+Latency is the time from the moment at which an edited source is in place to the moment at which the records of the
+element and of the robot both have the new mass, in a daemon that is told to wait for nothing (`--settle 0 --sample 0`):
+what is left is what comes after settling, and the way of the event to the daemon. The records are looked at every
+0.5 ms, by a process that does nothing else; that is included.
+
+Idling is measured with 50 robots that have 200 MB of meshes; memory is what the process holds (RSS), there and over
+many rebuilds. Reads /proc, so it needs Linux.
 """
 
 from __future__ import annotations
@@ -53,24 +55,30 @@ class Edits:
     def __init__(self, watch: Watch, folder: Path, link: str) -> None:
         """`link` is the first one that has a mass."""
         self._watch, self._source = watch, Source(folder / "robot0.urdf")
-        self._record = folder / f"modelica/Robot0/Links/{link}Parameters.mo"
+        names = (f"Links/{link}Parameters.mo", "Robot0Parameters.mo")
+        self._records = [folder / "modelica/Robot0" / name for name in names]
 
     def __call__(self) -> Cost:
-        """The time until its record says so."""
+        """The time until its records have been replaced."""
         watch = self._watch
         _rest(watch.process.pid)
-        since, before = watch.mark, self._record.stat()
+        since, before = watch.mark, self._states()
         wanted = self._source.edit()
         begin = time.perf_counter()
-        while (now := self._record.stat()).st_ino == before.st_ino and now.st_mtime_ns == before.st_mtime_ns:
+        while before & self._states():
             if time.perf_counter() - begin > LIMIT:
                 raise TimeoutError(watch.said)
             time.sleep(_POLL)
         took = time.perf_counter() - begin
         watch.wait("built", lambda event: bool(event["files"]), since)
-        if f"mass = {wanted}," not in self._record.read_text(encoding="utf-8"):
-            raise UnexpectedError(f"{self._record} does not have the mass {wanted}")
+        for record in self._records:
+            if f"mass = {wanted}," not in record.read_text(encoding="utf-8"):
+                raise UnexpectedError(f"{record} does not have the mass {wanted}")
         return Cost(took)
+
+    def _states(self) -> set[tuple[Path, int, int]]:
+        """Each record with what tells whether it has been replaced or written."""
+        return {(path, state.st_ino, state.st_mtime_ns) for path in self._records for state in [path.stat()]}
 
 
 def _latencies(tools: Tools, title: str, beginning: str) -> Iterator[Study]:
