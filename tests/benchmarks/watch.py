@@ -21,7 +21,7 @@ from pathlib import Path
 from support.corpus import REPOSITORY
 from support.daemon import LIMIT, Watch
 
-from benchmarks.measuring import NOTHING, PASS, Cost, UnexpectedError, measure, run
+from benchmarks.measuring import NOTHING, PASS, Cost, Quantity, UnexpectedError, measure, run
 from benchmarks.robots import PLAIN, Source, write_workspace
 from benchmarks.study import Figures, Row, Study, scaled
 from benchmarks.tools import Tools
@@ -59,22 +59,22 @@ class Edits:
         self._records = [folder / "modelica/Robot0" / name for name in names]
 
     def __call__(self) -> Cost:
-        """The time until its records have been replaced."""
+        """The time until its records have been replaced, and what the daemon's threads ran meanwhile."""
         watch = self._watch
         _rest(watch.process.pid)
         since, before = watch.mark, self._states()
-        wanted = self._source.edit()
+        used, wanted = _running(watch.process.pid), self._source.edit()
         begin = time.perf_counter()
         while before & self._states():
             if time.perf_counter() - begin > LIMIT:
                 raise TimeoutError(watch.said)
             time.sleep(_POLL)
-        took = time.perf_counter() - begin
+        cost = Cost(time.perf_counter() - begin, _running(watch.process.pid) - used)
         watch.wait("built", lambda event: bool(event["files"]), since)
         for record in self._records:
             if f"mass = {wanted}," not in record.read_text(encoding="utf-8"):
                 raise UnexpectedError(f"{record} does not have the mass {wanted}")
-        return Cost(took)
+        return cost
 
     def _states(self) -> set[tuple[Path, int, int]]:
         """Each record with what tells whether it has been replaced or written."""
@@ -90,6 +90,7 @@ def _latencies(tools: Tools, title: str, beginning: str) -> Iterator[Study]:
             watch.rest()
             found[f"{links:,} links"] = Edits(watch, place, "Link0")
         rows = [Row(f"{links:,} links", NOTHING, bar, reading=scaled(REFERENCE)) for links, bar in BARS.items()]
+        rows += [Row(f"{links:,} links", NOTHING, None, Quantity.CPU, scaled(REFERENCE)) for links in BARS]
         yield Study(title, found, rows)
 
 
@@ -169,6 +170,12 @@ def _cpu(pid: int) -> float:
     """Seconds of processor time."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def _running(pid: int) -> float:
+    """Seconds that the threads of a process have run, up to the last tick of the scheduler."""
+    files = Path(f"/proc/{pid}/task").glob("*/schedstat")
+    return sum(int(file.read_text().split()[0]) for file in files) / 1e9
 
 
 def _rss(pid: int) -> float:
