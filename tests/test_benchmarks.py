@@ -93,14 +93,25 @@ def test_tables_tell_what_is_not_met() -> None:
     costs = [{"many": Cost(0, 20), "few": Cost(0, 1)}]
     finding = find(row, costs)
     assert finding is not None
-    lines = tables.markdown("growth", [finding]).splitlines()
+    grid = tables.pairs("growth", [finding])
+    lines = tables.markdown(grid).splitlines()
     assert lines[-1] == (
-        "| many: CPU time | few | 1.1 | **1.3 exponent** | 1.3 to 1.3 "
+        "| many, CPU time | few | 1.1 | **1.3 exponent** | 1.3 to 1.3 "
         "| 20,000 ms (20,000 to 20,000) | 1,000 ms (1,000 to 1,000) | 1 |"
     )
     assert {line.count("|") for line in lines[2:]} == {9}
-    assert tables.table("growth", [finding]).row_count == 1
-    assert "| memory | 7 MB |" in tables.figures_markdown(Figures("daemon", [("memory", "7 MB")]))
+    assert tables.table(grid).row_count == 1
+
+
+def test_the_last_table_has_what_has_a_bar() -> None:
+    told, wanted = found(Row("ours", "theirs"), (1, 1)), found(ROW, (1, 1))
+    grid = tables.bars([("one", told), ("two", wanted)])
+    assert tables.markdown(grid).splitlines()[-1] == "| two: ours | theirs | 2 | 1 | 1 |"
+
+
+def test_numbers_without_a_comparison_have_a_table_too() -> None:
+    grid = tables.figures(Figures("daemon", [("memory", "7 MB")]))
+    assert tables.markdown(grid).splitlines()[-1] == "| memory | 7 MB |"
 
 
 def test_a_process_costs_what_it_started_costs_too(tmp_path: Path) -> None:

@@ -24,10 +24,9 @@ from typing import TextIO
 sys.path[:1] = [str(folder) for folder in Path(__file__).resolve().parents[1:3]]
 
 from rich.console import Console  # noqa: E402
-from rich.table import Table  # noqa: E402
 
 from benchmarks import build, check, hook, machine, noop, published, scale, tables, watch  # noqa: E402
-from benchmarks.study import Figures, Study, find, measured  # noqa: E402
+from benchmarks.study import Figures, Finding, Study, find, measured  # noqa: E402
 from benchmarks.tools import Tools, install, search_path  # noqa: E402
 
 BENCHMARKS = {module.__name__.rpartition(".")[2]: module for module in (noop, build, scale, watch, hook, check)}
@@ -36,20 +35,25 @@ _WIDTH = 200
 
 
 def main() -> None:
-    """Measure and print tables."""
+    """Measure, print a table of each study, and at last one of all bars."""
     options = _options()
     out, aside, left_out = _console(sys.stdout), _console(sys.stderr), dict[str, None]()
+    found: list[tuple[str, Finding]] = []
     with tempfile.TemporaryDirectory() as name, aside.status("preparing") as status:
         tools = _tools(Path(name), options, left_out)
-        _print(out, "\n".join(f"- {line}" for line in machine.described(tools)))
+        out.out("".join(f"- {line}\n" for line in machine.described(tools)), highlight=False)
         for chosen in dict.fromkeys(options.names or BENCHMARKS):
             status.update(f"preparing {chosen}")
             folder = tools.folder / chosen
             folder.mkdir()
             for study in BENCHMARKS[chosen].studies(dataclasses.replace(tools, folder=folder)):
-                _present(out, study, options, status.update)
+                findings = _findings(study, options, status.update)
+                found += [(study.title, finding) for finding in findings]
+                grid = tables.figures(study) if isinstance(study, Figures) else tables.pairs(study.title, findings)
+                _print(out, grid, options)
                 status.update(f"preparing more of {chosen}")
             shutil.rmtree(folder)
+    _print(out, tables.bars(found), options)
     for line in left_out:
         aside.print(line, markup=False)
 
@@ -82,22 +86,19 @@ def _tools(folder: Path, options: argparse.Namespace, left_out: dict[str, None])
     return Tools(folder, scripts, search_path(peers), other, left_out.setdefault, options.idle, options.rebuilds)
 
 
-def _present(out: Console, study: Study | Figures, options: argparse.Namespace, tell: Callable[[str], None]) -> None:
-    """Measure what has to be measured, and print a table."""
+def _findings(study: Study | Figures, options: argparse.Namespace, tell: Callable[[str], None]) -> list[Finding]:
+    """Measure what has to be measured."""
     if isinstance(study, Figures):
-        shown = tables.figures_markdown(study) if options.markdown else tables.figures_table(study)
-    else:
-        rounds = measured(study, options.rounds, options.slow_rounds, tell)
-        findings = [found for row in study.rows if (found := find(row, rounds)) is not None]
-        shown = (tables.markdown if options.markdown else tables.table)(study.title, findings)
-    _print(out, shown)
+        return []
+    rounds = measured(study, options.rounds, options.slow_rounds, tell)
+    return [found for row in study.rows if (found := find(row, rounds)) is not None]
 
 
-def _print(out: Console, shown: str | Table) -> None:
-    if isinstance(shown, str):
-        out.out(f"{shown}\n", highlight=False)
-    else:
-        out.print(shown)
+def _print(out: Console, grid: tables.Grid, options: argparse.Namespace) -> None:
+    if options.markdown:
+        out.out(tables.markdown(grid), highlight=False)
+    elif grid.rows:
+        out.print(tables.table(grid))
 
 
 def _console(stream: TextIO) -> Console:
