@@ -15,10 +15,10 @@ from pathlib import Path
 from support import corpus
 
 from benchmarks.builds import changed, changed_by, first, first_by
-from benchmarks.measuring import NOTHING, PASS, Cost, Quantity, measure, run
+from benchmarks.measuring import Cost, Quantity, measure, run
 from benchmarks.robots import chain, mesh, write_meshes, write_workspace
 from benchmarks.study import Row, Study
-from benchmarks.tools import Tools
+from benchmarks.tools import NOTHING, Tools
 
 ARM = corpus.REPOSITORY / "modelica" / "UrdfSync" / "Resources" / "robots" / "six_axis_arm" / "six_axis_arm.urdf"
 UR5E = "universal_robots/ur_description/urdf/ur5e.urdf"
@@ -38,7 +38,7 @@ def studies(tools: Tools) -> Iterator[Study]:
 
 
 def _first(tools: Tools) -> Study:
-    found: _Found = {NOTHING: lambda: measure(PASS, tools.folder)}
+    found: _Found = {NOTHING: tools.nothing}
     places = {f"{links:,} links": write_workspace(tools.folder / f"first{links}", 1, links) for links in BARS}
     places[MESHES] = _with_meshes(tools.folder / "meshes")
     for label, place in places.items():
@@ -57,7 +57,7 @@ def _first(tools: Tools) -> Study:
 
 
 def _changed(tools: Tools) -> Study:
-    found: _Found = {NOTHING: lambda: measure(PASS, tools.folder)}
+    found: _Found = {NOTHING: tools.nothing}
     for links in BARS:
         place = write_workspace(tools.folder / f"changed{links}", 1, links)
         found[f"{links:,} links"] = changed(tools, place, "robot0")
@@ -85,7 +85,7 @@ def _with_meshes(folder: Path) -> Path:
 
 
 def _real(tools: Tools) -> Study:
-    found: _Found = {NOTHING: lambda: measure(PASS, tools.folder)}
+    found: _Found = {NOTHING: tools.nothing}
     for number, (label, source) in enumerate(_robots(tools)):
         found[f"{label}: first build"] = first(tools, _project(tools.folder / f"first real {number}", source))
         place = _project(tools.folder / f"built real {number}", source)

@@ -13,10 +13,6 @@ from pathlib import Path
 
 _CHILD = Path(__file__).with_name("child.py")
 
-NOTHING = "python -c pass"
-"""Label of a Python that does nothing."""
-PASS = (sys.executable, "-c", "pass")
-
 
 class UnexpectedError(Exception):
     """What was to be measured did not happen."""
@@ -77,8 +73,12 @@ def measure(command: Sequence[str], folder: Path, said: str = "") -> Cost:
 
 
 def run(command: Sequence[str], folder: Path) -> None:
-    """Run a process that is not measured. Raises CalledProcessError if it fails."""
-    subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL, env=variables())
+    """Run a process that is not measured. Raises UnexpectedError, with what it said, if it fails."""
+    done = subprocess.run(
+        command, cwd=folder, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=variables(), text=True
+    )
+    if done.returncode:
+        raise UnexpectedError(f"{' '.join(command)} in {folder}: exit code {done.returncode}\n{done.stdout}")
 
 
 def variables() -> dict[str, str]:

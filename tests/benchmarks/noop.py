@@ -39,7 +39,7 @@ _PATIENCE = 60.0
 
 def studies(tools: Tools) -> Iterator[Study]:
     """What is measured."""
-    found: dict[str, Callable[[], Cost]] = {EMPTY: lambda: measure(tools.empty(), tools.folder)}
+    found: dict[str, Callable[[], Cost]] = {EMPTY: tools.empty}
     for label, robots, links in ((ONE, 1, 97), (MANY, 100, 17)):
         place = _workspace(tools, f"{robots}", robots, links)
         for command in _COMMANDS:

@@ -16,10 +16,13 @@ from pathlib import Path
 
 from support.corpus import REPOSITORY
 
-from benchmarks.measuring import run, variables
+from benchmarks.measuring import Cost, measure, run, variables
 from benchmarks.published import Published
 
 _ENTRIES = {"empty": "benchmark:main", "urdfsync": "urdfsync.__main__:main", "urdfsync-hook": "urdfsync.hook:main"}
+
+NOTHING = "python -c pass"
+"""Label of a Python that does nothing."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,9 +51,13 @@ class Tools:
         """What the hook of git runs."""
         return [str(self.scripts / "urdfsync-hook"), "check"]
 
-    def empty(self) -> list[str]:
-        """A console script that does nothing."""
-        return [str(self.scripts / "empty")]
+    def empty(self) -> Cost:
+        """Measure a console script that does nothing."""
+        return measure([str(self.scripts / "empty")], self.folder)
+
+    def nothing(self) -> Cost:
+        """Measure a Python that does nothing, in that environment: in others, packages may hook into its start."""
+        return measure([str(self.scripts / "python"), "-c", "pass"], self.folder)
 
     def program(self, name: str) -> str | None:
         """The program of another tool; if there is none, that is said."""
