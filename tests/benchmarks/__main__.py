@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import shutil
+import signal
 import sys
 import tempfile
 from collections.abc import Callable
@@ -37,6 +38,7 @@ _WIDTH = 200
 def main() -> None:
     """Measure, print a table of each study, and at last one of all bars."""
     options = _options()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended"))  # so that daemons end and folders are removed
     out, aside, left_out = _console(sys.stdout), _console(sys.stderr), dict[str, None]()
     found: list[tuple[str, Finding]] = []
     with tempfile.TemporaryDirectory() as name, aside.status("preparing") as status:
