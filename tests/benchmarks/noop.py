@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from benchmarks.measuring import Cost, measure, run
+from benchmarks.measuring import Cost, Quantity, measure, run
 from benchmarks.peers import peers
 from benchmarks.robots import write_workspace
 from benchmarks.study import Row, Study
@@ -28,6 +28,7 @@ ROWS = (
     Row(f"build, {ONE}", f"ninja, {ONE}"),
     Row(f"build, {MANY}", EMPTY, 3.0),
     Row(f"build, {MANY}", f"{GIT}, {MANY}", 3.0),
+    *(Row(f"build, {outputs}", EMPTY, None, Quantity.CPU) for outputs in (ONE, MANY)),
     Row(f"build without a stamp, {ONE}", EMPTY),
     Row(f"build without a stamp, {MANY}", EMPTY),
 )
