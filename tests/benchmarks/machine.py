@@ -18,7 +18,7 @@ _PROGRAMS = ("git", "ninja", "doit", "dvc")
 
 def described(tools: Tools) -> Iterator[str]:
     """The machine, and each program with its version."""
-    yield f"{_processor()}, {os.cpu_count()} cores, {_memory()}{platform.system()} {platform.release()}"
+    yield f"{_processor()}, {os.cpu_count()} cores, {_memory()}{platform.system()}"
     yield f"Python {platform.python_version()}"
     for name in _PROGRAMS:
         program = shutil.which(name, path=tools.path)
