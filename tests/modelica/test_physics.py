@@ -12,11 +12,14 @@ from pathlib import Path
 import pytest
 from support import corpus, physics
 from support.corpus import REPOSITORY
+from support.marks import LONG
 
 from urdfsync.urdf.physics import amended
 from urdfsync.urdf.skeleton import Skeleton
 from urdfsync.urdf.source import read_robot
 
+CHOSEN = ("robotics-toolbox-al5d_robot", "random-schunk_pg70", "oems-turtlebot3_burger")
+"""Axes that turn, that slide and follow, and that turn without end: the others are compared in the long run."""
 MANY_JOINTS = 4
 """Robots with more moving joints take much longer: their number of equations grows, and the cost with it."""
 
@@ -33,9 +36,14 @@ def _cases() -> list[object]:
             return [file]
         if file in FAULTY or joints == 0:
             continue
-        mark = pytest.mark.large if joints > MANY_JOINTS else pytest.mark.slow
-        cases.append(pytest.param(file, id="-".join([corpus.label(file), *_notes(file)]), marks=mark))
+        cases.append(pytest.param(file, id="-".join([corpus.label(file), *_notes(file)]), marks=_marks(file, joints)))
     return cases
+
+
+def _marks(file: str, joints: int) -> list[pytest.MarkDecorator]:
+    if joints > MANY_JOINTS:
+        return [pytest.mark.large]
+    return [pytest.mark.slow] if corpus.label(file) in CHOSEN else LONG
 
 
 def _notes(file: str) -> list[str]:
