@@ -228,6 +228,8 @@ def test_a_source_that_changes_after_a_crash(changed: Path, tmp_path: Path) -> N
         assert_healed(project, wanted, operation)
 
 
+@pytest.mark.long
+@pytest.mark.slow
 def test_a_robot_with_thirty_joints(tmp_path: Path) -> None:
     project = tmp_path / "project"
     project.mkdir()
