@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import shutil
 import signal
@@ -173,6 +174,12 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The longest test comes first: it hardly computes. Then those that take seconds, so that no process ends late."""
     items.sort(key=lambda item: ("soak" not in item.nodeid, item.get_closest_marker("slow") is None))
+
+
+def pytest_collection_finish() -> None:
+    """What stays until the end is no garbage: nobody looks for any in it."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

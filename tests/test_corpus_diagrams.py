@@ -72,7 +72,9 @@ def test_diagrams_of_the_corpus_are_well_drawn(files: Sequence[str], base: str, 
     for number, (file, content) in enumerate(sound, 1):
         if number == len(sound) or proposed_base(content) == base:
             package = generate(corpus / file, BOT, base=base)
-            models = frozenset((path, text) for path, text in package.models.items() if package.roles[path] != Role.RECORD)
+            models = frozenset(
+                (path, text) for path, text in package.models.items() if package.roles[path] != Role.RECORD
+            )
             if models not in drawn:
                 assert_well_drawn(package, file)
             drawn.add(models)

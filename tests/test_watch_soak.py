@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 import watch_soak
 
-
 LONGER = float(os.environ.get("URDFSYNC_SOAK", "180"))
 
 

@@ -27,7 +27,9 @@ SWING = "robot.boom_swing.revolute.phi"
 @pytest.fixture(scope="module")
 def by_hand(modelica_library: Path) -> tuple[Series, Series]:
     """The pendulum, and the bench that holds an axis."""
-    pendulum, bench = (modelica.compile_task(f"UrdfSync.Examples.{name}") for name in ("DoublePendulum", "HoldingTorque"))
+    pendulum, bench = (
+        modelica.compile_task(f"UrdfSync.Examples.{name}") for name in ("DoublePendulum", "HoldingTorque")
+    )
     tasks = [
         Task(pendulum.source, pendulum.model, [Run(2, 0.05)], ANGLES),
         Task(bench.source, bench.model, [Run(0.5, 0.1)], [SWING]),
