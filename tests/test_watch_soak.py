@@ -1,4 +1,4 @@
-"""The daemon under random edits, see `watch_soak`: a minute; in the long run `$URDFSYNC_SOAK` seconds, or three minutes."""
+"""The daemon under random edits, see `watch_soak`: a minute, and in the long run `$URDFSYNC_SOAK` seconds, or 180."""
 
 from __future__ import annotations
 

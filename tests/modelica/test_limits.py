@@ -107,7 +107,7 @@ OFF = "passed with limits off"
 
 @pytest.fixture(scope="module")
 def series(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Series]:
-    """What comes of each motion if passing a limit is an error; and of everything if it is a warning, or limits are off."""
+    """What comes of each motion if passing a limit is an error; of everything if it is a warning, or limits are off."""
     folder = tmp_path_factory.mktemp("limits")
     packages = [
         generate(ROBOT.encode(), Target(name, "Bot"), modifiers={"assertion_level": level}).write(folder)
