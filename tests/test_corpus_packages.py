@@ -108,6 +108,7 @@ def test_rumoca_parses_every_text(corpus: Path) -> None:
         assert syntax_errors(text) == [], place
 
 
+@functools.cache
 def kinds_of_texts() -> Mapping[str, str]:
     """Texts that differ in nothing but numbers, names and strings are one to a grammar: one of each kind."""
     return {grammar_kinds(text): text for text in texts()}
