@@ -55,6 +55,8 @@ SOUND = [file for file in corpus.distinct_files() if file not in FAULTY]
 SOURCES = corpus.by_source(SOUND)
 each_source = pytest.mark.parametrize("files", SOURCES.values(), ids=SOURCES)
 """One robot, or all versions of one history."""
+HISTORIES = {name: files for name, files in SOURCES.items() if len(files) > 1}
+each_history = pytest.mark.parametrize("files", HISTORIES.values(), ids=HISTORIES)
 
 
 @functools.cache
@@ -236,20 +238,28 @@ def assert_belongs(path: str, text: str, package: str, place: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("versions", ["last", pytest.param("earlier", marks=pytest.mark.long)])
 @each_source
-def test_the_compiler_accepts_layout_and_names(
-    files: Sequence[str], versions: str, corpus: Path, tmp_path: Path
-) -> None:
-    """What it does not find are names of the standard library, which is not there, and what follows from that.
+def test_the_compiler_accepts_layout_and_names(files: Sequence[str], corpus: Path, tmp_path: Path) -> None:
+    """The last version of each robot."""
+    assert_names_are_known(files[-1], tmp_path)
 
-    Versions that differ in numbers and strings alone have the same layout and the same names.
-    """
+
+@pytest.mark.long
+@pytest.mark.slow
+@each_history
+def test_the_compiler_accepts_layout_and_names_of_all_versions(
+    files: Sequence[str], corpus: Path, tmp_path: Path
+) -> None:
+    """Versions that differ in numbers and strings alone have the same layout and the same names."""
     distinct = {tuple((path, without_values(text)) for path, text in package(f).models.items()): f for f in files}
-    *earlier, last = distinct.values()
-    for number, file in enumerate([last] if versions == "last" else earlier):
-        unknown = unknown_names(package(file).write(tmp_path / str(number)))
-        assert [name for name in unknown if not name.startswith("Modelica.")] == [], file
+    for number, file in enumerate(distinct.values()):
+        assert_names_are_known(file, tmp_path / str(number))
+
+
+def assert_names_are_known(file: str, folder: Path) -> None:
+    """What is not found are names of the standard library, which is not there, and what follows from that."""
+    unknown = unknown_names(package(file).write(folder))
+    assert [name for name in unknown if not name.startswith("Modelica.")] == [], file
 
 
 def unknown_names(folder: Path) -> list[str]:
