@@ -262,10 +262,10 @@ def assert_names_are_known(file: str, folder: Path) -> None:
     assert [name for name in unknown if not name.startswith("Modelica.")] == [], file
 
 
-def unknown_names(folder: Path) -> list[str]:
+def unknown_names(folder: Path, robot: str = "Bot.Bot") -> list[str]:
     """Types, base classes and functions that robot and benches refer to, and that no file has."""
     session = rumoca.Session(roots=[str(folder), str(URDFSYNC)])
-    components = "".join(f"  Bot.Bot{suffix} part{suffix};\n" for suffix in ("", "Run", "Test"))
+    components = "".join(f"  {robot}{suffix} part{suffix};\n" for suffix in ("", "Run", "Test"))
     with pytest.raises(rumoca.CompileError) as caught:
         session.loads(f"model Probe_\n  import UrdfSync;\n{components}end Probe_;\n", model="Probe_", filename="P.mo")
     message = str(caught.value)
@@ -348,6 +348,17 @@ def test_nasty_names_give_right_modelica(nasty_package: Package) -> None:
         assert_belongs(path, text, nasty.TARGET.package, path)
         if '\\\\"' not in text:  # pymoca takes the end of a string that ends in a backslash for an escaped quote
             assert_pymoca_parses(text, path)
+
+
+def test_nasty_names_are_found_where_they_are_used(nasty_package: Package, tmp_path: Path) -> None:
+    """As far as it goes without the standard library."""
+    folder = nasty_package.write(tmp_path)
+    (tmp_path / "Plant" / "package.mo").write_text("within;\npackage Plant\nend Plant;\n")
+    names = unknown_names(tmp_path / "Plant", "Plant.Nasty.Nasty")
+    assert [name for name in names if not name.startswith("Modelica.")] == []
+    model = next(folder.joinpath("Links").glob("*_link.mo"))
+    model.write_text(model.read_text().replace("UrdfSync.Icons.Link;", "UrdfSync.Icons.Lynk;"))
+    assert "UrdfSync.Icons.Lynk" in unknown_names(tmp_path / "Plant", "Plant.Nasty.Nasty")
 
 
 def test_nasty_names_stay_in_the_folder(nasty_package: Package, tmp_path: Path) -> None:

@@ -51,6 +51,7 @@ def test_robot_and_benches_compile(file: str, corpus: Path, modelica_library: Pa
     assert [outcome.error for outcome in outcomes] == ["", "", ""]
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_nasty_names_compile(modelica_library: Path, tmp_path: Path) -> None:
     package = generate(nasty.write(tmp_path / "source"), nasty.TARGET)
