@@ -1,4 +1,7 @@
-"""All checks of the project, as CI runs them: `python -m tests [pytest arguments]`."""
+"""All checks of the project: `python -m tests [--long] [pytest arguments]`.
+
+With `--long`, as CI runs them, the tests follow that take long and show for more robots what others show for some.
+"""
 
 import os
 import subprocess
@@ -7,22 +10,26 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 
+# one more process than cores, since those that watch folders mostly wait
+PYTEST = ["pytest", "-n", str((os.cpu_count() or 1) + 1), "--dist", "worksteal"]
 CHECKS = {
     "lint": ["ruff", "check", "."],
     "format": ["ruff", "format", "--check", "."],
     "types": ["mypy"],
     "examples in step": ["urdfsync", "build", "--check"],
-    # one more process than cores, since those that watch folders mostly wait
-    "tests": ["pytest", "-n", str((os.cpu_count() or 1) + 1), "-m", "not large"],
+    "tests": [*PYTEST, "-m", "not long and not large"],
 }
+LONG = {"long tests": [*PYTEST, "-m", "long and not large"]}
 
 
 def main() -> int:
     """Run every check, even after one has failed; the exit code is 1 if any did."""
     failed = []
-    for name, (module, *arguments) in CHECKS.items():
+    given = [argument for argument in sys.argv[1:] if argument != "--long"]
+    checks = CHECKS | LONG if "--long" in sys.argv else CHECKS
+    for name, (module, *arguments) in checks.items():
         print(f"== {name}", flush=True)  # noqa: T201
-        extra = sys.argv[1:] if module == "pytest" else []
+        extra = given if module == "pytest" else []
         if subprocess.run([sys.executable, "-m", module, *arguments, *extra], cwd=ROOT, check=False).returncode:
             failed.append(name)
     print(f"failed: {', '.join(failed)}" if failed else "all checks passed", flush=True)  # noqa: T201

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import shutil
+import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -64,6 +66,17 @@ def _audit(event: str, arguments: tuple[Any, ...]) -> None:
 
 
 sys.addaudithook(_audit)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _default_signals() -> None:
+    """What `nohup` or a shell's `&` lets the tests ignore, the processes that they start do not ignore.
+
+    A process inherits what is ignored, and not what is handled.
+    """
+    for number in (signal.SIGINT, getattr(signal, "SIGHUP", signal.SIGINT)):
+        if signal.getsignal(number) is signal.SIG_IGN:
+            signal.signal(number, lambda *_: None)
 
 
 @pytest.fixture(autouse=True)
@@ -159,8 +172,14 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The longest test comes first: it hardly computes, and others run beside it."""
-    items.sort(key=lambda item: "soak" not in item.nodeid)
+    """The longest test comes first: it hardly computes. Then those that take seconds, so that no process ends late."""
+    items.sort(key=lambda item: ("soak" not in item.nodeid, item.get_closest_marker("slow") is None))
+
+
+def pytest_collection_finish() -> None:
+    """What stays until the end is no garbage: nobody looks for any in it."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

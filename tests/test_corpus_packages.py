@@ -19,14 +19,23 @@ from support.corpus import FOLDER
 from support.modelica import URDFSYNC
 from support.packages import Package, generate, proposed_base, read, scaled
 from support.urdfs import link, robot
-from support.words import Word, grammar_kinds, qualified_names, unbalanced, without_annotations, without_values, words
+from support.words import (
+    Word,
+    grammar_kinds,
+    kinds_of_statements,
+    qualified_names,
+    unbalanced,
+    without_annotations,
+    without_values,
+    words,
+)
 
 from urdfsync.domain import Role, Target
 from urdfsync.modelica import is_identifier
 
 BOT = Target("Bot", "Bot")
 PARTS = 16
-"""The parsers' work is cut into so many tests, so that they run side by side."""
+"""The slower parser's work is cut into so many tests, so that they run side by side."""
 
 TURTLEBOT = "histories/ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtlebot3"
 SO101 = "histories/TheRobotStudio+SO-ARM100__Simulation_SO101_so101"
@@ -46,6 +55,8 @@ SOUND = [file for file in corpus.distinct_files() if file not in FAULTY]
 SOURCES = corpus.by_source(SOUND)
 each_source = pytest.mark.parametrize("files", SOURCES.values(), ids=SOURCES)
 """One robot, or all versions of one history."""
+HISTORIES = {name: files for name, files in SOURCES.items() if len(files) > 1}
+each_history = pytest.mark.parametrize("files", HISTORIES.values(), ids=HISTORIES)
 
 
 @functools.cache
@@ -65,10 +76,16 @@ def texts() -> Mapping[str, str]:
 
 
 def models(files: Sequence[str]) -> Iterator[tuple[str, str, str]]:
-    """Path in the package, text, and both in words for messages, of every Modelica file of these sources."""
+    """Path in the package, text, and both in words for messages, of every Modelica file of these sources.
+
+    Versions of one robot share files; what has the same path and text comes once.
+    """
+    seen: set[tuple[str, str]] = set()
     for file in files:
         for path, text in package(file).models.items():
-            yield path, text, f"{file}: {path}"
+            if (path, text) not in seen:
+                seen.add((path, text))
+                yield path, text, f"{file}: {path}"
 
 
 def test_a_file_without_package_has_a_fault(corpus: Path) -> None:
@@ -86,19 +103,37 @@ def syntax_errors(text: str) -> list[str]:
     return [d.message for d in rumoca.validate_source(text) if d.rule == "syntax-error"]
 
 
+@pytest.mark.long
 @pytest.mark.slow
-@pytest.mark.parametrize("part", range(PARTS))
-def test_rumoca_parses_every_text(part: int, corpus: Path) -> None:
-    for text in list(texts())[part::PARTS]:
-        assert syntax_errors(text) == [], texts()[text]
+def test_rumoca_parses_every_text(corpus: Path) -> None:
+    for text, place in texts().items():
+        assert syntax_errors(text) == [], place
 
 
+@functools.cache
+def kinds_of_texts() -> Mapping[str, str]:
+    """Texts that differ in nothing but numbers, names and strings are one to a grammar: one of each kind."""
+    return {grammar_kinds(text): text for text in texts()}
+
+
+@pytest.mark.slow
+def test_both_parsers_accept_every_kind_of_statement(corpus: Path) -> None:
+    """Some texts, short ones first, that have them all; how long a list is, and its signs, make no other kind."""
+    parsed: set[str] = set()
+    for kind, text in sorted(kinds_of_texts().items(), key=lambda item: len(item[1])):
+        statements = kinds_of_statements(kind)
+        if statements - parsed:
+            assert syntax_errors(text) == [], texts()[text]
+            assert_pymoca_parses(text, texts()[text])
+            parsed |= statements
+    assert len(parsed) > 50
+
+
+@pytest.mark.long
 @pytest.mark.slow
 @pytest.mark.parametrize("part", range(PARTS))
 def test_pymoca_parses_every_kind_of_text(part: int, corpus: Path) -> None:
-    """Texts that differ in nothing but numbers, names and strings are one to a grammar, and are parsed once."""
-    kinds = {grammar_kinds(text): text for text in texts()}
-    for text in list(kinds.values())[part::PARTS]:
+    for text in list(kinds_of_texts().values())[part::PARTS]:
         assert_pymoca_parses(text, texts()[text])
 
 
@@ -205,20 +240,32 @@ def assert_belongs(path: str, text: str, package: str, place: str) -> None:
 @pytest.mark.slow
 @each_source
 def test_the_compiler_accepts_layout_and_names(files: Sequence[str], corpus: Path, tmp_path: Path) -> None:
-    """What it does not find are names of the standard library, which is not there, and what follows from that.
+    """The last version of each robot."""
+    assert_names_are_known(files[-1], tmp_path)
 
-    Versions that differ in numbers and strings alone have the same layout and the same names.
-    """
+
+@pytest.mark.long
+@pytest.mark.slow
+@each_history
+def test_the_compiler_accepts_layout_and_names_of_all_versions(
+    files: Sequence[str], corpus: Path, tmp_path: Path
+) -> None:
+    """Versions that differ in numbers and strings alone have the same layout and the same names."""
     distinct = {tuple((path, without_values(text)) for path, text in package(f).models.items()): f for f in files}
     for number, file in enumerate(distinct.values()):
-        unknown = unknown_names(package(file).write(tmp_path / str(number)))
-        assert [name for name in unknown if not name.startswith("Modelica.")] == [], file
+        assert_names_are_known(file, tmp_path / str(number))
 
 
-def unknown_names(folder: Path) -> list[str]:
+def assert_names_are_known(file: str, folder: Path) -> None:
+    """What is not found are names of the standard library, which is not there, and what follows from that."""
+    unknown = unknown_names(package(file).write(folder))
+    assert [name for name in unknown if not name.startswith("Modelica.")] == [], file
+
+
+def unknown_names(folder: Path, robot: str = "Bot.Bot") -> list[str]:
     """Types, base classes and functions that robot and benches refer to, and that no file has."""
     session = rumoca.Session(roots=[str(folder), str(URDFSYNC)])
-    components = "".join(f"  Bot.Bot{suffix} part{suffix};\n" for suffix in ("", "Run", "Test"))
+    components = "".join(f"  {robot}{suffix} part{suffix};\n" for suffix in ("", "Run", "Test"))
     with pytest.raises(rumoca.CompileError) as caught:
         session.loads(f"model Probe_\n  import UrdfSync;\n{components}end Probe_;\n", model="Probe_", filename="P.mo")
     message = str(caught.value)
@@ -301,6 +348,17 @@ def test_nasty_names_give_right_modelica(nasty_package: Package) -> None:
         assert_belongs(path, text, nasty.TARGET.package, path)
         if '\\\\"' not in text:  # pymoca takes the end of a string that ends in a backslash for an escaped quote
             assert_pymoca_parses(text, path)
+
+
+def test_nasty_names_are_found_where_they_are_used(nasty_package: Package, tmp_path: Path) -> None:
+    """As far as it goes without the standard library."""
+    folder = nasty_package.write(tmp_path)
+    (tmp_path / "Plant" / "package.mo").write_text("within;\npackage Plant\nend Plant;\n")
+    names = unknown_names(tmp_path / "Plant", "Plant.Nasty.Nasty")
+    assert [name for name in names if not name.startswith("Modelica.")] == []
+    model = next(folder.joinpath("Links").glob("*_link.mo"))
+    model.write_text(model.read_text().replace("UrdfSync.Icons.Link;", "UrdfSync.Icons.Lynk;"))
+    assert "UrdfSync.Icons.Lynk" in unknown_names(tmp_path / "Plant", "Plant.Nasty.Nasty")
 
 
 def test_nasty_names_stay_in_the_folder(nasty_package: Package, tmp_path: Path) -> None:

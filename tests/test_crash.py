@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 from support import crashes
 from support.crashes import Operation, before_each, contents, killed, recorded, run, sample
+from support.marks import LONG
 
 from urdfsync import render
 from urdfsync.state import operations
@@ -228,6 +229,8 @@ def test_a_source_that_changes_after_a_crash(changed: Path, tmp_path: Path) -> N
         assert_healed(project, wanted, operation)
 
 
+@pytest.mark.slow
+@pytest.mark.long
 def test_a_robot_with_thirty_joints(tmp_path: Path) -> None:
     project = tmp_path / "project"
     project.mkdir()
@@ -260,7 +263,7 @@ def chain(joints: int) -> str:
 FALLIBLE = [name for name in crashes.NAMES if name != "remove_folder"]  # which passes over every error
 
 
-@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES])
+@pytest.mark.parametrize("number", [errno.ENOSPC, pytest.param(errno.EACCES, marks=LONG)])
 @pytest.mark.parametrize("lasting", [False, True])
 def test_a_system_that_refuses_leaves_all_as_it_was(changed: Path, tmp_path: Path, number: int, lasting: bool) -> None:
     before, wanted = contents(changed), expected(changed, tmp_path / "clean")

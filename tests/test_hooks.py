@@ -1,7 +1,4 @@
-"""The hooks with the real pre-commit, in throw-away repositories: real commits, real stashes, real roll-backs.
-
-About 60 s on two busy cores.
-"""
+"""The hooks with the real pre-commit, in throw-away repositories: real commits, real stashes, real roll-backs."""
 
 from __future__ import annotations
 
@@ -33,7 +30,8 @@ pytestmark = [
     pytest.mark.skipif(not PRE_COMMIT.is_file(), reason="pre-commit is not installed"),
 ]
 
-MODES = pytest.mark.parametrize("mode", ["build", "check"])
+MODES = pytest.mark.parametrize("mode", ["build", pytest.param("check", marks=pytest.mark.long)])
+"""What differs between them is shown by `test_hook_command.py` without commits."""
 
 
 @dataclasses.dataclass

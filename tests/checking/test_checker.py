@@ -88,7 +88,7 @@ def test_a_process_that_breaks_down_fails_its_robot_only(robots: Config) -> None
 
 
 def test_time_is_limited_and_what_was_found_until_then_stays(robots: Config) -> None:
-    early, slow = check(robots, ["early", "slow"], Wishes(timeout=3, jobs=2))
+    early, slow = check(robots, ["early", "slow"], Wishes(timeout=6, jobs=2))
     assert not early.failed
     assert codes(slow) == ["check-out-of-time"]
     assert slow.compiled == (Compiled("SlowRun", 10, 2),)

@@ -111,9 +111,10 @@ def test_what_can_not_be_read_is_named_as_people_see_it(
     owner, method = (Path, "read_bytes") if name.endswith(".mo") else (os, "scandir")
     genuine = getattr(owner, method)
     monkeypatch.chdir(plant.root)
-    monkeypatch.setattr(owner, method, refuse)
-    with pytest.raises(OutputError) as caught:
-        workspace.package_texts(plant.root / "modelica" / "Plant")
+    with monkeypatch.context() as patch:
+        patch.setattr(owner, method, refuse)
+        with pytest.raises(OutputError) as caught:
+            workspace.package_texts(plant.root / "modelica" / "Plant")
     (found,) = caught.value.diagnostics
     assert (found.file, found.message) == (f"modelica/{name}", "it can't be read: Permission denied")
     assert found.hint

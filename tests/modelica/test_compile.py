@@ -7,12 +7,15 @@ from pathlib import Path
 
 import pytest
 from support import corpus, nasty
+from support.marks import LONG
 from support.modelica import Task, compile_task, execute
 from support.packages import Package, generate, proposed_base
 
 from urdfsync.domain import Target
 from urdfsync.modelica import class_name
 
+CHOSEN = ("random-schunk_pg70", "oems-turtlebot3_burger")
+"""One that stands and slides, with a mimic joint, and one that drives: the others are compiled in the long run."""
 MANY_JOINTS = 3
 """Larger ones take long, and their robots are compiled for the comparison with Pinocchio anyway."""
 FAULTY = {"robots/random/spot_ros/spot_description/urdf/spot_arm.urdf"}
@@ -21,10 +24,16 @@ FAULTY = {"robots/random/spot_ros/spot_description/urdf/spot_arm.urdf"}
 
 def _cases() -> list[object]:
     return [
-        pytest.param(file, id=corpus.label(file), marks=pytest.mark.large if joints > MANY_JOINTS else pytest.mark.slow)
+        pytest.param(file, id=corpus.label(file), marks=_marks(file, joints))
         for file, joints in corpus.moving_joints().items()
         if file not in FAULTY
     ]
+
+
+def _marks(file: str, joints: int) -> list[pytest.MarkDecorator]:
+    if joints > MANY_JOINTS:
+        return [pytest.mark.large]
+    return [pytest.mark.slow] if corpus.label(file) in CHOSEN else LONG
 
 
 def tasks(package: Package) -> Sequence[Task]:
@@ -42,6 +51,7 @@ def test_robot_and_benches_compile(file: str, corpus: Path, modelica_library: Pa
     assert [outcome.error for outcome in outcomes] == ["", "", ""]
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_nasty_names_compile(modelica_library: Path, tmp_path: Path) -> None:
     package = generate(nasty.write(tmp_path / "source"), nasty.TARGET)

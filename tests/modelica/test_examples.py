@@ -7,29 +7,43 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support import modelica
-from support.modelica import Run, Task
+from support.modelica import Run, Series, Task
 
 pytestmark = pytest.mark.slow
 
 GENERATED = ("SixAxisArm", "WheeledRobot", "PlanarPlatform", "FloatingBuoy")
 
 
-@pytest.mark.parametrize("name", GENERATED)
-def test_the_quick_check_of_a_generated_example_compiles(modelica_library: Path, name: str) -> None:
-    probe = modelica.compile_task(f"UrdfSync.Examples.{name}.{name}Test")
-    (outcome,) = modelica.execute(modelica_library, [], [probe])
-    assert not outcome.error
+def test_the_quick_checks_of_generated_examples_compile(modelica_library: Path) -> None:
+    probes = [modelica.compile_task(f"UrdfSync.Examples.{name}.{name}Test") for name in GENERATED]
+    outcomes = modelica.execute(modelica_library, [], probes)
+    assert dict(zip(GENERATED, [outcome.error for outcome in outcomes], strict=True)) == dict.fromkeys(GENERATED, "")
 
 
-def test_a_double_pendulum_loses_energy_by_friction_alone(modelica_library: Path) -> None:
-    probe = modelica.compile_task("UrdfSync.Examples.DoublePendulum")
-    angles = ["shoulder.revolute.phi", "shoulder.revolute.w", "elbow.revolute.phi", "elbow.revolute.w"]
-    task = Task(probe.source, probe.model, [Run(2, 0.05)], angles)
-    (outcome,) = modelica.execute(modelica_library, [], [task])
-    assert not outcome.error
-    (series,) = outcome.runs
+ANGLES = ["shoulder.revolute.phi", "shoulder.revolute.w", "elbow.revolute.phi", "elbow.revolute.w"]
+SWING = "robot.boom_swing.revolute.phi"
+
+
+@pytest.fixture(scope="module")
+def by_hand(modelica_library: Path) -> tuple[Series, Series]:
+    """The pendulum, and the bench that holds an axis."""
+    pendulum, bench = (
+        modelica.compile_task(f"UrdfSync.Examples.{name}") for name in ("DoublePendulum", "HoldingTorque")
+    )
+    tasks = [
+        Task(pendulum.source, pendulum.model, [Run(2, 0.05)], ANGLES),
+        Task(bench.source, bench.model, [Run(0.5, 0.1)], [SWING]),
+    ]
+    outcomes = modelica.execute(modelica_library, [], tasks)
+    assert [outcome.error for outcome in outcomes] == ["", ""]
+    (swinging,), (holding,) = (outcome.runs for outcome in outcomes)
+    return swinging, holding
+
+
+def test_a_double_pendulum_loses_energy_by_friction_alone(by_hand: tuple[Series, Series]) -> None:
+    series, _ = by_hand
     assert not series.error
-    energy = pendulum_energy(*(series.values[name] for name in angles))
+    energy = pendulum_energy(*(series.values[name] for name in ANGLES))
     assert (np.diff(energy) < 1e-6).all()
     assert energy[-1] < energy[0] - 0.1
 
@@ -44,11 +58,7 @@ def pendulum_energy(phi: modelica.Array, w: modelica.Array, psi: modelica.Array,
     return np.asarray(kinetic + potential)
 
 
-def test_a_bench_by_hand_holds_the_axis_that_it_names(modelica_library: Path) -> None:
-    probe = modelica.compile_task("UrdfSync.Examples.HoldingTorque")
-    task = Task(probe.source, probe.model, [Run(0.5, 0.1)], ["robot.boom_swing.revolute.phi"])
-    (outcome,) = modelica.execute(modelica_library, [], [task])
-    assert not outcome.error
-    (series,) = outcome.runs
+def test_a_bench_by_hand_holds_the_axis_that_it_names(by_hand: tuple[Series, Series]) -> None:
+    _, series = by_hand
     assert not series.error
-    assert np.abs(series.values["robot.boom_swing.revolute.phi"]).max() < 1e-6
+    assert np.abs(series.values[SWING]).max() < 1e-6

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -271,14 +272,23 @@ def mobile_accelerations(wheels: Sequence[float], speeds: Sequence[float]) -> Ar
     return np.array([*(turned @ (a[:3] + np.cross(w, v))), *a[3:]])
 
 
-def releases() -> Mapping[str, Release]:
-    axes = {name: release_of_axes(name.capitalize(), urdf) for name, urdf in DRIVEN.items()}
-    return {**axes, "level plane": release_of_level_plane(), "mobile": release_of_mobile()}
+RELEASES: Mapping[str, Callable[[], Release]] = {
+    **{name: functools.partial(release_of_axes, name.capitalize(), urdf) for name, urdf in DRIVEN.items()},
+    "level plane": release_of_level_plane,
+    "mobile": release_of_mobile,
+}
+CHOSEN = ("types", "gripper", "level plane", "mobile")
+"""All kinds of joints, and sliding and turning that follow each other; the others are released in the long run."""
 
 
-def test_free_joints_accelerate_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "names",
+    [CHOSEN, pytest.param([name for name in RELEASES if name not in CHOSEN], marks=pytest.mark.long)],
+    ids=["chosen", "others"],
+)
+def test_free_joints_accelerate_as_pinocchio_says(names: Sequence[str], modelica_library: Path, tmp_path: Path) -> None:
     """Without drives. A level planar joint is that of Pinocchio, and a mobile robot in the air falls freely."""
-    released = releases()
+    released = {name: RELEASES[name]() for name in names}
     folders = [one.package.write(tmp_path) for one in released.values()]
     outcomes = modelica.execute(modelica_library, folders, [one.task for one in released.values()])
     for (name, one), outcome in zip(released.items(), outcomes, strict=True):

@@ -101,44 +101,47 @@ EVERYTHING = {"elbow.a1": 1.0, "roll.a2": 4.0, "rail.a2": 100.0, "lid.a1": -1.0}
 """A motion that passes limits of all kinds."""
 
 
-def runs(library: Path, folder: Path, level: str, check: str, motions: Mapping[str, Run]) -> Mapping[str, Series]:
-    """What comes of each motion if passing a limit has that level; `check` switches the limits on and off."""
-    package = generate(ROBOT.encode(), Target("Bot", "Bot"), modifiers={"assertion_level": level})
-    task = Task(CHECK % check, "Check_.Check", list(motions.values()))
-    (outcome,) = execute(library, [package.write(folder)], [task])
-    assert not outcome.error, outcome.error
-    return dict(zip(motions, outcome.runs, strict=True))
+MILD = "passed with warnings"
+OFF = "passed with limits off"
 
 
 @pytest.fixture(scope="module")
-def with_errors(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Series]:
-    passing = {name: Run(1.0, 0.1, motion) for name, (motion, _, _) in PASSING.items()}
-    inside = {name: Run(stop, stop / 10, motion) for name, (motion, stop) in INSIDE.items()}
-    return runs(modelica_library, tmp_path_factory.mktemp("error"), "error", "true", passing | inside)
+def series(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Series]:
+    """What comes of each motion if passing a limit is an error; of everything if it is a warning, or limits are off."""
+    folder = tmp_path_factory.mktemp("limits")
+    packages = [
+        generate(ROBOT.encode(), Target(name, "Bot"), modifiers={"assertion_level": level}).write(folder)
+        for name, level in (("Bot", "error"), ("Mild", "warning"))
+    ]
+    motions = {name: Run(1.0, 0.1, motion) for name, (motion, _, _) in PASSING.items()}
+    motions |= {name: Run(stop, stop / 10, motion) for name, (motion, stop) in INSIDE.items()}
+    everything = [Run(1.0, 0.1, EVERYTHING)]
+    tasks = [
+        Task(CHECK % "true", "Check_.Check", list(motions.values())),
+        Task(CHECK.replace("Bot.Bot", "Mild.Bot") % "true", "Check_.Check", everything),
+        Task(CHECK % "false", "Check_.Check", everything),
+    ]
+    outcomes = execute(modelica_library, packages, tasks)
+    assert [outcome.error for outcome in outcomes] == ["", "", ""]
+    found = [run for outcome in outcomes for run in outcome.runs]
+    return dict(zip([*motions, MILD, OFF], found, strict=True))
 
 
-@pytest.mark.parametrize("limit", PASSING)
-def test_a_limit_that_is_passed_is_named(limit: str, with_errors: Mapping[str, Series]) -> None:
-    _, time, message = PASSING[limit]
-    found = re.search(r"assert failed at t=([\d.]+): (.*)", with_errors[limit].error)
-    assert found, with_errors[limit].error or "the simulation ran to its end"
-    assert float(found[1]) == pytest.approx(time, rel=1e-3)
-    assert found[2].strip() == f"Check.robot.{message}"
+def test_a_limit_that_is_passed_is_named(series: Mapping[str, Series]) -> None:
+    for limit_name, (_, time, message) in PASSING.items():
+        error = series[limit_name].error
+        found = re.search(r"assert failed at t=([\d.]+): (.*)", error)
+        assert found, error or f"{limit_name}: the simulation ran to its end"
+        assert float(found[1]) == pytest.approx(time, rel=1e-3), limit_name
+        assert found[2].strip() == f"Check.robot.{message}"
 
 
-@pytest.mark.parametrize("motion", INSIDE)
-def test_nothing_is_said_inside_the_limits(motion: str, with_errors: Mapping[str, Series]) -> None:
-    assert with_errors[motion].error == ""
-    assert with_errors[motion].times[-1] == INSIDE[motion][1]
+def test_nothing_is_said_inside_the_limits(series: Mapping[str, Series]) -> None:
+    ends = {name: (series[name].error, series[name].times[-1:].tolist()) for name in INSIDE}
+    assert ends == {name: ("", [stop]) for name, (_, stop) in INSIDE.items()}
 
 
-def test_a_warning_does_not_stop_the_simulation(modelica_library: Path, tmp_path: Path) -> None:
-    (series,) = runs(modelica_library, tmp_path, "warning", "true", {"all": Run(1.0, 0.1, EVERYTHING)}).values()
-    assert series.error == ""
-    assert series.times[-1] == 1.0
-
-
-def test_limits_can_be_switched_off_for_the_whole_robot(modelica_library: Path, tmp_path: Path) -> None:
-    (series,) = runs(modelica_library, tmp_path, "error", "false", {"all": Run(1.0, 0.1, EVERYTHING)}).values()
-    assert series.error == ""
-    assert series.times[-1] == 1.0
+@pytest.mark.parametrize("case", [MILD, OFF])
+def test_warnings_and_limits_that_are_off_do_not_stop_the_simulation(case: str, series: Mapping[str, Series]) -> None:
+    assert series[case].error == ""
+    assert series[case].times[-1] == 1.0

@@ -7,16 +7,21 @@ sides, and `made-up` in its name; `amended` are files that Pinocchio would not r
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 from support import corpus, physics
 from support.corpus import REPOSITORY
+from support.marks import LONG
 
+from urdfsync.modelica import class_name
 from urdfsync.urdf.physics import amended
 from urdfsync.urdf.skeleton import Skeleton
 from urdfsync.urdf.source import read_robot
 
+CHOSEN = ("robotics-toolbox-al5d_robot", "random-schunk_pg70", "oems-turtlebot3_burger")
+"""Axes that turn, that slide and follow, and that turn without end: the others are compared in the long run."""
 MANY_JOINTS = 4
 """Robots with more moving joints take much longer: their number of equations grows, and the cost with it."""
 
@@ -33,9 +38,14 @@ def _cases() -> list[object]:
             return [file]
         if file in FAULTY or joints == 0:
             continue
-        mark = pytest.mark.large if joints > MANY_JOINTS else pytest.mark.slow
-        cases.append(pytest.param(file, id="-".join([corpus.label(file), *_notes(file)]), marks=mark))
+        cases.append(pytest.param(file, id="-".join([corpus.label(file), *_notes(file)]), marks=_marks(file, joints)))
     return cases
+
+
+def _marks(file: str, joints: int) -> list[pytest.MarkDecorator]:
+    if joints > MANY_JOINTS:
+        return [pytest.mark.large]
+    return [pytest.mark.slow] if corpus.label(file) in CHOSEN else LONG
 
 
 def _notes(file: str) -> list[str]:
@@ -59,11 +69,13 @@ def test_enough_robots_are_compared(corpus: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "base"), EXAMPLES.items())
-def test_examples_move_as_pinocchio_says(name: str, base: str, modelica_library: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("names", [["six_axis_arm"], ["wheeled_robot", "planar_platform", "floating_buoy"]])
+def test_examples_move_as_pinocchio_says(names: Sequence[str], modelica_library: Path, tmp_path: Path) -> None:
     """A mobile robot, a planar and a floating joint among them."""
-    source = REPOSITORY / "modelica" / "UrdfSync" / "Resources" / "robots" / name / f"{name}.urdf"
-    case = physics.prepare(source.read_bytes(), base=base)
-    (comparison,) = physics.compare(modelica_library, tmp_path, [case])
-    assert comparison.agrees, comparison.worst()
-    assert case.experiment.notes == ()
+    cases = []
+    for name in names:
+        source = REPOSITORY / "modelica" / "UrdfSync" / "Resources" / "robots" / name / f"{name}.urdf"
+        cases.append(physics.prepare(source.read_bytes(), class_name(name), base=EXAMPLES[name]))
+    for case, comparison in zip(cases, physics.compare(modelica_library, tmp_path, cases), strict=True):
+        assert comparison.agrees, (case.package.target.name, comparison.worst())
+        assert case.experiment.notes == ()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import gc
 import os
 import shutil
 import signal
@@ -106,6 +107,7 @@ def killed(project: Path, number: int, half: bool = False) -> bool:
         warnings.simplefilter("ignore", DeprecationWarning)  # the test runner's threads do not matter to the child
         child = os.fork()
     if child == 0:
+        gc.disable()  # or what the tests have made is copied, to look for garbage in it
         code = 1
         try:
             with before_each(hook):

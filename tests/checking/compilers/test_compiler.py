@@ -73,9 +73,9 @@ def test_a_compiler_that_takes_too_much_memory_is_ended(rumoca: Compiler, monkey
 
 def test_a_compiler_that_takes_too_long_is_ended(rumoca: Compiler, monkeypatch: pytest.MonkeyPatch) -> None:
     fake_worker(monkeypatch, "sys.stdin.read()")
-    diagnostic, _ = failure(rumoca, Job((), (BAD, GOOD)), Limits(1.0))
+    diagnostic, _ = failure(rumoca, Job((), (BAD, GOOD)), Limits(3.0))
     assert diagnostic.code == "compiler-out-of-time"
-    assert diagnostic.message == "the compiler was not done after 1 s, at Plant.Good"
+    assert diagnostic.message == "the compiler was not done after 3 s, at Plant.Good"
     assert "--timeout" in diagnostic.hint
 
 
