@@ -18,7 +18,7 @@ from support.corpus import REPOSITORY
 from benchmarks.measuring import Cost, Quantity, UnexpectedError, measure, variables
 from benchmarks.study import Figures, Row, Study
 from benchmarks.tools import NOTHING, Tools
-from urdfsync.checking import library
+from urdfsync.checking.libraries import library
 
 ROBOT = "six_axis_arm"
 _PAUSE = 0.05
