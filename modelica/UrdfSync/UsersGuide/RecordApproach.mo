@@ -75,11 +75,12 @@ position, most of the time goes into the differentiation of each of these constr
 </p>
 <h4>Limits</h4>
 <ul>
-<li>A robot with planar or floating joints, or without any moving joint, has a record without tables. The models refuse it by name; use the package
-approach. A planar joint can be written in the URDF as two prismatic joints and a continuous one; a floating joint at the root can be left out, and
-the robot put on a <code>FreeBase</code>.</li>
+<li>A robot with planar or floating joints has a record without tables. <code>urdfsync</code> says so with the line of the URDF, and the models refuse
+it by name when a simulation begins. Use the package approach, or change the URDF: a planar joint can be written as two prismatic joints and a
+continuous one; a floating joint at the root can be left out, and the robot put on a <code>FreeBase</code>.</li>
 <li>A link without mass behind a moving joint does no harm as long as something behind that joint has mass. If nothing has, the joint can be
-driven by position only, and a warning names it.</li>
+driven by position only, and warnings of <code>urdfsync</code> and of the models name it.</li>
+<li>A robot without any moving joint, also one of a single link, is a rigid body.</li>
 <li>Gravity is taken at <code>frame_a</code> and is the same for the whole robot.</li>
 <li>rumoca, the compiler behind <code>urdfsync check</code>, follows a redeclared record only in the declaration of the robot itself. One level further out,
 as in <code>bench(robot(redeclare parameter … data))</code>, it silently keeps the record that was there. It also wants literal numbers as sizes of

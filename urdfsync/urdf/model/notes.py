@@ -54,7 +54,7 @@ def record_note(name: str, generic: bool) -> str:
     """Documentation of the record of the whole robot, as HTML."""
     numbers = f"All numbers of robot {name} in one record"
     if not generic:
-        reason = "since no joint moves, or one is planar or floating"
+        reason = "since a joint is planar or floating"
         return f"{numbers}, for studies that need them all. {_GENERIC} can't take it, {reason}."
     return (
         f"{numbers}, with the tables by which {_GENERIC} reads how links and joints hang together. The tables refer to "
