@@ -58,15 +58,18 @@ def prepare(content: bytes, name: str = "Bot", *, approach: Sequence[str] = ("re
     return Robot(package, Reference(read(content, "robot.urdf"), axes, []))
 
 
-def free_task(robot: Robot, form: str, start: Sequence[Course], stop: float) -> Task:
-    """Free motion on a fixed base; `form` is one of `FORMS`, or "package" for the robot model of the package."""
+def free_task(
+    robot: Robot, form: str, start: Sequence[Course], stop: float, tolerances: Sequence[float | None] = (None,)
+) -> Task:
+    """Free motion on a fixed base, once per tolerance; `form` is one of `FORMS`, or "package" for the robot model."""
     name = robot.package.target.name
     model = f"{name}.{name} robot(animation = false, "
     if form != "package":
         model = f"UrdfSync.Robots.{form} robot(redeclare parameter {name}.{name}Parameters data, "
     turning = len(robot.skeleton.axes("rotational"))
     text = _FREE.format(package=name, g=motion.GRAVITY, robot=f"{model}{_starts(start, turning)}checkLimits = false);")
-    return Task(text, "Free_.Free", [Run(stop, stop)], axis_values(robot))
+    runs = [Run(stop, stop, tolerance=tolerance) for tolerance in tolerances]
+    return Task(text, "Free_.Free", runs, axis_values(robot))
 
 
 def axis_values(robot: Robot) -> list[str]:

@@ -26,11 +26,15 @@ CACHE = Cache(Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") /
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """One simulation: from 0 to `stop` s with results every `step` s, and with other values of `parameters`."""
+    """One simulation: from 0 to `stop` s with results every `step` s, and with other values of `parameters`.
+
+    Without a `tolerance` it is the compiler's own.
+    """
 
     stop: float = 0.01
     step: float = 0.0025
     parameters: Mapping[str, float] = dataclasses.field(default_factory=dict)
+    tolerance: float | None = None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -91,7 +95,7 @@ def compile_task(model: str) -> Task:
 
 
 def _task(task: Task) -> tasks.Task:
-    runs = tuple(tasks.Simulation(run.stop, run.step, run.parameters) for run in task.runs)
+    runs = tuple(tasks.Simulation(run.stop, run.step, run.parameters, run.tolerance) for run in task.runs)
     return tasks.Task(task.model, task.source, runs, tuple(task.values))
 
 

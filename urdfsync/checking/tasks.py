@@ -13,6 +13,8 @@ class Simulation(msgspec.Struct, frozen=True):
     stop: float
     step: float
     parameters: Mapping[str, float] = {}
+    tolerance: float | None = None
+    """Of the integration, relative and absolute; None leaves it to the compiler."""
 
 
 class Task(msgspec.Struct, frozen=True):

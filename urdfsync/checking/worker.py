@@ -102,9 +102,8 @@ def _run(model: rumoca.Model, run: Simulation, values: tuple[str, ...]) -> Serie
     import rumoca
 
     try:
-        result = model.simulate(
-            (0, run.stop), config=rumoca.SimConfig(dt=run.step), params=dict(run.parameters) or None
-        )
+        config = rumoca.SimConfig(dt=run.step, rtol=run.tolerance, atol=run.tolerance)
+        result = model.simulate((0, run.stop), config=config, params=dict(run.parameters) or None)
         series = {name: tuple(result[name].tolist()) for name in values}
     except (rumoca.RumocaError, LookupError, ValueError) as error:
         return Series(problem=_words(error))
