@@ -60,7 +60,9 @@ def _idle(skeleton: Skeleton) -> set[str]:
 
 def _weighs(link: Link) -> bool:
     inertial = link.inertial
-    return inertial is not None and any((inertial.mass, inertial.inertia.ixx, inertial.inertia.iyy, inertial.inertia.izz))
+    return inertial is not None and any(
+        (inertial.mass, inertial.inertia.ixx, inertial.inertia.iyy, inertial.inertia.izz)
+    )
 
 
 def _warning(code: str, message: str, hint: str, file: str, lines: Mapping[str, int], element: str) -> Diagnostic:
