@@ -1,9 +1,13 @@
-"""The generic robots and the corpus: prescribed motion against Pinocchio, free motion, and times beside the package.
+"""The generic robots and the corpus: motion and functions against Pinocchio, and times beside the package.
 
-`python tests/generic_corpus.py moves [--only TEXT …] [--most N]` compares poses and efforts of every robot in scope
-that has at most N moving joints; `… falls FILE …` compares 0.5 s of free motion of the generic robots and of the
-package with Pinocchio, `… floats FILE …` likewise with a base that falls and turns; `… times FILE …` compiles and simulates the same motion of package and generic robots. Files
-without inertias get made-up ones, for all sides. Exits with 1 if anything differs or fails.
+- `python tests/generic_corpus.py moves [--only TEXT …] [--most N]`: poses and efforts of prescribed motion, for every
+  robot in scope that has at most N moving joints;
+- `… functions` likewise: mass matrix, forces, poses and the Jacobian of every link in random configurations;
+- `… falls FILE …`: 0.5 s of free motion of the generic robots and of the package;
+- `… floats FILE …`: likewise, with a base that falls and turns;
+- `… times FILE …`: compiles and simulates the same motion of package and generic robots.
+
+Files without inertias get made-up ones, for all sides. Exits with 1 if anything differs or fails.
 """
 
 from __future__ import annotations
@@ -20,6 +24,7 @@ from pathlib import Path
 import numpy as np
 from support import corpus, generic, physics
 from support.corpus import REPOSITORY
+from support.functions import Functions
 from support.modelica import Array, Outcome, Run, Task, compile_task, execute
 
 from urdfsync.checking import library
@@ -31,6 +36,9 @@ from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 from urdfsync.urdf.source import read_robot
 
 COUNTED = ("file", "moving joints", "axes", "links")
+FUNCTIONS = ("found", "mass", "bias", "gravity", "jacobian", "poses")
+"""Base and tool link, mass matrix, all forces, those of gravity, Jacobians, and poses."""
+EXACT = 1e-12
 STOP = 0.5
 STEPS = (500, 1000, 2000, 4000, 8000, 16000, 32000)
 """Of the reference, more and more until it changes no more; friction around standstill is stiff."""
@@ -45,7 +53,7 @@ CONVERGED = 1e-7
 def main(arguments: Sequence[str]) -> int:
     """Print a table with a row per robot, as soon as it is known."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("moves", "falls", "floats", "times"))
+    parser.add_argument("what", choices=("moves", "functions", "falls", "floats", "times"))
     parser.add_argument("files", nargs="*", type=Path)
     parser.add_argument("--only", nargs="*", default=[], metavar="TEXT")
     parser.add_argument("--most", type=int, default=1000, metavar="N")
@@ -53,6 +61,7 @@ def main(arguments: Sequence[str]) -> int:
     folder = library.standard(os.environ, Path.home()).modelica.path.parent
     tables: Mapping[str, Callable[[Path, Iterable[Path]], bool]] = {
         "moves": _moves,
+        "functions": _functions,
         "falls": functools.partial(_falls, base=None),
         "floats": functools.partial(_falls, base=generic.Base()),
         "times": _times,
@@ -108,6 +117,25 @@ def _compared(case: physics.Case, outcome: Outcome) -> Comparison:
     (run,) = outcome.runs
     series = {"time": run.times.tolist()} | {name: values.tolist() for name, values in run.values.items()}
     return Comparison(tuple(case.experiment.compare(series)))
+
+
+def _functions(standard: Path, files: Iterable[Path]) -> bool:
+    _row("file", "moving joints", "axes", "links", *(f"{part} error" for part in FUNCTIONS))
+    _row(*["---"] * (4 + len(FUNCTIONS)))
+    good = [_computed(standard, file) for file in files]
+    return all(good)
+
+
+def _computed(standard: Path, file: Path) -> bool:
+    """One row of `functions`."""
+    functions = Functions(_complete(file))
+    if not any(joint.type in MOTIONS for joint in functions.robot.skeleton.joints):
+        _row(_name(file), *_counts(functions.robot.skeleton), "nothing moves", *[""] * (len(FUNCTIONS) - 1))
+        return True
+    with tempfile.TemporaryDirectory() as folder:
+        worst = functions.worst(standard, Path(folder))
+    _row(_name(file), *_counts(functions.robot.skeleton), *(f"{worst[part]:.0e}" for part in FUNCTIONS))
+    return max(worst.values()) < EXACT
 
 
 def _falls(standard: Path, files: Iterable[Path], base: generic.Base | None) -> bool:

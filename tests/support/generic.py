@@ -36,7 +36,8 @@ _FREE = """package Free_
 end Free_;
 """
 _FIXED = "equation connect(world.frame_b, robot.frame_a);"
-_FLOATING = """UrdfSync.Robots.FreeBase base(r_start = {place}, rpy_start = {rpy}, v_start = {velocity}, w_start = {turning});
+_FLOATING = """UrdfSync.Robots.FreeBase base(
+      r_start = {place}, rpy_start = {rpy}, v_start = {velocity}, w_start = {turning});
   equation
     connect(world.frame_b, base.frame_a);
     connect(base.frame_b, robot.frame_a);"""
