@@ -14,6 +14,7 @@ from urdfsync.urdf.physics import motion
 from urdfsync.urdf.skeleton import MOTIONS
 
 _CONFIGURATIONS = 3
+_WEIGHING = {"mass", "bias", "gravity"}
 _MOST = 12
 """So many links have their Jacobians compared, picked at random if there are more."""
 
@@ -99,8 +100,9 @@ class Functions:
         return Task(source, "Functions_.Functions", [Run(_CONFIGURATIONS - 1, 1)], [*values, "moved"])
 
     def worst(self, library: Path, folder: Path) -> Mapping[str, float]:
-        """Per function the greatest error of all configurations, relative to the greatest element if that is above 1.
+        """Per function the greatest error of all configurations, relative to the greatest element.
 
+        That of lengths and directions counts as 1 at least, that of forces as the greatest element of the mass matrix.
         Raises AssertionError for what does not compile or run.
         """
         (outcome,) = execute(library, [self.robot.package.write(folder)], [self.task()])
@@ -110,8 +112,11 @@ class Functions:
         assert len(series.times) == _CONFIGURATIONS
         worst = dict.fromkeys(self._shapes, 0.0)
         for k, moved in enumerate(series.values["moved"]):
-            for part, expected in self._expected(moved).items():
-                error = np.abs(self._array(part, series, k) - expected).max() / max(1.0, np.abs(expected).max())
+            known = self._expected(moved)
+            inertia = float(np.abs(known["mass"]).max())
+            for part, expected in known.items():
+                size = max(inertia if part in _WEIGHING else 1.0, np.abs(expected).max())
+                error = np.abs(self._array(part, series, k) - expected).max() / size
                 worst[part] = max(worst[part], float(error))
         return worst
 
