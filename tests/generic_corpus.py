@@ -5,7 +5,8 @@
 - `… functions` likewise: mass matrix, forces, poses and the Jacobian of every link in random configurations;
 - `… falls FILE …`: 0.5 s of free motion of the generic robots and of the package;
 - `… floats FILE …`: likewise, with a base that falls and turns;
-- `… times FILE …`: compiles and simulates the same motion of package and generic robots.
+- `… times [FILE …] [--repeats N]`: compiles and simulates the same motion of package and generic robots, in turn, and
+  prints rows for the User's Guide.
 
 Files without inertias get made-up ones, for all sides. Exits with 1 if anything differs or fails.
 """
@@ -16,6 +17,7 @@ import argparse
 import functools
 import itertools
 import os
+import statistics
 import sys
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -26,10 +28,12 @@ from support import corpus, generic, physics
 from support.corpus import REPOSITORY
 from support.functions import Functions
 from support.modelica import Array, Outcome, Run, Task, compile_task, execute
+from support.packages import Package, generate
 
 from urdfsync.checking import library
 from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, Comparison
 from urdfsync.diagnostics import SourceError
+from urdfsync.domain import Target
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.physics import amended, motion
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
@@ -39,6 +43,17 @@ COUNTED = ("file", "moving joints", "axes", "links")
 FUNCTIONS = ("found", "mass", "bias", "gravity", "jacobian", "poses")
 """Base and tool link, mass matrix, all forces, those of gravity, Jacobians, and poses."""
 EXACT = 1e-12
+APPROACHES = ("package", *generic.FORMS)
+TIMED = tuple(
+    corpus.FOLDER / file
+    for file in (
+        "robots/ros-industrial/xacro_generated/universal_robots/ur_description/urdf/ur5e.urdf",
+        "robots/ros-industrial/xacro_generated/fanuc/fanuc_m900ib_support/urdf/m900ib700.urdf",
+        "histories/kscalelabs+sim__sim_resources_stompymicro_robot_fixed.urdf/000.urdf",
+        "robots/matlab/Atlas/urdf/atlas.urdf",
+    )
+)
+"""Robots with 6, 12, 16 and 30 moving joints; of the 12, 6 follow others."""
 STOP = 0.5
 STEPS = (500, 1000, 2000, 4000, 8000, 16000, 32000)
 """Of the reference, more and more until it changes no more; friction around standstill is stiff."""
@@ -57,6 +72,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("files", nargs="*", type=Path)
     parser.add_argument("--only", nargs="*", default=[], metavar="TEXT")
     parser.add_argument("--most", type=int, default=1000, metavar="N")
+    parser.add_argument("--repeats", type=int, default=1, metavar="N")
     options = parser.parse_args(arguments)
     folder = library.standard(os.environ, Path.home()).modelica.path.parent
     tables: Mapping[str, Callable[[Path, Iterable[Path]], bool]] = {
@@ -64,9 +80,10 @@ def main(arguments: Sequence[str]) -> int:
         "functions": _functions,
         "falls": functools.partial(_falls, base=None),
         "floats": functools.partial(_falls, base=generic.Base()),
-        "times": _times,
+        "times": functools.partial(_times, repeats=options.repeats),
     }
-    return int(not tables[options.what](folder, options.files or _all(options)))
+    files = options.files or (TIMED if options.what == "times" else _all(options))
+    return int(not tables[options.what](folder, files))
 
 
 def _all(options: argparse.Namespace) -> list[Path]:
@@ -139,7 +156,7 @@ def _computed(standard: Path, file: Path) -> bool:
 
 
 def _falls(standard: Path, files: Iterable[Path], base: generic.Base | None) -> bool:
-    forms = ("package", *generic.FORMS)
+    forms = APPROACHES
     _row(
         "file",
         "moving joints",
@@ -194,43 +211,71 @@ def _reference(robot: generic.Robot, start: Sequence[motion.Course], base: gener
     return last, change
 
 
-def _times(standard: Path, files: Iterable[Path]) -> bool:
-    _row(
-        "file",
-        "moving joints",
-        "axes",
-        "links",
-        "motion",
-        "package, CPU s",
-        *(f"{form}, CPU s" for form in generic.FORMS),
-    )
+def _times(standard: Path, files: Iterable[Path], repeats: int) -> bool:
+    """A table, and at the end its rows for the User's Guide."""
+    _row(*COUNTED, "motion", *(f"{form}, CPU s" for form in APPROACHES))
     _row(*["---"] * 8)
-    good = [_timed(standard, file, task) for file in files for task in ("prescribed", "free")]
-    return all(good)
+    rows = [row for file in files for row in _timed(standard, file, repeats)]
+    print("", *filter(None, rows), sep="\n")  # noqa: T201
+    return all(rows)
 
 
-def _timed(standard: Path, file: Path, kind: str) -> bool:
-    """One row of `times`: each in a process of its own that has loaded the libraries already."""
-    content, cells, good = _complete(file), [], True
-    for form in ("package", *generic.FORMS):
-        approach = ("package",) if form == "package" else ("record",)
-        if kind == "free":
-            robot = generic.prepare(content, approach=approach)
-            start = [motion.axis_course(joint)._replace(acceleration=0) for joint in motion.driven_axes(robot.skeleton)]
-            package, task = robot.package, generic.free_task(robot, form, start, 0.01)
-        else:
-            case = physics.prepare(content, complete=False, approach=approach)
-            package, probe = case.package, case.experiment.probe
-            source = probe.source.replace("UrdfSync.Robots.GenericRobot ", f"UrdfSync.Robots.{form} ")
-            task = Task(source, probe.model, [Run(probe.stop, probe.step)], probe.values)
-        with tempfile.TemporaryDirectory() as folder:
-            warm = compile_task("UrdfSync.Examples.DoublePendulum")
-            outcome = execute(standard, [package.write(Path(folder))], [warm, task])[-1]
-        problem = outcome.error or outcome.runs[0].error
-        good = good and not problem
-        cells.append(problem.splitlines()[0] if problem else f"{outcome.seconds:.1f}")
-    _row(_name(file), *_counts(package.skeleton), kind, *cells)
-    return good
+def _timed(standard: Path, file: Path, repeats: int) -> Iterator[str]:
+    """What the guide says of a robot; an empty text if something went wrong.
+
+    Each robot is compiled in a process of its own that has loaded the libraries already, and package and generic
+    robots take turns; times are medians of the CPU times of these processes.
+    """
+    content = _complete(file)
+    yield from _written(content)
+    for kind in ("driven", "free"):
+        jobs = {form: _job(content, form, kind) for form in APPROACHES}
+        outcomes: dict[str, list[Outcome]] = {form: [] for form in APPROACHES}
+        for _ in range(repeats):
+            for form, (package, task) in jobs.items():
+                with tempfile.TemporaryDirectory() as folder:
+                    warm = compile_task("UrdfSync.Examples.DoublePendulum")
+                    outcomes[form].append(execute(standard, [package.write(Path(folder))], [warm, task])[-1])
+        problems = [one.error or one.runs[0].error for several in outcomes.values() for one in several]
+        times = {form: _medians(several) for form, several in outcomes.items()}
+        cells = [f"{compiling:.1f} + {simulating:.1f}" for compiling, simulating in times.values()]
+        skeleton = jobs["package"][0].skeleton
+        _row(_name(file), *_counts(skeleton), kind, *cells, *filter(None, problems))
+        joints, *_ = _counts(skeleton)
+        ratio = sum(times["GenericRobot"]) / sum(times["package"])
+        row = f"<td>compile + simulate, {joints} moving joints, {kind}</td><td>{cells[0]} s</td>"
+        yield "" if any(problems) else f"<tr>{row}<td>{cells[1]} s ({100 * ratio:.0f} %)</td></tr>"
+
+
+def _medians(outcomes: Sequence[Outcome]) -> tuple[float, float]:
+    """Of compiling and of simulating."""
+    compiling = statistics.median(one.compiling for one in outcomes)
+    return compiling, statistics.median(one.seconds - one.compiling for one in outcomes)
+
+
+def _job(content: bytes, form: str, kind: str) -> tuple[Package, Task]:
+    """A package, and a motion of 0.01 s: of all axes as `check` prescribes it, or free from its start."""
+    approach = ("package",) if form == "package" else ("record",)
+    if kind == "free":
+        robot = generic.prepare(content, approach=approach)
+        start = [motion.axis_course(joint)._replace(acceleration=0) for joint in motion.driven_axes(robot.skeleton)]
+        return robot.package, generic.free_task(robot, form, start, 0.01)
+    case = physics.prepare(content, complete=False, approach=approach)
+    probe = case.experiment.probe
+    source = probe.source.replace("UrdfSync.Robots.GenericRobot ", f"UrdfSync.Robots.{form} ")
+    return case.package, Task(source, probe.model, [Run(probe.stop, probe.step)], probe.values)
+
+
+def _written(content: bytes) -> Iterator[str]:
+    """Text files and their lines."""
+    texts = [generate(content, Target("Bot", "Bot"), approach=(name,)).texts for name in ("package", "record")]
+    robot = read_robot(content, "robot.urdf", cross_check=False).robot
+    assert robot is not None
+    what = f"{sum(joint.type in MOTIONS for joint in robot.joints)} moving joints, {len(robot.links)} links"
+    files = "".join(f"<td>{len(files)}</td>" for files in texts)
+    lines = "".join(f"<td>{sum(text.count(chr(10)) for text in files.values()):,}</td>" for files in texts)
+    yield f"<tr><td>text files, {what}</td>{files}</tr>"
+    yield f"<tr><td>their lines</td>{lines}</tr>"
 
 
 def _complete(file: Path) -> bytes:

@@ -42,8 +42,12 @@ end Use_;
 @pytest.mark.slow
 def test_the_record_moves_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
     twig = GOLDEN / "twig.urdf"
-    robots = {"Bolted": (twig, "fixed"), "Free": (twig, "floating"), "Stone": (STONE.encode(), "fixed")}
-    robots["Statue"] = (STATUE.encode(), "floating")
+    robots: dict[str, tuple[bytes | Path, str]] = {
+        "Bolted": (twig, "fixed"),
+        "Free": (twig, "floating"),
+        "Stone": (STONE.encode(), "fixed"),
+        "Statue": (STATUE.encode(), "floating"),
+    }
     cases = [physics.prepare(source, name, approach=("record",), base=base) for name, (source, base) in robots.items()]
     for comparison in physics.compare(modelica_library, tmp_path, cases):
         assert comparison.agrees, comparison.worst()

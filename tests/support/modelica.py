@@ -65,6 +65,8 @@ class Outcome:
     runs: tuple[Series, ...]
     seconds: float
     """CPU time."""
+    compiling: float
+    """The part of it before the first run."""
     megabytes: float
     """Peak of the process so far."""
 
@@ -79,7 +81,7 @@ def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task], timeo
     try:
         outcomes = Rumoca(CACHE).compile(tasks.Job(roots, tuple(map(_task, todo))), Limits(timeout))
     except CompilerError as error:
-        return [Outcome(str(error), 0, (), 0, 0) for _ in todo]
+        return [Outcome(str(error), 0, (), 0, 0, 0) for _ in todo]
     return [_outcome(outcome) for outcome in outcomes]
 
 
@@ -101,7 +103,7 @@ def _task(task: Task) -> tasks.Task:
 
 def _outcome(outcome: tasks.Outcome) -> Outcome:
     runs = tuple(map(_series, outcome.runs))
-    return Outcome(outcome.problem, outcome.unknowns, runs, outcome.seconds, outcome.megabytes)
+    return Outcome(outcome.problem, outcome.unknowns, runs, outcome.seconds, outcome.compiling, outcome.megabytes)
 
 
 def _series(run: tasks.Series) -> Series:

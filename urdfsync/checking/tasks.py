@@ -53,6 +53,8 @@ class Outcome(msgspec.Struct, frozen=True):
     runs: tuple[Series, ...] = ()
     seconds: float = 0.0
     """CPU time of the task."""
+    compiling: float = 0.0
+    """The part of it before the first run."""
     megabytes: float = 0.0
     """Peak memory of the process so far."""
 

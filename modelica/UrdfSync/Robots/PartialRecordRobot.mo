@@ -228,7 +228,8 @@ equation
 <p>
 The record <code>data</code> says how many links and axes there are and how they hang together; so <code>data</code> is to be redeclared as the
 record of a robot, in the declaration of the component:
-<code>UrdfSync.Robots.GenericRobot robot(redeclare parameter MyRobotParameters data)</code>. Numbers of the record can be changed between
+<code>UrdfSync.Robots.GenericRobot robot(redeclare parameter MyRobotParameters data)</code>. A bench for several robots names a replaceable record there, as
+<a href=\"modelica://UrdfSync.Examples.GenericRobot\">Examples.GenericRobot</a> does. Numbers of the record can be changed between
 simulations, integers and axes of joints cannot.
 </p>
 <p>
