@@ -1,53 +1,89 @@
-"""The generic robots and the corpus: prescribed motion against Pinocchio, free motion, and times beside the package.
+"""The generic robots and the corpus: motion and functions against Pinocchio, and times beside the package.
 
-`python tests/generic_corpus.py moves [--only TEXT …] [--most N]` compares poses and efforts of every robot in scope
-that has at most N moving joints; `… falls FILE …` compares 0.5 s of free motion of the generic robots and of the
-package with Pinocchio; `… times FILE …` compiles and simulates the same motion of package and generic robots. Files
-without inertias get made-up ones, for all sides. Exits with 1 if anything differs or fails.
+- `python tests/generic_corpus.py moves [--only TEXT …] [--most N]`: poses and efforts of prescribed motion, for every
+  robot in scope that has at most N moving joints;
+- `… functions` likewise: mass matrix, forces, poses and the Jacobian of every link in random configurations;
+- `… falls FILE …`: 0.5 s of free motion of the generic robots and of the package;
+- `… floats FILE …`: likewise, with a base that falls and turns;
+- `… times [FILE …] [--repeats N]`: compiles and simulates the same motion of package and generic robots, in turn, and
+  prints rows for the User's Guide.
+
+Files without inertias get made-up ones, for all sides. Exits with 1 if anything differs or fails.
 """
 
 from __future__ import annotations
 
 import argparse
+import functools
+import itertools
 import os
+import statistics
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
-from support import corpus, exact, generic, physics
+from support import corpus, generic, physics
 from support.corpus import REPOSITORY
+from support.functions import Functions
 from support.modelica import Array, Outcome, Run, Task, compile_task, execute
+from support.packages import Package, generate
 
 from urdfsync.checking.libraries import library
 from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, Comparison
 from urdfsync.diagnostics import SourceError
+from urdfsync.domain import Target
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.physics import amended, motion
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 from urdfsync.urdf.source import read_robot
 
 COUNTED = ("file", "moving joints", "axes", "links")
+FUNCTIONS = ("found", "mass", "bias", "gravity", "jacobian", "poses")
+"""Base and tool link, mass matrix, all forces, those of gravity, Jacobians, and poses."""
+EXACT = 1e-12
+APPROACHES = ("package", *generic.FORMS)
+TIMED = tuple(
+    corpus.FOLDER / file
+    for file in (
+        "robots/ros-industrial/xacro_generated/universal_robots/ur_description/urdf/ur5e.urdf",
+        "robots/ros-industrial/xacro_generated/fanuc/fanuc_m900ib_support/urdf/m900ib700.urdf",
+        "histories/kscalelabs+sim__sim_resources_stompymicro_robot_fixed.urdf/000.urdf",
+        "robots/matlab/Atlas/urdf/atlas.urdf",
+    )
+)
+"""Robots with 6, 12, 16 and 30 moving joints; of the 12, 6 follow others."""
 STOP = 0.5
 STEPS = (500, 1000, 2000, 4000, 8000, 16000, 32000)
 """Of the reference, more and more until it changes no more; friction around standstill is stiff."""
+TOLERANCES = (1e-9, 1e-10, 1e-11, 1e-12)
+"""Of the simulation, likewise: what is left then is a difference of the models, not of the integration."""
 CLOSE = 1e-6
 """At the end of free motion, in rad or m."""
 CONVERGED = 1e-7
+"""The change that ends the refinement on either side."""
 
 
 def main(arguments: Sequence[str]) -> int:
     """Print a table with a row per robot, as soon as it is known."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("moves", "falls", "times"))
+    parser.add_argument("what", choices=("moves", "functions", "falls", "floats", "times"))
     parser.add_argument("files", nargs="*", type=Path)
     parser.add_argument("--only", nargs="*", default=[], metavar="TEXT")
     parser.add_argument("--most", type=int, default=1000, metavar="N")
+    parser.add_argument("--repeats", type=int, default=1, metavar="N")
     options = parser.parse_args(arguments)
     folder = library.standard(os.environ, Path.home()).modelica.path.parent
-    table: Callable[[Path, Iterable[Path]], bool] = {"moves": _moves, "falls": _falls, "times": _times}[options.what]
-    return int(not table(folder, options.files or _all(options)))
+    tables: Mapping[str, Callable[[Path, Iterable[Path]], bool]] = {
+        "moves": _moves,
+        "functions": _functions,
+        "falls": functools.partial(_falls, base=None),
+        "floats": functools.partial(_falls, base=generic.Base()),
+        "times": functools.partial(_times, repeats=options.repeats),
+    }
+    files = options.files or (TIMED if options.what == "times" else _all(options))
+    return int(not tables[options.what](folder, files))
 
 
 def _all(options: argparse.Namespace) -> list[Path]:
@@ -100,8 +136,27 @@ def _compared(case: physics.Case, outcome: Outcome) -> Comparison:
     return Comparison(tuple(case.experiment.compare(series)))
 
 
-def _falls(standard: Path, files: Iterable[Path]) -> bool:
-    forms = ("package", *generic.FORMS)
+def _functions(standard: Path, files: Iterable[Path]) -> bool:
+    _row("file", "moving joints", "axes", "links", *(f"{part} error" for part in FUNCTIONS))
+    _row(*["---"] * (4 + len(FUNCTIONS)))
+    good = [_computed(standard, file) for file in files]
+    return all(good)
+
+
+def _computed(standard: Path, file: Path) -> bool:
+    """One row of `functions`."""
+    functions = Functions(_complete(file))
+    if not any(joint.type in MOTIONS for joint in functions.robot.skeleton.joints):
+        _row(_name(file), *_counts(functions.robot.skeleton), "nothing moves", *[""] * (len(FUNCTIONS) - 1))
+        return True
+    with tempfile.TemporaryDirectory() as folder:
+        worst = functions.worst(standard, Path(folder))
+    _row(_name(file), *_counts(functions.robot.skeleton), *(f"{worst[part]:.0e}" for part in FUNCTIONS))
+    return max(worst.values()) < EXACT
+
+
+def _falls(standard: Path, files: Iterable[Path], base: generic.Base | None) -> bool:
+    forms = APPROACHES
     _row(
         "file",
         "moving joints",
@@ -111,77 +166,116 @@ def _falls(standard: Path, files: Iterable[Path]) -> bool:
         "change of the reference, half the steps",
     )
     _row(*["---"] * 8)
-    good = [_fallen(standard, file, forms) for file in files]
+    good = [_fallen(standard, file, forms, base) for file in files]
     return all(good)
 
 
-def _fallen(standard: Path, file: Path, forms: Sequence[str]) -> bool:
-    """One row of `falls`: the greatest difference of an axis at the end."""
+def _fallen(standard: Path, file: Path, forms: Sequence[str], base: generic.Base | None) -> bool:
+    """One row: the greatest difference of an axis at the end, and of place and attitude of a free base."""
     robot = generic.prepare(_complete(file), approach=("package", "record"))
     start = [motion.axis_course(joint)._replace(acceleration=0) for joint in motion.driven_axes(robot.skeleton)]
     with tempfile.TemporaryDirectory() as folder:
         package = robot.package.write(Path(folder))
-        tasks = [generic.free_task(robot, form, start, STOP) for form in forms]
-        outcomes = exact.execute(standard, [package], tasks)
-    expected, change = _reference(robot, start)
-    found: list[float | str] = []
-    for outcome in outcomes:
-        problem = outcome.problem or outcome.runs[0].problem
-        ends = [] if problem else [outcome.runs[0].values[name][-1] for name in generic.axis_values(robot)]
-        found.append(problem.splitlines()[0] if problem else float(np.abs(np.array(ends) - expected).max()))
+        tasks = [generic.free_task(robot, form, start, STOP, TOLERANCES, base) for form in forms]
+        outcomes = execute(standard, [package], tasks)
+    try:
+        expected, change = _reference(robot, start, base)
+    except np.linalg.LinAlgError:
+        _row(_name(file), *_counts(robot.skeleton), "no reference: a joint moves no mass", *[""] * len(forms))
+        return True
+    found = [_difference(outcome, tasks[0].values, expected) for outcome in outcomes]
     cells = [one if isinstance(one, str) else f"{one:.0e}" for one in found]
     _row(_name(file), *_counts(robot.skeleton), *cells, f"{change:.0e}")
     return all(not isinstance(one, str) and one < CLOSE for one in found)
 
 
-def _reference(robot: generic.Robot, start: Sequence[motion.Course]) -> tuple[Array, float]:
-    """Where the axes are at the end, and how much that changed with the last refinement of steps."""
-    last, change = generic.free_motion(robot, start, STOP, STEPS[0]), np.inf
+def _difference(outcome: Outcome, names: Sequence[str], expected: Array) -> float | str:
+    """Of a simulation that is refined until it changes no more; or what went wrong."""
+    problem = next(filter(None, (outcome.error, *(run.error for run in outcome.runs))), "")
+    if problem:
+        return problem.splitlines()[0]
+    ends = [np.array([run.values[name][-1] for name in names]) for run in outcome.runs]
+    settled = (fine for coarse, fine in itertools.pairwise(ends) if np.abs(fine - coarse).max() < CONVERGED)
+    last = next(settled, None)
+    return "does not converge" if last is None else float(np.abs(last - expected).max())
+
+
+def _reference(robot: generic.Robot, start: Sequence[motion.Course], base: generic.Base | None) -> tuple[Array, float]:
+    """Where the axes and a free base are at the end, and how much that changed with the last refinement of steps."""
+    last, change = generic.free_motion(robot, start, STOP, STEPS[0], base), np.inf
     for steps in STEPS[1:]:
-        before, last = last, generic.free_motion(robot, start, STOP, steps)
+        before, last = last, generic.free_motion(robot, start, STOP, steps, base)
         change = float(np.abs(last - before).max())
         if change < CONVERGED:
             break
     return last, change
 
 
-def _times(standard: Path, files: Iterable[Path]) -> bool:
-    _row(
-        "file",
-        "moving joints",
-        "axes",
-        "links",
-        "motion",
-        "package, CPU s",
-        *(f"{form}, CPU s" for form in generic.FORMS),
-    )
+def _times(standard: Path, files: Iterable[Path], repeats: int) -> bool:
+    """A table, and at the end its rows for the User's Guide."""
+    _row(*COUNTED, "motion", *(f"{form}, CPU s" for form in APPROACHES))
     _row(*["---"] * 8)
-    good = [_timed(standard, file, task) for file in files for task in ("prescribed", "free")]
-    return all(good)
+    rows = [row for file in files for row in _timed(standard, file, repeats)]
+    print("", *filter(None, rows), sep="\n")  # noqa: T201
+    return all(rows)
 
 
-def _timed(standard: Path, file: Path, kind: str) -> bool:
-    """One row of `times`: each in a process of its own that has loaded the libraries already."""
-    content, cells, good = _complete(file), [], True
-    for form in ("package", *generic.FORMS):
-        approach = ("package",) if form == "package" else ("record",)
-        if kind == "free":
-            robot = generic.prepare(content, approach=approach)
-            start = [motion.axis_course(joint)._replace(acceleration=0) for joint in motion.driven_axes(robot.skeleton)]
-            package, task = robot.package, generic.free_task(robot, form, start, 0.01)
-        else:
-            case = physics.prepare(content, complete=False, approach=approach)
-            package, probe = case.package, case.experiment.probe
-            source = probe.source.replace("UrdfSync.Robots.GenericRobot ", f"UrdfSync.Robots.{form} ")
-            task = Task(source, probe.model, [Run(probe.stop, probe.step)], probe.values)
-        with tempfile.TemporaryDirectory() as folder:
-            warm = compile_task("UrdfSync.Examples.DoublePendulum")
-            outcome = execute(standard, [package.write(Path(folder))], [warm, task])[-1]
-        problem = outcome.error or outcome.runs[0].error
-        good = good and not problem
-        cells.append(problem.splitlines()[0] if problem else f"{outcome.seconds:.1f}")
-    _row(_name(file), *_counts(package.skeleton), kind, *cells)
-    return good
+def _timed(standard: Path, file: Path, repeats: int) -> Iterator[str]:
+    """What the guide says of a robot; an empty text if something went wrong.
+
+    Each robot is compiled in a process of its own that has loaded the libraries already, and package and generic
+    robots take turns; times are medians of the CPU times of these processes.
+    """
+    content = _complete(file)
+    yield from _written(content)
+    for kind in ("driven", "free"):
+        jobs = {form: _job(content, form, kind) for form in APPROACHES}
+        outcomes: dict[str, list[Outcome]] = {form: [] for form in APPROACHES}
+        for _ in range(repeats):
+            for form, (package, task) in jobs.items():
+                with tempfile.TemporaryDirectory() as folder:
+                    warm = compile_task("UrdfSync.Examples.DoublePendulum")
+                    outcomes[form].append(execute(standard, [package.write(Path(folder))], [warm, task])[-1])
+        problems = [one.error or one.runs[0].error for several in outcomes.values() for one in several]
+        times = {form: _medians(several) for form, several in outcomes.items()}
+        cells = [f"{compiling:.1f} + {simulating:.1f}" for compiling, simulating in times.values()]
+        skeleton = jobs["package"][0].skeleton
+        _row(_name(file), *_counts(skeleton), kind, *cells, *filter(None, problems))
+        joints, *_ = _counts(skeleton)
+        ratio = sum(times["GenericRobot"]) / sum(times["package"])
+        row = f"<td>compile + simulate, {joints} moving joints, {kind}</td><td>{cells[0]} s</td>"
+        yield "" if any(problems) else f"<tr>{row}<td>{cells[1]} s ({100 * ratio:.0f} %)</td></tr>"
+
+
+def _medians(outcomes: Sequence[Outcome]) -> tuple[float, float]:
+    """Of compiling and of simulating."""
+    compiling = statistics.median(one.compiling for one in outcomes)
+    return compiling, statistics.median(one.seconds - one.compiling for one in outcomes)
+
+
+def _job(content: bytes, form: str, kind: str) -> tuple[Package, Task]:
+    """A package, and a motion of 0.01 s: of all axes as `check` prescribes it, or free from its start."""
+    approach = ("package",) if form == "package" else ("record",)
+    if kind == "free":
+        robot = generic.prepare(content, approach=approach)
+        start = [motion.axis_course(joint)._replace(acceleration=0) for joint in motion.driven_axes(robot.skeleton)]
+        return robot.package, generic.free_task(robot, form, start, 0.01)
+    case = physics.prepare(content, complete=False, approach=approach)
+    probe = case.experiment.probe
+    source = probe.source.replace("UrdfSync.Robots.GenericRobot ", f"UrdfSync.Robots.{form} ")
+    return case.package, Task(source, probe.model, [Run(probe.stop, probe.step)], probe.values)
+
+
+def _written(content: bytes) -> Iterator[str]:
+    """Text files and their lines."""
+    texts = [generate(content, Target("Bot", "Bot"), approach=(name,)).texts for name in ("package", "record")]
+    robot = read_robot(content, "robot.urdf", cross_check=False).robot
+    assert robot is not None
+    what = f"{sum(joint.type in MOTIONS for joint in robot.joints)} moving joints, {len(robot.links)} links"
+    files = "".join(f"<td>{len(files)}</td>" for files in texts)
+    lines = "".join(f"<td>{sum(text.count(chr(10)) for text in files.values()):,}</td>" for files in texts)
+    yield f"<tr><td>text files, {what}</td>{files}</tr>"
+    yield f"<tr><td>their lines</td>{lines}</tr>"
 
 
 def _complete(file: Path) -> bytes:

@@ -126,6 +126,23 @@ def test_an_edited_model_outlives_its_approach(project: Project) -> None:
     assert project.files() == RECORD | {"Links/Stem.mo"} | around
 
 
+def test_no_edit_is_lost_on_the_way_to_the_other_approach_and_to_both(project: Project) -> None:
+    edited: list[Path] = []
+
+    def edit(*names: str) -> None:
+        for name in names:
+            edited.append(project.package / name)
+            edited[-1].write_text(edited[-1].read_text() + "// mine\n")
+
+    project.build('["package"]')
+    edit("Links/Stem.mo", "Links/BranchParameters.mo", "Twig.mo", "TwigParameters.mo")
+    project.build('["record"]')
+    edit("TwigGeneric.mo")
+    for approach in ('["package", "record"]', '["package"]', '["record"]'):
+        assert not project.build(approach).conflicts
+        assert [path.read_text().count("// mine") for path in edited] == [1] * len(edited)
+
+
 CHANGES: dict[str, tuple[str, str]] = {
     "mass": ('<mass value="1.5"/>', '<mass value="1.625"/>'),
     "origin": ('<origin xyz="0.1 0 0.2" rpy="0.5 0 0"/>', '<origin xyz="0.1 0.3 0.2" rpy="0.5 0 0"/>'),
@@ -146,6 +163,16 @@ def test_numbers_rewrite_the_record_and_nothing_else(project: Project, change: t
     assert written(result) == {"TwigParameters.mo"}
     assert result.changes is not None
     assert {found.change_class for found in result.changes.changes} == {ChangeClass.PARAMETER}
+
+
+@pytest.mark.parametrize("name", ["mass", "axis", "inertial"])
+def test_numbers_rewrite_records_and_nothing_else_in_both_approaches(project: Project, name: str) -> None:
+    project.build('["package", "record"]')
+    project.change(*CHANGES[name])
+    files = written(project.build('["package", "record"]'))
+    assert len(files) == 2, "that of the element and that of the robot"
+    assert "TwigParameters.mo" in files
+    assert all(file.endswith("Parameters.mo") for file in files)
 
 
 def test_numbers_leave_the_tables_alone(project: Project) -> None:

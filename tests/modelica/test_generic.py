@@ -8,18 +8,19 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
 import test_limits
-from support import exact, generic, modelica, physics
-from support.modelica import URDFSYNC, Run, Series, Task, execute
+from support import generic, modelica, physics
+from support.modelica import URDFSYNC, Array, Run, Series, Task, execute
 from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
 from urdfsync.domain import Target
+from urdfsync.urdf.kinematics import start_positions
 from urdfsync.urdf.physics import motion
 
 pytestmark = pytest.mark.slow
@@ -70,8 +71,11 @@ end Light_;
 """
 
 ROBOTS = {"gripper": GRIPPER, "ladder": LADDER}
+BASES = {"gripper": generic.Base(), "ladder": None}
 START = motion.Course(0.3, 0.2, 0.0)
 STOP = 0.5
+TOLERANCE = 1e-9
+"""Of the integration, so that its error is far below what is compared."""
 PRESCRIBED = (("gripper", "GenericRobot"), ("gripper", "ArticulatedRobot"), ("ladder", "GenericRobot"))
 """What is compared at prescribed motion; at free motion it is everything."""
 CLASSES = ("PartialRecordRobot", "PartialGenericRobot", "GenericRobot")
@@ -100,26 +104,29 @@ def in_form(name: str, form: str) -> physics.Case:
 
 
 def test_free_motion_agrees_with_pinocchio(modelica_library: Path, tmp_path: Path) -> None:
+    """The ladder on a fixed base, the gripper on one that falls and turns."""
     robots = [generic.prepare(text.encode(), name.title()) for name, text in ROBOTS.items()]
-    starts = [[START] * len(own.reference.axes) for own in robots]
-    todo = [(own, start, form) for own, start in zip(robots, starts, strict=True) for form in generic.FORMS]
-    tasks = [generic.free_task(own, form, start, STOP) for own, start, form in todo]
-    outcomes = exact.execute(modelica_library, [own.package.write(tmp_path) for own in robots], tasks)
-    for (own, start, _), outcome in zip(todo, outcomes, strict=True):
-        assert outcome.problem == ""
+    todo = [(own, BASES[name], form) for name, own in zip(ROBOTS, robots, strict=True) for form in generic.FORMS]
+    tasks = [generic.free_task(own, form, starts(own), STOP, [TOLERANCE], base) for own, base, form in todo]
+    outcomes = execute(modelica_library, [own.package.write(tmp_path) for own in robots], tasks)
+    for (own, base, _), task, outcome in zip(todo, tasks, outcomes, strict=True):
+        assert outcome.error == ""
         (series,) = outcome.runs
-        assert series.problem == ""
-        expected = generic.free_motion(own, start, STOP, 250)
-        assert np.abs(expected - START.position).min() > 0.1, "every axis moves"
-        found = [series.values[value][-1] for value in generic.axis_values(own)]
+        assert series.error == ""
+        expected = generic.free_motion(own, starts(own), STOP, 250, base)
+        assert np.abs(expected[: len(own.reference.axes)] - START.position).min() > 1e-3, "every axis moves"
+        found = [series.values[value][-1] for value in task.values]
         assert np.abs(found - expected).max() < 1e-6
+
+
+def starts(own: generic.Robot) -> list[motion.Course]:
+    return [START] * len(own.reference.axes)
 
 
 def test_the_reference_converges() -> None:
     """With half the steps it changes far less than the comparison tolerates."""
     own = generic.prepare(GRIPPER.encode())
-    start = [START] * len(own.reference.axes)
-    coarse, fine = (generic.free_motion(own, start, STOP, steps) for steps in (250, 500))
+    coarse, fine = (generic.free_motion(own, starts(own), STOP, steps, BASES["gripper"]) for steps in (250, 500))
     assert np.abs(coarse - fine).max() < 1e-7
 
 
@@ -177,20 +184,54 @@ def test_a_free_joint_that_moves_no_mass_is_named(at_limits: Mapping[str, Series
     assert at_limits["with mass"].error == ""
 
 
+GRIPPER_BODY = """<origin xyz="0 0 0.0393"/>
+      <mass value="0.82"/>
+      <inertia ixx="0.0005742" ixy="0" ixz="0" iyy="0.0011987" iyz="0" izz="0.0011859"/>"""
+HEAVY_BODY = """<origin xyz="0 0 0.05"/>
+      <mass value="4"/>
+      <inertia ixx="0.003" ixy="0" ixz="0" iyy="0.006" iyz="0" izz="0.006"/>"""
+LONGER = (('xyz="0.15 0 0.04"', 'xyz="0.4 0 0.03"'), (GRIPPER_BODY, HEAVY_BODY))
+STUDY: Mapping[str, tuple[str, Sequence[tuple[str, str]]]] = {
+    "GenericRobot": ("six_axis_arm", ()),
+    "RobotStudy.LongArm": ("six_axis_arm", LONGER),
+    "RobotStudy.Wheeled": ("wheeled_robot", ()),
+}
+"""Per model that is the bench with a record: the URDF of its robot, and what is changed in it."""
+TOOLS = {"six_axis_arm": "drive_pinion", "wheeled_robot": "camera_optical_frame"}
+MOMENT = 0.2
+
+
 def test_a_study_redeclares_the_record(modelica_library: Path) -> None:
-    """Three robots in one model; the second one has other numbers in the record of the first one."""
-    study = modelica.compile_task("UrdfSync.Examples.RobotStudy")
-    tools = [f"r_tool[{number},{i}]" for number in (1, 2, 3) for i in (1, 2, 3)]
-    (outcome,) = execute(modelica_library, [], [Task(study.source, study.model, [Run(0.2, 0.1)], tools)])
-    assert not outcome.error, outcome.error
-    (series,) = outcome.runs
-    assert not series.error, series.error
-    arm, long_arm, wheeled = np.array([series.values[name] for name in tools]).reshape(3, 3, -1)
-    longer = arm[:, 0] + (0.25, 0, -0.01)
-    assert long_arm[:, 0] == pytest.approx(longer, abs=1e-6)
-    assert wheeled[:, 0] == pytest.approx((-0.05, 0.042, 0.673), abs=1e-6)
-    assert arm[2, 0] - arm[2, -1] > 0.01, "the arm drops"
-    assert long_arm[2, 0] - long_arm[2, -1] > 0.01
+    """The same bench with three records: each robot drops as Pinocchio says that it does."""
+    tasks = []
+    for name in STUDY:
+        model = modelica.compile_task(f"UrdfSync.Examples.{name}")
+        run = Run(MOMENT, MOMENT, tolerance=TOLERANCE)
+        tasks.append(Task(model.source, model.model, [run], [f"r_tool[{i}]" for i in (1, 2, 3)]))
+    outcomes = execute(modelica_library, [], tasks)
+    for (file, changes), task, outcome in zip(STUDY.values(), tasks, outcomes, strict=True):
+        assert outcome.error == ""
+        (series,) = outcome.runs
+        assert series.error == ""
+        before, after = dropped(file, changes)
+        found = np.array([series.values[value] for value in task.values])
+        assert found[:, 0] == pytest.approx(before, abs=1e-9)
+        assert found[:, -1] == pytest.approx(after, abs=1e-6)
+        assert before[2] - after[2] > 0.01, "it drops"
+
+
+def dropped(file: str, changes: Sequence[tuple[str, str]]) -> tuple[Array, Array]:
+    """Where Pinocchio has the tool at the start and at the end."""
+    text = (URDFSYNC / "Resources" / "robots" / file / f"{file}.urdf").read_text("utf-8")
+    for old, new in changes:
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    own = generic.prepare(text.encode())
+    own.reference.model.gravity.linear = np.array([0, 0, -9.80665])
+    positions = start_positions(own.skeleton)
+    start = [motion.Course(positions[name], 0.0, 0.0) for name in own.reference.axes]
+    end = generic.free_motion(own, start, MOMENT, 400)
+    return generic.link_place(own, np.array(start)[:, 0], TOOLS[file]), generic.link_place(own, end, TOOLS[file])
 
 
 def declared(library: Path, name: str) -> set[str]:

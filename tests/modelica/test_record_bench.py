@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from support import physics, urdfs
+from support import generic, physics, urdfs
 from support.modelica import Run, Task, compile_task, execute
 from support.packages import generate
 
@@ -16,14 +16,39 @@ PLANAR = urdfs.robot(
     urdfs.link("base"), urdfs.link("puck", 1), urdfs.joint("glide", "planar", "base", "puck", axis="0 0 1")
 )
 """The generic robot can't take it."""
+STONE = urdfs.robot(urdfs.link("stone", 2))
+"""One link."""
+STATUE = urdfs.robot(
+    *(urdfs.link(name, 1) for name in ("base", "head", "hat")),
+    urdfs.joint("neck", "fixed", "base", "head"),
+    urdfs.joint("tilt", "revolute", "head", "hat", axis="0 1 0", inside=[urdfs.mimic("neck", 1, 0.4), urdfs.limit()]),
+)
+"""No axis: a fixed joint, and one that follows it."""
+REFUSED = """
+package Use_
+  import Modelica;
+  import UrdfSync;
+  import Zoo;
+  model Refused
+    inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, enableAnimation = false);
+    UrdfSync.Robots.{form} robot(redeclare parameter Zoo.ZooParameters data);
+  equation
+    connect(world.frame_b, robot.frame_a);
+  end Refused;
+end Use_;
+"""
 
 
 @pytest.mark.slow
 def test_the_record_moves_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
-    cases = [
-        physics.prepare(GOLDEN / "twig.urdf", name, approach=("record",), base=base)
-        for name, base in (("Bolted", "fixed"), ("Free", "floating"))
-    ]
+    twig = GOLDEN / "twig.urdf"
+    robots: dict[str, tuple[bytes | Path, str]] = {
+        "Bolted": (twig, "fixed"),
+        "Free": (twig, "floating"),
+        "Stone": (STONE.encode(), "fixed"),
+        "Statue": (STATUE.encode(), "floating"),
+    }
+    cases = [physics.prepare(source, name, approach=("record",), base=base) for name, (source, base) in robots.items()]
     for comparison in physics.compare(modelica_library, tmp_path, cases):
         assert comparison.agrees, comparison.worst()
 
@@ -38,8 +63,14 @@ def test_benches_can_be_simulated_at_once(modelica_library: Path, tmp_path: Path
     folders = [package.write(tmp_path) for package in packages]
     values = ("robot.r_0[1,3]", "robot.rotationalAxis[1].phi")
     tasks = [_bench(target.name, values) for target in targets.values()]
-    bolted, free, zoo = execute(modelica_library, folders, [*tasks, compile_task("Zoo.ZooParameters")])
+    refused = [Task(REFUSED.format(form=form), "Use_.Refused", [Run()]) for form in generic.FORMS]
+    bolted, free, zoo, *forms = execute(
+        modelica_library, folders, [*tasks, compile_task("Zoo.ZooParameters"), *refused]
+    )
     assert (bolted.error, free.error, zoo.error) == ("", "", "")
+    for form in forms:
+        message = "Refused.robot: robot own has planar or floating joints, so its record has no tables. Use the package"
+        assert message in form.runs[0].error
     height, angle = (bolted.runs[0].values[name] for name in values)
     assert set(height) == {0.0}
     assert angle[-1] > 0.001, "the axis has set out"

@@ -1,7 +1,7 @@
 """Generic robots, which read the record of a robot: models to compile, and the same motion by Pinocchio.
 
-Pinocchio's free motion is that of `urdfsync.urdf.physics.reference` with the base at rest, integrated by the classical
-Runge-Kutta method of fourth order.
+Pinocchio's free motion is that of `urdfsync.urdf.physics.reference`, the base at rest or free, integrated by the
+classical Runge-Kutta method of fourth order.
 """
 
 from __future__ import annotations
@@ -31,11 +31,16 @@ _FREE = """package Free_
   model Free
     inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, g = {g!r}, enableAnimation = false);
     {robot}
-  equation
-    connect(world.frame_b, robot.frame_a);
+    {base}
   end Free;
 end Free_;
 """
+_FIXED = "equation connect(world.frame_b, robot.frame_a);"
+_FLOATING = """UrdfSync.Robots.FreeBase base(
+      r_start = {place}, rpy_start = {rpy}, v_start = {velocity}, w_start = {turning});
+  equation
+    connect(world.frame_b, base.frame_a);
+    connect(base.frame_b, robot.frame_a);"""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,6 +56,16 @@ class Robot:
         return self.package.skeleton
 
 
+@dataclasses.dataclass(frozen=True)
+class Base:
+    """How a free base sets out: velocity and angular velocity are resolved in the world."""
+
+    place: tuple[float, float, float] = (0.3, -0.2, 1.5)
+    rpy: tuple[float, float, float] = (0.4, -0.3, 0.9)
+    velocity: tuple[float, float, float] = (0.5, -0.3, 0.8)
+    turning: tuple[float, float, float] = (0.7, -1.1, 0.6)
+
+
 def prepare(content: bytes, name: str = "Bot", *, approach: Sequence[str] = ("record",)) -> Robot:
     """A robot that Pinocchio can read."""
     package = generate(content, Target(name, name), approach=tuple(approach))
@@ -58,15 +73,35 @@ def prepare(content: bytes, name: str = "Bot", *, approach: Sequence[str] = ("re
     return Robot(package, Reference(read(content, "robot.urdf"), axes, []))
 
 
-def free_task(robot: Robot, form: str, start: Sequence[Course], stop: float) -> Task:
-    """Free motion on a fixed base; `form` is one of `FORMS`, or "package" for the robot model of the package."""
+def free_task(
+    robot: Robot,
+    form: str,
+    start: Sequence[Course],
+    stop: float,
+    tolerances: Sequence[float | None] = (None,),
+    base: Base | None = None,
+) -> Task:
+    """Free motion, once per tolerance, on a fixed base or a free one.
+
+    `form` is one of `FORMS`, or "package" for the robot model of the package.
+    """
     name = robot.package.target.name
     model = f"{name}.{name} robot(animation = false, "
     if form != "package":
         model = f"UrdfSync.Robots.{form} robot(redeclare parameter {name}.{name}Parameters data, "
-    turning = len(robot.skeleton.axes("rotational"))
-    text = _FREE.format(package=name, g=motion.GRAVITY, robot=f"{model}{_starts(start, turning)}checkLimits = false);")
-    return Task(text, "Free_.Free", [Run(stop, stop)], axis_values(robot))
+    model += f"{_starts(start, len(robot.skeleton.axes('rotational')))}checkLimits = false);"
+    numbers = {key: vector(value) for key, value in dataclasses.asdict(base).items()} if base else {}
+    connected = _FLOATING.format(**numbers) if base else _FIXED
+    text = _FREE.format(package=name, g=motion.GRAVITY, robot=model, base=connected)
+    runs = [Run(stop, stop, tolerance=tolerance) for tolerance in tolerances]
+    return Task(text, "Free_.Free", runs, [*axis_values(robot), *(ROOT if base else ())])
+
+
+ROOT = (
+    *(f"robot.frame_a.r_0[{i}]" for i in (1, 2, 3)),
+    *(f"robot.frame_a.R.T[{j},{i}]" for i in (1, 2, 3) for j in (1, 2, 3)),
+)
+"""Variables with place and rotation matrix of the root link, the latter by rows."""
 
 
 def axis_values(robot: Robot) -> list[str]:
@@ -79,17 +114,19 @@ def axis_values(robot: Robot) -> list[str]:
     ]
 
 
-def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int) -> Array:
-    """Positions of the driven axes after `stop` s of free motion from positions and speeds of `start`."""
-    p, v, _ = np.array(start).T
+def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, base: Base | None = None) -> Array:
+    """What the values of `free_task` are after `stop` s of free motion from positions and speeds of `start`."""
+    p, v, _ = np.array([*start, (0, 0, 0)]).T[:, :-1]
+    y = np.concatenate([*_base(robot, base or Base((0, 0, 0), (0, 0, 0), (0, 0, 0), (0, 0, 0))), p, v])
     h = stop / steps
     for _ in range(steps):
-        a1 = _acceleration(robot, p, v)
-        a2 = _acceleration(robot, p + h / 2 * v, v + h / 2 * a1)
-        a3 = _acceleration(robot, p + h / 2 * v + h**2 / 4 * a1, v + h / 2 * a2)
-        a4 = _acceleration(robot, p + h * v + h**2 / 2 * a2, v + h * a3)
-        p, v = p + h * v + h**2 / 6 * (a1 + a2 + a3), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
-    return np.asarray(p)
+        k1 = _rates(robot, y, base is not None)
+        k2 = _rates(robot, y + h / 2 * k1, base is not None)
+        k3 = _rates(robot, y + h / 2 * k2, base is not None)
+        k4 = _rates(robot, y + h * k3, base is not None)
+        y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+    place, axes, _, _, p, _ = _parts(robot, y)
+    return np.concatenate([p, place, axes.ravel()]) if base else np.asarray(p)
 
 
 def at_rest(robot: Robot, p: Array, v: Array) -> State:
@@ -100,16 +137,50 @@ def at_rest(robot: Robot, p: Array, v: Array) -> State:
     return state
 
 
-def _acceleration(robot: Robot, p: Array, v: Array) -> Array:
-    """Of the driven axes without drives: (Bᵀ·H·B)·a = -Bᵀ·(C + losses), notation as in `reference`."""
+def link_place(robot: Robot, p: Array, link: str) -> Array:
+    """Where the frame of a link is, the base at the origin."""
+    pin, model = robot.reference.pin, robot.reference.model
+    data = model.createData()
+    pin.framesForwardKinematics(model, data, at_rest(robot, p, np.zeros(len(p))).q)
+    return np.array(data.oMf[model.getFrameId(link, pin.BODY)].translation)
+
+
+def _base(robot: Robot, base: Base) -> tuple[Array, ...]:
+    """Place, attitude as a quaternion, velocity, and angular velocity in axes of the base."""
+    pin = robot.reference.pin
+    axes = pin.rpy.rpyToMatrix(*base.rpy)
+    attitude = pin.Quaternion(axes).coeffs()
+    return np.array(base.place), np.array(attitude), np.array(base.velocity), axes.T @ np.array(base.turning)
+
+
+def _parts(robot: Robot, y: Array) -> tuple[Array, ...]:
+    """Of a state: place, rotation matrix, velocity and angular velocity of the base; positions and speeds."""
+    attitude = robot.reference.pin.Quaternion(y[3:7] / np.linalg.norm(y[3:7]))
+    count = (len(y) - 13) // 2
+    return y[:3], np.array(attitude.toRotationMatrix()), y[7:10], y[10:13], y[13 : 13 + count], y[13 + count :]
+
+
+def _rates(robot: Robot, y: Array, floats: bool) -> Array:
+    """Of change of a state: (Gᵀ·H·G)·z = -Gᵀ·(C + losses) for base and axes without drives, as in `reference`.
+
+    Pinocchio resolves velocity v and spatial acceleration a of the base in it: R·(a + w x v) is that of its origin.
+    """
+    place, axes, velocity, turning, p, v = _parts(robot, y)
     reference, state = robot.reference, at_rest(robot, p, v)
+    state.q[:3], state.q[3:7] = place, y[3:7] / np.linalg.norm(y[3:7])
+    state.v[:3], state.v[3:6] = axes.T @ velocity, turning
     pin, model = reference.pin, reference.model
     bias = pin.rnea(model, model.createData(), state.q, state.v, np.zeros(model.nv))
     bias += model.damping * state.v + model.friction * np.tanh(STEEPNESS * state.v)
     upper = np.triu(pin.crba(model, model.createData(), state.q))
     inertia = upper + np.triu(upper, 1).T
-    project = reference.projection
-    return np.asarray(np.linalg.solve(project.T @ inertia @ project, -project.T @ bias))
+    free = np.hstack([np.eye(model.nv, 6), reference.projection]) if floats else reference.projection
+    found = np.linalg.solve(free.T @ inertia @ free, -free.T @ bias)
+    pushed = found[:6] if floats else np.zeros(6)
+    acceleration = axes @ (pushed[:3] + np.cross(turning, axes.T @ velocity))
+    x, w = y[3:6], y[6]
+    attitude = 0.5 * np.array([*(w * turning + np.cross(x, turning)), -x @ turning])
+    return np.concatenate([velocity, attitude, acceleration, pushed[3:], v, found[6 if floats else 0 :]])
 
 
 def _starts(start: Sequence[Course], turning: int) -> str:

@@ -28,11 +28,15 @@ CACHE = Cache(Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") /
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """One simulation: from 0 to `stop` s with results every `step` s, and with other values of `parameters`."""
+    """One simulation: from 0 to `stop` s with results every `step` s, and with other values of `parameters`.
+
+    Without a `tolerance` it is the compiler's own.
+    """
 
     stop: float = 0.01
     step: float = 0.0025
     parameters: Mapping[str, float] = dataclasses.field(default_factory=dict)
+    tolerance: float | None = None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -63,6 +67,8 @@ class Outcome:
     runs: tuple[Series, ...]
     seconds: float
     """CPU time."""
+    compiling: float
+    """The part of it before the first run."""
     megabytes: float
     """Peak of the process so far."""
 
@@ -77,7 +83,7 @@ def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task], timeo
     try:
         outcomes = Rumoca(CACHE).compile(tasks.Job(roots, tuple(map(_task, todo))), Limits(timeout))
     except CompilerError as error:
-        return [Outcome(str(error), 0, (), 0, 0) for _ in todo]
+        return [Outcome(str(error), 0, (), 0, 0, 0) for _ in todo]
     return [_outcome(outcome) for outcome in outcomes]
 
 
@@ -93,13 +99,13 @@ def compile_task(model: str) -> Task:
 
 
 def _task(task: Task) -> tasks.Task:
-    runs = tuple(tasks.Simulation(run.stop, run.step, run.parameters) for run in task.runs)
+    runs = tuple(tasks.Simulation(run.stop, run.step, run.parameters, run.tolerance) for run in task.runs)
     return tasks.Task(task.model, task.source, runs, tuple(task.values))
 
 
 def _outcome(outcome: tasks.Outcome) -> Outcome:
     runs = tuple(map(_series, outcome.runs))
-    return Outcome(outcome.problem, outcome.unknowns, runs, outcome.seconds, outcome.megabytes)
+    return Outcome(outcome.problem, outcome.unknowns, runs, outcome.seconds, outcome.compiling, outcome.megabytes)
 
 
 def _series(run: tasks.Series) -> Series:

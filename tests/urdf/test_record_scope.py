@@ -27,13 +27,30 @@ FREE_INSIDE = urdfs.robot(
     urdfs.joint("lean", "continuous", "base", "mast", axis="1 0 0"),
 )
 STATUE = urdfs.robot(urdfs.link("base", 1), urdfs.link("head", 1), urdfs.joint("neck", "fixed", "base", "head"))
+LIGHT = urdfs.robot(
+    urdfs.link("base", 1),
+    urdfs.link("arm", 1),
+    *map(urdfs.link, ("hand", "finger", "knob", "dial")),
+    urdfs.link("thumb", 1),
+    urdfs.joint("lift", "continuous", "base", "arm", axis="0 1 0"),
+    urdfs.joint("twist", "continuous", "arm", "hand", axis="0 0 1"),
+    urdfs.joint("bend", "continuous", "hand", "finger", axis="0 1 0"),
+    urdfs.joint("turn", "continuous", "arm", "knob", axis="0 0 1"),
+    urdfs.joint("follow", "continuous", "arm", "thumb", axis="0 0 1", inside=[urdfs.mimic("turn", 2)]),
+    urdfs.joint("spin", "continuous", "arm", "dial", axis="0 0 1", inside=[urdfs.mimic("lift")]),
+)
+"""Nothing is behind twist and bend; turn leads a joint that moves a mass, and spin follows one."""
+FEATHER = urdfs.robot(
+    urdfs.link("base"), urdfs.link("arm"), urdfs.joint("lift", "continuous", "base", "arm", axis="0 1 0")
+)
+CODES = ("planar-not-generic", "floating-not-generic", "moves-no-mass")
 
 
 def warnings(urdf: str, *approach: str) -> list[str]:
     options = Options(cross_check=False, approach=approach)  # type: ignore[arg-type]
     found = DOMAIN.read(urdf.encode(), "own.urdf", options).diagnostics
     assert all(one.severity is Severity.WARNING for one in found)
-    return [str(one) for one in found if one.code.endswith(("-not-generic", "nothing-moves"))]
+    return [str(one) for one in found if one.code in CODES]
 
 
 @pytest.mark.parametrize("approach", [("record",), ("package", "record")])
@@ -55,14 +72,26 @@ def test_a_floating_joint_elsewhere_can_be_taken_apart() -> None:
     assert "joint 'drift'; write it as three prismatic joints and three continuous ones" in warning
 
 
-@pytest.mark.parametrize("urdf", [STATUE, urdfs.robot(urdfs.link("base", 1))], ids=["fixed joints", "one link"])
-def test_a_robot_that_does_not_move_says_so_once(urdf: str) -> None:
-    assert warnings(urdf, "record") == [
-        "own.urdf:2: warning: the generic robot needs a joint that moves, so there are no tables for it; "
-        'use `approach = ["package"]`, or take the record as it is [nothing-moves]'
+@pytest.mark.parametrize("mass", [1, None])
+def test_a_robot_that_does_not_move_is_a_rigid_body(mass: float | None) -> None:
+    assert warnings(STATUE, "record") == warnings(urdfs.robot(urdfs.link("base", mass)), "record") == []
+
+
+def test_a_joint_that_moves_no_mass_is_named_with_its_line_and_what_to_do() -> None:
+    """It, and not those behind it; a joint that a mass follows can move freely, and a follower has no drive."""
+    assert warnings(LIGHT, "record") == [
+        "own.urdf:11: warning: joint 'twist' moves no mass, so the generic robot can move it by position only; "
+        "give a link behind it an <inertial>, or make it a fixed joint [moves-no-mass]"
     ]
 
 
-@pytest.mark.parametrize("urdf", [PLANAR, FREE_ROOT, FREE_INSIDE, STATUE])
+def test_a_robot_without_any_mass_says_so_once() -> None:
+    assert warnings(FEATHER, "record") == [
+        "own.urdf:2: warning: no link has a mass, so the joints of the generic robot can be moved by position only; "
+        "give the links an <inertial> [moves-no-mass]"
+    ]
+
+
+@pytest.mark.parametrize("urdf", [PLANAR, FREE_ROOT, FREE_INSIDE, STATUE, LIGHT, FEATHER])
 def test_the_package_approach_has_no_reason_to_warn(urdf: str) -> None:
     assert warnings(urdf, "package") == []

@@ -81,7 +81,7 @@ def _package(context: _Context) -> Iterator[Artifact | Order]:
         icon="RobotPackage",
         title=f"Robot {name}: links, joints, robot and benches" if whole else f"Robot {name} in one record",
         uses=() if parent else USES,
-        note=notes.PACKAGE,
+        note=notes.package_note(name, bench=has_bench(joints, context.options)),
     )
     classes = dict.fromkeys((*models(joints, context.target, context.options), f"{name}{_PARAMETERS}"))
     folders = ("Links", *(("Joints",) if joints else ())) if whole else ()

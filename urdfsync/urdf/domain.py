@@ -34,7 +34,7 @@ class UrdfDomain:
 
     name = "urdf"
     templates: Path | None = None
-    revision = 2
+    revision = 3
     converter = 1
     uses = USES
     options = Options

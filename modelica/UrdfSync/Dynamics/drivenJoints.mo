@@ -6,16 +6,20 @@ function drivenJoints "Which moving joints have drives"
   input Integer n
     "Number of moving joints";
 
-  input Integer joints[:]
-    "Numbers of the joints of all driven axes";
+  input Integer followers[:, 2]
+    "One row per moving joint that follows another one: {its number, number of the joint at the head, 0 if that does not move}";
 
   output Integer driven[n]
     "Per moving joint: 1 if it has a drive, 0 if it follows another one";
 
 algorithm
-  driven := fill(0, n);
-  for k in 1:size(joints, 1) loop
-    driven[joints[k]] := 1;
+  driven := fill(1, n);
+  for i in 1:n loop
+    for k in 1:size(followers, 1) loop
+      if followers[k, 1] == i then
+        driven[i] := 0;
+      end if;
+    end for;
   end for;
 
   annotation (Documentation(info="<html>

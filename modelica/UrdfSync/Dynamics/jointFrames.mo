@@ -23,17 +23,13 @@ function jointFrames "Frame of each moving joint at position zero, and its axis"
 
 protected
   Real links[size(linkBodies, 1), 12] = UrdfSync.Dynamics.linkFrames(connectionMatrix, linkBodies, jointPositions, jointAngles);
-  Integer p = 1;
-  Integer c = 1;
   Integer i = 0;
 algorithm
   frames := zeros(size(jointAxes, 1), 15);
   for k in 1:size(jointPositions, 1) loop
-    p := connectionMatrix[k, 1];
-    c := connectionMatrix[k, 2];
-    if linkBodies[c] <> linkBodies[p] then
-      i := linkBodies[c] - 1;
-      frames[i, 1:12] := UrdfSync.Dynamics.compose(links[p, :], jointPositions[k, :], jointAngles[k, :]);
+    if linkBodies[connectionMatrix[k, 2]] <> linkBodies[connectionMatrix[k, 1]] then
+      i := linkBodies[connectionMatrix[k, 2]] - 1;
+      frames[i, 1:12] := UrdfSync.Dynamics.compose(links[connectionMatrix[k, 1], :], jointPositions[k, :], jointAngles[k, :]);
       frames[i, 13:15] := jointAxes[i, :];
     end if;
   end for;

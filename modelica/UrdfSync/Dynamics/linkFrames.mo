@@ -18,21 +18,14 @@ function linkFrames "Frame of each link in the body that it is part of"
   output Real frames[size(linkBodies, 1), 12]
     "One row per link: {rotation matrix by rows, position}";
 
-protected
-  Integer p = 1;
-  Integer c = 1;
-  Real R[3, 3] = identity(3);
-  Real r[3] = zeros(3);
 algorithm
   frames := zeros(size(linkBodies, 1), 12);
-  frames[1, :] := {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+  for k in 1:size(linkBodies, 1) loop
+    frames[k, :] := {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+  end for;
   for k in 1:size(jointPositions, 1) loop
-    p := connectionMatrix[k, 1];
-    c := connectionMatrix[k, 2];
-    if linkBodies[c] == linkBodies[p] then
-      frames[c, :] := UrdfSync.Dynamics.compose(frames[p, :], jointPositions[k, :], jointAngles[k, :]);
-    else
-      frames[c, :] := {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+    if linkBodies[connectionMatrix[k, 2]] == linkBodies[connectionMatrix[k, 1]] then
+      frames[connectionMatrix[k, 2], :] := UrdfSync.Dynamics.compose(frames[connectionMatrix[k, 1], :], jointPositions[k, :], jointAngles[k, :]);
     end if;
   end for;
 

@@ -3,14 +3,19 @@ within UrdfSync.Examples;
 model GenericRobot "A bench whose robot is chosen by its record"
   extends Modelica.Icons.Example;
 
+  replaceable record Parameters = UrdfSync.Examples.SixAxisArm.SixAxisArmParameters
+    "The robot: redeclare it to have another one"
+    constrainedby UrdfSync.Records.Robot
+    annotation (choicesAllMatching=true);
+
   inner Modelica.Mechanics.MultiBody.World world(n = {0, 0, -1})
     "Origin and gravity"
     annotation (Placement(transformation(extent={{-60, -10}, {-40, 10}})));
 
   UrdfSync.Robots.GenericRobot robot(
-    redeclare parameter UrdfSync.Examples.SixAxisArm.SixAxisArmParameters data,
+    redeclare parameter Parameters data,
     checkLimits = false)
-    "The robot: redeclare its record to have another one"
+    "Whatever robot the record describes"
     annotation (Placement(transformation(extent={{0, -20}, {40, 20}})));
 
   parameter Integer tool = UrdfSync.Dynamics.toolLink(robot.data.jointTree, robot.data.linkBodies)
@@ -30,15 +35,18 @@ equation
     experiment(StopTime=0.5, Interval=0.01, Tolerance=1e-6),
     Documentation(info="<html>
 <p>
-Drives are off: the robot drops from where it starts, braked by its losses. Nothing in the bench says which robot it is but the record. Another robot is a
-modifier of its component:
+Drives are off: the robot drops from where it starts, braked by its losses. Nothing in the bench says which robot it is but the record. Another robot is
+another record:
 </p>
 <pre>
 model WheeledBench = UrdfSync.Examples.GenericRobot(
-  robot(redeclare parameter UrdfSync.Examples.WheeledRobot.WheeledRobotParameters data));
+  redeclare record Parameters = UrdfSync.Examples.WheeledRobot.WheeledRobotParameters,
+  robot(data(rotationalAxes = 7, translationalAxes = 1)));
 </pre>
 <p>
-<a href=\"modelica://UrdfSync.Examples.RobotStudy\">RobotStudy</a> has three robots beside each other.
+The last line repeats what the record says. Only rumoca, the compiler behind <code>urdfsync check</code>, needs it, where the numbers of axes are not those
+of the record before: see <a href=\"modelica://UrdfSync.UsersGuide.RecordApproach\">the limits</a>. <a href=\"modelica://UrdfSync.Examples.RobotStudy\">RobotStudy</a>
+has three robots on this bench.
 </p>
 </html>"));
 end GenericRobot;

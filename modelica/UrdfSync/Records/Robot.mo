@@ -111,7 +111,7 @@ carries a joint has a smaller number than what it moves. The tables say which li
 mimic joints each follower names the joint at its head, and its ratio is that of the whole chain.
 </p>
 <p>
-A robot without a moving joint, or with a planar or floating joint, has no such tables: they keep the values of a single link.
+A robot with a planar or floating joint has no such tables: they keep the values of a single link.
 </p>
 </html>"));
 end Robot;

@@ -156,7 +156,7 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
     "Loads of the drives, those of joints that follow included; zero for joints that follow";
 
 protected
-  parameter Integer driven[n] = UrdfSync.Dynamics.drivenJoints(n, cat(1, data.rotationalJoints, data.translationalJoints))
+  parameter Integer driven[n] = UrdfSync.Dynamics.drivenJoints(n, data.followers)
     "1 for joints with a drive, 0 for those that follow"
     annotation (Evaluate=true);
 
@@ -173,11 +173,9 @@ protected
     "Loads of the joints that follow others";
 
 equation
-  assert(n > 0 or size(data.moveableJoints, 1) > 0,
-    getInstanceName() + ": robot " + data.name + " has no moving joint. Put a Modelica.Mechanics.MultiBody.Parts.Body in its place");
-  assert(n > 0 or size(data.moveableJoints, 1) == 0,
-    getInstanceName() + ": robot " + data.name + " has planar or floating joints, which its tables leave out. Use the package approach, "
-    + "or write in the URDF a planar joint as two prismatic joints and a continuous one");
+  assert(n == size(data.moveableJoints, 1),
+    getInstanceName() + ": robot " + data.name + " has planar or floating joints, so its record has no tables. Use the package approach, or write in the "
+    + "URDF a planar joint as two prismatic joints and a continuous one, and leave out a floating joint at the root: put the robot on a FreeBase");
   for i in 1:n loop
     assert(not checkLimits or q[i] >= data.jointLimits[i, 1] - 1e-6,
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is below its lower position limit", AssertionLevel.warning);
@@ -230,7 +228,8 @@ equation
 <p>
 The record <code>data</code> says how many links and axes there are and how they hang together; so <code>data</code> is to be redeclared as the
 record of a robot, in the declaration of the component:
-<code>UrdfSync.Robots.GenericRobot robot(redeclare parameter MyRobotParameters data)</code>. Numbers of the record can be changed between
+<code>UrdfSync.Robots.GenericRobot robot(redeclare parameter MyRobotParameters data)</code>. A bench for several robots names a replaceable record there, as
+<a href=\"modelica://UrdfSync.Examples.GenericRobot\">Examples.GenericRobot</a> does. Numbers of the record can be changed between
 simulations, integers and axes of joints cannot.
 </p>
 <p>
@@ -244,8 +243,7 @@ order; where nothing is connected the axis moves freely. The constants <code>dat
 </p>
 <p>
 <i>Limits</i> are checked as in the package approach: a warning names the joint. Another warning names a joint that moves no mass; its free motion has no
-solution. Robots without any moving joint, and robots with planar or floating joints, are refused by name. A tool that can't translate empty
-tables stops before it gets there.
+solution. A robot without any moving joint is a rigid body. Robots with planar or floating joints are refused by name when a simulation begins.
 </p>
 </html>"));
 end PartialRecordRobot;

@@ -25,6 +25,18 @@ all drives, which are filtered, and outputs for their torques and forces: the mo
 <tr><td><code>package.mo</code>, <code>package.order</code></td>
 <td>in the robot's package and in <code>Links</code> and <code>Joints</code></td></tr>
 </table>
+<p>
+With <code>approach = [\"record\"]</code> in <code>urdfsync.toml</code> there are <code>ArmParameters.mo</code>, the two files of the package and
+</p>
+<table border=\"1\" cellspacing=\"0\" cellpadding=\"4\">
+<tr><th align=\"left\">file</th><th align=\"left\">what it is</th></tr>
+<tr><td><code>ArmGeneric.mo</code></td><td><a href=\"modelica://UrdfSync.Robots.GenericRobot\">the generic robot</a> that reads this record, in its world, with
+sources that move every joint inside its limits: the quick check. <a href=\"modelica://UrdfSync.Examples.GenericRobot\">Examples.GenericRobot</a> is a bench by
+hand</td></tr>
+</table>
+<p>
+with <code>approach = [\"package\", \"record\"]</code> all of them.
+</p>
 <h4>Models and numbers are apart</h4>
 <p>
 A link or joint model takes every number of the URDF from its record, the component <code>parameters</code>. Run and Test models hold no number

@@ -19,8 +19,9 @@ equation
   connect(world.frame_b, robot.frame_a);
 </pre>
 <p>
-Another record is another robot: see <a href=\"modelica://UrdfSync.Examples.GenericRobot\">Examples.GenericRobot</a> and
-<a href=\"modelica://UrdfSync.Examples.RobotStudy\">Examples.RobotStudy</a>. With <code>approach = [\"record\"]</code> in
+Another record is another robot. A bench that is to have several declares a replaceable record and uses it for <code>data</code>:
+<a href=\"modelica://UrdfSync.Examples.GenericRobot\">Examples.GenericRobot</a> does so, and the three models of
+<a href=\"modelica://UrdfSync.Examples.RobotStudy\">Examples.RobotStudy</a> extend it and redeclare the record. With <code>approach = [\"record\"]</code> in
 <code>urdfsync.toml</code> a package is the record and a bench with it; <code>urdfsync record robot.urdf</code> writes the record alone.
 </p>
 <h4>Tables</h4>
@@ -75,15 +76,26 @@ position, most of the time goes into the differentiation of each of these constr
 </p>
 <h4>Limits</h4>
 <ul>
-<li>A robot with planar or floating joints, or without any moving joint, has a record without tables. The models refuse it by name; use the package
-approach. A planar joint can be written in the URDF as two prismatic joints and a continuous one; a floating joint at the root can be left out, and
-the robot put on a <code>FreeBase</code>.</li>
+<li>A robot with planar or floating joints has a record without tables. <code>urdfsync</code> says so with the line of the URDF, and the models refuse
+it by name when a simulation begins. Use the package approach, or change the URDF: a planar joint can be written as two prismatic joints and a
+continuous one; a floating joint at the root can be left out, and the robot put on a <code>FreeBase</code>.</li>
 <li>A link without mass behind a moving joint does no harm as long as something behind that joint has mass. If nothing has, the joint can be
-driven by position only, and a warning names it.</li>
+driven by position only, and warnings of <code>urdfsync</code> and of the models name it.</li>
+<li>A robot without any moving joint, also one of a single link, is a rigid body.</li>
 <li>Gravity is taken at <code>frame_a</code> and is the same for the whole robot.</li>
-<li>rumoca, the compiler behind <code>urdfsync check</code>, follows a redeclared record only in the declaration of the robot itself. One level further out,
-as in <code>bench(robot(redeclare parameter … data))</code>, it silently keeps the record that was there. It also wants literal numbers as sizes of
-drives beside the robot.</li>
+</ul>
+<p>
+rumoca, the compiler behind <code>urdfsync check</code>, has limits of its own. Other tools should not need what is said here.
+</p>
+<ul>
+<li>A replaceable record of the bench may be redeclared from outside. If the new robot has other numbers of driven axes, they have to be repeated, as in
+<code>robot(data(rotationalAxes = 7, translationalAxes = 1))</code>; without that the bench is refused. A parameter that is redeclared from outside, as in
+<code>bench(robot(redeclare parameter … data))</code>, is silently not followed: the record stays that of before. So is a parameter that a model redeclares
+where it extends a generic robot.</li>
+<li>Where a record extends another one, a modifier of some numbers inside <code>inertial</code>, <code>limits</code> and the like may set the other ones there to
+their defaults, silently: give all of them, as <a href=\"modelica://UrdfSync.Examples.RobotStudy.LongArmParameters\">LongArmParameters</a> does. Modifiers in the
+declaration of the robot are followed as they stand.</li>
+<li>Drives beside the robot need literal numbers as sizes.</li>
 </ul>
 </html>"));
 end RecordApproach;

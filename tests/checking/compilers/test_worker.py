@@ -52,6 +52,12 @@ def decay(*runs: Simulation, values: tuple[str, ...] = ("x", "y[2,3]")) -> Task:
     return Task("M", DECAY % "", runs, values)
 
 
+def test_a_finer_tolerance_gives_a_finer_result() -> None:
+    _, (outcome,) = work(decay(*(Simulation(1.0, 1.0, tolerance=tolerance) for tolerance in (1e-3, 1e-10))))
+    coarse, fine = (abs(run.values["x"][-1] - math.exp(-1)) for run in outcome.runs)
+    assert fine < 1e-9 < coarse
+
+
 def test_a_model_is_compiled_counted_and_simulated() -> None:
     result, (outcome,) = work(decay(Simulation(1.0, 0.25), Simulation(1.0, 0.25, {"k": 2.0})))
     assert result.good

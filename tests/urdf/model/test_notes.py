@@ -36,7 +36,8 @@ def test_every_type_of_joint_has_its_own_words(kind: JointType) -> None:
 
 
 @pytest.mark.parametrize(
-    "note", [notes.PACKAGE, notes.robot_note("Arm"), notes.run_note("Arm"), notes.test_note("Arm")]
+    "note",
+    [notes.package_note("Arm", bench=True), notes.robot_note("Arm"), notes.run_note("Arm"), notes.test_note("Arm")],
 )
 def test_notes_of_whole_robots_are_well_formed(note: str) -> None:
     assert etree.fromstring(f"<p>{note}</p>").tag == "p"

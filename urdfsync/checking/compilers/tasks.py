@@ -13,6 +13,8 @@ class Simulation(msgspec.Struct, frozen=True):
     stop: float
     step: float
     parameters: Mapping[str, float] = {}
+    tolerance: float | None = None
+    """Of the integration, relative and absolute; None leaves it to the compiler."""
 
 
 class Task(msgspec.Struct, frozen=True):
@@ -51,6 +53,8 @@ class Outcome(msgspec.Struct, frozen=True):
     runs: tuple[Series, ...] = ()
     seconds: float = 0.0
     """CPU time of the task."""
+    compiling: float = 0.0
+    """The part of it before the first run."""
     megabytes: float = 0.0
     """Peak memory of the process so far."""
 

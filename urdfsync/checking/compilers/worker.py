@@ -57,7 +57,7 @@ def _done(session: rumoca.Session, task: Task) -> Outcome:
     import rumoca
 
     started = time.process_time()
-    problem, unknowns, states = "", 0, 0
+    problem, unknowns, states, compiling = "", 0, 0, 0.0
     runs: tuple[Series, ...] = ()
     try:
         model = session.loads(task.source, model=task.model, filename=FILE)
@@ -65,9 +65,10 @@ def _done(session: rumoca.Session, task: Task) -> Outcome:
         problem = _words(error)
     else:
         unknowns, states = _counts(model)
+        compiling = time.process_time() - started
         runs = tuple(_run(model, run, task.values) for run in task.runs)
     seconds = time.process_time() - started
-    return Outcome(problem, unknowns, states, runs, seconds, _peak())
+    return Outcome(problem, unknowns, states, runs, seconds, compiling, _peak())
 
 
 class _Type(msgspec.Struct):
@@ -102,9 +103,8 @@ def _run(model: rumoca.Model, run: Simulation, values: tuple[str, ...]) -> Serie
     import rumoca
 
     try:
-        result = model.simulate(
-            (0, run.stop), config=rumoca.SimConfig(dt=run.step), params=dict(run.parameters) or None
-        )
+        config = rumoca.SimConfig(dt=run.step, rtol=run.tolerance, atol=run.tolerance)
+        result = model.simulate((0, run.stop), config=config, params=dict(run.parameters) or None)
         series = {name: tuple(result[name].tolist()) for name in values}
     except (rumoca.RumocaError, LookupError, ValueError) as error:
         return Series(problem=_words(error))

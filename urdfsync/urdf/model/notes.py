@@ -9,12 +9,6 @@ _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the U
 
 _GENERIC = "<code>UrdfSync.Robots.GenericRobot</code>"
 
-PACKAGE = (
-    "Made by urdfsync from a URDF. Every file can be edited: urdfsync keeps what you changed, brings everything else "
-    "up to date, and reports where both changed."
-)
-"""Documentation of a robot's package, as HTML."""
-
 _MOTIONS = {
     "fixed": "does not move",
     "continuous": "turns without end stops",
@@ -23,6 +17,16 @@ _MOTIONS = {
     "planar": "slides in a plane and turns about its normal",
     "floating": "moves freely",
 }
+
+
+def package_note(name: str, *, bench: bool) -> str:
+    """Documentation of a robot's package, as HTML; with a `bench`, the generic robot reads the record in it."""
+    text = "Made by urdfsync from a URDF. "
+    if bench:
+        text += f"<code>{name}Generic</code> simulates the robot as {_GENERIC} reads it from "
+        text += f"<code>{name}Parameters</code>. "
+    text += "Every file can be edited: urdfsync keeps what you changed, brings everything else up to date, and reports "
+    return text + "where both changed."
 
 
 def link_note(link: Link) -> str:
@@ -54,7 +58,7 @@ def record_note(name: str, generic: bool) -> str:
     """Documentation of the record of the whole robot, as HTML."""
     numbers = f"All numbers of robot {name} in one record"
     if not generic:
-        reason = "since no joint moves, or one is planar or floating"
+        reason = "since a joint is planar or floating"
         return f"{numbers}, for studies that need them all. {_GENERIC} can't take it, {reason}."
     return (
         f"{numbers}, with the tables by which {_GENERIC} reads how links and joints hang together. The tables refer to "

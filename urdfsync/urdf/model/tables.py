@@ -53,9 +53,9 @@ def obstacles(joints: Iterable[Joint]) -> Iterator[Joint]:
     return (joint for joint in joints if joint.type not in MOTIONS and joint.type != "fixed")
 
 
-def has_tables(joints: Sequence[Joint]) -> bool:
-    """Whether the generic robot can take a robot with these joints: one moves, and none is planar or floating."""
-    return any(joint.type in MOTIONS for joint in joints) and not any(obstacles(joints))
+def has_tables(joints: Iterable[Joint]) -> bool:
+    """Whether the generic robot can take a robot with these joints: none is planar or floating."""
+    return not any(obstacles(joints))
 
 
 def structure(skeleton: Skeleton) -> Structure:
@@ -104,7 +104,7 @@ def record_tables(skeleton: Skeleton) -> list[str]:
     integers, moving = structure(skeleton), _moving(skeleton)
     joints = [skeleton.joint(joint.name).component for joint in skeleton.joints]
     tables = {
-        "movingJoints": str(len(moving)),
+        "movingJoints": _count(moving),
         "rotationalAxes": _count(integers.axes["rotational"]),
         "translationalAxes": _count(integers.axes["translational"]),
         "jointTree": _pairs(integers.joint_tree),
@@ -174,8 +174,8 @@ def _inertia(tensor: str) -> str:
     return f"{{{moments},{_INDENT} {products}}}"
 
 
-def _count(axes: Sequence[int]) -> str:
-    return str(len(axes)) if axes else ""
+def _count(items: Sequence[object]) -> str:
+    return str(len(items)) if items else ""
 
 
 def _pairs(rows: Sequence[tuple[int, int]]) -> str:

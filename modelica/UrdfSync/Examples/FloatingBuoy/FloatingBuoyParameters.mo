@@ -67,7 +67,7 @@ record FloatingBuoyParameters "Numbers of robot FloatingBuoy as a whole"
 
   annotation (Documentation(info="<html>
 <p>
-All numbers of robot FloatingBuoy in one record, for studies that need them all. <code>UrdfSync.Robots.GenericRobot</code> can't take it, since no joint moves, or one is planar or floating.
+All numbers of robot FloatingBuoy in one record, for studies that need them all. <code>UrdfSync.Robots.GenericRobot</code> can't take it, since a joint is planar or floating.
 </p>
 </html>"));
 end FloatingBuoyParameters;

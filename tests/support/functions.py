@@ -1,0 +1,174 @@
+"""The functions of UrdfSync.Dynamics for a robot in random configurations, and what Pinocchio says of each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from support import generic
+from support.modelica import Array, Run, Series, Task, execute
+from urdfsync.literals import vector
+from urdfsync.urdf.physics import motion
+from urdfsync.urdf.skeleton import MOTIONS
+
+_CONFIGURATIONS = 3
+_WEIGHING = {"mass", "bias", "gravity"}
+_MOST = 12
+"""So many links have their Jacobians compared, picked at random if there are more."""
+
+_SOURCE = """
+package Functions_
+  import Modelica;
+  import UrdfSync;
+  import Bot;
+  model Functions
+    parameter Bot.BotParameters data;
+    parameter Integer n = data.movingJoints;
+    parameter Integer base = UrdfSync.Dynamics.baseLink(data.connectionMatrix);
+    parameter Integer tool = UrdfSync.Dynamics.toolLink(data.jointTree, data.linkBodies);
+    parameter Real links[{links}, 12] =
+      UrdfSync.Dynamics.linkFrames(data.connectionMatrix, data.linkBodies, data.jointPositions, data.jointAngles);
+    parameter Real frames[n, 15] = UrdfSync.Dynamics.jointFrames(
+      data.connectionMatrix, data.linkBodies, data.jointPositions, data.jointAngles, data.jointAxes);
+    parameter Real bodies[n + 1, 10] = UrdfSync.Dynamics.bodyInertias(
+      data.linkBodies, links, data.linkMasses, data.linkCenters, data.inertialAngles, data.linkInertias, n);
+    parameter Real a[n] = {a};
+    parameter Real b[n] = {b};
+    parameter Integer seen[{seen}] = {numbers};
+    Real q[n];
+    Real v[n];
+    Real moved(start = 0, fixed = true);
+    Real found[2];
+    Real mass[n, n];
+    Real bias[n];
+    Real gravity[n];
+    Real jacobian[{seen}, 6, n];
+    Real poses[{links}, 12];
+  equation
+    der(moved) = 1;
+    for i in 1:n loop
+      q[i] = a[i]*cos(b[i]*moved + i);
+      v[i] = b[i]*sin(a[i]*moved + i);
+    end for;
+    found = {{base, tool}};
+    mass = UrdfSync.Dynamics.massMatrix(data.jointTree, frames, bodies, q);
+    bias = UrdfSync.Dynamics.nonlinearEffects(data.jointTree, frames, bodies, q, v);
+    gravity = UrdfSync.Dynamics.gravityEfforts(data.jointTree, frames, bodies, q);
+    for k in 1:{seen} loop
+      jacobian[k, :, :] = UrdfSync.Dynamics.jacobian(data.jointTree, frames, data.linkBodies, links, q, seen[k]);
+    end for;
+    poses = UrdfSync.Dynamics.linkPoses(data.jointTree, frames, data.linkBodies, links, q);
+  end Functions;
+end Functions_;
+"""
+
+
+class Functions:
+    """A robot, with the functions compiled for it."""
+
+    def __init__(self, content: bytes) -> None:
+        self.robot = generic.prepare(content)
+        self._pin, self._model = self.robot.reference.pin, self.robot.reference.model
+        self._model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
+        skeleton = self.robot.skeleton
+        self.links = [link.name for link in skeleton.links]
+        self._joints = [joint.name for joint in skeleton.joints if joint.type in MOTIONS]
+        n, chance = len(self._joints), np.random.default_rng(len(self.links))
+        self._a, self._b = chance.uniform(0.5, 2, n), chance.uniform(0.5, 2, n)
+        self._seen = [0, *chance.permutation(range(1, len(self.links)))[: _MOST - 1]]
+        self._shapes: Mapping[str, Sequence[int]] = {
+            "found": (2,),
+            "mass": (n, n),
+            "bias": (n,),
+            "gravity": (n,),
+            "jacobian": (len(self._seen), 6, n),
+            "poses": (len(self.links), 12),
+        }
+
+    def task(self) -> Task:
+        """What is to be compiled and run: every second the robot is in another configuration."""
+        source = _SOURCE.format(
+            links=len(self.links),
+            a=vector(self._a.tolist()),
+            b=vector(self._b.tolist()),
+            seen=len(self._seen),
+            numbers=f"{{{', '.join(str(link + 1) for link in self._seen)}}}",
+        )
+        values = [name for part, shape in self._shapes.items() for name in _elements(part, shape)]
+        return Task(source, "Functions_.Functions", [Run(_CONFIGURATIONS - 1, 1)], [*values, "moved"])
+
+    def worst(self, library: Path, folder: Path) -> Mapping[str, float]:
+        """Per function the greatest error of all configurations, relative to the greatest element.
+
+        That of lengths and directions counts as 1 at least, that of forces as the greatest element of the mass matrix.
+        Raises AssertionError for what does not compile or run.
+        """
+        (outcome,) = execute(library, [self.robot.package.write(folder)], [self.task()])
+        assert not outcome.error, outcome.error
+        (series,) = outcome.runs
+        assert not series.error, series.error
+        assert len(series.times) == _CONFIGURATIONS
+        worst = dict.fromkeys(self._shapes, 0.0)
+        for k, moved in enumerate(series.values["moved"]):
+            known = self._expected(moved)
+            inertia = float(np.abs(known["mass"]).max())
+            for part, expected in known.items():
+                size = max(inertia if part in _WEIGHING else 1.0, np.abs(expected).max())
+                error = np.abs(self._array(part, series, k) - expected).max() / size
+                worst[part] = max(worst[part], float(error))
+        return worst
+
+    def _array(self, part: str, series: Series, k: int) -> Array:
+        shape = self._shapes[part]
+        return np.array([series.values[name][k] for name in _elements(part, shape)]).reshape(shape)
+
+    def _expected(self, moved: float) -> Mapping[str, Array]:
+        pin, model, data = self._pin, self._model, self._model.createData()
+        q, v, order = self._state(moved)
+        upper = np.triu(pin.crba(model, data, q))
+        bias = pin.nonLinearEffects(model, data, q, v)[order]
+        gravity = pin.computeGeneralizedGravity(model, data, q)[order]
+        seen, resolved = [self._frame(self.links[link]) for link in self._seen], pin.LOCAL_WORLD_ALIGNED
+        jacobians = [pin.computeFrameJacobian(model, data, q, frame, resolved)[:, order] for frame in seen]
+        pin.framesForwardKinematics(model, data, q)
+        places = [data.oMf[self._frame(link)] for link in self.links]
+        return {
+            "found": np.array([1, self._tool()]),
+            "mass": (upper + np.triu(upper, 1).T)[np.ix_(order, order)],
+            "bias": bias,
+            "gravity": gravity,
+            "jacobian": np.array(jacobians),
+            "poses": np.array([[*place.rotation.ravel(), *place.translation] for place in places]),
+        }
+
+    def _state(self, moved: float) -> tuple[Array, Array, list[int]]:
+        """Configuration and velocity, the base at rest at the origin; where the joints are in the latter."""
+        model = self._model
+        q, v, order = self._pin.neutral(model), np.zeros(model.nv), []
+        numbers = np.arange(1, len(self._joints) + 1)
+        positions, speeds = self._a * np.cos(self._b * moved + numbers), self._b * np.sin(self._a * moved + numbers)
+        for name, position, speed in zip(self._joints, positions, speeds, strict=True):
+            joint = model.joints[model.getJointId(name)]
+            turns = joint.nq == 2  # continuous: cosine and sine
+            q[joint.idx_q : joint.idx_q + joint.nq] = (np.cos(position), np.sin(position)) if turns else position
+            v[joint.idx_v] = speed
+            order.append(joint.idx_v)
+        return q, v, order
+
+    def _tool(self) -> int:
+        """The last of the links that have the most moving joints before them."""
+        joints = self.robot.skeleton.joints
+        depths = {self.links[0]: 0}
+        for joint in joints:
+            depths[joint.child] = depths[joint.parent] + (joint.type in MOTIONS)
+        return max(k for k, link in enumerate(self.links, 1) if depths[link] == max(depths.values()))
+
+    def _frame(self, link: str) -> int:
+        return int(self._model.getFrameId(link, self._pin.BODY))
+
+
+def _elements(part: str, shape: Sequence[int]) -> list[str]:
+    """Names of the elements of an array, row by row."""
+    return [f"{part}[{','.join(str(i + 1) for i in index)}]" for index in np.ndindex(*shape)]
