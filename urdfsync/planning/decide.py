@@ -59,7 +59,7 @@ class Disk:
     """The files of one robot's package, addressed by their path from the configuration's folder."""
 
     def __init__(self, config: Config, robot: RobotConfig) -> None:
-        self._root = config.root
+        self._root, self._prefix = config.root, os.path.join(config.root, "")  # noqa: PTH118
         self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
         self._seen: dict[str, str | None] = {}
 
@@ -69,18 +69,18 @@ class Disk:
 
     def path(self, key: str) -> Path:
         """The file of this name."""
-        return Path(os.path.normpath(self._root / key))
+        return Path(self._place(key))
 
     def reaches(self, key: str) -> bool:
         """Whether the file is one that urdfsync may touch: below the output folder, or the configuration's."""
-        return self._tree(self.path(key)) is not None
+        return self._tree(self._place(key)) is not None
 
     def read(self, key: str) -> bytes | None:
         """The file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
-        return self.read_path(self.path(key))
+        return self.read_path(self._place(key))
 
-    def read_path(self, path: Path) -> bytes | None:
-        """The content of a file, by its absolute path."""
+    def read_path(self, path: str | os.PathLike[str]) -> bytes | None:
+        """The content of a file, by its absolute path without detours."""
         tree = self._tree(path)
         return tree.read(path) if tree else None
 
@@ -91,9 +91,8 @@ class Disk:
             seen = self._see(key, content)
             return Found(seen if role is Role.IMPORT or b"\r" not in content else text_digest(content))
         self._seen.setdefault(key, None)
-        path = self.path(key)
-        is_class = path.suffix == ".mo" and path.name != "package.mo"
-        return Found(as_folder=is_class and looking.is_file(path.with_suffix("") / "package.mo"))
+        is_class = key.endswith(".mo") and not key.endswith("/package.mo")
+        return Found(as_folder=is_class and looking.is_file(self._place(f"{key.removesuffix('.mo')}/package.mo")))
 
     def text(self, key: str) -> str | None:
         """The file as text; bytes that are not UTF-8 survive, see `encode`."""
@@ -129,8 +128,12 @@ class Disk:
         self._seen.setdefault(key, found)
         return found
 
-    def _tree(self, path: Path) -> Tree | None:
-        return next((tree for tree in self._trees if tree.root in path.parents), None)
+    def _place(self, key: str) -> str:
+        """The path of a file as a string: there are thousands of files."""
+        return os.path.normpath(self._prefix + key)
+
+    def _tree(self, path: str | os.PathLike[str]) -> Tree | None:
+        return next((tree for tree in self._trees if tree.covers(path)), None)
 
 
 def encode(text: str) -> bytes:

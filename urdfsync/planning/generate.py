@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path, PurePosixPath
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfsync.config import shown
@@ -75,13 +75,20 @@ def check_paths(paths: Iterable[str]) -> None:
         if path.casefold() in files:
             problems.append(_clash(files[path.casefold()], path))
         files[path.casefold()] = path
-        parents = [str(parent) for parent in PurePosixPath(path).parents]
+        parents = list(_above(path))
         others = [folders.setdefault(parent.casefold(), parent) for parent in parents]
         problems += [_clash(one, two) for one, two in zip(others, parents, strict=True) if one != two]
     classes = {folded.removesuffix(".mo"): path for folded, path in files.items() if folded.endswith(".mo")}
     problems += [_clash(path, f"{folders[name]}/") for name, path in classes.items() if name in folders]
     if problems:
         raise OutputError(*problems)
+
+
+def _above(path: str) -> Iterator[str]:
+    """The folders that a path leads through, innermost first."""
+    while "/" in path:
+        path = path.rpartition("/")[0]
+        yield path
 
 
 def _is_inside(path: str) -> bool:

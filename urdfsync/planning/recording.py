@@ -90,7 +90,8 @@ class Recording:
         path = key.removeprefix(self._situation.key(""))
         if role is Role.IMPORT:
             return self._imported.contents[path]
-        mine, content = self._situation.disk.read(key) or b"", self._outputs.content(path)
+        content = self._outputs.content(path)
+        mine = (self._situation.disk.read(key) or b"") if self._situation.disk.seen(key) else b""
         return content.replace(b"\n", b"\r\n") if 2 * mine.count(b"\r\n") > mine.count(b"\n") else content
 
     def _aside(self, decision: Decision) -> Iterator[tuple[str, bytes]]:

@@ -41,8 +41,12 @@ def remove_folder(path: Path) -> None:
 
 def write(path: Path, content: bytes, like: Path | None = None) -> None:
     """Write a new file, in place of what a killed run left under its name, with the permissions of `like`."""
-    path.unlink(missing_ok=True)
-    with path.open("xb") as file:
+    try:
+        file = path.open("xb")
+    except FileExistsError:
+        path.unlink()
+        file = path.open("xb")
+    with file:
         file.write(content)
     if like is not None:
         with contextlib.suppress(FileNotFoundError):
