@@ -16,12 +16,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfsync import documents, wording
+from urdfsync import wording
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.documents import VERSION
-from urdfsync.outcome import Checked, Exit, Result
+from urdfsync.outcome import Exit, Result
 from urdfsync.status import RobotState
-from urdfsync.views import builds, conflicts, drafts, statuses, terminal
+from urdfsync.views import builds, statuses, terminal
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
@@ -86,10 +85,11 @@ class Report:
         self._findings(result.diagnostics)
         if self._quiet and not result.conflicts:
             return
-        wrong = result.checked is Checked.WRONG
-        if result.in_step and not (wrong or self._explain or self._verbose or result.drawing or result.changes):
+        if not (self._explain or self._verbose or builds.has_more(result)):
             builds.plain(result.robot, wording.summary(result))
             return
+        from urdfsync.views import conflicts  # most builds have no use for it
+
         console = terminal.console(sys.stderr if result.failed else sys.stdout)
         before = sum(len(other.conflicts) for other in self._results[:-1])
         look = conflicts.Look(self._verbose, self._quiet, before, self._config)
@@ -134,6 +134,8 @@ class Report:
         """Show what was checked of one robot; `robots` are all that the command is about, by their names."""
         self._stop_bar()
         if self._json:
+            from urdfsync import documents
+
             self._verdicts.append(documents.verdict(found, strict))
             return
         if self._checks is None:
@@ -199,6 +201,8 @@ class Report:
             return
         self._findings(draft.diagnostics)
         if not self._quiet:
+            from urdfsync.views import drafts  # no other command has a use for it
+
             console = terminal.console(sys.stdout)
             for line in drafts.lines(draft):
                 console.print(line, soft_wrap=True)
@@ -231,6 +235,8 @@ class Report:
             sys.stdout.write(f"{wording.visible(str(file))} {said}: record {found.target.name}\n")
 
     def _robots(self) -> list[dict[str, Any]]:
+        from urdfsync import documents
+
         return [
             *map(documents.robot, self._results),
             *map(documents.state, self._states),
@@ -241,8 +247,16 @@ class Report:
     def _document(
         self, command: str, code: Exit, values: dict[str, Any], diagnostics: Sequence[Diagnostic] = ()
     ) -> None:
+        from urdfsync import documents  # people have no use for it
+
         findings = [documents.finding(diagnostic) for diagnostic in diagnostics]
-        document = {"version": VERSION, "command": command, "exit": int(code), **values, "diagnostics": findings}
+        document = {
+            "version": documents.VERSION,
+            "command": command,
+            "exit": int(code),
+            **values,
+            "diagnostics": findings,
+        }
         indent = None if command == "watch" else 2  # its output is one object per line
         sys.stdout.write(json.dumps(document, indent=indent) + "\n")
 

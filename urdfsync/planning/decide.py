@@ -182,7 +182,8 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     planned = plan(recorded, aim.wanted, {key: disk.found(key, role) for key, role in roles.items()}, aim.moves)
     choices = {**remembered(recorded, planned), **aim.choices}
     aim = dataclasses.replace(aim, choices=choices)
-    actions, standoffs, merged = _settle(disk, planned, aim, texts) if texts else (planned, {}, {})
+    open_ = texts is not None and any(action.kind in DISPUTED or action.kind is Kind.ORPHAN for action in planned)
+    actions, standoffs, merged = _settle(disk, planned, aim, texts) if texts and open_ else (planned, {}, {})
     actions = spare(actions, disk.has_classes)
     order_files = {key: disk.text(key) for key in sorted(owned.keys() | aim.orders.keys())}
     _refuse_markers(disk, actions, order_files)
@@ -255,7 +256,7 @@ def _settle(
     disk: Disk, planned: tuple[Action, ...], aim: Aim, texts: Texts
 ) -> tuple[tuple[Action, ...], dict[str, Standoff], dict[str, str]]:
     """The actions after what both sides changed is settled as far as it can be, its texts, and the merged ones."""
-    from urdfsync.settle import settle  # not at the top: a build that has nothing to do does not merge
+    from urdfsync.settle import settle  # not at the top: most builds have nothing to merge
 
     disputed = [action for action in planned if action.kind in DISPUTED and action.role is not Role.IMPORT]
     standoffs = {action.path: _standoff(disk, action, texts) for action in disputed}

@@ -21,7 +21,7 @@ from urdfsync.planning.outputs import Outputs
 from urdfsync.planning.recording import Recording
 from urdfsync.planning.situation import NO_MODEL, Situation
 from urdfsync.planning.work import Work
-from urdfsync.state import leftovers, repair
+from urdfsync.state import leftovers
 
 _USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
 """What happens to files that are as the user wants them."""
@@ -238,6 +238,8 @@ class Renewal:
         place = shown(situation.config.file), situation.robot.lines[""]
         said = [leftovers.renamed(situation.former, situation.robot.name, *place)] if situation.former else []
         if situation.recovered:
+            from urdfsync.state import repair
+
             said.append(repair.repaired(situation.recovered, situation.robot.name, shown(situation.store.folder)))
         if situation.recorded and situation.recorded.folder != situation.folder:
             actions = decision.actions
