@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import importlib
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
-from urdfsync import __version__, streams
+from urdfsync import __version__, looking, profiling, streams
 from urdfsync.commands import common
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit
 from urdfsync.report import Report
-from urdfsync.stamping import making
+from urdfsync.stamping import making, stamp
 
 _COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "record", "hook", "library")
 """In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
@@ -49,6 +49,8 @@ def _main(arguments: list[str]) -> int:
     explain = getattr(options, "explain", False)
     report = Report(options.json, options.quiet, options.verbose, explain, str(options.config or ""))
     try:
+        if getattr(options, "profile", False):
+            return _profiled(arguments, lambda: int(options.run(options, report)))
         return int(options.run(options, report))
     except UrdfsyncError as error:
         report.problems(options.command, error.diagnostics)
@@ -61,6 +63,16 @@ def _main(arguments: list[str]) -> int:
         found = Diagnostic(Severity.ERROR, "interrupted", "interrupted; run the command again to finish the work")
         report.problems(options.command, [found], Exit.INTERRUPTED)
         return Exit.INTERRUPTED
+
+
+def _profiled(arguments: Sequence[str], run: Callable[[], int]) -> int:
+    """Run a command, and measure it; also how long a stamp takes that would have answered."""
+    looking.beyond()  # times can't be said again
+    with profiling.measured(since=stamp.BEGUN[0]) as profile:
+        with profiling.stage("stamp"):
+            plain = [argument for argument in arguments if argument != "--profile"]
+            profile.stamp = stamp.answers(plain) if plain[0] in stamp.COMMANDS else None
+        return run()
 
 
 def _parser(arguments: Sequence[str]) -> common.Parser:

@@ -10,7 +10,7 @@ import stat
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from urdfsync import looking
+from urdfsync import looking, profiling
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 
 TEMPORARY = ".urdfsync-tmp"
@@ -101,6 +101,7 @@ class Tree:
             if status is None:
                 return None
             if stat.S_ISREG(status.st_mode):
+                profiling.count("read")
                 with open(path, "rb", buffering=0) as file:  # noqa: PTH123
                     return file.read()
         except (FileNotFoundError, NotADirectoryError):

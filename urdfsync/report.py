@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfsync import wording
+from urdfsync import profiling, wording
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Exit, Result
 from urdfsync.status import RobotState
@@ -70,12 +70,14 @@ class Report:
         if self._wants_bar:
             self._start_bar(what)
 
+    @profiling.staged("presentation")
     def warnings(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Findings that concern the whole command and do not stop it."""
         self._warnings = diagnostics
         if not self._json:
             self._findings(diagnostics)
 
+    @profiling.staged("presentation")
     def result(self, result: Result) -> None:
         """Show what was done with one robot."""
         self._stop_bar()
@@ -96,6 +98,7 @@ class Report:
         for line in builds.lines(result, console, look, self._explain):
             console.print(line, soft_wrap=True)
 
+    @profiling.staged("presentation")
     def status(self, found: RobotState) -> None:
         """Show how one robot stands."""
         self._stop_bar()
@@ -112,6 +115,7 @@ class Report:
         for line in statuses.lines(found, console, self._verbose):
             console.print(line, soft_wrap=True)
 
+    @profiling.staged("presentation")
     def comparison(self, found: Comparison) -> None:
         """Show what changed in one source."""
         self._stop_bar()
@@ -156,12 +160,19 @@ class Report:
         elif not self._quiet:
             sys.stdout.write(f"cache emptied, {wording.size(freed)} freed\n" if freed else "the cache was empty\n")
 
+    @profiling.staged("presentation")
     def finish(self, command: str, code: Exit) -> None:
         """The end of a command on robots: the JSON document, if one is asked for."""
         self._stop_bar()
         self._close_checks()
         if self._json:
-            self._document(command, code, {"robots": self._robots()}, self._warnings)
+            self._document(command, code, {"robots": self._robots()} | self._profile(), self._warnings)
+        elif profile := profiling.current():
+            from urdfsync.views import profiles  # hardly anybody asks
+
+            console = terminal.console(sys.stderr)
+            for part in profiles.parts(profile):
+                console.print(part)
 
     def problems(self, command: str, diagnostics: Sequence[Diagnostic], code: Exit = Exit.ERROR) -> None:
         """Findings that stopped the whole command."""
@@ -233,6 +244,14 @@ class Report:
         elif not self._quiet:
             said = "written" if written else "unchanged"
             sys.stdout.write(f"{wording.visible(str(file))} {said}: record {found.target.name}\n")
+
+    @staticmethod
+    def _profile() -> dict[str, Any]:
+        """Where the time went until now, if somebody wants to know."""
+        from urdfsync import documents
+
+        profile = profiling.current()
+        return {"profile": documents.profile(profile)} if profile else {}
 
     def _robots(self) -> list[dict[str, Any]]:
         from urdfsync import documents

@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Set
 from pathlib import Path
 from typing import Protocol
 
-from urdfsync import looking, order
+from urdfsync import looking, order, profiling
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
@@ -179,7 +179,9 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     recorded = {key: r for key, r in manifest.files.items() if disk.reaches(key)} if manifest else {}
     owned = {key: n for key, n in manifest.orders.items() if disk.reaches(key)} if manifest else {}
     roles = {key: record.role for key, record in recorded.items()} | {key: w.role for key, w in aim.wanted.items()}
-    planned = plan(recorded, aim.wanted, {key: disk.found(key, role) for key, role in roles.items()}, aim.moves)
+    with profiling.stage("looking"):
+        found = {key: disk.found(key, role) for key, role in roles.items()}
+    planned = plan(recorded, aim.wanted, found, aim.moves)
     choices = {**remembered(recorded, planned), **aim.choices}
     aim = dataclasses.replace(aim, choices=choices)
     open_ = texts is not None and any(action.kind in DISPUTED or action.kind is Kind.ORPHAN for action in planned)

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target, Templates
@@ -43,6 +44,7 @@ def _renderer(templates: Templates) -> Renderer:
     return Renderer(templates.folders)
 
 
+@profiling.staged("artifacts")
 def generate(
     domain: Domain,
     snapshot: Snapshot,
@@ -105,10 +107,12 @@ def _problem(code: str, message: str) -> Diagnostic:
     return Diagnostic(Severity.ERROR, code, message, hint="rename the element, the package or the class")
 
 
+@profiling.staged("rendering")
 def _content(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> bytes:
     """One rendered file; whatever a template of the user's can do wrong is a ConfigError at its line."""
     import jinja2
 
+    profiling.count("rendered")
     try:
         return renderer.render(artifact.template, artifact.data).replace("\r\n", "\n").encode()
     except jinja2.TemplateSyntaxError as error:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import stat
 from typing import Any
 
-from urdfsync import looking, manifest
+from urdfsync import looking, manifest, profiling
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Reading, Snapshot, Templates
@@ -38,6 +38,7 @@ def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
     return Templates(tuple(folders), templates_digest(folders))
 
 
+@profiling.staged("reading")
 def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snapshot, Reading]:
     """The model in a source, as it is recorded, and all that was read; `name` is how diagnostics call the source.
 

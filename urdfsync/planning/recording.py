@@ -8,7 +8,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import manifest
+from urdfsync import manifest, profiling
 from urdfsync.domain import Role, Snapshot
 from urdfsync.manifest import Manifest
 from urdfsync.plan import CONFLICTS, DELETES, State
@@ -39,6 +39,7 @@ class Recording:
         self._situation, self._outputs, self._imported = situation, outputs, imported
         self._snapshot, self._last = snapshot, last
 
+    @profiling.staged("recording")
     def writes(self, decision: Decision) -> tuple[tuple[Change, ...], tuple[Path, ...]]:
         """The files to write, the manifest last, and the folders that are empty then, innermost first."""
         situation, store = self._situation, self._situation.store

@@ -6,7 +6,7 @@ import contextlib
 import functools
 from collections.abc import Mapping, Set
 
-from urdfsync import changes, vanished
+from urdfsync import changes, profiling, vanished
 from urdfsync.changes import Changes
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -60,6 +60,7 @@ class Renewal:
         writes, emptied = recording.writes(decision)
         return Work(decision, situation.store.witness(), writes, emptied, tuple(said), recording.drawing(), news)
 
+    @profiling.staged("meshes")
     def _import(self) -> imports.Imported:
         situation, state, name = self._situation, self._situation.state, self._situation.robot.name
         files = state.manifest.files if state else {}
@@ -130,6 +131,7 @@ class Renewal:
                 found.append(self._generate(self._situation.version(model), self._situation.robot.target))
         return found
 
+    @profiling.staged("comparing")
     def _changes(self, since: Version | None) -> Changes | None:
         """What is new in the model since another version; None if nothing is known of that."""
         situation = self._situation
@@ -140,6 +142,7 @@ class Renewal:
         except NO_MODEL:
             return None  # what is recorded is no model of the domain
 
+    @profiling.staged("deciding")
     def _decide(self, renames: Mapping[ElementKey, str]) -> Decision:
         situation = self._situation
         key = situation.key

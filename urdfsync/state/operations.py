@@ -14,6 +14,7 @@ import stat
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from urdfsync import profiling
 from urdfsync.files import TEMPORARY
 
 FEW = 32
@@ -107,6 +108,7 @@ def remove(path: Path) -> None:
         path.unlink()
 
 
+@profiling.staged("syncing")
 def sync(paths: Sequence[Path]) -> None:
     """Bring files and folders to the disk, so that they outlive a power failure.
 

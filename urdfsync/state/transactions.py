@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
+from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree, digest
 from urdfsync.state import operations
@@ -40,6 +41,7 @@ class Transactions:
         """Whether a batch is under way, or was when its process ended. Needs no lock."""
         return find_phase(self._folder) is not None
 
+    @profiling.staged("writing")
     def apply(self, robot: str, changes: Sequence[Change], emptied: Iterable[Path] = ()) -> None:
         """Make all changes, in their order, or none; `emptied` are folders to remove if they are empty then.
 
@@ -60,6 +62,7 @@ class Transactions:
             self._roll_back(batch, error)
             raise
         self._tidy(batch)
+        profiling.count("written", len(changes))
 
     def recover(self, outputs: Sequence[Path], packages: Sequence[Path]) -> Diagnostic | None:
         """Finish or undo what a run left that was killed; returns what there is to say about it.

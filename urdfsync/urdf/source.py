@@ -10,6 +10,7 @@ import dataclasses
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
+from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.reader import checks, xml
 from urdfsync.urdf.reader.fields import Element, Findings
@@ -61,7 +62,8 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = True) -> RobotR
     if robot is not None and cross_check and not findings.failed:
         from urdfsync.urdf.reader.cross_check import cross_check as read_again
 
-        _add(read_again(content, robot), findings)
+        with profiling.stage("cross-check"):
+            _add(read_again(content, robot), findings)
     return RobotReading(None if findings.failed else robot, findings.result(), findings.lines)
 
 
