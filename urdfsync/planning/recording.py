@@ -17,7 +17,7 @@ from urdfsync.planning.imports import Imported
 from urdfsync.planning.outputs import Outputs
 from urdfsync.planning.situation import Situation
 from urdfsync.standoff import aside
-from urdfsync.state.bases import Bases
+from urdfsync.state import bases
 from urdfsync.state.transactions import Change
 
 _OUTLIVING = (State.CONFLICT, State.WAITING, State.ORPHAN)
@@ -51,9 +51,9 @@ class Recording:
         if self._stays(decision):
             changes += store.changes(name, manifest.dumps(self._chosen(decision)), None, None)
         else:
-            bases, since = self._outliving(decision), self._since(decision)
-            model = manifest.dump_model(self._snapshot, self._imported.imports, bases, since)
-            changes += store.keep_bases(name, self._bases(decision), former)
+            outliving, since = self._outliving(decision), self._since(decision)
+            model = manifest.dump_model(self._snapshot, self._imported.imports, outliving, since)
+            changes += store.keep_bases(name, bases.dumps(self._bases(decision)), former)
             changes += store.changes(name, manifest.dumps(self._manifest(decision, model)), model, former)
         return tuple(changes), tuple(self._emptied(changes))
 
@@ -155,15 +155,15 @@ class Recording:
                     texts[key.removeprefix(prefix)] = text
         return texts
 
-    def _bases(self, decision: Decision) -> Bases:
-        """The text of every base that is known."""
-        texts = {}
+    def _bases(self, decision: Decision) -> Iterator[tuple[str, str]]:
+        """Hash and text of every base that is known; one after the other, so that not all are in memory."""
+        done = set()
         for key, record in decision.files.items():
-            if record.role is not Role.IMPORT and record.base is not None and record.base not in texts:
+            if record.role is not Role.IMPORT and record.base is not None and record.base not in done:
                 text = self._base(record.origin or key, record.base)
                 if text is not None:
-                    texts[record.base] = text
-        return Bases(texts)
+                    done.add(record.base)
+                    yield record.base, text
 
     def _base(self, key: str, digest: str | None) -> str | None:
         if digest is None:
