@@ -101,7 +101,7 @@ class Crew:
 
     def _submit(self) -> None:
         """Let others plan some robots more, but not so many that their texts and meshes fill the memory."""
-        request = dataclasses.replace(self._request, progress=in_silence)
+        request = dataclasses.replace(self._request, progress=in_silence, memory=None)
         while self._pool is not None and self._waiting and len(self._futures) < self._window:
             robot = self._waiting.popleft()
             profiled = profiling.current() is not None

@@ -34,7 +34,7 @@ class Renewal:
         self._situation = situation
         robot = situation.robot
         self._snapshot, self._reading = inputs.read(
-            situation.domain, robot.options, situation.content, shown(robot.source)
+            situation.domain, robot.options, situation.content, shown(robot.source), situation.request.memory
         )
         self._imported = self._import()
         self.now = Version(self._snapshot, self._imported.imports, situation.generator.fingerprint)
@@ -194,6 +194,8 @@ class Renewal:
             {identifier for kind in situation.domain.names(*version).values() for identifier in kind.values()}
             for version in ((settled.snapshot, target), (self._snapshot, situation.robot.target))
         )
+        if not known - kept:
+            return frozenset()
         now = self._generated.artifacts
         differing = changes.stale(before.artifacts.values(), now.values())
         old = (before.content(path).decode() for path in before.artifacts.keys() & (differing.render | differing.gone))
