@@ -33,9 +33,11 @@ class Renewal:
     def __init__(self, situation: Situation) -> None:
         self._situation = situation
         robot = situation.robot
-        self._snapshot, self._reading = inputs.read(
+        self._snapshot, reading = inputs.read(
             situation.domain, robot.options, situation.content, shown(robot.source), situation.request.memory
         )
+        self._said, self._lines = reading.diagnostics, reading.lines  # and not another snapshot
+        del reading
         self._imported = self._import()
         self.now = Version(self._snapshot, self._imported.imports, situation.generator.fingerprint)
         """The model as it is in the source, with what it imports."""
@@ -50,7 +52,7 @@ class Renewal:
         found = self._changes(last)
         decision = self._decide(found.renames if found else {})
         found = found if settled is last else self._changes(settled)
-        said = [*self._reading.diagnostics, *self._imported.diagnostics, *situation.parents.diagnostics]
+        said = [*self._said, *self._imported.diagnostics, *situation.parents.diagnostics]
         said += [*self._moved(decision), *self._mentions(decision)]
         said.sort(key=lambda diagnostic: (diagnostic.file, diagnostic.line))
         news = found if found and (found.changes or found.generator) else None
@@ -78,7 +80,7 @@ class Renewal:
         )
         return imports.bring_in(
             situation.domain,
-            situation.dependencies(self._snapshot, self._reading.lines),
+            situation.dependencies(self._snapshot, self._lines),
             recorded,
             shown(situation.robot.source),
             situation.request.full,
