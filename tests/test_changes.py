@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.changes import Change, Changes, Comparing, Stale, compare, moves, stale
+from urdfsync.changes import Change, Changes, Comparing, Stale, _by_deepdiff, _of_leaves, compare, moves, stale
 from urdfsync.difference import ChangeClass, Difference, ElementKey, Kind, Meaning, Version
 from urdfsync.domain import Artifact, Import, Order, Role, Snapshot
 
@@ -85,10 +85,25 @@ def test_equal_versions_have_no_changes(compared: list[tuple[Any, Any]]) -> None
 
 def test_only_elements_that_differ_are_compared_in_depth(compared: list[tuple[Any, Any]]) -> None:
     books = {f"b{k}": {"size": [k, 1.0, 2.0]} for k in range(1000)}
-    other = {**books, "b500": {"size": [500, 1.0, 3.0]}}
+    other = {**books, "b500": {"size": [500, 1.0]}, "b600": {"size": [600, 1.0, 3.0]}}
     found = changes(shelf(**books), shelf(**other))
-    assert lines(found) == [("b500 / size / 2", "changed", 2.0, 3.0)]
-    assert compared == [(books["b500"], other["b500"])]
+    assert lines(found) == [("b500 / size / 2", "removed", 2.0, None), ("b600 / size / 2", "changed", 2.0, 3.0)]
+    assert compared == [(books["b500"], other["b500"])], "where only numbers differ, deepdiff need not be loaded"
+
+
+@given(PLAIN, PLAIN, st.data())
+def test_what_needs_no_deepdiff_is_found_as_it_would(old: Any, new: Any, data: st.DataObject) -> None:
+    new = data.draw(st.sampled_from([new, _with_other_leaves(old, data)]))
+    found = _of_leaves(("part", "name"), old, new)
+    assert found is None or sorted(found, key=repr) == sorted(_by_deepdiff(("part", "name"), old, new), key=repr)
+
+
+def _with_other_leaves(value: Any, data: st.DataObject) -> Any:
+    if isinstance(value, dict):
+        return {key: _with_other_leaves(item, data) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_with_other_leaves(item, data) for item in value]
+    return data.draw(st.sampled_from([value, None, 1, 2.5, "c"]))
 
 
 def test_what_comes_and_goes_is_one_change(compared: list[tuple[Any, Any]]) -> None:

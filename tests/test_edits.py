@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import json
 import shutil
 import tomllib
@@ -383,7 +384,7 @@ def test_a_clone_keeps_bases_before_they_can_be_rendered_no_more(project: Path) 
     run()
     shutil.rmtree(project / ".urdfsync/base")
     assert run().in_step
-    assert (project / ".urdfsync/base/ladder.json").exists()
+    assert (project / ".urdfsync/base/ladder.json.gz").exists()
     edit(R1, "equation", "  // a sensor here\nequation")
     with Path("urdfsync.toml").open("a") as file:
         file.write('templates = "own"\n')
@@ -410,9 +411,9 @@ def test_without_its_base_a_conflict_has_no_merge(project: Path) -> None:
 
 def test_a_damaged_base_counts_as_lost(project: Path) -> None:
     run()
-    kept = project / ".urdfsync/base/ladder.json"
-    texts = json.loads(kept.read_text())
-    kept.write_text(json.dumps({key: text.replace("R1", "XX") for key, text in texts.items()}))
+    kept = project / ".urdfsync/base/ladder.json.gz"
+    texts = json.loads(gzip.decompress(kept.read_bytes()))
+    kept.write_bytes(gzip.compress(json.dumps({key: text.replace("R1", "XX") for key, text in texts.items()}).encode()))
     edit(RECORD, "end R1", "  // measured in May\nend R1")
     source('"ohm": 100', '"ohm": 150')
     (standoff,) = run().standoffs

@@ -45,6 +45,7 @@ SHELL_MODULES = tuple(f"urdfsync.{name}" for name in SHELL)
 FORBIDDEN: dict[str, tuple[str, ...]] = {
     "diagnostics": ("urdfsync", *IO, *HEAVY),
     "looking": ("urdfsync", *HEAVY),
+    "profiling": ("urdfsync", "pathlib", *(name for name in IO if name != "sys"), *HEAVY),
     "stamping/making": ("urdfsync.config", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "domain": ("urdfsync.urdf", "urdfsync.render", "urdfsync.registry", "msgspec", *SHELL_MODULES, *IO, *HEAVY),
     "changes": ("rich", "pathlib", "jinja2", "urdfsync.urdf", *IO, *SHELL_MODULES),
@@ -149,7 +150,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
         f"views/{name}": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf")
         for name in (
             *("area", "builds", "chronicle", "comparisons", "conflicts", "diversion", "drafts", "hunks", "statuses"),
-            *("checks", "terminal", "watching"),
+            *("checks", "profiles", "terminal", "watching"),
         )
     },
     "views/hooks": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf", *HEAVY),
@@ -178,6 +179,7 @@ LIGHT = (
     "plan",
     "state/store",
     "urdf/domain",
+    *(f"commands/{name}" for name in ("build", "hook", "init", "library")),
     "commands/diff",
     "commands/status",
     "commands/resolve",

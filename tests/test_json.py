@@ -24,6 +24,7 @@ from urdfsync.documents import VERSION
 from urdfsync.domain import Deviation, Quantity, Role
 from urdfsync.outcome import Checked, Result
 from urdfsync.plan import Kind
+from urdfsync.profiling import OTHER, STAGES
 from urdfsync.status import FileStatus
 from urdfsync.views.watching import ForPrograms
 from urdfsync.watching import events
@@ -54,6 +55,8 @@ EXAMPLES = [
 
 LONG = {"text"}
 """A whole record: no example shows it."""
+PROFILE = {"profile", "ms", "stages", "counts", "stamp"}
+"""Times: they are never the same."""
 
 URDF = """<robot name="arm">
   <link name="base"/>
@@ -272,7 +275,15 @@ def test_library(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_tables_name_every_key_and_no_other() -> None:
     cells = re.findall(r"^\| (`[^|]*) \|", PAGE, re.MULTILINE)
     named = {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
-    assert named == keys(EXAMPLES) | LONG
+    assert named == keys(EXAMPLES) | LONG | PROFILE
+
+
+def test_a_profile(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    cli.main(["init", "arm.urdf"])
+    found = printed(capsys, folder, "build", "--profile")
+    assert found.keys() == BUILD.keys() | {"profile"}
+    assert found["profile"].keys() | {"profile"} == PROFILE
+    assert {f"`{name}`" for name in (*keys(found["profile"]), *STAGES, OTHER)} <= set(re.findall(r"`[\w -]+`", PAGE))
 
 
 def test_values_that_are_one_of_a_few_are_all_named() -> None:

@@ -6,13 +6,14 @@ import difflib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import looking, registry
+from urdfsync import looking, profiling, registry
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import Diagnostic, Severity
 
 _SUFFIX = ".jinja"
 
 
+@profiling.staged("configuration")
 def warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagnostic, ...]:
     """Search paths that do not exist, and templates that replace none."""
     found = [*_search_paths(config, robots), *_templates(robots)]

@@ -10,7 +10,7 @@ import dataclasses
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import looking
+from urdfsync import looking, profiling
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.outcome import Result
@@ -86,7 +86,8 @@ class _Builder:
                 continue
             if work.writes or any(action.writes for action in work.decision.actions):
                 looking.beyond()  # and it will look different
-                self._lock.acquire(waiting=self._wait)
+                with profiling.stage("waiting"):
+                    self._lock.acquire(waiting=self._wait)
                 if not self._is_current(work):
                     continue
                 try:
@@ -104,6 +105,7 @@ class _Builder:
         around = shared.changes(work.decision.shared, Disk(self._config, robot).read_path)
         return [*around, *Store(self._config.root, shown).ignoring()]
 
+    @profiling.staged("looking")
     def _is_current(self, work: Work) -> bool:
         """Whether no other build has written, or begun to, since the plan was made."""
         return not self._transactions.pending() and Store(self._config.root, shown).stands(work.witness)

@@ -1,7 +1,7 @@
 """Two versions of a model to classified changes, and to the files that these concern. Knows no domain.
 
-Equality comes first: elements that are equal cost one comparison, and only those that differ are handed to deepdiff,
-element by element.
+Equality comes first: elements that are equal cost one comparison. Of those that differ, most do so in numbers alone,
+which takes one walk; only those of which something comes or goes are handed to deepdiff, element by element.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ _KINDS = {
     "values_changed": Kind.CHANGED,
 }
 """What deepdiff calls the differences of plain data."""
+_LEAVES = (str, int, float, bool, type(None))
 
 
 class Comparing(Protocol):
@@ -199,7 +200,26 @@ def _of_elements(part: str, old: Mapping[str, Any], new: Mapping[str, Any]) -> I
 
 def _inside(path: tuple[str, ...], old: Any, new: Any) -> Iterator[Difference]:
     """Differences of two values that are not equal, in the order of their paths."""
-    from deepdiff import DeepDiff
+    found = _of_leaves(path, old, new)
+    yield from sorted(_by_deepdiff(path, old, new) if found is None else found, key=lambda difference: difference.path)
+
+
+def _of_leaves(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference] | None:
+    """Differences of two values with the same keys and lengths; None for other values."""
+    if isinstance(old, _LEAVES) and isinstance(new, _LEAVES):
+        return [Difference(path, Kind.CHANGED, old, new)] if old != new else []
+    if isinstance(old, dict) and isinstance(new, dict) and old.keys() == new.keys():
+        parts = [_of_leaves((*path, key), value, new[key]) for key, value in old.items()]
+    elif isinstance(old, list) and isinstance(new, list) and len(old) == len(new):
+        parts = [_of_leaves((*path, number), *values) for number, values in enumerate(zip(old, new, strict=True))]
+    else:
+        return None
+    return None if any(part is None for part in parts) else [found for part in parts for found in part or ()]
+
+
+def _by_deepdiff(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference]:
+    """Differences of any two values."""
+    from deepdiff import DeepDiff  # takes 180 ms
 
     tree = DeepDiff(
         old,
@@ -209,7 +229,7 @@ def _inside(path: tuple[str, ...], old: Any, new: Any) -> Iterator[Difference]:
         threshold_to_diff_deeper=0,  # else mappings with few keys in common are compared as a whole
         ignore_private_variables=False,
     )
-    found = [
+    return [
         Difference(
             (*path, *level.path(output_format="list")),
             _KINDS[report],
@@ -220,7 +240,6 @@ def _inside(path: tuple[str, ...], old: Any, new: Any) -> Iterator[Difference]:
         for level in levels
         if level.t1 != level.t2  # 1 and 1.0 are of two types
     ]
-    yield from sorted(found, key=lambda difference: difference.path)
 
 
 def _of_imports(old: Mapping[str, Import], new: Mapping[str, Import]) -> Iterator[Difference]:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
-from urdfsync import __version__, streams
-from urdfsync.commands import build, check, common, diff, hook, init, library, record, resolve, status, watch
+from urdfsync import __version__, looking, profiling, streams
+from urdfsync.commands import common
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit
 from urdfsync.report import Report, unwritten
-from urdfsync.stamping import making
+from urdfsync.stamping import making, stamp
 
-_COMMANDS = (init, build, diff, status, watch, check, resolve, record, hook, library)
-"""In the order of the help."""
+_COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "record", "hook", "library")
+"""In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -30,18 +31,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _main(arguments: list[str]) -> int:
     try:
-        options = _parser().parse_args(arguments)
+        options = _parser(arguments).parse_args(arguments)
     except SystemExit as stop:
         return stop.code if isinstance(stop.code, int) else Exit.ERROR
     except common.UsageError as error:
-        names = {command.__name__.rpartition(".")[2] for command in _COMMANDS}
-        command = next((argument for argument in arguments if argument in names), "")
+        command = next((argument for argument in arguments if argument in _COMMANDS), "")
         found = Diagnostic(Severity.ERROR, "usage", str(error), hint=f"`{error.program} --help` says more")
         Report("--json" in arguments).bad_usage(command, error.usage, found)
         return Exit.ERROR
     explain = getattr(options, "explain", False)
     report = Report(options.json, options.quiet, options.verbose, explain, str(options.config or ""))
     try:
+        if getattr(options, "profile", False):
+            return _profiled(arguments, lambda: int(options.run(options, report)))
         return int(options.run(options, report))
     except UrdfsyncError as error:
         report.problems(options.command, error.diagnostics)
@@ -56,7 +58,19 @@ def _main(arguments: list[str]) -> int:
         return Exit.INTERRUPTED
 
 
-def _parser() -> common.Parser:
+def _profiled(arguments: Sequence[str], run: Callable[[], int]) -> int:
+    """Run a command, and measure it; also how long a stamp takes that would have answered."""
+    looking.beyond()  # times can't be said again
+    with profiling.measured(since=stamp.BEGUN[0]) as profile:
+        with profiling.stage("stamp"):
+            plain = [argument for argument in arguments if argument != "--profile"]
+            profile.stamp = stamp.answers(plain) if plain[0] in stamp.COMMANDS else None
+        return run()
+
+
+def _parser(arguments: Sequence[str]) -> common.Parser:
+    """The parser of a command, if one comes first; else that of all."""
+    names = arguments[:1] if arguments and arguments[0] in _COMMANDS else _COMMANDS
     parser = common.Parser(
         prog="urdfsync",
         description="Keeps Modelica models in step with URDF files, and leaves alone what you edited.",
@@ -64,6 +78,6 @@ def _parser() -> common.Parser:
     )
     parser.add_argument("--version", action="version", version=f"urdfsync {__version__}")
     commands = parser.add_subparsers(title="commands", dest="command", metavar="COMMAND", required=True)
-    for command in _COMMANDS:
-        command.add(commands)
+    for name in names:
+        importlib.import_module(f"urdfsync.commands.{name}").add(commands)
     return parser

@@ -12,6 +12,7 @@ from urdfsync import difference, resolution, wording
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.outcome import Result
 from urdfsync.plan import Action, Kind
+from urdfsync.profiling import OTHER, STAGES, Profile
 from urdfsync.status import FileState, RobotState
 
 if TYPE_CHECKING:
@@ -61,6 +62,25 @@ def robot(result: Result) -> dict[str, Any]:
         "conflicts": [_conflict(target) for target in resolution.conflicts([result])],
         "diagnostics": [finding(diagnostic) for diagnostic in result.diagnostics],
     }
+
+
+def profile(found: Profile) -> dict[str, Any]:
+    """Where the time of a command went as plain data, in milliseconds."""
+    here, counts = found.results()
+    return {
+        "ms": _ms(sum(here.values())),
+        "stages": [
+            {"stage": name, "ms": _ms(here.get(name, 0)), "elsewhere_ms": _ms(found.elsewhere[name])}
+            for name in (*STAGES, OTHER)
+            if here.get(name) or found.elsewhere[name]
+        ],
+        "counts": counts,
+        "stamp": found.stamp,
+    }
+
+
+def _ms(nanoseconds: int) -> float:
+    return round(nanoseconds / 1e6, 3)
 
 
 def state(found: RobotState) -> dict[str, Any]:

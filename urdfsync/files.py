@@ -10,7 +10,7 @@ import stat
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from urdfsync import looking
+from urdfsync import looking, profiling
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 
 TEMPORARY = ".urdfsync-tmp"
@@ -79,21 +79,31 @@ class Tree:
     def __init__(self, root: Path, shown: Callable[[Path], str] = str) -> None:
         self.root = root
         self._shown = shown
-        self._checked: set[Path] = {root}
+        self._below = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
+        self._checked = {str(root)}
 
-    def read(self, path: Path) -> bytes | None:
+    def covers(self, path: str | os.PathLike[str]) -> bool:
+        """Whether a path is below the root; absolute, and without detours if it is a string."""
+        return os.fspath(path).startswith(self._below)
+
+    def read(self, path: str | os.PathLike[str]) -> bytes | None:
         """The content of a file below the root, None if there is none.
+
+        A path that is a string is absolute and without detours.
 
         Raises OutputError for a link, for anything else that is no regular file, and for what can't be read.
         """
-        if not self.check_folder(path.parent):
+        path = os.fspath(path)
+        if not self.check_folder(os.path.dirname(path)):  # noqa: PTH120
             return None
         try:
             status = looking.status(path)
             if status is None:
                 return None
             if stat.S_ISREG(status.st_mode):
-                return path.read_bytes()
+                profiling.count("read")
+                with open(path, "rb", buffering=0) as file:  # noqa: PTH123
+                    return file.read()
         except (FileNotFoundError, NotADirectoryError):
             return None
         except OSError as error:
@@ -102,13 +112,14 @@ class Tree:
         message = f"{kind_of(status.st_mode)} is where urdfsync would write a file"
         raise self._refusal("output-in-the-way", path, message, "move it away")
 
-    def check_folder(self, folder: Path) -> bool:
+    def check_folder(self, folder: str | os.PathLike[str]) -> bool:
         """Whether a folder below the root exists. Raises OutputError if it is a file, a link, or not below the root."""
+        folder = os.fspath(folder)
         if folder in self._checked:
             return True
-        if self.root not in folder.parents:
+        if not self.covers(folder):
             raise self._refusal("outside", folder, f"the path leaves {self._shown(self.root)}")
-        if not self.check_folder(folder.parent):
+        if not self.check_folder(os.path.dirname(folder)):  # noqa: PTH120
             return False
         mode = looking.kind(folder, follow=False)
         if not mode:
@@ -119,5 +130,5 @@ class Tree:
         self._checked.add(folder)
         return True
 
-    def _refusal(self, code: str, path: Path, message: str, hint: str = "") -> OutputError:
-        return OutputError(Diagnostic(Severity.ERROR, code, message, self._shown(path), hint=hint))
+    def _refusal(self, code: str, path: str, message: str, hint: str = "") -> OutputError:
+        return OutputError(Diagnostic(Severity.ERROR, code, message, self._shown(Path(path)), hint=hint))

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 
 INFINITY = "Modelica.Constants.inf"
 
-_ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t"}
+_ESCAPES = str.maketrans({"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t"})
 _CONTROLS = re.compile(
     "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff\ufffe\uffff]"
 )
@@ -47,8 +47,7 @@ def matrix(rows: Sequence[Sequence[float]], columns: int) -> str:
 
 def string(value: str) -> str:
     """A Modelica string literal, quotes included; control characters become spaces."""
-    escaped = "".join(_ESCAPES.get(char, char) for char in value)
-    return f'"{_CONTROLS.sub(" ", escaped)}"'
+    return f'"{_CONTROLS.sub(" ", value.translate(_ESCAPES))}"'
 
 
 def html(value: str) -> str:

@@ -101,7 +101,7 @@ def content(path: Path) -> bytes:
     return path.read_bytes()
 
 
-def status(path: Path) -> os.stat_result | None:
+def status(path: str | os.PathLike[str]) -> os.stat_result | None:
     """What is at a path itself, links not followed, before its content is read; None for nothing. Raises OSError."""
     looks = _looks.get()
     try:

@@ -7,6 +7,7 @@ again. Neither holds absolute paths, times or host names.
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import posixpath
 import re
@@ -132,6 +133,7 @@ def dumps(manifest: Manifest) -> str:
     return _HEADER + tomli_w.dumps({key: value for key, value in document.items() if value != {}})
 
 
+@functools.lru_cache(maxsize=1)  # the daemon makes sure of each build by another one, and the next begins with it
 def loads(text: str, file: str) -> Manifest:
     """The manifest in `text`, which errors call `file`.
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import jinja2
 
-from urdfsync import literals
+from urdfsync import bytecode, literals
 
 _FILTERS = (
     literals.real,
@@ -43,6 +43,7 @@ class Renderer:
             trim_blocks=True,
             lstrip_blocks=True,
             keep_trailing_newline=True,
+            bytecode_cache=bytecode.of_user(),
             autoescape=False,  # noqa: S701 - Modelica, not HTML; the filters above escape
         )
         self._environment.filters.update({function.__name__: function for function in _FILTERS})

@@ -16,12 +16,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfsync import documents, streams, wording
+from urdfsync import profiling, streams, wording
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.documents import VERSION
-from urdfsync.outcome import Checked, Exit, Result
+from urdfsync.outcome import Exit, Result
 from urdfsync.status import RobotState
-from urdfsync.views import builds, conflicts, drafts, statuses, terminal
+from urdfsync.views import builds, statuses, terminal
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
@@ -71,12 +70,14 @@ class Report:
         if self._wants_bar:
             self._start_bar(what)
 
+    @profiling.staged("presentation")
     def warnings(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Findings that concern the whole command and do not stop it."""
         self._warnings = diagnostics
         if not self._json:
             self._findings(diagnostics)
 
+    @profiling.staged("presentation")
     def result(self, result: Result) -> None:
         """Show what was done with one robot."""
         self._stop_bar()
@@ -86,16 +87,18 @@ class Report:
         self._findings(result.diagnostics)
         if self._quiet and not result.conflicts:
             return
-        wrong = result.checked is Checked.WRONG
-        if result.in_step and not (wrong or self._explain or self._verbose or result.drawing or result.changes):
+        if not (self._explain or self._verbose or builds.has_more(result)):
             builds.plain(result.robot, wording.summary(result))
             return
+        from urdfsync.views import conflicts  # most builds have no use for it
+
         console = terminal.console(sys.stderr if result.failed else sys.stdout)
         before = sum(len(other.conflicts) for other in self._results[:-1])
         look = conflicts.Look(self._verbose, self._quiet, before, self._config)
         for line in builds.lines(result, console, look, self._explain):
             console.print(line, soft_wrap=True)
 
+    @profiling.staged("presentation")
     def status(self, found: RobotState) -> None:
         """Show how one robot stands."""
         self._stop_bar()
@@ -112,6 +115,7 @@ class Report:
         for line in statuses.lines(found, console, self._verbose):
             console.print(line, soft_wrap=True)
 
+    @profiling.staged("presentation")
     def comparison(self, found: Comparison) -> None:
         """Show what changed in one source."""
         self._stop_bar()
@@ -134,6 +138,8 @@ class Report:
         """Show what was checked of one robot; `robots` are all that the command is about, by their names."""
         self._stop_bar()
         if self._json:
+            from urdfsync import documents
+
             self._verdicts.append(documents.verdict(found, strict))
             return
         if self._checks is None:
@@ -154,12 +160,19 @@ class Report:
         elif not self._quiet:
             sys.stdout.write(f"cache emptied, {wording.size(freed)} freed\n" if freed else "the cache was empty\n")
 
+    @profiling.staged("presentation")
     def finish(self, command: str, code: Exit) -> None:
         """The end of a command on robots: the JSON document, if one is asked for."""
         self._stop_bar()
         self._close_checks()
         if self._json:
-            self._document(command, code, {"robots": self._robots()}, self._warnings)
+            self._document(command, code, {"robots": self._robots()} | self._profile(), self._warnings)
+        elif profile := profiling.current():
+            from urdfsync.views import profiles  # hardly anybody asks
+
+            console = terminal.console(sys.stderr)
+            for part in profiles.parts(profile):
+                console.print(part)
 
     def problems(self, command: str, diagnostics: Sequence[Diagnostic], code: Exit = Exit.ERROR) -> None:
         """Findings that stopped the whole command."""
@@ -199,6 +212,8 @@ class Report:
             return
         self._findings(draft.diagnostics)
         if not self._quiet:
+            from urdfsync.views import drafts  # no other command has a use for it
+
             console = terminal.console(sys.stdout)
             for line in drafts.lines(draft):
                 console.print(line, soft_wrap=True)
@@ -230,7 +245,17 @@ class Report:
             said = "written" if written else "unchanged"
             sys.stdout.write(f"{wording.visible(str(file))} {said}: record {found.target.name}\n")
 
+    @staticmethod
+    def _profile() -> dict[str, Any]:
+        """Where the time went until now, if somebody wants to know."""
+        from urdfsync import documents
+
+        profile = profiling.current()
+        return {"profile": documents.profile(profile)} if profile else {}
+
     def _robots(self) -> list[dict[str, Any]]:
+        from urdfsync import documents
+
         return [
             *map(documents.robot, self._results),
             *map(documents.state, self._states),
@@ -241,8 +266,16 @@ class Report:
     def _document(
         self, command: str, code: Exit, values: dict[str, Any], diagnostics: Sequence[Diagnostic] = ()
     ) -> None:
+        from urdfsync import documents  # people have no use for it
+
         findings = [documents.finding(diagnostic) for diagnostic in diagnostics]
-        document = {"version": VERSION, "command": command, "exit": int(code), **values, "diagnostics": findings}
+        document = {
+            "version": documents.VERSION,
+            "command": command,
+            "exit": int(code),
+            **values,
+            "diagnostics": findings,
+        }
         indent = None if command == "watch" else 2  # its output is one object per line
         sys.stdout.write(json.dumps(document, indent=indent) + "\n")
 

@@ -20,6 +20,7 @@ from pathlib import Path
 
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.planning.inputs import Memory
 from urdfsync.watching import builder, events, stash
 from urdfsync.watching.builds import Builds
 from urdfsync.watching.checks import Checks
@@ -53,7 +54,8 @@ class Daemon:
         self._observer = Observer(self._inbox.notice, lambda: self._inbox.put(Lost()))
         self._settings = Settings(options)
         self._robots = Robots(options.times, options.request.package_paths)
-        request = dataclasses.replace(options.request, progress=self._progress)
+        self._memory = Memory()
+        request = dataclasses.replace(options.request, progress=self._progress, memory=self._memory)
         self._checks = Checks(
             options.request,
             listener,
@@ -238,7 +240,7 @@ class Daemon:
         """Whether what has settled is a model to be believed; if not, it is waited for."""
         settler, source = watched.settler, watched.settled[watched.scope.source].content
         try:
-            found = judge(self._config, watched.robot, watched.scope.names)
+            found = judge(self._config, watched.robot, watched.scope.names, self._memory)
         except Exception as error:  # noqa: BLE001 - a bug in a domain must not end the daemon; nothing is written yet
             watched.trouble = (builder.unexpected(error, f"{shown(watched.robot.source)} can't be read"),)
             self._builds.fail(self._config, watched)

@@ -11,7 +11,7 @@ from urdfsync import manifest
 from urdfsync.diagnostics import OutputError, StateError
 from urdfsync.files import digest, text_digest
 from urdfsync.manifest import Generator, Manifest, Source
-from urdfsync.state.bases import Bases
+from urdfsync.state import bases
 from urdfsync.state.store import Store
 from urdfsync.state.transactions import Change
 
@@ -47,7 +47,7 @@ def built(tmp_path: Path) -> Path:
     """A folder with the state of robot `arm`."""
     store = Store(tmp_path)
     store.load("arm")
-    write(*store.changes("arm", TEXT, MODEL, None), *store.keep_bases("arm", Bases({"1": "a"}), None))
+    write(*store.changes("arm", TEXT, MODEL, None), *store.keep_bases("arm", bases.dumps({"1": "a"}.items()), None))
     return tmp_path
 
 
@@ -79,7 +79,7 @@ def test_what_is_there_is_not_written_again(built: Path) -> None:
     store = Store(built)
     store.load("arm")
     assert list(store.changes("arm", TEXT, MODEL, None)) == []
-    assert list(store.keep_bases("arm", Bases({"1": "a"}), None)) == []
+    assert list(store.keep_bases("arm", bases.dumps({"1": "a"}.items()), None)) == []
     assert [change.path.name for change in store.changes("arm", TEXT + "# more\n", None, None)] == ["arm.toml"]
 
 
@@ -156,8 +156,8 @@ def test_a_robot_with_another_name_takes_everything_with_it(built: Path) -> None
     store = Store(built)
     assert store.load("leg") is None
     store.load("arm")
-    write(*store.keep_bases("leg", Bases({"1": "a"}), "arm"), *store.changes("leg", TEXT, MODEL, "arm"))
-    assert files(built) == {"robots/leg.toml", "robots/leg.json", "base/leg.json"}
+    write(*store.keep_bases("leg", bases.dumps({"1": "a"}.items()), "arm"), *store.changes("leg", TEXT, MODEL, "arm"))
+    assert files(built) == {"robots/leg.toml", "robots/leg.json", "base/leg.json.gz"}
 
 
 def test_bases(built: Path) -> None:
@@ -166,7 +166,7 @@ def test_bases(built: Path) -> None:
     store = Store(built)
     assert store.has_bases("arm")
     assert not store.has_bases("leg")
-    write(*store.keep_bases("arm", Bases({hash_: text}), None))
+    write(*store.keep_bases("arm", bases.dumps({hash_: text}.items()), None))
     assert Store(built).bases("arm").get(hash_) == text
     assert Store(built).bases("leg").get(hash_) is None
 

@@ -1,4 +1,4 @@
-"""The user's cache folder: copies of libraries, what the compiler remembers, and workspaces; kept below a limit.
+"""The user's cache folder: libraries, what the compiler remembers, workspaces, templates; kept below a limit.
 
 Everything in it can be made again. What was used longest ago goes first; a check that runs meanwhile loses nothing
 but time, since the compiler makes again what it misses, and what else is in use or was within the last hour stays.
@@ -99,6 +99,11 @@ class Cache:
         """Where checks work, each in a folder of its own."""
         return self.folder / "work"
 
+    @property
+    def templates(self) -> Path:
+        """Compiled templates, see `bytecode`."""
+        return self.folder / "templates"
+
     def workspace(self, name: str) -> Path:
         """The folder for work called `name`, which stays until it is trimmed; raises CacheError if it can't be made."""
         self.prepare()
@@ -127,7 +132,7 @@ class Cache:
         places = [Path(entry.path) for entry in _scan(self.workspaces)] if _is_folder(self.workspaces) else []
         spared = self.libraries if any(map(_is_locked, places)) else None
         freed = sum(_delete(entry) for entry in self._entries() if Path(entry.paths[0]).parent != spared)
-        for folder in (self.libraries, self.compiler, self.workspaces) if spared is None else ():
+        for folder in (self.libraries, self.compiler, self.workspaces, self.templates) if spared is None else ():
             if _is_folder(folder):
                 shutil.rmtree(folder, ignore_errors=True)  # what is left are empty folders, and what is being made
         return freed
@@ -135,7 +140,7 @@ class Cache:
     def _entries(self) -> Iterator[Entry]:
         if _is_folder(self.compiler):
             yield from _records(self.compiler)
-        for parent in (self.libraries, self.workspaces):
+        for parent in (self.libraries, self.workspaces, self.templates):
             if _is_folder(parent):
                 yield from (_whole(entry) for entry in _scan(parent))
 

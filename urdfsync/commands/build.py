@@ -26,6 +26,7 @@ def add(commands: common.Commands) -> None:
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
     common.add_wait(parser)
     common.add_jobs(parser)
+    common.add_profile(parser)
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
     parser.add_argument("--repair", action="store_true", help="make a state again that has merge markers or is damaged")
     parser.add_argument("--explain", action="store_true", help="list each file, what happens to it and why")

@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
-from urdfsync import config
+from urdfsync import config, profiling
 from urdfsync.planning.situation import Request
 from urdfsync.report import Report
 
@@ -63,6 +63,13 @@ def add_wait(parser: Parser) -> None:
     parser.add_argument("--wait", type=float, default=60, metavar="S", help="seconds to wait for another build (60)")
 
 
+def add_profile(parser: Parser) -> None:
+    """Whether to measure."""
+    parser.add_argument(
+        "--profile", action="store_true", help="say where the time went; nothing is answered from memory"
+    )
+
+
 def add_jobs(parser: Parser) -> None:
     """How many processes may work at once."""
     parser.add_argument("--jobs", type=_positive, metavar="N", help="processes for many robots (default: one per core)")
@@ -74,6 +81,7 @@ def _positive(text: str) -> int:
     return int(text)
 
 
+@profiling.staged("configuration")
 def configuration(options: argparse.Namespace) -> config.Config:
     """The configuration that the options name, or the nearest one. Raises ConfigError."""
     return config.load(options.config or config.find(config.working_folder()))

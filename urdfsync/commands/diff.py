@@ -33,6 +33,7 @@ def add(commands: common.Commands) -> None:
     parser.add_argument("--against", metavar="VERSION", help="the older version: a file or a git revision")
     common.add_robot_option(parser)
     common.add_wait(parser)
+    common.add_profile(parser)
     parser.set_defaults(run=_run)
     common.add_common(parser)
 

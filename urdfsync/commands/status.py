@@ -27,6 +27,7 @@ def add(commands: common.Commands) -> None:
     )
     common.add_robots(parser)
     common.add_wait(parser)
+    common.add_profile(parser)
     parser.set_defaults(run=_run)
     common.add_common(parser)
 

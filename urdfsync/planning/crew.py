@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import os
 import signal
@@ -12,7 +13,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
-from urdfsync import looking
+from urdfsync import looking, profiling
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.planning.planner import plan, plan_if_unchanged
@@ -100,11 +101,13 @@ class Crew:
 
     def _submit(self) -> None:
         """Let others plan some robots more, but not so many that their texts and meshes fill the memory."""
-        request = dataclasses.replace(self._request, progress=in_silence)
+        request = dataclasses.replace(self._request, progress=in_silence, memory=None)
         while self._pool is not None and self._waiting and len(self._futures) < self._window:
             robot = self._waiting.popleft()
-            self._futures[robot.name] = self._pool.submit(_plan, self._config, robot, request)
+            profiled = profiling.current() is not None
+            self._futures[robot.name] = self._pool.submit(_plan, self._config, robot, request, profiled)
 
+    @profiling.staged("waiting")
     def _result(self, robot: RobotConfig) -> Work:
         from concurrent.futures import wait
         from concurrent.futures.process import BrokenProcessPool
@@ -122,21 +125,25 @@ class Crew:
             message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps for want of memory"
             hint = "try again with `--jobs 1`"
             raise OutputError(Diagnostic(Severity.ERROR, "lost-process", message, hint=hint))
-        work, error, diagnostics = answer
+        work, error, diagnostics, measured = answer
+        if measured and (profile := profiling.current()):
+            profile.add(measured)
         if work is None:
             raise error(*diagnostics)
         return work
 
 
-_Answer = tuple["Work | None", type[UrdfsyncError], tuple[Diagnostic, ...]]
-"""A robot's work, or the class and the findings of the error that stopped it."""
+_Answer = tuple["Work | None", type[UrdfsyncError], tuple[Diagnostic, ...], "profiling.Elsewhere | None"]
+"""A robot's work, or the class and the findings of the error that stopped it; and what was measured, if it was."""
 
 
-def _plan(config: Config, robot: RobotConfig, request: Request) -> _Answer:
-    try:
-        return plan(config, robot, request), UrdfsyncError, ()
-    except UrdfsyncError as error:
-        return None, type(error), error.diagnostics
+def _plan(config: Config, robot: RobotConfig, request: Request, profiled: bool) -> _Answer:
+    with profiling.measured() if profiled else contextlib.nullcontext() as profile:
+        try:
+            work, error, found = plan(config, robot, request), UrdfsyncError, tuple[Diagnostic, ...]()
+        except UrdfsyncError as problem:
+            work, error, found = None, type(problem), problem.diagnostics
+        return work, error, found, profile.results() if profile else None
 
 
 def _join(folder: str) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Set
 from pathlib import Path
 from typing import Protocol
 
-from urdfsync import looking, order
+from urdfsync import looking, order, profiling
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
@@ -59,7 +59,7 @@ class Disk:
     """The files of one robot's package, addressed by their path from the configuration's folder."""
 
     def __init__(self, config: Config, robot: RobotConfig) -> None:
-        self._root = config.root
+        self._root, self._prefix = config.root, os.path.join(config.root, "")  # noqa: PTH118
         self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
         self._seen: dict[str, str | None] = {}
 
@@ -69,18 +69,18 @@ class Disk:
 
     def path(self, key: str) -> Path:
         """The file of this name."""
-        return Path(os.path.normpath(self._root / key))
+        return Path(self._place(key))
 
     def reaches(self, key: str) -> bool:
         """Whether the file is one that urdfsync may touch: below the output folder, or the configuration's."""
-        return self._tree(self.path(key)) is not None
+        return self._tree(self._place(key)) is not None
 
     def read(self, key: str) -> bytes | None:
         """The file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
-        return self.read_path(self.path(key))
+        return self.read_path(self._place(key))
 
-    def read_path(self, path: Path) -> bytes | None:
-        """The content of a file, by its absolute path."""
+    def read_path(self, path: str | os.PathLike[str]) -> bytes | None:
+        """The content of a file, by its absolute path without detours."""
         tree = self._tree(path)
         return tree.read(path) if tree else None
 
@@ -91,9 +91,8 @@ class Disk:
             seen = self._see(key, content)
             return Found(seen if role is Role.IMPORT or b"\r" not in content else text_digest(content))
         self._seen.setdefault(key, None)
-        path = self.path(key)
-        is_class = path.suffix == ".mo" and path.name != "package.mo"
-        return Found(as_folder=is_class and looking.is_file(path.with_suffix("") / "package.mo"))
+        is_class = key.endswith(".mo") and not key.endswith("/package.mo")
+        return Found(as_folder=is_class and looking.is_file(self._place(f"{key.removesuffix('.mo')}/package.mo")))
 
     def text(self, key: str) -> str | None:
         """The file as text; bytes that are not UTF-8 survive, see `encode`."""
@@ -129,8 +128,12 @@ class Disk:
         self._seen.setdefault(key, found)
         return found
 
-    def _tree(self, path: Path) -> Tree | None:
-        return next((tree for tree in self._trees if tree.root in path.parents), None)
+    def _place(self, key: str) -> str:
+        """The path of a file as a string: there are thousands of files."""
+        return os.path.normpath(self._prefix + key)
+
+    def _tree(self, path: str | os.PathLike[str]) -> Tree | None:
+        return next((tree for tree in self._trees if tree.covers(path)), None)
 
 
 def encode(text: str) -> bytes:
@@ -176,10 +179,13 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     recorded = {key: r for key, r in manifest.files.items() if disk.reaches(key)} if manifest else {}
     owned = {key: n for key, n in manifest.orders.items() if disk.reaches(key)} if manifest else {}
     roles = {key: record.role for key, record in recorded.items()} | {key: w.role for key, w in aim.wanted.items()}
-    planned = plan(recorded, aim.wanted, {key: disk.found(key, role) for key, role in roles.items()}, aim.moves)
+    with profiling.stage("looking"):
+        found = {key: disk.found(key, role) for key, role in roles.items()}
+    planned = plan(recorded, aim.wanted, found, aim.moves)
     choices = {**remembered(recorded, planned), **aim.choices}
     aim = dataclasses.replace(aim, choices=choices)
-    actions, standoffs, merged = _settle(disk, planned, aim, texts) if texts else (planned, {}, {})
+    open_ = texts is not None and any(action.kind in DISPUTED or action.kind is Kind.ORPHAN for action in planned)
+    actions, standoffs, merged = _settle(disk, planned, aim, texts) if texts and open_ else (planned, {}, {})
     actions = spare(actions, disk.has_classes)
     order_files = {key: disk.text(key) for key in sorted(owned.keys() | aim.orders.keys())}
     _refuse_markers(disk, actions, order_files)
@@ -252,7 +258,7 @@ def _settle(
     disk: Disk, planned: tuple[Action, ...], aim: Aim, texts: Texts
 ) -> tuple[tuple[Action, ...], dict[str, Standoff], dict[str, str]]:
     """The actions after what both sides changed is settled as far as it can be, its texts, and the merged ones."""
-    from urdfsync.settle import settle  # not at the top: a build that has nothing to do does not merge
+    from urdfsync.settle import settle  # not at the top: most builds have nothing to merge
 
     disputed = [action for action in planned if action.kind in DISPUTED and action.role is not Role.IMPORT]
     standoffs = {action.path: _standoff(disk, action, texts) for action in disputed}

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path, PurePosixPath
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target, Templates
@@ -43,6 +44,7 @@ def _renderer(templates: Templates) -> Renderer:
     return Renderer(templates.folders)
 
 
+@profiling.staged("artifacts")
 def generate(
     domain: Domain,
     snapshot: Snapshot,
@@ -75,13 +77,20 @@ def check_paths(paths: Iterable[str]) -> None:
         if path.casefold() in files:
             problems.append(_clash(files[path.casefold()], path))
         files[path.casefold()] = path
-        parents = [str(parent) for parent in PurePosixPath(path).parents]
+        parents = list(_above(path))
         others = [folders.setdefault(parent.casefold(), parent) for parent in parents]
         problems += [_clash(one, two) for one, two in zip(others, parents, strict=True) if one != two]
     classes = {folded.removesuffix(".mo"): path for folded, path in files.items() if folded.endswith(".mo")}
     problems += [_clash(path, f"{folders[name]}/") for name, path in classes.items() if name in folders]
     if problems:
         raise OutputError(*problems)
+
+
+def _above(path: str) -> Iterator[str]:
+    """The folders that a path leads through, innermost first."""
+    while "/" in path:
+        path = path.rpartition("/")[0]
+        yield path
 
 
 def _is_inside(path: str) -> bool:
@@ -98,10 +107,12 @@ def _problem(code: str, message: str) -> Diagnostic:
     return Diagnostic(Severity.ERROR, code, message, hint="rename the element, the package or the class")
 
 
+@profiling.staged("rendering")
 def _content(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> bytes:
     """One rendered file; whatever a template of the user's can do wrong is a ConfigError at its line."""
     import jinja2
 
+    profiling.count("rendered")
     try:
         return renderer.render(artifact.template, artifact.data).replace("\r\n", "\n").encode()
     except jinja2.TemplateSyntaxError as error:

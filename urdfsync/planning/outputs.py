@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Mapping, Sequence, Set
 
+from urdfsync import profiling
 from urdfsync.changes import stale
 from urdfsync.files import normalised, text_digest
 from urdfsync.plan import FileRecord, State
@@ -80,6 +81,7 @@ class Outputs:
         return record.base if self._known(path, record.base) is not None else None
 
     @functools.cached_property
+    @profiling.staged("comparing")
     def _stale(self) -> Set[str]:
         """The paths of texts that may be other than in the last build."""
         if self._last is None or self._again:

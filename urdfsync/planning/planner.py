@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import msgspec
 
-from urdfsync import looking, manifest
+from urdfsync import looking, manifest, profiling
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.manifest import Manifest
 from urdfsync.plan import CONFLICTS, State, Wanted
@@ -22,8 +22,9 @@ def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
 
     Raises UrdfsyncError for whatever is wrong.
     """
-    situation = Situation(config, robot, request)
-    work = _if_unchanged(situation)
+    with profiling.stage("looking"):
+        situation = Situation(config, robot, request)
+        work = _if_unchanged(situation)
     if work is None:
         looking.beyond()  # what is read and rendered now is not taken down
         from urdfsync.planning.renewal import Renewal
@@ -32,6 +33,7 @@ def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
     return work
 
 
+@profiling.staged("looking")
 def plan_if_unchanged(config: Config, robot: RobotConfig, request: Request) -> Work | None:
     """The same if that takes no reading and rendering, else None."""
     return _if_unchanged(Situation(config, robot, request))

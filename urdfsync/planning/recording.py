@@ -8,7 +8,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import manifest
+from urdfsync import manifest, profiling
 from urdfsync.domain import Role, Snapshot
 from urdfsync.manifest import Manifest
 from urdfsync.plan import CONFLICTS, DELETES, State
@@ -17,7 +17,7 @@ from urdfsync.planning.imports import Imported
 from urdfsync.planning.outputs import Outputs
 from urdfsync.planning.situation import Situation
 from urdfsync.standoff import aside
-from urdfsync.state.bases import Bases
+from urdfsync.state import bases
 from urdfsync.state.transactions import Change
 
 _OUTLIVING = (State.CONFLICT, State.WAITING, State.ORPHAN)
@@ -39,6 +39,7 @@ class Recording:
         self._situation, self._outputs, self._imported = situation, outputs, imported
         self._snapshot, self._last = snapshot, last
 
+    @profiling.staged("recording")
     def writes(self, decision: Decision) -> tuple[tuple[Change, ...], tuple[Path, ...]]:
         """The files to write, the manifest last, and the folders that are empty then, innermost first."""
         situation, store = self._situation, self._situation.store
@@ -50,9 +51,9 @@ class Recording:
         if self._stays(decision):
             changes += store.changes(name, manifest.dumps(self._chosen(decision)), None, None)
         else:
-            bases, since = self._outliving(decision), self._since(decision)
-            model = manifest.dump_model(self._snapshot, self._imported.imports, bases, since)
-            changes += store.keep_bases(name, self._bases(decision), former)
+            outliving, since = self._outliving(decision), self._since(decision)
+            model = manifest.dump_model(self._snapshot, self._imported.imports, outliving, since)
+            changes += store.keep_bases(name, bases.dumps(self._bases(decision)), former)
             changes += store.changes(name, manifest.dumps(self._manifest(decision, model)), model, former)
         return tuple(changes), tuple(self._emptied(changes))
 
@@ -90,7 +91,8 @@ class Recording:
         path = key.removeprefix(self._situation.key(""))
         if role is Role.IMPORT:
             return self._imported.contents[path]
-        mine, content = self._situation.disk.read(key) or b"", self._outputs.content(path)
+        content = self._outputs.content(path)
+        mine = (self._situation.disk.read(key) or b"") if self._situation.disk.seen(key) else b""
         return content.replace(b"\n", b"\r\n") if 2 * mine.count(b"\r\n") > mine.count(b"\n") else content
 
     def _aside(self, decision: Decision) -> Iterator[tuple[str, bytes]]:
@@ -153,15 +155,15 @@ class Recording:
                     texts[key.removeprefix(prefix)] = text
         return texts
 
-    def _bases(self, decision: Decision) -> Bases:
-        """The text of every base that is known."""
-        texts = {}
+    def _bases(self, decision: Decision) -> Iterator[tuple[str, str]]:
+        """Hash and text of every base that is known; one after the other, so that not all are in memory."""
+        done = set()
         for key, record in decision.files.items():
-            if record.role is not Role.IMPORT and record.base is not None and record.base not in texts:
+            if record.role is not Role.IMPORT and record.base is not None and record.base not in done:
                 text = self._base(record.origin or key, record.base)
                 if text is not None:
-                    texts[record.base] = text
-        return Bases(texts)
+                    done.add(record.base)
+                    yield record.base, text
 
     def _base(self, key: str, digest: str | None) -> str | None:
         if digest is None:

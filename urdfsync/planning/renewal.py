@@ -6,7 +6,7 @@ import contextlib
 import functools
 from collections.abc import Mapping, Set
 
-from urdfsync import changes, vanished
+from urdfsync import changes, profiling, vanished
 from urdfsync.changes import Changes
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -21,7 +21,7 @@ from urdfsync.planning.outputs import Outputs
 from urdfsync.planning.recording import Recording
 from urdfsync.planning.situation import NO_MODEL, Situation
 from urdfsync.planning.work import Work
-from urdfsync.state import leftovers, repair
+from urdfsync.state import leftovers
 
 _USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
 """What happens to files that are as the user wants them."""
@@ -33,9 +33,11 @@ class Renewal:
     def __init__(self, situation: Situation) -> None:
         self._situation = situation
         robot = situation.robot
-        self._snapshot, self._reading = inputs.read(
-            situation.domain, robot.options, situation.content, shown(robot.source)
+        self._snapshot, reading = inputs.read(
+            situation.domain, robot.options, situation.content, shown(robot.source), situation.request.memory
         )
+        self._said, self._lines = reading.diagnostics, reading.lines  # and not another snapshot
+        del reading
         self._imported = self._import()
         self.now = Version(self._snapshot, self._imported.imports, situation.generator.fingerprint)
         """The model as it is in the source, with what it imports."""
@@ -50,7 +52,7 @@ class Renewal:
         found = self._changes(last)
         decision = self._decide(found.renames if found else {})
         found = found if settled is last else self._changes(settled)
-        said = [*self._reading.diagnostics, *self._imported.diagnostics, *situation.parents.diagnostics]
+        said = [*self._said, *self._imported.diagnostics, *situation.parents.diagnostics]
         said += [*self._moved(decision), *self._mentions(decision)]
         said.sort(key=lambda diagnostic: (diagnostic.file, diagnostic.line))
         news = found if found and (found.changes or found.generator) else None
@@ -60,6 +62,7 @@ class Renewal:
         writes, emptied = recording.writes(decision)
         return Work(decision, situation.store.witness(), writes, emptied, tuple(said), recording.drawing(), news)
 
+    @profiling.staged("meshes")
     def _import(self) -> imports.Imported:
         situation, state, name = self._situation, self._situation.state, self._situation.robot.name
         files = state.manifest.files if state else {}
@@ -77,7 +80,7 @@ class Renewal:
         )
         return imports.bring_in(
             situation.domain,
-            situation.dependencies(self._snapshot, self._reading.lines),
+            situation.dependencies(self._snapshot, self._lines),
             recorded,
             shown(situation.robot.source),
             situation.request.full,
@@ -130,6 +133,7 @@ class Renewal:
                 found.append(self._generate(self._situation.version(model), self._situation.robot.target))
         return found
 
+    @profiling.staged("comparing")
     def _changes(self, since: Version | None) -> Changes | None:
         """What is new in the model since another version; None if nothing is known of that."""
         situation = self._situation
@@ -140,6 +144,7 @@ class Renewal:
         except NO_MODEL:
             return None  # what is recorded is no model of the domain
 
+    @profiling.staged("deciding")
     def _decide(self, renames: Mapping[ElementKey, str]) -> Decision:
         situation = self._situation
         key = situation.key
@@ -191,6 +196,8 @@ class Renewal:
             {identifier for kind in situation.domain.names(*version).values() for identifier in kind.values()}
             for version in ((settled.snapshot, target), (self._snapshot, situation.robot.target))
         )
+        if not known - kept:
+            return frozenset()
         now = self._generated.artifacts
         differing = changes.stale(before.artifacts.values(), now.values())
         old = (before.content(path).decode() for path in before.artifacts.keys() & (differing.render | differing.gone))
@@ -238,6 +245,8 @@ class Renewal:
         place = shown(situation.config.file), situation.robot.lines[""]
         said = [leftovers.renamed(situation.former, situation.robot.name, *place)] if situation.former else []
         if situation.recovered:
+            from urdfsync.state import repair
+
             said.append(repair.repaired(situation.recovered, situation.robot.name, shown(situation.store.folder)))
         if situation.recorded and situation.recorded.folder != situation.folder:
             actions = decision.actions

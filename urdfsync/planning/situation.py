@@ -59,6 +59,8 @@ class Request:
     jobs: int | None = None
     """How many processes may work at once; None for one per core."""
     progress: Progress = in_silence
+    memory: inputs.Memory | None = None
+    """Of the source that was read last, for one process that builds again and again."""
 
 
 class Situation:

@@ -19,7 +19,7 @@ COMMANDS = ("build", "status")
 """What can be said again."""
 CONFIGURATION = "urdfsync.toml"
 
-_BEGUN = time.monotonic_ns(), time.time_ns()
+BEGUN = time.monotonic_ns(), time.time_ns()
 _MAGIC = b"urdfsync-stamp 1 "
 _HEAD = len(_MAGIC) + 9
 _FOLDER, _NAME = ".urdfsync", "stamp"
@@ -193,6 +193,15 @@ def answer(question: str, path: str) -> list[str] | None:
     return claim if claim is not None and reading and reading.stands() else None
 
 
+def answers(arguments: list[str]) -> bool:
+    """Whether a stamp would answer a command."""
+    try:
+        file = configuration(arguments)
+        return file is not None and answer(question(arguments, file), place(file)) is not None
+    except OSError:
+        return False
+
+
 def repeat(arguments: list[str]) -> int | None:
     """Say again what a command has said; its exit code, or None if it has to be carried out."""
     if not arguments or arguments[0] not in COMMANDS or sys.stdout is None or sys.stderr is None:
@@ -216,7 +225,7 @@ def repeat(arguments: list[str]) -> int | None:
 
 def since_begin() -> int:
     """Nanoseconds since the program has been loaded, or more."""
-    return passed(_BEGUN)
+    return passed(BEGUN)
 
 
 def passed(begin: tuple[int, int]) -> int:

@@ -37,6 +37,11 @@ class Batch:
         self._root, self._folder, self._shown = root, folder, shown
         self.journal = journal
         self._targets = [Path(os.path.normpath(root / step.path)) for step in journal.steps]
+        self._temporaries = [
+            target.with_name(f".{journal.token}-{number}{TEMPORARY}") for number, target in enumerate(self._targets)
+        ]
+        self._spent: set[int] = set()
+        """The targets that have changed, so that their temporary files are gone."""
 
     @property
     def targets(self) -> Sequence[Path]:
@@ -62,9 +67,10 @@ class Batch:
         written = [first]
         for number, content in enumerate(contents):
             if content is not None:
-                with self._about(self._targets[number]):
-                    operations.write(self._temporary(number), content, self._targets[number])
-                written.append(self._temporary(number))
+                temporary, target = self._temporaries[number], self._targets[number]
+                with self._about(target):
+                    operations.write(temporary, content, target if self._step(number).old is not None else None)
+                written.append(temporary)
         with self._about(self._folder):
             operations.sync(written)
 
@@ -83,7 +89,7 @@ class Batch:
         self._change(last, resumed)
         self._check_kept(last)
         with self._about(self._folder):
-            operations.sync(sorted({path.parent for path in self._targets if path.parent.is_dir()}))
+            operations.sync(sorted(folder for folder in {path.parent for path in self._targets} if folder.is_dir()))
         self._enter(Phase.DONE)
 
     def can_be_finished(self) -> bool:
@@ -108,23 +114,25 @@ class Batch:
 
     def discard(self) -> None:
         """Remove all traces of a batch that did not happen. Raises OSError if that can't be done."""
-        for number in range(len(self._targets)):
-            operations.remove(self._temporary(number))
+        for temporary in self._temporaries:
+            operations.remove(temporary)
         for path in reversed(self.journal.made):
             operations.remove_folder(self._root / path)
         self._remove_traces()
 
     def tidy(self) -> None:
         """Remove all traces of a batch that is done, and the folders it has emptied. Raises OSError if it can't."""
-        for number in range(len(self._targets)):
-            operations.remove(self._temporary(number))
+        for number, temporary in enumerate(self._temporaries):
+            if number not in self._spent:
+                operations.remove(temporary)
         for path in self.journal.emptied:
             operations.remove_folder(self._root / path)
         self._remove_traces()
 
     def _remove_traces(self) -> None:
-        for number in range(len(self._targets)):
-            operations.remove(self._undo(number))
+        for number, step in enumerate(self.journal.steps):
+            if step.old is not None:
+                operations.remove(self._undo(number))
         operations.remove_folder(self._folder / "undo")
         if phase := find_phase(self._folder):
             operations.remove(self._file(phase))
@@ -141,6 +149,7 @@ class Batch:
             try:
                 if not self._replace(number):
                     raise SavedError(target)
+                self._spent.add(number)
             except (FileNotFoundError, FileExistsError) as error:
                 raise SavedError(target) from error
 
@@ -184,8 +193,8 @@ class Batch:
 
     def _check_kept(self, number: int) -> None:
         """Make sure that nobody has written to the old file while the new one took its place."""
-        undo = self._undo(number)
-        if self._hash(undo) not in (None, self._step(number).old):
+        old = self._step(number).old
+        if old is not None and self._hash(self._undo(number)) not in (None, old):
             raise SavedError(self._targets[number])
 
     def _is_sound(self, number: int) -> bool:
@@ -224,7 +233,7 @@ class Batch:
         return self.journal.steps[number]
 
     def _temporary(self, number: int) -> Path:
-        return self._targets[number].with_name(f".{self.journal.token}-{number}{TEMPORARY}")
+        return self._temporaries[number]
 
     def _undo(self, number: int) -> Path:
         return self._folder / "undo" / str(number)

@@ -14,6 +14,7 @@ import stat
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from urdfsync import profiling
 from urdfsync.files import TEMPORARY
 
 FEW = 32
@@ -41,8 +42,12 @@ def remove_folder(path: Path) -> None:
 
 def write(path: Path, content: bytes, like: Path | None = None) -> None:
     """Write a new file, in place of what a killed run left under its name, with the permissions of `like`."""
-    path.unlink(missing_ok=True)
-    with path.open("xb") as file:
+    try:
+        file = path.open("xb")
+    except FileExistsError:
+        path.unlink()
+        file = path.open("xb")
+    with file:
         file.write(content)
     if like is not None:
         with contextlib.suppress(FileNotFoundError):
@@ -103,6 +108,7 @@ def remove(path: Path) -> None:
         path.unlink()
 
 
+@profiling.staged("syncing")
 def sync(paths: Sequence[Path]) -> None:
     """Bring files and folders to the disk, so that they outlive a power failure.
 

@@ -91,11 +91,11 @@ class Store:
         """The texts that were written last, as far as they are kept."""
         return Bases.loads(self._bytes(self._base_file(robot)))
 
-    def keep_bases(self, robot: str, bases: Bases, former: str | None) -> Iterator[Change]:
-        """How the texts that are written now are kept; `former` as in `changes`."""
+    def keep_bases(self, robot: str, content: bytes, former: str | None) -> Iterator[Change]:
+        """How the texts that are written now are kept, see `bases.dumps`; `former` as in `changes`."""
         if former and self._bytes(self._base_file(former)) is not None:
             yield self._change(self._base_file(former), None)
-        if self._bytes(self._base_file(robot)) != (content := bases.dumps()):
+        if self._bytes(self._base_file(robot)) != content:
             yield self._change(self._base_file(robot), content)
 
     def conflicts(self, robot: str, contents: Mapping[str, bytes], former: str | None) -> list[Change]:
@@ -136,7 +136,7 @@ class Store:
         return folder / f"{robot}.toml", folder / f"{robot}.json"
 
     def _base_file(self, robot: str) -> Path:
-        return self.folder / "base" / f"{robot}.json"
+        return self.folder / "base" / f"{robot}.json.gz"
 
     def _change(self, path: Path, content: bytes | None) -> Change:
         old = self._seen.get(path)

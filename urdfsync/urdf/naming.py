@@ -7,9 +7,11 @@ Links and joints of a robot share one namespace, because both become components 
 from __future__ import annotations
 
 import dataclasses
+import functools
 import hashlib
 import re
 from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 
 from urdfsync.modelica import DEVICES, FUNCTIONS, KEYWORDS, RESERVED_CLASSES
 
@@ -93,6 +95,11 @@ def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Id
     A name keeps its spelling if that is free and not reserved; links go before joints, names that
     need no change before others. What must give way gets `_link` or `_joint`, then a number.
     """
+    return _identify(tuple(names), tuple(taken))
+
+
+@functools.lru_cache(maxsize=2)  # most changes of a robot leave its names as they are
+def _identify(names: tuple[Key, ...], taken: tuple[str, ...]) -> Mapping[Key, Identifier]:
     keys = sorted(set(names), key=lambda key: (key[0] != "link", spell(key[1], key[0]) != key[1], natural_key(key[1])))
     used = {name.lower() for name in taken}
     counts: dict[str, int] = {}
@@ -104,7 +111,7 @@ def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Id
     for key in keys:
         if key not in result:
             result[key] = _take(_give_way(f"{spell(key[1], key[0])}_{key[0]}", used, counts), used)
-    return result
+    return MappingProxyType(result)
 
 
 def _is_free(spelled: str, used: set[str]) -> bool:

@@ -10,9 +10,9 @@ import dataclasses
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
+from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.reader import checks, xml
-from urdfsync.urdf.reader.cross_check import cross_check as read_again
 from urdfsync.urdf.reader.fields import Element, Findings
 from urdfsync.urdf.reader.joint import read_joint
 from urdfsync.urdf.reader.link import read_link, read_material, resolve_materials
@@ -60,7 +60,10 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = True) -> RobotR
     if document.root is not None and _is_urdf(document.root, findings):
         robot = _read(Element(document.root, "robot", findings))
     if robot is not None and cross_check and not findings.failed:
-        _add(read_again(content, robot), findings)
+        from urdfsync.urdf.reader.cross_check import cross_check as read_again
+
+        with profiling.stage("cross-check"):
+            _add(read_again(content, robot), findings)
     return RobotReading(None if findings.failed else robot, findings.result(), findings.lines)
 
 

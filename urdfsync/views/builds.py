@@ -11,12 +11,13 @@ from urdfsync import wording
 from urdfsync.config import shown
 from urdfsync.outcome import Checked, Result
 from urdfsync.plan import Action, Kind
-from urdfsync.views import conflicts
 from urdfsync.views.terminal import has_marks, is_styled, text
 
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.text import Text
+
+    from urdfsync.views import conflicts
 
 _KINDS = {
     Kind.CREATE: "green",
@@ -47,6 +48,8 @@ def lines(result: Result, console: Console, look: conflicts.Look, explain: bool)
     if not look.quiet:
         yield from _details(result, console, look, explain)
     if result.conflicts:
+        from urdfsync.views import conflicts
+
         yield from conflicts.lines(result, console, look)
     if result.drawing:
         yield text((f"  diagram: {shown(result.drawing)}", ""))
@@ -68,6 +71,12 @@ def _details(result: Result, console: Console, look: conflicts.Look, explain: bo
                 yield text(("  ", ""), *_verdict(action, _place(result, action)))
     if any(action.kind is Kind.ORPHAN for action in result.actions):
         yield text((_ORPHANS, "dim"))
+
+
+def has_more(result: Result) -> bool:
+    """Whether there is more to say about a robot than its headline, or the headline is no good news."""
+    wrong = result.failed or result.conflicts or result.checked is Checked.WRONG
+    return bool(wrong or result.drawing or result.changes or any(action.kind in _LISTED for action in result.actions))
 
 
 def plain(name: str, summary: str) -> None:
@@ -103,6 +112,8 @@ def _explanation(result: Result, console: Console, everything: bool) -> Iterator
 
 
 def _place(result: Result, action: Action) -> Path:
+    from urdfsync.views import conflicts
+
     return Path(conflicts.place(result, action.path))
 
 

@@ -27,14 +27,16 @@ class Judgement:
     """How many of the elements of the last build it has no more, if these are many."""
 
 
-def judge(config: Config, robot: RobotConfig, known: AbstractSet[tuple[str, str]]) -> Judgement:
+def judge(
+    config: Config, robot: RobotConfig, known: AbstractSet[tuple[str, str]], memory: inputs.Memory | None = None
+) -> Judgement:
     """Read the source of a robot; `known` are the kinds and names of its elements in the last build."""
     try:
         content = inputs.read_source(config, robot)
         domain = registry.domain(robot.domain)
     except UrdfsyncError as error:
         return Judgement(errors=error.diagnostics)
-    reading = domain.read(content, shown(robot.source), robot.options)
+    reading = (memory or inputs.Memory()).read(domain, robot.options, content, shown(robot.source))
     errors = tuple(found for found in reading.diagnostics if found.severity is Severity.ERROR)
     if reading.snapshot is None or errors:
         return Judgement(digest(content), reading.diagnostics)

@@ -10,6 +10,7 @@ import codecs
 import copy
 import dataclasses
 import re
+import sys
 from collections.abc import Iterator, Mapping
 
 from lxml import etree
@@ -222,7 +223,7 @@ def _node(element: etree._Element, starts: Iterator[_Start]) -> Node:
     start = next(starts, None)
     return Node(
         tag=f"{element.prefix}:{etree.QName(element).localname}" if element.prefix else etree.QName(element).localname,
-        attributes={str(name): str(value) for name, value in element.attrib.items()},
+        attributes={sys.intern(str(name)): str(value) for name, value in element.attrib.items()},
         line=start.line if start else int(element.sourceline or 0),
         children=tuple(_node(child, starts) for child in element if isinstance(child.tag, str)),
         element=element,

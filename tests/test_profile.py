@@ -1,0 +1,109 @@
+"""`--profile`: where the time of a command went, and that nobody pays for it who does not ask."""
+
+from __future__ import annotations
+
+import builtins
+import json
+import time
+from pathlib import Path
+
+import pytest
+
+from urdfsync import cli, profiling
+from urdfsync.profiling import OTHER, STAGES
+from urdfsync.stamping import making, stamp
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture
+def many(project: Path) -> Path:
+    """The project with so many robots that several processes plan them."""
+    names = [f"n{number}" for number in range(6)]
+    tables = (f'[robots.{name}]\nsource = "ladder.json"\npackage = "{name.upper()}"\n' for name in names)
+    (project / "urdfsync.toml").write_text('[defaults]\ndomain = "rcnetwork"\n' + "".join(tables))
+    return project
+
+
+def test_each_moment_counts_for_the_innermost_stage(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = iter([0, 1, 11, 111, 1111, 1112])
+    monkeypatch.setattr(time, "perf_counter_ns", lambda: next(clock))
+    with profiling.measured() as profile, profiling.stage("deciding"), profiling.stage("rendering"):
+        profiling.count("rendered", 2)
+    assert profile.results() == ({OTHER: 2, "deciding": 10 + 1000, "rendering": 100}, {"rendered": 2})
+
+
+def test_a_function_may_be_a_stage() -> None:
+    @profiling.staged("reading")
+    def read(name: str) -> str:
+        return name.upper()
+
+    with profiling.measured() as profile:
+        assert read("arm") == "ARM"
+    assert profile.here["reading"] > 0
+
+
+def test_without_a_profile_nothing_is_measured_or_changed() -> None:
+    original = builtins.__import__
+    with profiling.stage("rendering"):
+        profiling.count("rendered")
+    assert profiling.current() is None
+    with pytest.raises(ValueError, match="stopped"), profiling.measured():
+        raise ValueError("stopped")
+    assert profiling.current() is None
+    assert builtins.__import__ is original
+
+
+def test_a_build_says_where_the_time_went(project: Path, capsys: Capture) -> None:
+    assert cli.main(["build", "--profile"]) == 0
+    said = capsys.readouterr()
+    assert said.out == "ladder: 14 files written\n"
+    for words in ("looking at files", "rendering", "writing", "total", "11 texts rendered"):
+        assert words in said.err
+    assert "the stamp" not in said.err.partition("total")[2], "there was none that could have answered"
+
+
+def test_the_profile_of_programs_adds_up(project: Path, capsys: Capture) -> None:
+    cli.main(["build", "--profile", "--json"])
+    found = json.loads(capsys.readouterr().out)["profile"]
+    names = [stage["stage"] for stage in found["stages"]]
+    assert {"looking", "reading", "artifacts", "rendering", "deciding", "recording", "writing"} <= set(names)
+    assert names == [name for name in (*STAGES, OTHER) if name in names], "in the order of the flow"
+    assert found["ms"] == pytest.approx(sum(stage["ms"] for stage in found["stages"]), abs=0.01)
+    assert found["counts"]["rendered"] == 11
+
+
+def test_a_profile_of_nothing_to_do_looks_all_the_same(project: Path, capsys: Capture) -> None:
+    cli.main(["build"])
+    capsys.readouterr()
+    for command in ("build", "status", "diff"):
+        assert cli.main([command, "--profile"]) == 0
+        assert "looking at files" in capsys.readouterr().err
+
+
+def test_it_says_that_a_stamp_would_have_answered(
+    project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stamp, "answers", lambda arguments: arguments == ["build"])
+    cli.main(["build", "--profile"])
+    assert "without --profile, the stamp answers" in capsys.readouterr().err
+
+
+def test_what_was_measured_is_not_said_again(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept: list[object] = []
+    monkeypatch.setattr(making, "keep", lambda *stamped: kept.append(stamped))
+    cli.main(["build"])
+    cli.main(["build", "--profile"])
+    assert kept == []
+    cli.main(["build"])
+    assert len(kept) == 1
+
+
+def test_robots_that_other_processes_plan_count(many: Path, capsys: Capture) -> None:
+    assert cli.main(["build", "--profile", "--json", "--jobs", "2"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    elsewhere = {stage["stage"] for stage in document["profile"]["stages"] if stage["elsewhere_ms"] > 0}
+    assert {"reading", "rendering"} <= elsewhere
+    written = sum(action["action"] == "create" for robot in document["robots"] for action in robot["actions"])
+    assert document["profile"]["counts"]["rendered"] <= written
+    assert document["profile"]["counts"]["rendered"] > written / 2
