@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import re
 import struct
 from collections.abc import Callable
@@ -48,11 +49,19 @@ def mesh(number: int) -> str:
 
 
 def write_meshes(folder: Path, count: int) -> None:
-    """The meshes of so many links: STL files of 50 kB each, all different."""
+    """The meshes of so many links: STL files of 50 kB each, a band of triangles wound round a sphere, all different."""
     for number in range(count):
-        triangles = (struct.pack("<12fH", 0, 0, 1, 0, 0, k, 1, 0, k, number, 1, k, 0) for k in range(_TRIANGLES))
+        points = [_on_sphere(step, 0.1 + number / 1000) for step in range(_TRIANGLES + 2)]
+        corners = ((*points[k], *points[k + 1], *points[k + 2]) for k in range(_TRIANGLES))
+        triangles = (struct.pack("<12fH", 0, 0, 0, *corner, 0) for corner in corners)
         content = bytes(80) + _TRIANGLES.to_bytes(4, "little") + b"".join(triangles)
         (folder / f"link{number}.stl").write_bytes(content)
+
+
+def _on_sphere(step: int, radius: float) -> tuple[float, float, float]:
+    height = 1 - 2 * step / (_TRIANGLES + 1)
+    around = radius * math.sqrt(1 - height**2)
+    return around * math.cos(step), around * math.sin(step), radius * height
 
 
 def write_workspace(folder: Path, robots: int, links: int, beginning: str = PLAIN) -> Path:
