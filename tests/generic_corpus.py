@@ -102,16 +102,16 @@ def _moves(standard: Path, files: Iterable[Path]) -> bool:
     _row(*COUNTED, "pose error", "effort error", "mass error", "CPU s", "MB", "result")
     _row(*["---"] * 10)
     good = [_moved(standard, file) for file in files]
-    return all(good)
+    return _all_good(good)
 
 
-def _moved(standard: Path, file: Path) -> bool:
-    """One row of `moves`."""
+def _moved(standard: Path, file: Path) -> bool | None:
+    """One row of `moves`; None for a robot that could not be compared."""
     try:
         case = physics.prepare(file.read_bytes(), approach=("record",))
     except SourceError as error:
         _row(_name(file), *[""] * 8, f"no reference: {error.diagnostics[0].code}")
-        return True
+        return None
     probe = case.experiment.probe
     with tempfile.TemporaryDirectory() as folder:
         package = case.package.write(Path(folder))
@@ -140,15 +140,15 @@ def _functions(standard: Path, files: Iterable[Path]) -> bool:
     _row("file", "moving joints", "axes", "links", *(f"{part} error" for part in FUNCTIONS))
     _row(*["---"] * (4 + len(FUNCTIONS)))
     good = [_computed(standard, file) for file in files]
-    return all(good)
+    return _all_good(good)
 
 
-def _computed(standard: Path, file: Path) -> bool:
-    """One row of `functions`."""
+def _computed(standard: Path, file: Path) -> bool | None:
+    """One row of `functions`; None likewise."""
     functions = Functions(_complete(file))
     if not any(joint.type in MOTIONS for joint in functions.robot.skeleton.joints):
         _row(_name(file), *_counts(functions.robot.skeleton), "nothing moves", *[""] * (len(FUNCTIONS) - 1))
-        return True
+        return None
     with tempfile.TemporaryDirectory() as folder:
         worst = functions.worst(standard, Path(folder))
     _row(_name(file), *_counts(functions.robot.skeleton), *(f"{worst[part]:.0e}" for part in FUNCTIONS))
@@ -167,11 +167,11 @@ def _falls(standard: Path, files: Iterable[Path], base: generic.Base | None) -> 
     )
     _row(*["---"] * 8)
     good = [_fallen(standard, file, forms, base) for file in files]
-    return all(good)
+    return _all_good(good)
 
 
-def _fallen(standard: Path, file: Path, forms: Sequence[str], base: generic.Base | None) -> bool:
-    """One row: the greatest difference of an axis at the end, and of place and attitude of a free base."""
+def _fallen(standard: Path, file: Path, forms: Sequence[str], base: generic.Base | None) -> bool | None:
+    """One row of `falls`: the greatest difference at the end, of an axis or of a free base; None likewise."""
     robot = generic.prepare(_complete(file), approach=("package", "record"))
     start = [motion.axis_course(joint)._replace(acceleration=0) for joint in motion.driven_axes(robot.skeleton)]
     with tempfile.TemporaryDirectory() as folder:
@@ -182,7 +182,7 @@ def _fallen(standard: Path, file: Path, forms: Sequence[str], base: generic.Base
         expected, change = _reference(robot, start, base)
     except np.linalg.LinAlgError:
         _row(_name(file), *_counts(robot.skeleton), "no reference: a joint moves no mass", *[""] * len(forms))
-        return True
+        return None
     found = [_difference(outcome, tasks[0].values, expected) for outcome in outcomes]
     cells = [one if isinstance(one, str) else f"{one:.0e}" for one in found]
     _row(_name(file), *_counts(robot.skeleton), *cells, f"{change:.0e}")
@@ -227,7 +227,7 @@ def _timed(standard: Path, file: Path, repeats: int) -> Iterator[str]:
     robots take turns; times are medians of the CPU times of these processes.
     """
     content = _complete(file)
-    yield from _written(content)
+    yield from _written(file)
     for kind in ("driven", "free"):
         jobs = {form: _job(content, form, kind) for form in APPROACHES}
         outcomes: dict[str, list[Outcome]] = {form: [] for form in APPROACHES}
@@ -253,6 +253,12 @@ def _medians(outcomes: Sequence[Outcome]) -> tuple[float, float]:
     return compiling, statistics.median(one.seconds - one.compiling for one in outcomes)
 
 
+def _all_good(rows: Sequence[bool | None]) -> bool:
+    """Whether every robot that could be compared agrees; says how many those are."""
+    print(f"\n{rows.count(True)} agree, {rows.count(False)} do not, {rows.count(None)} could not be compared")  # noqa: T201
+    return False not in rows and True in rows
+
+
 def _job(content: bytes, form: str, kind: str) -> tuple[Package, Task]:
     """A package, and a motion of 0.01 s: of all axes as `check` prescribes it, or free from its start."""
     approach = ("package",) if form == "package" else ("record",)
@@ -266,10 +272,10 @@ def _job(content: bytes, form: str, kind: str) -> tuple[Package, Task]:
     return case.package, Task(source, probe.model, [Run(probe.stop, probe.step)], probe.values)
 
 
-def _written(content: bytes) -> Iterator[str]:
+def _written(file: Path) -> Iterator[str]:
     """Text files and their lines."""
-    texts = [generate(content, Target("Bot", "Bot"), approach=(name,)).texts for name in ("package", "record")]
-    robot = read_robot(content, "robot.urdf", cross_check=False).robot
+    texts = [generate(file, Target("Bot", "Bot"), approach=(name,)).texts for name in ("package", "record")]
+    robot = read_robot(file.read_bytes(), file.name, cross_check=False).robot
     assert robot is not None
     what = f"{sum(joint.type in MOTIONS for joint in robot.joints)} moving joints, {len(robot.links)} links"
     files = "".join(f"<td>{len(files)}</td>" for files in texts)

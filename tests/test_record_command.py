@@ -120,6 +120,26 @@ def test_what_is_in_a_file_is_not_lost_unless_one_says_so(folder: Path, capsys: 
     assert "record Twig" in file.read_text()
 
 
+@pytest.mark.parametrize("name", ["own.urdf", "link.mo"])
+def test_the_source_is_never_replaced(name: str, folder: Path, capsys: Capture) -> None:
+    source = folder / "own.urdf"
+    source.write_bytes(TWIG.read_bytes())
+    (folder / "link.mo").symlink_to(source)
+    assert record(source, "-o", name, "--force") == 2
+    assert source.read_bytes() == TWIG.read_bytes()
+    assert capsys.readouterr().err.splitlines()[-1] == (
+        f"{name}: error: the record would replace its source; name another file [output-is-source]"
+    )
+
+
+def test_a_dash_is_standard_output(folder: Path, capsys: Capture) -> None:
+    assert record(TWIG, "-o", "-") == 0
+    dashed = capsys.readouterr().out
+    assert record(TWIG) == 0
+    assert capsys.readouterr().out == dashed
+    assert not list(folder.iterdir())
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
 def test_a_link_stays_a_link(folder: Path) -> None:
     (folder / "Real.mo").write_text("old")

@@ -39,16 +39,18 @@ def make(source: Path, domain_name: str, name: str, within: str, file: Path | No
     return _render(domain, dataclasses.replace(reading, snapshot=snapshot), shown(source), target)
 
 
-def write(record: Record, file: Path, force: bool) -> bool:
-    """Write a record, as a whole or not at all; whether that was necessary.
+def write(record: Record, source: Path, file: Path, force: bool) -> bool:
+    """Write the record of a source, as a whole or not at all; whether that was necessary.
 
-    A file that holds something else is replaced with `force` only. Raises OutputError for that, and for what can't
-    be written.
+    A file that holds something else is replaced with `force` only, the source never. Raises OutputError for that, and
+    for what can't be written.
     """
     try:
         found = _present(file)
         if found is not None and normalised(found) == record.text.encode():
             return False
+        if found is not None and file.samefile(source):
+            raise _problem("output-is-source", "the record would replace its source", file, "name another file")
         if found is not None and not force:
             message, hint = "the file exists, and holds something else", "name another one, or replace it with --force"
             raise _problem("file-exists", message, file, hint)

@@ -57,14 +57,14 @@ def warnings(urdf: str, *approach: str) -> list[str]:
 def test_a_planar_joint_is_named_with_its_line_and_what_to_do(approach: tuple[str, ...]) -> None:
     assert warnings(PLANAR, *approach) == [
         "own.urdf:6: warning: the generic robot has no planar joints, so there are no tables for it: joint 'glide'; "
-        'write it as two prismatic joints and a continuous one, or use `approach = ["package"]` [planar-not-generic]'
+        "write it as two prismatic joints and a continuous one, or use the package approach [planar-not-generic]"
     ]
 
 
 def test_a_floating_joint_at_the_root_is_what_a_floating_base_is_for() -> None:
     (warning,) = warnings(FREE_ROOT, "record")
     assert warning.startswith("own.urdf:5: warning: the generic robot has no floating joints")
-    assert 'leave it out with its parent link, and set `base = "floating"`' in warning
+    assert 'leave it out with its parent link and let the base float (`base = "floating"` in a project)' in warning
 
 
 def test_a_floating_joint_elsewhere_can_be_taken_apart() -> None:
@@ -82,6 +82,25 @@ def test_a_joint_that_moves_no_mass_is_named_with_its_line_and_what_to_do() -> N
     assert warnings(LIGHT, "record") == [
         "own.urdf:11: warning: joint 'twist' moves no mass, so the generic robot can move it by position only; "
         "give a link behind it an <inertial>, or make it a fixed joint [moves-no-mass]"
+    ]
+
+
+def test_a_mass_that_is_all_on_the_axis_is_not_turned() -> None:
+    """A rod without thickness, as exporters write it."""
+    tensor = '<inertia ixx="0.1" iyy="0.1" izz="0" ixy="0" ixz="0" iyz="0"/>'
+    rod = f'<inertial><origin xyz="0 0 0.2"/><mass value="2"/>{tensor}</inertial>'
+    urdf = urdfs.robot(
+        urdfs.link("base", 1),
+        f'<link name="rod">{rod}</link>',
+        urdfs.joint("spin", "continuous", "base", "rod", axis="0 0 1"),
+        urdfs.link("pivot"),
+        f'<link name="other">{rod}</link>',
+        urdfs.joint("swing", "continuous", "base", "pivot", axis="0 1 0"),
+        urdfs.joint("fasten", "fixed", "pivot", "other"),
+    )
+    assert warnings(urdf, "record") == [
+        "own.urdf:5: warning: joint 'spin' turns nothing that has an inertia about its axis, so the generic robot can "
+        "move it by position only; give a link behind it such an inertia, or make it a fixed joint [moves-no-mass]"
     ]
 
 

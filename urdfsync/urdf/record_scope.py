@@ -6,12 +6,15 @@ from collections.abc import Iterator, Mapping
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.model.tables import obstacles
+from urdfsync.urdf.resistance import resistances
 from urdfsync.urdf.robot import Joint, Link, Robot
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
-_BY_PACKAGE = 'or use `approach = ["package"]`'
+_BY_PACKAGE = "or use the package approach"
 _PLANAR = f"write it as two prismatic joints and a continuous one, {_BY_PACKAGE}"
-_FLOATING_BASE = f'leave it out with its parent link, and set `base = "floating"`, {_BY_PACKAGE}'
+_FLOATING_BASE = (
+    f'leave it out with its parent link and let the base float (`base = "floating"` in a project), {_BY_PACKAGE}'
+)
 _FLOATING = f"write it as three prismatic joints and three continuous ones, {_BY_PACKAGE}"
 
 
@@ -29,33 +32,38 @@ def out_of_scope(robot: Robot, file: str, lines: Mapping[str, int]) -> Iterator[
 
 
 def _massless(skeleton: Skeleton, file: str, lines: Mapping[str, int]) -> Iterator[Diagnostic]:
-    idle, behind = _idle(skeleton), set[str]()
-    if idle and not any(map(_weighs, skeleton.links)):
+    resisted = resistances(skeleton)
+    idle = {j.name for j in skeleton.joints if j.type in MOTIONS and j.mimic is None and not resisted[j.name]}
+    heavy = _heavy(skeleton)
+    if idle and not heavy:
         message = "no link has a mass, so the joints of the generic robot can be moved by position only"
         yield _warning("moves-no-mass", message, "give the links an <inertial>", file, lines, "robot")
         return
+    behind = set[str]()
     for joint in skeleton.joints:
-        if joint.parent not in behind and joint.name not in idle:
-            continue
-        if joint.parent not in behind:
-            message = f"joint '{joint.name}' moves no mass, so the generic robot can move it by position only"
-            hint = "give a link behind it an <inertial>, or make it a fixed joint"
-            yield _warning("moves-no-mass", message, hint, file, lines, f"joint {joint.name}")
-        behind.add(joint.child)
+        if joint.name in idle and joint.parent not in behind:
+            yield _unresisted(joint, joint.child in heavy, file, lines)
+        if joint.parent in behind or (joint.name in idle and joint.child not in heavy):
+            behind.add(joint.child)  # there is nothing there either
 
 
-def _idle(skeleton: Skeleton) -> set[str]:
-    """Driven joints that have no mass behind them, and lead no joint that has."""
+def _unresisted(joint: Joint, carries: bool, file: str, lines: Mapping[str, int]) -> Diagnostic:
+    """The warning of a joint with nothing to move, or with a mass that is all on its axis."""
+    what, wanted = "moves no mass", "an <inertial>"
+    if carries and MOTIONS[joint.type] == "rotational":
+        what, wanted = "turns nothing that has an inertia about its axis", "such an inertia"
+    message = f"joint '{joint.name}' {what}, so the generic robot can move it by position only"
+    hint = f"give a link behind it {wanted}, or make it a fixed joint"
+    return _warning("moves-no-mass", message, hint, file, lines, f"joint {joint.name}")
+
+
+def _heavy(skeleton: Skeleton) -> set[str]:
+    """The links that have a mass or an inertia, or carry one that has."""
     heavy = {link.name for link in skeleton.links if _weighs(link)}
     for joint in reversed(skeleton.joints):
         if joint.child in heavy:
             heavy.add(joint.parent)
-    followers, moves = skeleton.followers_by_leader(), set[str]()
-    for joint in reversed(skeleton.leaders_first()):
-        led = followers.get(joint.name, ())
-        if joint.child in heavy or any(one.name in moves and mimic.multiplier for one, mimic in led):
-            moves.add(joint.name)
-    return {j.name for j in skeleton.joints if j.type in MOTIONS and j.mimic is None and j.name not in moves}
+    return heavy
 
 
 def _weighs(link: Link) -> bool:

@@ -1,0 +1,94 @@
+"""What resists the motion of each joint: the diagonal of the mass matrix, at the start."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+
+from urdfsync.urdf.kinematics import Pose, compose, link_poses, pose, start_positions
+from urdfsync.urdf.robot import Joint, Link, Vector
+from urdfsync.urdf.skeleton import MOTIONS, Skeleton
+
+_ROUNDING = 1e-12
+"""What is left of terms of this size that cancel each other."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class _Body:
+    """Mass (kg), mass times centre of mass (kg.m), inertia about the origin (kg.m2); in the frame of the root link."""
+
+    mass: float = 0.0
+    moment: Vector = (0.0, 0.0, 0.0)
+    inertia: tuple[Vector, Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+    def __add__(self, other: _Body) -> _Body:
+        rows = zip(self.inertia, other.inertia, strict=True)
+        return _Body(self.mass + other.mass, _sum(self.moment, other.moment), tuple(_sum(*row) for row in rows))  # type: ignore[arg-type]
+
+    def about(self, point: Vector, axis: Vector) -> float:
+        """Moment of inertia about an axis through a point; 0 if it is but rounding.
+
+        The sum of m |(r - p) x n|^2 over all its points r, n being a unit vector, multiplied out.
+        """
+        lever = _cross(point, axis)
+        terms = (
+            _dot(axis, tuple(_dot(row, axis) for row in self.inertia)),
+            -2 * _dot(_cross(self.moment, axis), lever),
+            self.mass * _dot(lever, lever),
+        )
+        found = sum(terms)
+        return found if found > _ROUNDING * sum(map(abs, terms)) else 0.0
+
+
+def resistances(skeleton: Skeleton) -> Mapping[str, float]:
+    """Mass (kg) or moment of inertia (kg.m2) that each joint with an axis moves, those of its followers included.
+
+    These are the diagonal elements of the mass matrix where each joint is at its start; composite bodies as in
+    Featherstone: Rigid Body Dynamics Algorithms, 2008, section 6.2.
+    """
+    poses = link_poses(skeleton, start_positions(skeleton))
+    bodies = {link.name: _body(link, poses[link.name]) for link in skeleton.links}
+    for joint in reversed(skeleton.joints):
+        bodies[joint.parent] += bodies[joint.child]
+    found = {
+        joint.name: _moved(joint, poses, bodies[joint.child]) for joint in skeleton.joints if joint.type in MOTIONS
+    }
+    followers = skeleton.followers_by_leader()
+    for joint in reversed(skeleton.leaders_first()):
+        for follower, mimic in followers.get(joint.name, ()) if joint.name in found else ():
+            found[joint.name] += mimic.multiplier**2 * found[follower.name]
+    return found
+
+
+def _moved(joint: Joint, poses: Mapping[str, Pose], body: _Body) -> float:
+    if MOTIONS[joint.type] == "translational":
+        return body.mass
+    rotation, point = compose(poses[joint.parent], pose(joint.origin))
+    return body.about(point, tuple(_dot(row, joint.axis) for row in rotation))  # type: ignore[arg-type]
+
+
+def _body(link: Link, at: Pose) -> _Body:
+    if link.inertial is None:
+        return _Body()
+    mass, i = link.inertial.mass, link.inertial.inertia
+    rotation, centre = compose(at, pose(link.inertial.origin))
+    tensor = ((i.ixx, i.ixy, i.ixz), (i.ixy, i.iyy, i.iyz), (i.ixz, i.iyz, i.izz))
+    halves = [tuple(_dot(row, column) for column in tensor) for row in rotation]  # the tensor is symmetric
+    square = _dot(centre, centre)
+    inertia = [
+        [_dot(half, rotation[k]) + mass * (square * (j == k) - centre[j] * centre[k]) for k in range(3)]
+        for j, half in enumerate(halves)
+    ]
+    return _Body(mass, tuple(mass * c for c in centre), tuple(map(tuple, inertia)))  # type: ignore[arg-type]
+
+
+def _sum(a: Vector, b: Vector) -> Vector:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+def _dot(a: tuple[float, ...], b: tuple[float, ...]) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _cross(a: Vector, b: Vector) -> Vector:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
