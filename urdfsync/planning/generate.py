@@ -45,6 +45,15 @@ def _renderer(templates: Templates) -> Renderer:
 
 
 @profiling.staged("artifacts")
+def artifacts(
+    domain: Domain, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
+) -> Sequence[Artifact | Order]:
+    """The files of the package of a model, before they are rendered. Raises OutputError for paths that can't be."""
+    found = domain.artifacts(snapshot, imports, target, options)
+    check_paths([artifact.path for artifact in found] + [entry.target for entry in imports.values()])
+    return found
+
+
 def generate(
     domain: Domain,
     snapshot: Snapshot,
@@ -57,9 +66,7 @@ def generate(
 
     Raises OutputError for paths that can't be written.
     """
-    artifacts = domain.artifacts(snapshot, imports, target, options)
-    check_paths([artifact.path for artifact in artifacts] + [entry.target for entry in imports.values()])
-    return Generated(artifacts, templates)
+    return Generated(artifacts(domain, snapshot, imports, target, options), templates)
 
 
 def check_paths(paths: Iterable[str]) -> None:
