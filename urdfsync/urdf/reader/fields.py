@@ -13,6 +13,8 @@ import re
 from collections.abc import Collection, Iterator
 from typing import TypeVar
 
+import msgspec
+
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.reader.checks import nearest
 from urdfsync.urdf.reader.xml import Node
@@ -89,8 +91,7 @@ def _as_one(group: list[Diagnostic]) -> Diagnostic:
     return dataclasses.replace(group[0], message=message)
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Element:
+class Element(msgspec.Struct, frozen=True, eq=False):
     """An element of the URDF with its place in the robot, for example `joint elbow / limit`."""
 
     node: Node

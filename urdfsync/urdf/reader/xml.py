@@ -12,7 +12,9 @@ import dataclasses
 import re
 import sys
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
+import msgspec
 from lxml import etree
 
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -44,15 +46,14 @@ _MARKUP = re.compile(
 )
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Node:
+class Node(msgspec.Struct, frozen=True, eq=False):
     """One XML element: `tag` with its prefix as written, `line` where its start tag begins."""
 
     tag: str
     attributes: Mapping[str, str]
     children: tuple[Node, ...]
     line: int
-    element: etree._Element = dataclasses.field(repr=False, compare=False)
+    element: etree._Element
 
     def walk(self) -> Iterator[Node]:
         """This element and all below it, in document order."""
@@ -77,8 +78,7 @@ class Document:
     diagnostics: tuple[Diagnostic, ...]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class _Start:
+class _Start(NamedTuple):
     """A start tag in the text: `end` is the offset behind its name."""
 
     line: int
