@@ -87,6 +87,8 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "state/transactions": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
     "state/lock": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
     "state/repair": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    "planning/memory": ("pathlib", "urdfsync.build", "urdfsync.config", "urdfsync.urdf", *IO, *HEAVY),
+    "garbage": ("urdfsync", "pathlib", *IO, *HEAVY),
     "planning/decide": ("rich", "watchdog", "urdfsync.build", "urdfsync.report", "urdfsync.cli"),
     "staging/staged": (
         "urdfsync.build",

@@ -10,7 +10,7 @@ import dataclasses
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import looking, profiling
+from urdfsync import garbage, looking, profiling
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.outcome import Result
@@ -55,7 +55,8 @@ class _Builder:
         """Build one robot. Whatever is wrong comes back as diagnostics, with what has become of the files."""
         result = Result(robot.name, robot.target.package, robot.folder, self._config.root, dry=self._request.dry)
         try:
-            return self._run(robot, result)
+            with garbage.held_back():
+                return self._run(robot, result)
         except UrdfsyncError as error:
             locked, unfinished = isinstance(error, LockedError), isinstance(error, UnfinishedError)
             found = error.diagnostics

@@ -18,9 +18,10 @@ import time
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
+from urdfsync import garbage
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.planning.inputs import Memory
+from urdfsync.planning.memory import Memory
 from urdfsync.watching import builder, events, stash
 from urdfsync.watching.builds import Builds
 from urdfsync.watching.checks import Checks
@@ -91,7 +92,7 @@ class Daemon:
             self._next_hour = time.monotonic() + _HOUR
             while not self._stopped:
                 self._receive(self._inbox.wait(self._patience()))
-                with contextlib.suppress(builder.StoppedError):
+                with contextlib.suppress(builder.StoppedError), garbage.held_back():
                     self._work(guard)
         self._tell(events.Stopping(self._stopped))
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync import cli, registry
+from urdfsync import changes, cli, registry
 from urdfsync.diagnostics import ConfigError, OutputError
-from urdfsync.domain import Target, Templates
+from urdfsync.domain import Artifact, Role, Target, Templates
 from urdfsync.files import templates_digest
-from urdfsync.planning.generate import check_paths, generate
+from urdfsync.planning.generate import Generated, check_paths, generate
 
 
 @pytest.mark.parametrize(
@@ -72,6 +72,18 @@ def template_error(folder: Path) -> str:
         dict(zip(package.artifacts, map(package.content, package.artifacts), strict=True))
     (found,) = caught.value.diagnostics
     return str(found).replace("\\", "/")
+
+
+def test_a_text_counts_as_stale_once_its_data_is_forgotten(tmp_path: Path) -> None:
+    (tmp_path / "t").write_text("<< number >>")
+    one, two = (
+        Generated([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), ""))
+        for n in (1, 2)
+    )
+    for _ in range(2):
+        assert changes.stale(one.artifacts.values(), two.artifacts.values()).render == {"A.mo"}
+        assert (one.content("A.mo"), two.content("A.mo")) == (b"1", b"2")
+    assert {artifact.owner for artifact in one.artifacts.values()} == {"part"}
 
 
 @pytest.fixture

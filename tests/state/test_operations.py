@@ -110,3 +110,27 @@ def test_a_few_files_are_synced_alone_and_many_together(old: Path, monkeypatch: 
     monkeypatch.setattr(os, "sync", lambda: calls.append("all"), raising=False)
     operations.sync([old, old.parent] * (operations.FEW if many else 1))
     assert calls == (["all"] if many else ["one", "one"])
+
+
+@pytest.mark.parametrize("number", [0, 1, 5, operations.FEW])
+def test_each_of_a_few_files_is_brought_to_the_disk(
+    number: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    paths = [tmp_path / str(n) for n in range(number)]
+    for path in paths:
+        path.write_bytes(b"x")
+    synced: list[int] = []
+    monkeypatch.setattr(os, "fsync", lambda descriptor: synced.append(os.fstat(descriptor).st_ino))
+    operations.sync(paths)
+    assert sorted(synced) == sorted(path.stat().st_ino for path in paths)
+
+
+@pytest.mark.parametrize("missing", [0, 2, 4])
+def test_a_file_that_cannot_be_brought_to_the_disk_is_named(missing: int, tmp_path: Path) -> None:
+    paths = [tmp_path / str(n) for n in range(5)]
+    for path in paths:
+        path.write_bytes(b"x")
+    paths[missing].unlink()
+    with pytest.raises(FileNotFoundError) as caught:
+        operations.sync(paths)
+    assert caught.value.filename == str(paths[missing])

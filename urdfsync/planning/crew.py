@@ -13,7 +13,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
-from urdfsync import looking, profiling
+from urdfsync import garbage, looking, profiling
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.planning.planner import plan, plan_if_unchanged
@@ -140,7 +140,8 @@ _Answer = tuple["Work | None", type[UrdfsyncError], tuple[Diagnostic, ...], "pro
 def _plan(config: Config, robot: RobotConfig, request: Request, profiled: bool) -> _Answer:
     with profiling.measured() if profiled else contextlib.nullcontext() as profile:
         try:
-            work, error, found = plan(config, robot, request), UrdfsyncError, tuple[Diagnostic, ...]()
+            with garbage.held_back():
+                work, error, found = plan(config, robot, request), UrdfsyncError, tuple[Diagnostic, ...]()
         except UrdfsyncError as problem:
             work, error, found = None, type(problem), problem.diagnostics
         return work, error, found, profile.results() if profile else None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -17,14 +18,19 @@ if TYPE_CHECKING:
 
 _FORBIDDEN = frozenset('\\:*?"<>|')
 """Characters that a path can't have on every system."""
+_FORGOTTEN = "forgotten"
 
 
 class Generated:
-    """The package: text files by their path, and the names for each `package.order`; POSIX, below the package."""
+    """The package: text files by their path, and the names for each `package.order`; POSIX, below the package.
+
+    The data of a text is forgotten once that is rendered, since all of a large robot's takes as much memory as the
+    texts. What stands in its place is equal to no other data, so the text counts as stale wherever that is asked.
+    """
 
     def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates) -> None:
         artifacts = list(artifacts)
-        self.artifacts: Mapping[str, Artifact] = {a.path: a for a in artifacts if isinstance(a, Artifact)}
+        self.artifacts: dict[str, Artifact] = {a.path: a for a in artifacts if isinstance(a, Artifact)}
         self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in artifacts if isinstance(a, Order)}
         self._templates = templates
         self._contents: dict[str, bytes] = {}
@@ -32,7 +38,9 @@ class Generated:
     def content(self, path: str) -> bytes:
         """The text of one file. Raises ConfigError for a template that can't be used."""
         if path not in self._contents:
-            self._contents[path] = _content(_renderer(self._templates), self.artifacts[path], self._templates.folders)
+            artifact = self.artifacts[path]
+            self._contents[path] = _content(_renderer(self._templates), artifact, self._templates.folders)
+            self.artifacts[path] = dataclasses.replace(artifact, data={_FORGOTTEN: object()})
         return self._contents[path]
 
 
@@ -45,6 +53,15 @@ def _renderer(templates: Templates) -> Renderer:
 
 
 @profiling.staged("artifacts")
+def artifacts(
+    domain: Domain, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
+) -> Sequence[Artifact | Order]:
+    """The files of the package of a model, before they are rendered. Raises OutputError for paths that can't be."""
+    found = domain.artifacts(snapshot, imports, target, options)
+    check_paths([artifact.path for artifact in found] + [entry.target for entry in imports.values()])
+    return found
+
+
 def generate(
     domain: Domain,
     snapshot: Snapshot,
@@ -57,9 +74,7 @@ def generate(
 
     Raises OutputError for paths that can't be written.
     """
-    artifacts = domain.artifacts(snapshot, imports, target, options)
-    check_paths([artifact.path for artifact in artifacts] + [entry.target for entry in imports.values()])
-    return Generated(artifacts, templates)
+    return Generated(artifacts(domain, snapshot, imports, target, options), templates)
 
 
 def check_paths(paths: Iterable[str]) -> None:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import stat
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from urdfsync import looking, manifest, profiling
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Reading, Snapshot, Templates
 from urdfsync.files import kind_of, templates_digest
+
+if TYPE_CHECKING:
+    from urdfsync.planning.memory import Memory
 
 
 def read_source(config: Config, robot: RobotConfig) -> bytes:
@@ -38,20 +41,6 @@ def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
     return Templates(tuple(folders), templates_digest(folders))
 
 
-class Memory:
-    """The source that was read last: who judges one, and then builds it, reads it once."""
-
-    def __init__(self) -> None:
-        self._last: tuple[tuple[Domain, Any, bytes, str], Reading] | None = None
-
-    def read(self, domain: Domain, options: Any, content: bytes, name: str) -> Reading:
-        """What the domain reads in a source."""
-        key = domain, options, content, name
-        if self._last is None or self._last[0] != key:
-            self._last = key, domain.read(content, name, options)
-        return self._last[1]
-
-
 @profiling.staged("reading")
 def read(
     domain: Domain, options: Any, content: bytes, name: str, memory: Memory | None = None
@@ -60,7 +49,7 @@ def read(
 
     Raises SourceError with all that is wrong in it.
     """
-    reading = (memory or Memory()).read(domain, options, content, name)
+    reading = memory.read(domain, options, content, name) if memory else domain.read(content, name, options)
     if reading.snapshot is None or any(found.severity is Severity.ERROR for found in reading.diagnostics):
         raise SourceError(*reading.diagnostics)
     return manifest.plain(reading.snapshot), reading

@@ -16,7 +16,7 @@ from urdfsync.moves import places
 from urdfsync.plan import Kind, State, Wanted
 from urdfsync.planning import imports, inputs
 from urdfsync.planning.decide import Aim, Decision, decide
-from urdfsync.planning.generate import Generated, generate
+from urdfsync.planning.generate import Generated, artifacts
 from urdfsync.planning.outputs import Outputs
 from urdfsync.planning.recording import Recording
 from urdfsync.planning.situation import NO_MODEL, Situation
@@ -41,8 +41,8 @@ class Renewal:
         self._imported = self._import()
         self.now = Version(self._snapshot, self._imported.imports, situation.generator.fingerprint)
         """The model as it is in the source, with what it imports."""
+        self._before = self._last()  # first: it may be in the memory, where the next one takes its place
         self._generated = self._generate(self.now, situation.robot.target)
-        self._before = self._last()
         self._outputs = self._known_outputs()
 
     def work(self) -> Work:
@@ -88,15 +88,10 @@ class Renewal:
         )
 
     def _generate(self, version: Version, target: Target) -> Generated:
-        situation, robot = self._situation, self._situation.robot
-        return generate(
-            situation.domain,
-            version.snapshot,
-            version.imports or {},
-            target,
-            robot.options,
-            situation.templates,
-        )
+        situation, options = self._situation, self._situation.robot.options
+        make = situation.request.memory.artifacts if situation.request.memory else artifacts
+        files = make(situation.domain, version.snapshot, version.imports or {}, target, options)
+        return Generated(files, situation.templates)
 
     def _known_outputs(self) -> Outputs:
         situation = self._situation

@@ -24,6 +24,7 @@ from urdfsync.state import leftovers
 from urdfsync.state.store import State, Store
 
 if TYPE_CHECKING:
+    from urdfsync.planning.memory import Memory
     from urdfsync.standoff import Choice
     from urdfsync.state.repair import Recovered
 
@@ -59,8 +60,8 @@ class Request:
     jobs: int | None = None
     """How many processes may work at once; None for one per core."""
     progress: Progress = in_silence
-    memory: inputs.Memory | None = None
-    """Of the source that was read last, for one process that builds again and again."""
+    memory: Memory | None = None
+    """For a process that builds again and again."""
 
 
 class Situation:

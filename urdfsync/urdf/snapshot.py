@@ -19,6 +19,8 @@ import msgspec
 from urdfsync.domain import Snapshot
 from urdfsync.urdf.robot import Robot
 
+_NESTED = (dict, list, tuple)
+
 
 def to_snapshot(robot: Robot) -> Snapshot:
     """The robot as plain data; the names of its links, and of its joints, must be unique."""
@@ -57,9 +59,13 @@ def from_snapshot(snapshot: Snapshot) -> Robot:
 def _without_absent(value: Any) -> Any:
     """The value without mapping entries that are None, and with lists instead of tuples."""
     if isinstance(value, dict):
-        return {key: _without_absent(item) for key, item in value.items() if item is not None}
-    if isinstance(value, list | tuple):
-        return [_without_absent(item) for item in value]
+        return {
+            key: _without_absent(item) if isinstance(item, _NESTED) else item
+            for key, item in value.items()
+            if item is not None
+        }
+    if isinstance(value, _NESTED):
+        return [_without_absent(item) if isinstance(item, _NESTED) else item for item in value]
     return value
 
 

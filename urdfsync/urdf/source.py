@@ -81,14 +81,15 @@ def _is_urdf(root: Node, findings: Findings) -> bool:
         findings.add(Severity.ERROR, "not-urdf", root.line, message, hint)
         return False
     xacro = [node for node in root.walk() if node.tag.startswith("xacro:")]
-    unexpanded = list(_expressions(root, numeric=True))
+    expressions = list(_expressions(root))
+    unexpanded = [node for node, numeric in expressions if numeric]
     unexpanded += [node for node in xacro if node.tag[6:] in _XACRO_LOGIC or not _has_links(root)]
     if unexpanded:
         message = f"this is a xacro file that is not expanded: <{unexpanded[0].tag}>"
         hint = "run `xacro FILE.xacro > FILE.urdf`, and name the result"
         findings.add(Severity.ERROR, "xacro-source", unexpanded[0].line, message, hint)
         return False
-    for node in [*xacro, *_expressions(root, numeric=False)][:1]:
+    for node in [*xacro, *(node for node, _ in expressions)][:1]:
         message = "the file has leftovers of xacro, which are taken literally or ignored"
         hint = "expand the source with xacro, if this file is not the result of it"
         findings.warn("xacro-leftover", node.line, message, hint)
@@ -100,14 +101,14 @@ def _has_links(root: Node) -> bool:
     return any(node.tag == "link" for node in root.children)
 
 
-def _expressions(root: Node, *, numeric: bool) -> Iterator[Node]:
-    """The elements of links, joints and materials with a xacro expression as a number, or else as a text."""
+def _expressions(root: Node) -> Iterator[tuple[Node, bool]]:
+    """The elements of links, joints and materials with a xacro expression, and whether that stands for a number."""
     for part in root.children:
         if part.tag in _PARTS:
             for node in part.walk():
                 for name, value in node.attributes.items():
-                    if ("${" in value or "$(" in value) and (name not in _TEXTS) == numeric:
-                        yield node
+                    if "$" in value and ("${" in value or "$(" in value):
+                        yield node, name not in _TEXTS
 
 
 def _read(root: Element) -> Robot:

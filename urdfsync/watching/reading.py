@@ -10,6 +10,7 @@ from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.files import digest
 from urdfsync.planning import inputs
+from urdfsync.planning.memory import Memory
 
 _MANY = 3
 """So many elements have to be gone at least for a source to be doubtful, and more than half of all."""
@@ -28,7 +29,7 @@ class Judgement:
 
 
 def judge(
-    config: Config, robot: RobotConfig, known: AbstractSet[tuple[str, str]], memory: inputs.Memory | None = None
+    config: Config, robot: RobotConfig, known: AbstractSet[tuple[str, str]], memory: Memory | None = None
 ) -> Judgement:
     """Read the source of a robot; `known` are the kinds and names of its elements in the last build."""
     try:
@@ -36,7 +37,7 @@ def judge(
         domain = registry.domain(robot.domain)
     except UrdfsyncError as error:
         return Judgement(errors=error.diagnostics)
-    reading = (memory or inputs.Memory()).read(domain, robot.options, content, shown(robot.source))
+    reading = (memory or Memory()).read(domain, robot.options, content, shown(robot.source))
     errors = tuple(found for found in reading.diagnostics if found.severity is Severity.ERROR)
     if reading.snapshot is None or errors:
         return Judgement(digest(content), reading.diagnostics)

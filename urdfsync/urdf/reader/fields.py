@@ -13,6 +13,8 @@ import re
 from collections.abc import Collection, Iterator
 from typing import TypeVar
 
+import msgspec
+
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.reader.checks import nearest
 from urdfsync.urdf.reader.xml import Node
@@ -89,8 +91,7 @@ def _as_one(group: list[Diagnostic]) -> Diagnostic:
     return dataclasses.replace(group[0], message=message)
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Element:
+class Element(msgspec.Struct, frozen=True, eq=False):
     """An element of the URDF with its place in the robot, for example `joint elbow / limit`."""
 
     node: Node
@@ -124,8 +125,8 @@ class Element:
     def expect(self, attributes: Collection[str]) -> None:
         """Warn about attributes that look like misspelt ones of `attributes`."""
         absent = [name for name in attributes if name not in self.node.attributes]
-        for name in self.node.attributes:
-            if absent and name not in attributes and (meant := nearest(name, absent)):
+        for name in self.node.attributes if absent else ():
+            if name not in attributes and (meant := nearest(name, absent)):
                 message = f"{self.path}: the attribute {name!r} is unknown, and has no effect"
                 self.warn("unknown-attribute", message, f"perhaps {meant!r} is meant")
 
@@ -192,12 +193,12 @@ def parse_numbers(text: str, count: int) -> tuple[float, ...]:
     Negative zero becomes zero, so that it makes no difference between two exports.
     """
     words = [word for word in _BLANKS.split(text) if word]
-    if len(words) != count and all(map(_DECIMAL.fullmatch, words)):
+    if not all(map(_DECIMAL.fullmatch, words)):
+        wrong = next(word for word in words if not _DECIMAL.fullmatch(word))
+        raise ValueError(f"is not a decimal number: {brief(wrong)}" if len(words) > 1 else "is not a decimal number")
+    if len(words) != count:
         raise ValueError(f"has {len(words)} numbers instead of {count}")
-    for word in words:
-        if not _DECIMAL.fullmatch(word):
-            raise ValueError(f"is not a decimal number: {brief(word)}" if len(words) > 1 else "is not a decimal number")
-    values = tuple(float(word) + 0.0 for word in words)
+    values = tuple([float(word) + 0.0 for word in words])
     if not all(map(math.isfinite, values)):
         raise ValueError("is too large for a floating-point number")
     return values

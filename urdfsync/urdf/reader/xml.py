@@ -12,7 +12,9 @@ import dataclasses
 import re
 import sys
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
+import msgspec
 from lxml import etree
 
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -44,21 +46,22 @@ _MARKUP = re.compile(
 )
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Node:
+class Node(msgspec.Struct, frozen=True, eq=False):
     """One XML element: `tag` with its prefix as written, `line` where its start tag begins."""
 
     tag: str
     attributes: Mapping[str, str]
     children: tuple[Node, ...]
     line: int
-    element: etree._Element = dataclasses.field(repr=False, compare=False)
+    element: etree._Element
 
     def walk(self) -> Iterator[Node]:
         """This element and all below it, in document order."""
-        yield self
-        for child in self.children:
-            yield from child.walk()
+        waiting = [self]
+        while waiting:
+            node = waiting.pop()
+            yield node
+            waiting += reversed(node.children)
 
     def canonical(self) -> str:
         """The element as canonical XML 2.0, without comments, indentation and invented namespaces."""
@@ -75,8 +78,7 @@ class Document:
     diagnostics: tuple[Diagnostic, ...]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class _Start:
+class _Start(NamedTuple):
     """A start tag in the text: `end` is the offset behind its name."""
 
     line: int
@@ -220,11 +222,11 @@ def _syntax_fault(error: etree.XMLSyntaxError, log: etree._ListErrorLog) -> _Fau
 
 def _node(element: etree._Element, starts: Iterator[_Start]) -> Node:
     """The element and all below it; `starts` yields the start tags in document order."""
-    start = next(starts, None)
+    start, name = next(starts, None), sys.intern(str(element.tag).rpartition("}")[2])
     return Node(
-        tag=f"{element.prefix}:{etree.QName(element).localname}" if element.prefix else etree.QName(element).localname,
-        attributes={sys.intern(str(name)): str(value) for name, value in element.attrib.items()},
+        tag=f"{element.prefix}:{name}" if element.prefix else name,
+        attributes={sys.intern(key): value for key, value in element.items()},
         line=start.line if start else int(element.sourceline or 0),
-        children=tuple(_node(child, starts) for child in element if isinstance(child.tag, str)),
+        children=tuple([_node(child, starts) for child in element.iterchildren("*")]),
         element=element,
     )
