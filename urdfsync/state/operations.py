@@ -121,7 +121,7 @@ def sync(paths: Sequence[Path]) -> None:
         return
     failed: list[OSError] = []
     threads: list[threading.Thread] = []
-    for path in paths:  # at the same time: the file system's journal takes them as one
+    for path in paths[1:]:  # at the same time: the file system's journal takes them as one
         thread = threading.Thread(target=_sync_one, args=(path, failed))
         try:
             thread.start()
@@ -129,6 +129,8 @@ def sync(paths: Sequence[Path]) -> None:
             _sync_one(path, failed)
         else:
             threads.append(thread)
+    for path in paths[:1]:
+        _sync_one(path, failed)
     for thread in threads:
         thread.join()
     if failed:

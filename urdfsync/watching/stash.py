@@ -43,10 +43,10 @@ def _patches(folder: Path) -> Iterator[tuple[int, float]]:
 
 
 def _holds(pid: int, age: float, root: Path, processes: Path) -> bool:
-    if not processes.is_dir():
+    if not os.path.isdir(processes):  # noqa: PTH112 - patches become more and more
         return _lives(pid)
     try:
-        place = (processes / str(pid) / "cwd").readlink()  # pre-commit works at the top of the repository
+        place = os.readlink(f"{processes}/{pid}/cwd")  # noqa: PTH115 - pre-commit works at the top of the repository
         started = _age(pid, processes)
     except PermissionError:
         return _lives(pid)
