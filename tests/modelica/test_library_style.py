@@ -234,3 +234,10 @@ def test_files_that_are_mentioned_exist() -> None:
 def test_the_library_asks_for_the_standard_library_in_the_oldest_version_that_serves() -> None:
     uses = next(note.get("uses") for note in annotations_in(text(LIBRARY / "package.mo")) if note.get("uses"))
     assert uses.get("Modelica").get("version") == "4.0.0"
+
+
+def test_axes_of_joint_records_are_parameters() -> None:
+    """The table of axes in a robot's record is a parameter, and its binding must not vary more."""
+    records = [LIBRARY / "Records" / f"{kind}Joint.mo" for kind in ("Revolute", "Continuous", "Prismatic")]
+    assert "parameter" in parsed(LIBRARY / "Records" / "Robot.mo").symbols["jointAxes"].prefixes
+    assert [where(file) for file in records if "parameter" not in parsed(file).symbols["axis"].prefixes] == []
