@@ -8,6 +8,7 @@ import pytest
 from support.functions import Functions
 from support.modelica import Run, Task, execute
 from support.packages import generate
+from support.urdfs import joint, link, robot
 from test_generic import ROBOTS
 
 from urdfsync.domain import Target
@@ -15,6 +16,12 @@ from urdfsync.domain import Target
 pytestmark = pytest.mark.slow
 
 CLOSE = 1e-12
+STILL = {
+    "stone": robot(link("stone", 2.0)),
+    "statue": robot(link("base", 1.0), link("head", 2.0), joint("neck", "fixed", "base", "head")),
+}
+"""No moving joint: tables and results are empty, but for poses."""
+EVERY = {**ROBOTS, **STILL}
 LONG_AXIS = """
 package Axes_
   import Modelica;
@@ -31,13 +38,13 @@ end Axes_;
 """An axis of the gripper is edited by hand; its direction is as before, its length is not."""
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", EVERY)
 def test_functions_agree_with_pinocchio_in_random_configurations(
     modelica_library: Path, tmp_path: Path, name: str
 ) -> None:
     """Base and tool link as well; the Jacobians are those of all links, also behind fixed joints, and of the root."""
-    worst = Functions(ROBOTS[name].encode()).worst(modelica_library, tmp_path)
-    assert worst.keys() == {"found", "mass", "bias", "gravity", "jacobian", "poses"}
+    worst = Functions(EVERY[name].encode()).worst(modelica_library, tmp_path)
+    assert worst.keys() == {"found", "mass", "inertias", "bias", "gravity", "jacobian", "poses"}
     assert max(worst.values()) < CLOSE, worst
 
 

@@ -31,17 +31,17 @@ algorithm
   q := zeros(n);
   for k in 1:size(rotationalJoints, 1) loop
     if rotationalJoints[k] > 0 then
-      q[max(1, rotationalJoints[k])] := phi_start[k];
+      q[rotationalJoints[k]] := phi_start[k];
     end if;
   end for;
   for k in 1:size(translationalJoints, 1) loop
     if translationalJoints[k] > 0 then
-      q[max(1, translationalJoints[k])] := s_start[k];
+      q[translationalJoints[k]] := s_start[k];
     end if;
   end for;
   for k in 1:size(followers, 1) loop
     if followers[k, 1] > 0 then
-      q[max(1, followers[k, 1])] := followerRatios[k, 2] + (if followers[k, 2] > 0 then followerRatios[k, 1]*q[max(1, followers[k, 2])] else 0);
+      q[followers[k, 1]] := followerRatios[k, 2] + (if followers[k, 2] > 0 then followerRatios[k, 1]*q[max(1, followers[k, 2])] else 0);
     end if;
   end for;
 

@@ -18,7 +18,7 @@ algorithm
   tool := 1;
   for i in 1:size(jointTree, 1) loop
     if jointTree[i, 2] > 0 then
-      depth[i + 1] := depth[max(1, jointTree[i, 1])] + 1;
+      depth[i + 1] := depth[jointTree[i, 1]] + 1;
     end if;
   end for;
   for k in 1:size(linkBodies, 1) loop
