@@ -295,11 +295,26 @@ def declared(library: Path, name: str) -> set[str]:
     return set(re.findall(r"\w+", "\n".join(texts)))
 
 
+def in_library(library: Path, name: str) -> bool:
+    """Whether the standard library has a class of this full name, as far as the words of its file tell."""
+    (top, *parts), root = name.split("."), library
+    folder = next(path for path in (root / top, *root.glob(f"{top} *")) if path.is_dir())
+    while parts and (folder / parts[0]).is_dir():
+        folder /= parts.pop(0)
+    files = [folder / f"{parts[0]}.mo", folder / "package.mo"] if parts else [folder / "package.mo"]
+    file = next((path for path in files if path.exists()), None)
+    return file is not None and set(parts) <= set(re.findall(r"\w+", file.read_text("utf-8")))
+
+
 def test_the_multibody_form_names_what_the_standard_library_has(modelica_library: Path) -> None:
     """No tool of ours translates it: modifiers and connectors of its components are looked up."""
     text = (URDFSYNC / "Robots" / "MultiBodyGenericRobot.mo").read_text("utf-8")
     components = re.findall(r"^  (Modelica\.\S+) (\w+)\[\w+\]\((.*?)\)\n    \"", text, re.MULTILINE | re.DOTALL)
     assert len(components) == 6
+    full = set(re.findall(r"\bModelica(?:\.\w+)+", text))
+    assert "Modelica.Units.Conversions.to_deg" in full
+    assert {name for name in full if not in_library(modelica_library, name)} == set()
+    assert not in_library(modelica_library, "Modelica.Units.Conversions.to_de")
     for kind, name, modifiers in components:
         used = re.findall(r"(\w+) = ", modifiers) + re.findall(rf"\b{name}\[[^)=]*?\]\.(\w+)", text)
         assert len(used) > 3, f"{name} is connected"

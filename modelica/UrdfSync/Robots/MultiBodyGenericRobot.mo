@@ -3,7 +3,7 @@ within UrdfSync.Robots;
 model MultiBodyGenericRobot "Any robot, read from its record: multibody components that a connection matrix joins"
   extends UrdfSync.Robots.PartialRecordRobot;
 
-  final parameter Integer nJoints = size(data.connectionMatrix, 1)
+  final parameter Integer nJoints = size(data.jointPositions, 1)
     "Number of joints, fixed ones included";
 
   final parameter Integer nTurning = sum({(if data.jointTree[i, 2] == 1 then 1 else 0) for i in 1:n})
