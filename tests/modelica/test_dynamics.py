@@ -6,18 +6,54 @@ from pathlib import Path
 
 import pytest
 from support.functions import Functions
+from support.modelica import Run, Task, execute
+from support.packages import generate
+from support.urdfs import joint, link, robot
 from test_generic import ROBOTS
+
+from urdfsync.domain import Target
 
 pytestmark = pytest.mark.slow
 
 CLOSE = 1e-12
+STILL = {
+    "stone": robot(link("stone", 2.0)),
+    "statue": robot(link("base", 1.0), link("head", 2.0), joint("neck", "fixed", "base", "head")),
+}
+"""No moving joint: tables and results are empty, but for poses."""
+EVERY = {**ROBOTS, **STILL}
+LONG_AXIS = """
+package Axes_
+  import Modelica;
+  import UrdfSync;
+  import Bot;
+  model Axes
+    parameter Bot.BotParameters data(shoulder(axis = {1.2, 0, 1.6}));
+    parameter Real frames[5, 15] = UrdfSync.Dynamics.jointFrames(
+      data.connectionMatrix, data.linkBodies, data.jointPositions, data.jointAngles, data.jointAxes);
+    Real axis[3] = frames[1, 13:15];
+  end Axes;
+end Axes_;
+"""
+"""An axis of the gripper is edited by hand; its direction is as before, its length is not."""
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", EVERY)
 def test_functions_agree_with_pinocchio_in_random_configurations(
     modelica_library: Path, tmp_path: Path, name: str
 ) -> None:
     """Base and tool link as well; the Jacobians are those of all links, also behind fixed joints, and of the root."""
-    worst = Functions(ROBOTS[name].encode()).worst(modelica_library, tmp_path)
-    assert worst.keys() == {"found", "mass", "bias", "gravity", "jacobian", "poses"}
+    worst = Functions(EVERY[name].encode()).worst(modelica_library, tmp_path)
+    assert worst.keys() == {"found", "mass", "inertias", "bias", "gravity", "jacobian", "poses"}
     assert max(worst.values()) < CLOSE, worst
+
+
+def test_an_axis_of_any_length_counts_as_a_direction(modelica_library: Path, tmp_path: Path) -> None:
+    """As in the joints of the package."""
+    folder = generate(ROBOTS["gripper"].encode(), Target("Bot", "Bot"), approach=("record",)).write(tmp_path)
+    values = [f"axis[{i}]" for i in (1, 2, 3)]
+    (outcome,) = execute(modelica_library, [folder], [Task(LONG_AXIS, "Axes_.Axes", [Run()], values)])
+    assert outcome.error == ""
+    (series,) = outcome.runs
+    assert series.error == ""
+    assert [series.values[value][0] for value in values] == pytest.approx([0.6, 0, 0.8], abs=CLOSE)

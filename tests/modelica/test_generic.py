@@ -55,19 +55,38 @@ MASSLESS = robot(
     joint("lift", "revolute", "base", "arm", axis="0 1 0", inside=[limit()]),
     joint("twist", "revolute", "arm", "tip", axis="0 0 1", inside=[limit()]),
 )
-LIGHT = """
-package Light_
+SLIDER = robot(
+    link("base", 1.0),
+    '<link name="box"><inertial><mass value="0"/>'
+    '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>',
+    joint("push", "prismatic", "base", "box", axis="0 0 1", inside=[limit()]),
+)
+"""Inertia, but no mass behind a joint that slides."""
+FOLLOWER = robot(
+    *(link(name, mass) for name, mass in {"base": 1.0, "arm": 1.0, "dial": None}.items()),
+    joint("lift", "continuous", "base", "arm", axis="0 1 0"),
+    joint("spin", "continuous", "arm", "dial", axis="0 0 1", inside=[mimic("lift", 2.0)]),
+)
+"""A joint without mass follows one with mass."""
+LEADER = robot(
+    *(link(name, mass) for name, mass in {"base": 1.0, "crank": None, "arm": 1.0}.items()),
+    joint("turn", "continuous", "base", "crank", axis="0 1 0"),
+    joint("follow", "continuous", "base", "arm", axis="0 0 1", inside=[mimic("turn", 2.0)]),
+)
+"""A joint with mass follows one without."""
+FREE = """
+package Free_
   import Modelica;
   import UrdfSync;
-  import Light;
-  {generic}
+  import {name};
+  {classes}
   model Free
     inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, enableAnimation = false);
-    GenericRobot robot(redeclare parameter Light.LightParameters data);
+    {form} robot(redeclare parameter {name}.{name}Parameters data);
   equation
     connect(world.frame_b, robot.frame_a);
   end Free;
-end Light_;
+end Free_;
 """
 
 ROBOTS = {"gripper": GRIPPER, "ladder": LADDER}
@@ -153,16 +172,28 @@ def at_limits(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) 
     folder = tmp_path_factory.mktemp("limits")
     packages = [
         generate(text.encode(), Target(name, name), approach=("record",)).write(folder)
-        for text, name in ((test_limits.ROBOT, "Bot"), (MASSLESS, "Light"))
+        for text, name in ((test_limits.ROBOT, "Bot"), (MASSLESS, "Light"), (SLIDER, "Slider"))
     ]
-    light = LIGHT.format(generic=strict_generic())
+    inertial = "robot.data.tip.inertial"
+    heavy = {f"{inertial}.mass": 1.0}
     tasks = [
         Task(source, "Check_.Check", [*passing.values(), *inside.values()]),
-        Task(light, "Light_.Free", [Run(), Run(parameters={"robot.data.tip.inertial.mass": 1.0})]),
+        Task(
+            free("Light"),
+            "Free_.Free",
+            [Run(), Run(parameters=heavy), Run(parameters={f"{inertial}.inertia.izz": 0.1})],
+        ),
+        Task(free("Slider"), "Free_.Free", [Run(), Run(parameters={"robot.data.box.inertial.mass": 1.0})]),
     ]
-    limits, mass = execute(modelica_library, packages, tasks)
-    assert (limits.error, mass.error) == ("", "")
-    return dict(zip([*passing, *inside, "massless", "with mass"], [*limits.runs, *mass.runs], strict=True))
+    outcomes = execute(modelica_library, packages, tasks)
+    assert [outcome.error for outcome in outcomes] == [""] * len(tasks)
+    names = [*passing, *inside, "massless", "mass on the axis", "with inertia", "inertia that slides", "with mass"]
+    return dict(zip(names, [run for outcome in outcomes for run in outcome.runs], strict=True))
+
+
+def free(name: str) -> str:
+    """A package with the model `Free`: a robot without drives, of which all warnings are errors."""
+    return FREE.format(name=name, classes=strict_generic(), form="GenericRobot")
 
 
 def test_a_limit_that_is_passed_is_named(at_limits: Mapping[str, Series]) -> None:
@@ -178,10 +209,30 @@ def test_nothing_is_said_inside_the_limits(at_limits: Mapping[str, Series]) -> N
     assert [at_limits[name].error for name in INSIDE] == [""] * len(INSIDE)
 
 
-def test_a_free_joint_that_moves_no_mass_is_named(at_limits: Mapping[str, Series]) -> None:
-    message = "Free.robot (joint twist) moves no mass: it can be driven by position only"
-    assert message in at_limits["massless"].error
-    assert at_limits["with mass"].error == ""
+def test_a_free_joint_without_inertia_is_named(at_limits: Mapping[str, Series]) -> None:
+    """Also where there is mass, but on the axis, and where what slides has moments of inertia only."""
+    named = {"massless": "twist", "mass on the axis": "twist", "inertia that slides": "push"}
+    for case, joint_name in named.items():
+        message = (
+            f"Free.robot (joint {joint_name}) has no inertia about or along its axis: it can be driven by position"
+        )
+        assert message in at_limits[case].error
+    assert [at_limits[case].error for case in ("with inertia", "with mass")] == ["", ""]
+
+
+@pytest.mark.parametrize(("text", "named"), [(FOLLOWER, "spin"), (LEADER, "turn")], ids=["follower", "leader"])
+def test_articulated_equations_refuse_a_joint_without_inertia_of_its_own(
+    modelica_library: Path, tmp_path: Path, text: str, named: str
+) -> None:
+    """They divide by it; the Newton-Euler equations move such robots."""
+    folder = generate(text.encode(), Target("Light", "Light"), approach=("record",)).write(tmp_path)
+    sources = [FREE.format(name="Light", classes="", form=f"UrdfSync.Robots.{form}") for form in generic.FORMS]
+    tasks = [Task(source, "Free_.Free", [Run()], ["robot.q[1]"]) for source in sources]
+    newton, articulated = (outcome.runs[0] for outcome in execute(modelica_library, [folder], tasks))
+    assert newton.error == ""
+    assert abs(newton.values["robot.q[1]"][-1]) > 1e-6, "it falls"
+    assert f"Free.robot (joint {named}) of robot own has no inertia about or along its own axis" in articulated.error
+    assert "use GenericRobot" in articulated.error
 
 
 GRIPPER_BODY = """<origin xyz="0 0 0.0393"/>
@@ -244,11 +295,26 @@ def declared(library: Path, name: str) -> set[str]:
     return set(re.findall(r"\w+", "\n".join(texts)))
 
 
+def in_library(library: Path, name: str) -> bool:
+    """Whether the standard library has a class of this full name, as far as the words of its file tell."""
+    (top, *parts), root = name.split("."), library
+    folder = next(path for path in (root / top, *root.glob(f"{top} *")) if path.is_dir())
+    while parts and (folder / parts[0]).is_dir():
+        folder /= parts.pop(0)
+    files = [folder / f"{parts[0]}.mo", folder / "package.mo"] if parts else [folder / "package.mo"]
+    file = next((path for path in files if path.exists()), None)
+    return file is not None and set(parts) <= set(re.findall(r"\w+", file.read_text("utf-8")))
+
+
 def test_the_multibody_form_names_what_the_standard_library_has(modelica_library: Path) -> None:
     """No tool of ours translates it: modifiers and connectors of its components are looked up."""
     text = (URDFSYNC / "Robots" / "MultiBodyGenericRobot.mo").read_text("utf-8")
     components = re.findall(r"^  (Modelica\.\S+) (\w+)\[\w+\]\((.*?)\)\n    \"", text, re.MULTILINE | re.DOTALL)
     assert len(components) == 6
+    full = set(re.findall(r"\bModelica(?:\.\w+)+", text))
+    assert "Modelica.Units.Conversions.to_deg" in full
+    assert {name for name in full if not in_library(modelica_library, name)} == set()
+    assert not in_library(modelica_library, "Modelica.Units.Conversions.to_de")
     for kind, name, modifiers in components:
         used = re.findall(r"(\w+) = ", modifiers) + re.findall(rf"\b{name}\[[^)=]*?\]\.(\w+)", text)
         assert len(used) > 3, f"{name} is connected"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import html.parser
+import itertools
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -31,6 +32,27 @@ ENUMERATIONS = {
     "TextAlignment",
     "TextStyle",
 }
+KEYWORDS = set(
+    "algorithm and annotation assert connect each else elseif end equation extends final for if in input loop "
+    "model not or outer output parameter partial protected redeclare replaceable then within".split()
+) | {"true", "false"}
+FUNCTIONS = {
+    "abs",
+    "cos",
+    "cross",
+    "der",
+    "getInstanceName",
+    "max",
+    "min",
+    "sin",
+    "size",
+    "sum",
+    "tanh",
+    "transpose",
+    "zeros",
+}
+"""Those of the language that the generic robots use."""
+GENERIC = ("PartialRecordRobot", "PartialGenericRobot", "GenericRobot", "ArticulatedRobot", "MultiBodyGenericRobot")
 VOID_TAGS = {"br", "hr", "img"}
 
 
@@ -234,3 +256,80 @@ def test_files_that_are_mentioned_exist() -> None:
 def test_the_library_asks_for_the_standard_library_in_the_oldest_version_that_serves() -> None:
     uses = next(note.get("uses") for note in annotations_in(text(LIBRARY / "package.mo")) if note.get("uses"))
     assert uses.get("Modelica").get("version") == "4.0.0"
+
+
+def test_axes_of_joint_records_are_parameters() -> None:
+    """The table of axes in a robot's record is a parameter, and its binding must not vary more."""
+    records = [LIBRARY / "Records" / f"{kind}Joint.mo" for kind in ("Revolute", "Continuous", "Prismatic")]
+    assert "parameter" in parsed(LIBRARY / "Records" / "Robot.mo").symbols["jointAxes"].prefixes
+    assert [where(file) for file in records if "parameter" not in parsed(file).symbols["axis"].prefixes] == []
+
+
+def words(source: str) -> list[str]:
+    """Names and marks of a text, without strings and annotations; an index and what follows it are apart."""
+    found, skipped, depth = [], False, 0
+    for word in tokens(source):
+        if word.text == "annotation":
+            skipped, depth = True, 0
+        elif skipped:
+            depth += {"(": 1, ")": -1}.get(word.text, 0)
+            skipped = depth > 0
+        elif word.kind in ("name", "mark"):
+            found.append(word.text)
+    return found
+
+
+def own_names(file: Path) -> set[str]:
+    """Components of a class and of those that it extends."""
+    node = parsed(file)
+    inherited = [str(base.component) for base in node.extends]
+    files = [
+        LIBRARY.joinpath(*name.split(".")[1:]).with_suffix(".mo") for name in inherited if name.startswith("UrdfSync.")
+    ]
+    return set(node.symbols).union(*map(own_names, files))
+
+
+def unknown_names(source: str, own: set[str]) -> set[str]:
+    """Names of a class text that are declared nowhere: components, functions, fields of `data`.
+
+    Modifiers, names of arguments and what follows an index belong to other classes; full names are looked up elsewhere.
+    """
+    text = words(source)
+    loops = {name for name, after in itertools.pairwise(text) if after == "in"}
+    known = KEYWORDS | FUNCTIONS | BUILT_IN | ENUMERATIONS | own | loops | {"Modelica", "UrdfSync"}
+    fields = set(parsed(LIBRARY / "Records" / "Robot.mo").symbols)
+    faults = set()
+    for before, name, after in zip(["", *text], text, [*text[1:], ""], strict=False):
+        if (
+            not re.match(r"[A-Za-z_]", name)
+            or before in (".", "model")
+            or (after == "=" and before in ("(", ",", "each"))
+        ):
+            continue
+        head, _, rest = name.partition(".")
+        if head not in known or (head == "data" and rest and rest.split(".")[0] not in fields):
+            faults.add(name)
+    return faults
+
+
+@pytest.mark.parametrize("name", GENERIC)
+def test_generic_robots_use_what_is_declared(name: str) -> None:
+    """The compiler behind the other tests does not translate one of them."""
+    file = LIBRARY / "Robots" / f"{name}.mo"
+    assert unknown_names(text(file), own_names(file) | {name}) == set()
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "named"),
+    [
+        ("data.linkBodies[data", "data.linkBodie[data", "data.linkBodie"),
+        ("= effort[", "= efort[", "efort"),
+        ("transpose(link", "transpos(link", "transpos"),
+        ("turning[k], 1", "turnin[k], 1", "turnin"),
+        ("connect(torque[k]", "connect(torqe[k]", "torqe"),
+    ],
+)
+def test_names_that_nothing_declares_are_found(right: str, wrong: str, named: str) -> None:
+    file = LIBRARY / "Robots" / "MultiBodyGenericRobot.mo"
+    assert right in text(file)
+    assert named in unknown_names(text(file).replace(right, wrong), own_names(file) | {"MultiBodyGenericRobot"})

@@ -14,7 +14,7 @@ from urdfsync.urdf.physics import motion
 from urdfsync.urdf.skeleton import MOTIONS
 
 _CONFIGURATIONS = 3
-_WEIGHING = {"mass", "bias", "gravity"}
+_WEIGHING = {"mass", "inertias", "bias", "gravity"}
 _MOST = 12
 """So many links have their Jacobians compared, picked at random if there are more."""
 
@@ -42,6 +42,7 @@ package Functions_
     Real moved(start = 0, fixed = true);
     Real found[2];
     Real mass[n, n];
+    Real inertias[n];
     Real bias[n];
     Real gravity[n];
     Real jacobian[{seen}, 6, n];
@@ -54,6 +55,7 @@ package Functions_
     end for;
     found = {{base, tool}};
     mass = UrdfSync.Dynamics.massMatrix(data.jointTree, frames, bodies, q);
+    inertias = UrdfSync.Dynamics.jointInertias(data.jointTree, frames, bodies, q);
     bias = UrdfSync.Dynamics.nonlinearEffects(data.jointTree, frames, bodies, q, v);
     gravity = UrdfSync.Dynamics.gravityEfforts(data.jointTree, frames, bodies, q);
     for k in 1:{seen} loop
@@ -81,6 +83,7 @@ class Functions:
         self._shapes: Mapping[str, Sequence[int]] = {
             "found": (2,),
             "mass": (n, n),
+            "inertias": (n,),
             "bias": (n,),
             "gravity": (n,),
             "jacobian": (len(self._seen), 6, n),
@@ -91,8 +94,8 @@ class Functions:
         """What is to be compiled and run: every second the robot is in another configuration."""
         source = _SOURCE.format(
             links=len(self.links),
-            a=vector(self._a.tolist()),
-            b=vector(self._b.tolist()),
+            a=_numbers(self._a),
+            b=_numbers(self._b),
             seen=len(self._seen),
             numbers=f"{{{', '.join(str(link + 1) for link in self._seen)}}}",
         )
@@ -113,10 +116,10 @@ class Functions:
         worst = dict.fromkeys(self._shapes, 0.0)
         for k, moved in enumerate(series.values["moved"]):
             known = self._expected(moved)
-            inertia = float(np.abs(known["mass"]).max())
+            inertia = float(np.abs(known["mass"]).max(initial=0)) or 1.0
             for part, expected in known.items():
-                size = max(inertia if part in _WEIGHING else 1.0, np.abs(expected).max())
-                error = np.abs(self._array(part, series, k) - expected).max() / size
+                size = max(inertia if part in _WEIGHING else 1.0, np.abs(expected).max(initial=0))
+                error = np.abs(self._array(part, series, k) - expected).max(initial=0) / size
                 worst[part] = max(worst[part], float(error))
         return worst
 
@@ -128,6 +131,7 @@ class Functions:
         pin, model, data = self._pin, self._model, self._model.createData()
         q, v, order = self._state(moved)
         upper = np.triu(pin.crba(model, data, q))
+        mass = (upper + np.triu(upper, 1).T)[np.ix_(order, order)]
         bias = pin.nonLinearEffects(model, data, q, v)[order]
         gravity = pin.computeGeneralizedGravity(model, data, q)[order]
         seen, resolved = [self._frame(self.links[link]) for link in self._seen], pin.LOCAL_WORLD_ALIGNED
@@ -136,7 +140,8 @@ class Functions:
         places = [data.oMf[self._frame(link)] for link in self.links]
         return {
             "found": np.array([1, self._tool()]),
-            "mass": (upper + np.triu(upper, 1).T)[np.ix_(order, order)],
+            "mass": mass,
+            "inertias": mass.diagonal(),
             "bias": bias,
             "gravity": gravity,
             "jacobian": np.array(jacobians),
@@ -167,6 +172,10 @@ class Functions:
 
     def _frame(self, link: str) -> int:
         return int(self._model.getFrameId(link, self._pin.BODY))
+
+
+def _numbers(values: Array) -> str:
+    return vector(values.tolist()) if len(values) else "fill(0, 0)"
 
 
 def _elements(part: str, shape: Sequence[int]) -> list[str]:

@@ -59,20 +59,22 @@ algorithm
   z[1, :] := z_a;
   b[1, :] := b_a;
   for i in 1:n loop
-    p := jointTree[i, 1];
-    e := frames[i, 13:15];
-    R[i, :, :] := [frames[i, 1], frames[i, 2], frames[i, 3]; frames[i, 4], frames[i, 5], frames[i, 6]; frames[i, 7], frames[i, 8], frames[i, 9]];
-    r[i, :] := frames[i, 10:12];
-    if jointTree[i, 2] == 2 then
-      r[i, :] := r[i, :] + R[i, :, :]*e*q[i];
-      w[i + 1, :] := w[p, :]*R[i, :, :];
-      z[i + 1, :] := z[p, :]*R[i, :, :];
-      b[i + 1, :] := (b[p, :] + cross(z[p, :], r[i, :]) + cross(w[p, :], cross(w[p, :], r[i, :])))*R[i, :, :] + 2*v[i]*cross(w[i + 1, :], e) + e*a[i];
-    else
-      R[i, :, :] := R[i, :, :]*UrdfSync.Dynamics.turn(e, q[i]);
-      w[i + 1, :] := w[p, :]*R[i, :, :] + e*v[i];
-      z[i + 1, :] := z[p, :]*R[i, :, :] + v[i]*cross(w[i + 1, :], e) + e*a[i];
-      b[i + 1, :] := (b[p, :] + cross(z[p, :], r[i, :]) + cross(w[p, :], cross(w[p, :], r[i, :])))*R[i, :, :];
+    if jointTree[i, 2] > 0 then
+      p := jointTree[i, 1];
+      e := frames[i, 13:15];
+      R[i, :, :] := [frames[i, 1], frames[i, 2], frames[i, 3]; frames[i, 4], frames[i, 5], frames[i, 6]; frames[i, 7], frames[i, 8], frames[i, 9]];
+      r[i, :] := frames[i, 10:12];
+      if jointTree[i, 2] == 2 then
+        r[i, :] := r[i, :] + R[i, :, :]*e*q[i];
+        w[i + 1, :] := w[p, :]*R[i, :, :];
+        z[i + 1, :] := z[p, :]*R[i, :, :];
+        b[i + 1, :] := (b[p, :] + cross(z[p, :], r[i, :]) + cross(w[p, :], cross(w[p, :], r[i, :])))*R[i, :, :] + 2*v[i]*cross(w[i + 1, :], e) + e*a[i];
+      else
+        R[i, :, :] := R[i, :, :]*UrdfSync.Dynamics.turn(e, q[i]);
+        w[i + 1, :] := w[p, :]*R[i, :, :] + e*v[i];
+        z[i + 1, :] := z[p, :]*R[i, :, :] + v[i]*cross(w[i + 1, :], e) + e*a[i];
+        b[i + 1, :] := (b[p, :] + cross(z[p, :], r[i, :]) + cross(w[p, :], cross(w[p, :], r[i, :])))*R[i, :, :];
+      end if;
     end if;
   end for;
   for i in 1:n + 1 loop
@@ -82,10 +84,12 @@ algorithm
     t[i, :] := J*z[i, :] + cross(w[i, :], J*w[i, :]) + cross(h, b[i, :]);
   end for;
   for i in n:-1:1 loop
-    p := jointTree[i, 1];
-    tau[i] := frames[i, 13:15]*(if jointTree[i, 2] == 2 then f[i + 1, :] else t[i + 1, :]);
-    f[p, :] := f[p, :] + R[i, :, :]*f[i + 1, :];
-    t[p, :] := t[p, :] + R[i, :, :]*t[i + 1, :] + cross(r[i, :], R[i, :, :]*f[i + 1, :]);
+    if jointTree[i, 2] > 0 then
+      p := jointTree[i, 1];
+      tau[i] := frames[i, 13:15]*(if jointTree[i, 2] == 2 then f[i + 1, :] else t[i + 1, :]);
+      f[p, :] := f[p, :] + R[i, :, :]*f[i + 1, :];
+      t[p, :] := t[p, :] + R[i, :, :]*t[i + 1, :] + cross(r[i, :], R[i, :, :]*f[i + 1, :]);
+    end if;
   end for;
   tau[n + 1:n + 3] := t[1, :];
   tau[n + 4:n + 6] := f[1, :];

@@ -16,10 +16,10 @@ function jointFrames "Frame of each moving joint at position zero, and its axis"
     "Per joint: roll, pitch and yaw in the frame of the parent link";
 
   input Real jointAxes[:, 3](each unit = "1")
-    "Per moving joint: axis in the joint frame, a unit vector";
+    "Per moving joint: axis in the joint frame";
 
   output Real frames[size(jointAxes, 1), 15]
-    "One row per moving joint: {rotation matrix by rows and position in the body that carries it, axis in the joint frame}";
+    "One row per moving joint: {rotation matrix by rows and position in the body that carries it, unit vector along the axis in the joint frame}";
 
 protected
   Real links[size(linkBodies, 1), 12] = UrdfSync.Dynamics.linkFrames(connectionMatrix, linkBodies, jointPositions, jointAngles);
@@ -30,13 +30,13 @@ algorithm
     if linkBodies[connectionMatrix[k, 2]] <> linkBodies[connectionMatrix[k, 1]] then
       i := linkBodies[connectionMatrix[k, 2]] - 1;
       frames[i, 1:12] := UrdfSync.Dynamics.compose(links[connectionMatrix[k, 1], :], jointPositions[k, :], jointAngles[k, :]);
-      frames[i, 13:15] := jointAxes[i, :];
+      frames[i, 13:15] := jointAxes[i, :]/sqrt(jointAxes[i, :]*jointAxes[i, :]);
     end if;
   end for;
 
   annotation (Documentation(info="<html>
 <p>
-Moving joint <code>i</code> moves body <code>i + 1</code>; body 1 is the base.
+Moving joint <code>i</code> moves body <code>i + 1</code>; body 1 is the base. Axes of any length are taken, as the joints of the Modelica Standard Library take them.
 </p>
 </html>"));
 end jointFrames;

@@ -37,14 +37,16 @@ algorithm
   R[1, :, :] := R_base;
   r[1, :] := r_base;
   for i in 1:size(jointTree, 1) loop
-    p := jointTree[i, 1];
-    Q := R[p, :, :]*UrdfSync.Dynamics.rotationOf(frames[i, :]);
-    r[i + 1, :] := r[p, :] + R[p, :, :]*frames[i, 10:12];
-    if jointTree[i, 2] == 2 then
-      R[i + 1, :, :] := Q;
-      r[i + 1, :] := r[i + 1, :] + Q*frames[i, 13:15]*q[i];
-    else
-      R[i + 1, :, :] := Q*UrdfSync.Dynamics.turn(frames[i, 13:15], q[i]);
+    if jointTree[i, 2] > 0 then
+      p := jointTree[i, 1];
+      Q := R[p, :, :]*UrdfSync.Dynamics.rotationOf(frames[i, :]);
+      r[i + 1, :] := r[p, :] + R[p, :, :]*frames[i, 10:12];
+      if jointTree[i, 2] == 2 then
+        R[i + 1, :, :] := Q;
+        r[i + 1, :] := r[i + 1, :] + Q*frames[i, 13:15]*q[i];
+      else
+        R[i + 1, :, :] := Q*UrdfSync.Dynamics.turn(frames[i, 13:15], q[i]);
+      end if;
     end if;
   end for;
   for k in 1:size(linkBodies, 1) loop

@@ -12,5 +12,9 @@ one or more links that fixed joints hold together. Parents have smaller numbers 
 <code>linkFrames</code>, <code>jointFrames</code> and <code>bodyInertias</code> prepare what the other functions take. Everything is resolved in the frame of the base or of a body;
 efforts are torques of turning and forces of sliding joints.
 </p>
+<p>
+Robots without moving joints have empty tables. Some loops over joints hold a condition that is always true: rumoca, the compiler behind
+<code>urdfsync check</code>, looks into the body of a loop also where there is nothing to go through, but not behind a condition.
+</p>
 </html>"));
 end Dynamics;

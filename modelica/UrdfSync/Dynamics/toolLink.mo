@@ -17,7 +17,9 @@ protected
 algorithm
   tool := 1;
   for i in 1:size(jointTree, 1) loop
-    depth[i + 1] := depth[jointTree[i, 1]] + 1;
+    if jointTree[i, 2] > 0 then
+      depth[i + 1] := depth[jointTree[i, 1]] + 1;
+    end if;
   end for;
   for k in 1:size(linkBodies, 1) loop
     if depth[linkBodies[k]] >= depth[linkBodies[tool]] then

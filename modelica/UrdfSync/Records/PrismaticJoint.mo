@@ -3,7 +3,7 @@ within UrdfSync.Records;
 record PrismaticJoint "Numbers of a prismatic joint"
   extends UrdfSync.Records.Joint;
 
-  Modelica.Mechanics.MultiBody.Types.Axis axis = {1, 0, 0}
+  parameter Modelica.Mechanics.MultiBody.Types.Axis axis = {1, 0, 0}
     "Axis of motion: a unit vector in the joint frame";
 
   TranslationalLimits limits

@@ -3,7 +3,7 @@ within UrdfSync.Records;
 record RevoluteJoint "Numbers of a revolute joint"
   extends UrdfSync.Records.Joint;
 
-  Modelica.Mechanics.MultiBody.Types.Axis axis = {1, 0, 0}
+  parameter Modelica.Mechanics.MultiBody.Types.Axis axis = {1, 0, 0}
     "Axis of motion: a unit vector in the joint frame";
 
   RotationalLimits limits

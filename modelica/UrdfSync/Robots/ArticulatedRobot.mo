@@ -139,11 +139,14 @@ equation
   end for;
 
   for i in 1:n loop
+    assert(jointInertias[i] > 0,
+      getInstanceName() + " (joint " + data.jointNames[i].name + ") of robot " + data.name + " has no inertia about or along its own axis, by which these "
+      + "equations divide: use GenericRobot");
     z_v[i, :] = cross(w[i + 1, :], e_t[i, :])*v[i];
     b_v[i, :] = cross(w[data.jointTree[i, 1], :], cross(w[data.jointTree[i, 1], :], r[i, :]))*R[i, :, :] + 2*v[i]*cross(w[i + 1, :], e_s[i, :]);
     U_t[i, :] = J_A[i + 1, :, :]*e_t[i, :] + H_A[i + 1, :, :]*e_s[i, :];
     U_f[i, :] = e_t[i, :]*H_A[i + 1, :, :] + M_A[i + 1, :, :]*e_s[i, :];
-    D[i] = e_t[i, :]*U_t[i, :] + e_s[i, :]*U_f[i, :];
+    D[i] = if jointInertias[i] > 0 then e_t[i, :]*U_t[i, :] + e_s[i, :]*U_f[i, :] else 1;
     u[i] = effort[i] - e_t[i, :]*t_A[i + 1, :] - e_s[i, :]*f_A[i + 1, :];
     for j in 1:3 loop
       for k in 1:3 loop
@@ -190,7 +193,10 @@ equations as <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a
 </p>
 <p>
 Symmetric 6 x 6 inertias are kept as three matrices: torque per angular acceleration <code>J</code>, torque per acceleration <code>H</code> (force per angular
-acceleration is its transpose) and force per acceleration <code>M</code>. A joint that moves no mass has <code>D = 0</code>: here also its prescribed motion has no solution.
+acceleration is its transpose) and force per acceleration <code>M</code>. The equations divide by
+<code>D</code>, the inertia of each joint by itself. So a joint with none is refused by name, also where its motion is prescribed, where it follows another one, and
+where only joints that follow it have mass: <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a> takes the latter two. Two joints on the same axis with
+nothing between them are not detected, and have no solution.
 </p>
 </html>"));
 end ArticulatedRobot;

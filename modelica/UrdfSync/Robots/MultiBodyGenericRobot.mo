@@ -3,7 +3,7 @@ within UrdfSync.Robots;
 model MultiBodyGenericRobot "Any robot, read from its record: multibody components that a connection matrix joins"
   extends UrdfSync.Robots.PartialRecordRobot;
 
-  final parameter Integer nJoints = size(data.connectionMatrix, 1)
+  final parameter Integer nJoints = size(data.jointPositions, 1)
     "Number of joints, fixed ones included";
 
   final parameter Integer nTurning = sum({(if data.jointTree[i, 2] == 1 then 1 else 0) for i in 1:n})
@@ -119,7 +119,8 @@ The formulation that Pign&egrave;de and Oldemeyer published (Modelica Conference
 It is the way to the parts of the Modelica Standard Library: sensors, bodies and contacts can be connected to <code>link[k].frame_a</code> of any link.
 </p>
 <p>
-<em>This class was checked for syntax and for the names that it uses, and never simulated.</em> The language allows subscripts of components that are
+<em>No tool has translated this class as it stands in the tests of this library.</em> They check its syntax and the names that it uses; and they write its arrays
+and loops out for one robot of three moving joints, without mimic joints, whose free motion agrees with the reference. The language allows subscripts of components that are
 parameters in <code>connect</code>; by what its authors report, Dymola translates the formulation. OpenModelica does not (its issue 14362), nor does
 rumoca, the compiler behind <code>urdfsync check</code>: it loses the subscripts. Where it can't be translated,
 <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a> does the same.

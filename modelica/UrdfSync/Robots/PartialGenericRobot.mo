@@ -3,14 +3,6 @@ within UrdfSync.Robots;
 partial model PartialGenericRobot "Kinematics of a robot that is read from its record"
   extends UrdfSync.Robots.PartialRecordRobot;
 
-  final parameter Real jointFrames[n, 15] = UrdfSync.Dynamics.jointFrames(
-    data.connectionMatrix,
-    data.linkBodies,
-    data.jointPositions,
-    data.jointAngles,
-    data.jointAxes)
-    "One row per moving joint: its frame at position zero in the body that carries it, and its axis";
-
 protected
   outer Modelica.Mechanics.MultiBody.World world
     "Gravity";

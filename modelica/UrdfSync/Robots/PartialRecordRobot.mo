@@ -68,6 +68,14 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
     data.jointAngles)
     "One row per link: its frame in the body that it is part of";
 
+  final parameter Real jointFrames[n, 15] = UrdfSync.Dynamics.jointFrames(
+    data.connectionMatrix,
+    data.linkBodies,
+    data.jointPositions,
+    data.jointAngles,
+    data.jointAxes)
+    "One row per moving joint: its frame at position zero in the body that carries it, and its axis";
+
   final parameter Real bodies[n + 1, 10] = UrdfSync.Dynamics.bodyInertias(
     data.linkBodies,
     linkFrames,
@@ -163,8 +171,21 @@ protected
   parameter Real shares[n, nFollowers + 1] = UrdfSync.Dynamics.followerShares(n, data.followers, data.followerRatios)
     "Motion of each follower per motion of each joint; the last column is empty, so that there is one";
 
-  parameter Real massBehind[n] = UrdfSync.Dynamics.massBehind(data.jointTree, bodies, cat(1, data.followers[:, 1], {1}), shares)
-    "Zero for joints that move nothing, those that follow them included";
+  parameter Real q_start[n] = UrdfSync.Dynamics.startPositions(
+    n,
+    data.rotationalJoints,
+    phi_start,
+    data.translationalJoints,
+    s_start,
+    data.followers,
+    data.followerRatios)
+    "Positions of the moving joints at the start values";
+
+  parameter Real jointInertias[n] = UrdfSync.Dynamics.jointInertias(data.jointTree, jointFrames, bodies, q_start)
+    "Masses and moments of inertia that joints move at the start values, joints that follow them aside";
+
+  parameter Real axisInertias[n] = UrdfSync.Dynamics.axisInertias(jointInertias, data.followers, data.followerRatios)
+    "The same, joints that follow them included";
 
   parameter Real steepness[n] = {(if data.jointTree[i, 2] == 1 then rotationalSteepness else translationalSteepness) for i in 1:n}
     "Steepness of the dry friction";
@@ -185,8 +206,8 @@ equation
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is faster than its velocity limit", AssertionLevel.warning);
     assert(not checkLimits or 0.999999*abs(drive[i]) <= data.jointLimits[i, 4] + 1e-6,
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is driven above its effort limit", AssertionLevel.warning);
-    assert(not fixedStart or driven[i] == 0 or massBehind[i] > 0,
-      getInstanceName() + " (joint " + data.jointNames[i].name + ") moves no mass: it can be driven by position only", AssertionLevel.warning);
+    assert(not fixedStart or driven[i] == 0 or axisInertias[i] > 0,
+      getInstanceName() + " (joint " + data.jointNames[i].name + ") has no inertia about or along its axis: it can be driven by position only", AssertionLevel.warning);
   end for;
 
   for k in 1:data.rotationalAxes loop
@@ -242,8 +263,9 @@ order; where nothing is connected the axis moves freely. The constants <code>dat
 <i>Mimic joints:</i> <code>q = k*q_head + c</code>, and the axis of the head bears <code>k</code> times the load of the follower (principle of virtual work).
 </p>
 <p>
-<i>Limits</i> are checked as in the package approach: a warning names the joint. Another warning names a joint that moves no mass; its free motion has no
-solution. A robot without any moving joint is a rigid body. Robots with planar or floating joints are refused by name when a simulation begins.
+<i>Limits</i> are checked as in the package approach: a warning names the joint. Another warning names a joint whose element on the diagonal of the mass
+matrix is zero at the start values, joints that follow it included: what it moves has no mass, or no inertia about its axis. Its free motion has no solution. Whether
+the matrix is singular for another reason, as with two joints on the same axis and nothing between them, is not checked. A robot without any moving joint is a rigid body. Robots with planar or floating joints are refused by name when a simulation begins.
 </p>
 </html>"));
 end PartialRecordRobot;

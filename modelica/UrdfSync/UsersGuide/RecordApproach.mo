@@ -41,7 +41,7 @@ Numbers in the tables are references to the components of links and joints. So e
 <dt><a href=\"modelica://UrdfSync.Robots.ArticulatedRobot\">Robots.ArticulatedRobot</a></dt>
 <dd>Articulated-body equations: explicit in the accelerations, for tools that do not solve the equations of motion as one system of the size of the number of axes.</dd>
 <dt><a href=\"modelica://UrdfSync.Robots.MultiBodyGenericRobot\">Robots.MultiBodyGenericRobot</a></dt>
-<dd>The published formulation, arrays of multibody components. It was checked for syntax and names only.</dd>
+<dd>The published formulation, arrays of multibody components. Checked for syntax and names, and simulated with its loops written out for one robot; never as it stands.</dd>
 <dt><a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a></dt>
 <dd>Functions over the same tables: mass matrix, Coriolis and gravity forces, the Jacobian of any link, poses, base and tool link. They can be used
 without the models.</dd>
@@ -79,8 +79,10 @@ position, most of the time goes into the differentiation of each of these constr
 <li>A robot with planar or floating joints has a record without tables. <code>urdfsync</code> says so with the line of the URDF, and the models refuse
 it by name when a simulation begins. Use the package approach, or change the URDF: a planar joint can be written as two prismatic joints and a
 continuous one; a floating joint at the root can be left out, and the robot put on a <code>FreeBase</code>.</li>
-<li>A link without mass behind a moving joint does no harm as long as something behind that joint has mass. If nothing has, the joint can be
-driven by position only, and warnings of <code>urdfsync</code> and of the models name it.</li>
+<li>A link without mass behind a moving joint usually does no harm if something behind that joint has mass. If the joint has no inertia about or along
+its axis, it can be driven by position only: the models name it when a simulation begins, and <code>urdfsync</code> does where nothing behind it has mass. Two joints on
+the same axis with nothing between them can't move freely either; this is not detected.
+ArticulatedRobot refuses every joint without inertia of its own, also where it is driven by position, follows another one, or leads one that has mass.</li>
 <li>A robot without any moving joint, also one of a single link, is a rigid body.</li>
 <li>Gravity is taken at <code>frame_a</code> and is the same for the whole robot.</li>
 </ul>
