@@ -159,9 +159,11 @@ def test_what_the_caller_raises_now_and_then_gives_the_child_up() -> None:
     def tick() -> None:
         raise TimeoutError
 
+    before = psutil.Process().children()  # what starts processes for other tests stays
     with pytest.raises(TimeoutError):
         process.run([sys.executable, "-c", SLEEP], tick=tick)
-    assert [child for child in psutil.Process().children() if child.status() != psutil.STATUS_ZOMBIE] == []
+    now = [child for child in psutil.Process().children() if child.status() != psutil.STATUS_ZOMBIE]
+    assert [child for child in now if child not in before] == []
 
 
 def test_a_program_that_is_not_there_is_an_error_of_the_system(tmp_path: Path) -> None:
