@@ -54,7 +54,6 @@ def main() -> None:
                 grid = tables.figures(study) if isinstance(study, Figures) else tables.pairs(study.title, findings)
                 _print(out, grid, options)
                 status.update(f"preparing more of {chosen}")
-            shutil.rmtree(folder)
     _print(out, tables.bars(found), options)
     for line in left_out:
         aside.print(line, markup=False)

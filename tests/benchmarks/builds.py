@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -29,11 +30,17 @@ def first(tools: Tools, folder: Path, arguments: Sequence[str] = ()) -> Callable
 
 
 def clear(folder: Path) -> None:
-    """Remove all that was built in a folder, and leave no writing to be done for that to what is measured next."""
+    """Take away all that was built in a folder, and leave no writing to be done for that to what is measured next."""
     for name in ("modelica", ".urdfsync"):
-        if (folder / name).exists():
-            shutil.rmtree(folder / name)
+        put_aside(folder / name)
     os.sync()
+
+
+def put_aside(path: Path) -> None:
+    """Move a folder away, if it is there. It is not deleted: ext4 makes files slowly where many have just gone."""
+    if path.exists():
+        aside = Path(tempfile.mkdtemp(prefix="old-", dir=path.parent.parent))
+        path.rename(aside / path.name)
 
 
 def changed(tools: Tools, folder: Path, name: str) -> Callable[[], Cost]:
@@ -57,8 +64,7 @@ def first_by(published: Published, source: Path, folder: Path) -> Callable[[], C
     """A first build by the published tool, in a folder for it alone."""
 
     def measurement() -> Cost:
-        if folder.exists():
-            shutil.rmtree(folder)
+        put_aside(folder)
         os.sync()
         return published.build(source, folder)
 
