@@ -54,13 +54,17 @@ All of them have flanges for the driven axes, damping and dry friction, mimic jo
 <table border=\"1\" cellspacing=\"0\" cellpadding=\"4\">
 <tr><th align=\"left\"></th><th align=\"left\">package</th><th align=\"left\">record</th></tr>
 <tr><td>text files of the six-axis arm (9 moving joints, 13 links)</td><td>60</td><td>4</td></tr>
-<tr><td>their lines</td><td>4,437</td><td>646</td></tr>
+<tr><td>their lines</td><td>4,623</td><td>646</td></tr>
 <tr><td>text files of a humanoid (30 moving joints, 60 links)</td><td>248</td><td>4</td></tr>
 <tr><td>their lines</td><td>14,745</td><td>2,329</td></tr>
-<tr><td>compiled and simulated, 6 moving joints</td><td>5.3 / 6.3 s</td><td>2.9 / 2.3 s</td></tr>
-<tr><td>compiled and simulated, 12 moving joints, 6 of them mimic joints</td><td>9.3 / 11.2 s</td><td>4.6 / 3.3 s</td></tr>
-<tr><td>compiled and simulated, 16 moving joints</td><td>8.9 / 9.5 s</td><td>5.1 / 3.0 s</td></tr>
-<tr><td>compiled and simulated, 30 moving joints</td><td>70.2 / 78.7 s</td><td>36.1 / 6.4 s</td></tr>
+<tr><td>compiled and simulated, 6 moving joints, driven</td><td>2.4 + 2.2 s</td><td>1.5 + 1.2 s (59 %)</td></tr>
+<tr><td>6 moving joints, free</td><td>2.9 + 4.0 s</td><td>2.0 + 1.1 s (45 %)</td></tr>
+<tr><td>12 moving joints, 6 of them mimic joints, driven</td><td>4.0 + 6.4 s</td><td>2.5 + 3.3 s (56 %)</td></tr>
+<tr><td>12 moving joints, 6 of them mimic joints, free</td><td>3.6 + 6.3 s</td><td>1.8 + 1.8 s (35 %)</td></tr>
+<tr><td>16 moving joints, driven</td><td>4.1 + 5.3 s</td><td>2.0 + 5.5 s (81 %)</td></tr>
+<tr><td>16 moving joints, free</td><td>3.9 + 5.9 s</td><td>2.0 + 1.7 s (38 %)</td></tr>
+<tr><td>30 moving joints, driven</td><td>17.1 + 54.4 s</td><td>2.9 + 34.7 s (53 %)</td></tr>
+<tr><td>30 moving joints, free</td><td>16.4 + 81.6 s</td><td>3.0 + 4.2 s (7 %)</td></tr>
 <tr><td>joint types</td><td>all six</td><td>revolute, continuous, prismatic, fixed</td></tr>
 <tr><td>shapes, contact with the ground</td><td>yes</td><td>no</td></tr>
 <tr><td>frames to connect parts to</td><td>of all links, by editing</td><td>of the root link</td></tr>
@@ -70,8 +74,9 @@ All of them have flanges for the driven axes, damping and dry friction, mimic jo
 <tr><td>many robots in one study</td><td>replaceable models</td><td>a redeclared record</td></tr>
 </table>
 <p>
-Times are seconds of CPU in rumoca 0.10.2 for prescribed / free motion of 0.01 s, libraries loaded before, package and record (GenericRobot) in the same
-run. ArticulatedRobot takes 1.1 to 2 times as long as GenericRobot there, since rumoca solves the system of equations well. Where all axes are driven by
+Times are seconds of CPU in rumoca 0.10.2 to compile and to simulate 0.01 s, libraries loaded before, package and record (GenericRobot) in the same run;
+in brackets the record's sum in percent of the package's. Driven axes move as prescribed. ArticulatedRobot takes 1.1 to 2.2 times as long as
+GenericRobot there, since rumoca solves the system of equations well. Where all axes are driven by
 position, most of the time goes into the differentiation of each of these constraints. Other tools were not measured.
 </p>
 <h4>Limits</h4>
@@ -80,7 +85,7 @@ position, most of the time goes into the differentiation of each of these constr
 it by name when a simulation begins. Use the package approach, or change the URDF: a planar joint can be written as two prismatic joints and a
 continuous one; a floating joint at the root can be left out, and the robot put on a <code>FreeBase</code>.</li>
 <li>A link without mass behind a moving joint usually does no harm if something behind that joint has mass. If the joint has no inertia about or along
-its axis, it can be driven by position only: the models name it when a simulation begins, and <code>urdfsync</code> does where nothing behind it has mass. Two joints on
+its axis, it can be driven by position only: the models name it when a simulation begins, and <code>urdfsync</code> does with the line of the URDF. Two joints on
 the same axis with nothing between them can't move freely either; this is not detected.
 ArticulatedRobot refuses every joint without inertia of its own, also where it is driven by position, follows another one, or leads one that has mass.</li>
 <li>A robot without any moving joint, also one of a single link, is a rigid body.</li>
