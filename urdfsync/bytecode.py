@@ -18,7 +18,7 @@ import jinja2
 from jinja2 import bccache
 
 from urdfsync import literals
-from urdfsync.files import TEMPORARY
+from urdfsync.files import put
 
 _SIZE = hashlib.sha256().digest_size
 
@@ -52,14 +52,9 @@ class Bytecode(bccache.BytecodeCache):
     def dump_bytecode(self, bucket: bccache.Bucket) -> None:
         """Keep the bucket's code, if that is possible."""
         code, file = marshal.dumps(bucket.code), Path(self._file(bucket))
-        temporary = file.with_name(f".{file.name}-{os.getpid()}{TEMPORARY}")
         with contextlib.suppress(OSError):  # a cache that can't be written to is none
             file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-            try:
-                temporary.write_bytes(self._seal(bucket, code) + code)
-                temporary.replace(file)
-            finally:
-                temporary.unlink(missing_ok=True)
+            put(file, self._seal(bucket, code) + code)
 
     def _file(self, bucket: bccache.Bucket) -> str:
         return f"{self._folder}{os.sep}{bucket.key}"

@@ -100,7 +100,7 @@ class Batch:
         """Change the targets back, as far as nobody else has changed them since. Raises OSError or OutputError."""
         self._enter(Phase.UNDO)
         for number in reversed(range(len(self._targets))):
-            target, step, temporary = self._targets[number], self._step(number), self._temporary(number)
+            target, step, temporary = self._targets[number], self._step(number), self._temporaries[number]
             theirs = self._hash(temporary) not in (None, step.new, step.old)  # taken away by a run that was killed then
             source = temporary if theirs else self._undo(number)
             current = self._hash(target)
@@ -139,7 +139,7 @@ class Batch:
         operations.remove_folder(self._folder / "journal")
 
     def _change(self, number: int, resumed: bool) -> None:
-        target, step, temporary = self._targets[number], self._step(number), self._temporary(number)
+        target, step, temporary = self._targets[number], self._step(number), self._temporaries[number]
         with self._about(target):
             current = self._hash(target)
             if current == step.new or (resumed and current != step.old and self._hash(temporary) != step.new):
@@ -155,7 +155,7 @@ class Batch:
 
     def _replace(self, number: int) -> bool:
         """Change one target. Returns False, and leaves it alone, if it is not what was planned with."""
-        target, step, temporary = self._targets[number], self._step(number), self._temporary(number)
+        target, step, temporary = self._targets[number], self._step(number), self._temporaries[number]
         if step.old is None:
             operations.place(temporary, target)
             return True
@@ -199,7 +199,7 @@ class Batch:
 
     def _is_sound(self, number: int) -> bool:
         step, current = self._step(number), self._hash(self._targets[number])
-        temporary = self._hash(self._temporary(number))
+        temporary = self._hash(self._temporaries[number])
         kept = (self._hash(self._undo(number)), temporary if temporary != step.new else None)
         if any(found not in (None, step.old) for found in kept):
             return False  # somebody saved in the instant of the change
@@ -231,9 +231,6 @@ class Batch:
 
     def _step(self, number: int) -> Step:
         return self.journal.steps[number]
-
-    def _temporary(self, number: int) -> Path:
-        return self._temporaries[number]
 
     def _undo(self, number: int) -> Path:
         return self._folder / "undo" / str(number)

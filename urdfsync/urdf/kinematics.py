@@ -32,8 +32,8 @@ def pose(origin: Origin) -> Pose:
 def compose(outer: Pose, inner: Pose) -> Pose:
     """The pose of `inner`, which is given in `outer`, in the frame that `outer` is given in."""
     (rotation, translation), columns = outer, tuple(zip(*inner[0], strict=True))
-    turned = tuple(tuple(_dot(row, column) for column in columns) for row in rotation)
-    moved = tuple(p + _dot(row, inner[1]) for p, row in zip(translation, rotation, strict=True))
+    turned = tuple(tuple(dot(row, column) for column in columns) for row in rotation)
+    moved = tuple(p + dot(row, inner[1]) for p, row in zip(translation, rotation, strict=True))
     return turned, moved  # type: ignore[return-value]
 
 
@@ -89,7 +89,7 @@ def lowest_point(geometry: Geometry, at: Pose, hull: Iterable[Sequence[float]] =
         case Cylinder(radius=radius, length=length):
             return height - abs(up[2]) * length / 2 - radius * math.hypot(up[0], up[1])
         case _:
-            return min((height + _dot(up, point) for point in hull), default=None)
+            return min((height + dot(up, point) for point in hull), default=None)
 
 
 def _ranges(skeleton: Skeleton) -> Mapping[str, tuple[float, float]]:
@@ -117,5 +117,6 @@ def _near(position: float) -> float:
     return min(max(position, -_FAR), _FAR)
 
 
-def _dot(a: Sequence[float], b: Sequence[float]) -> float:
+def dot(a: Sequence[float], b: Sequence[float]) -> float:
+    """Scalar product of two vectors of three."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

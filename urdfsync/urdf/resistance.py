@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 
-from urdfsync.urdf.kinematics import Pose, compose, link_poses, pose, start_positions
+from urdfsync.urdf.kinematics import Pose, compose, dot, link_poses, pose, start_positions
 from urdfsync.urdf.robot import Joint, Link, Vector
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
@@ -32,9 +32,9 @@ class _Body:
         """
         lever = _cross(point, axis)
         terms = (
-            _dot(axis, tuple(_dot(row, axis) for row in self.inertia)),
-            -2 * _dot(_cross(self.moment, axis), lever),
-            self.mass * _dot(lever, lever),
+            dot(axis, tuple(dot(row, axis) for row in self.inertia)),
+            -2 * dot(_cross(self.moment, axis), lever),
+            self.mass * dot(lever, lever),
         )
         found = sum(terms)
         return found if found > _ROUNDING * sum(map(abs, terms)) else 0.0
@@ -64,7 +64,7 @@ def _moved(joint: Joint, poses: Mapping[str, Pose], body: _Body) -> float:
     if MOTIONS[joint.type] == "translational":
         return body.mass
     rotation, point = compose(poses[joint.parent], pose(joint.origin))
-    return body.about(point, tuple(_dot(row, joint.axis) for row in rotation))  # type: ignore[arg-type]
+    return body.about(point, tuple(dot(row, joint.axis) for row in rotation))  # type: ignore[arg-type]
 
 
 def _body(link: Link, at: Pose) -> _Body:
@@ -73,10 +73,10 @@ def _body(link: Link, at: Pose) -> _Body:
     mass, i = link.inertial.mass, link.inertial.inertia
     rotation, centre = compose(at, pose(link.inertial.origin))
     tensor = ((i.ixx, i.ixy, i.ixz), (i.ixy, i.iyy, i.iyz), (i.ixz, i.iyz, i.izz))
-    halves = [tuple(_dot(row, column) for column in tensor) for row in rotation]  # the tensor is symmetric
-    square = _dot(centre, centre)
+    halves = [tuple(dot(row, column) for column in tensor) for row in rotation]  # the tensor is symmetric
+    square = dot(centre, centre)
     inertia = [
-        [_dot(half, rotation[k]) + mass * (square * (j == k) - centre[j] * centre[k]) for k in range(3)]
+        [dot(half, rotation[k]) + mass * (square * (j == k) - centre[j] * centre[k]) for k in range(3)]
         for j, half in enumerate(halves)
     ]
     return _Body(mass, tuple(mass * c for c in centre), tuple(map(tuple, inertia)))  # type: ignore[arg-type]
@@ -84,10 +84,6 @@ def _body(link: Link, at: Pose) -> _Body:
 
 def _sum(a: Vector, b: Vector) -> Vector:
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
-
-
-def _dot(a: tuple[float, ...], b: tuple[float, ...]) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def _cross(a: Vector, b: Vector) -> Vector:
