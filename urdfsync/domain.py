@@ -24,6 +24,13 @@ It survives a round trip through JSON, is keyed by element name, does not depend
 elements in the source, and holds all that artifacts are made from.
 """
 
+Parts: TypeAlias = dict[Any, Any]
+"""What a domain keeps of one piece of work for the next of its kind, for a process that builds again and again.
+
+Empty at first, and of no interest to anybody else. It spares work and changes no result; it holds what the last
+model needs and nothing older.
+"""
+
 
 class Role(enum.StrEnum):
     """What a generated file is, as far as deciding about it goes."""
