@@ -23,19 +23,20 @@ def real(value: float | None, absent: str = INFINITY) -> str:
     """
     if value is None:
         return absent
+    if -_LARGEST_INTEGER <= value <= _LARGEST_INTEGER:
+        whole = int(value)
+        return str(whole) if whole == value else repr(float(value))
     if not math.isfinite(value):
         raise ValueError(f"{value} has no Modelica literal")
-    if abs(value) <= _LARGEST_INTEGER and value == int(value):
-        return str(int(value))
     return repr(float(value))
 
 
 def vector(values: Iterable[float]) -> str:
     """A Modelica array constructor; must not be empty, since `{}` is not Modelica."""
-    items = [real(value) for value in values]
+    items = ", ".join(map(real, values))
     if not items:
         raise ValueError("an empty array has no Modelica literal")
-    return "{" + ", ".join(items) + "}"
+    return f"{{{items}}}"
 
 
 def matrix(rows: Sequence[Sequence[float]], columns: int) -> str:
@@ -47,6 +48,8 @@ def matrix(rows: Sequence[Sequence[float]], columns: int) -> str:
 
 def string(value: str) -> str:
     """A Modelica string literal, quotes included; control characters become spaces."""
+    if value.isprintable() and "\\" not in value and '"' not in value:
+        return f'"{value}"'
     return f'"{_CONTROLS.sub(" ", value.translate(_ESCAPES))}"'
 
 

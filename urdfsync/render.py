@@ -7,7 +7,7 @@ that comes from a source reaches Modelica through `string` or `html`, every numb
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, MutableMapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +26,50 @@ _FILTERS = (
 """Filters of the same names."""
 
 
+class _Environment(jinja2.Environment):
+    """Jinja's, quicker where it spends more time than templates do: thousands of small texts are rendered.
+
+    A template is looked for once, its globals are one mapping, and `x.y` is tried as an item first where `x` is a dict.
+    """
+
+    def __init__(self, **settings: Any) -> None:
+        self._found: dict[str, jinja2.Template] = {}
+        super().__init__(**settings)
+
+    def get_template(
+        self,
+        name: str | jinja2.Template,
+        parent: str | None = None,
+        globals: MutableMapping[str, Any] | None = None,  # noqa: A002 - Jinja's word
+    ) -> jinja2.Template:
+        """See Jinja; templates that include others ask for these each time."""
+        if not isinstance(name, str) or globals:
+            return super().get_template(name, parent, globals)
+        if name not in self._found:
+            self._found[name] = super().get_template(name, parent)
+        return self._found[name]
+
+    def make_globals(self, d: MutableMapping[str, Any] | None) -> MutableMapping[str, Any]:
+        """See Jinja, which chains two mappings; each text begins with a copy of it."""
+        return {**self.globals, **(d or {})}
+
+    def getattr(self, obj: Any, attribute: str) -> Any:
+        """See Jinja; that a dict has no such attribute would cost an exception."""
+        try:
+            return obj[attribute] if type(obj) is dict else getattr(obj, attribute)
+        except (AttributeError, KeyError):
+            return super().getattr(obj, attribute)
+
+
 class Renderer:
-    """Renders templates from `folders`; a template in an earlier folder hides one of its name in a later."""
+    """Renders templates from `folders`; a template in an earlier folder hides one of its name in a later.
+
+    Whoever changes a template needs another renderer.
+    """
 
     def __init__(self, folders: Sequence[Path]) -> None:
         self.folders = tuple(folders)
-        self._environment = jinja2.Environment(
+        self._environment = _Environment(
             loader=jinja2.FileSystemLoader([str(folder) for folder in folders]),
             variable_start_string="<<",
             variable_end_string=">>",
@@ -43,8 +81,9 @@ class Renderer:
             trim_blocks=True,
             lstrip_blocks=True,
             keep_trailing_newline=True,
+            auto_reload=False,
             bytecode_cache=bytecode.of_user(),
-            autoescape=False,  # noqa: S701 - Modelica, not HTML; the filters above escape
+            autoescape=False,  # Modelica, not HTML; the filters above escape
         )
         self._environment.filters.update({function.__name__: function for function in _FILTERS})
 
