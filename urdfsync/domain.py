@@ -9,7 +9,7 @@ nothing in here does IO.
 from __future__ import annotations
 
 import enum
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, TypeAlias
 
@@ -46,15 +46,29 @@ class Role(enum.StrEnum):
     """An imported file: bytes, not text; a domain describes it as a `Dependency`."""
 
 
+class Recipe(msgspec.Struct, frozen=True):
+    """How the data of a text is made: as `make(*made_of)`, a pure function. Two that are equal give the same data."""
+
+    make: Callable[..., Mapping[str, Any]]
+    made_of: tuple[Any, ...]
+
+
 class Artifact(msgspec.Struct, frozen=True):
     """One text file of the package: `path` (POSIX, below the package folder) is `template` rendered with `data`."""
 
     path: str
     role: Role
     template: str
-    data: Mapping[str, Any]
+    source: Mapping[str, Any] | Recipe
+    """The data, or its recipe: of a large robot, all data takes as much memory as all texts."""
     owner: str
     """The element that it belongs to, in the domain's words: `link base_link`, `joint elbow`, `robot`."""
+
+    @property
+    def data(self) -> Mapping[str, Any]:
+        """What the template is rendered with; made anew each time that it is asked for, if there is a recipe."""
+        source = self.source
+        return source.make(*source.made_of) if isinstance(source, Recipe) else source
 
 
 class Templates(NamedTuple):
@@ -282,9 +296,17 @@ class Domain(Protocol):
         ...
 
     def artifacts(
-        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
+        self,
+        snapshot: Snapshot,
+        imports: Mapping[str, Import],
+        target: Target,
+        options: Any,
+        parts: Parts | None = None,
     ) -> Sequence[Artifact | Order]:
-        """Every file of the package but the imported ones. Pure."""
+        """Every file of the package but the imported ones. Pure, but for `parts`, which are those of the last call.
+
+        Elements of the snapshot that are the same objects as in that call have not changed.
+        """
         ...
 
     def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 
-from urdfsync import changes, cli, registry
+from urdfsync import cli, registry
 from urdfsync.diagnostics import ConfigError, OutputError
-from urdfsync.domain import Artifact, Role, Target, Templates
+from urdfsync.domain import Artifact, Recipe, Role, Target, Templates
 from urdfsync.files import templates_digest
 from urdfsync.planning.generate import Generated, check_paths, generate
 
@@ -74,16 +75,19 @@ def template_error(folder: Path) -> str:
     return str(found).replace("\\", "/")
 
 
-def test_a_text_counts_as_stale_once_its_data_is_forgotten(tmp_path: Path) -> None:
+def test_data_that_has_a_recipe_is_made_when_the_text_is_rendered_and_once(tmp_path: Path) -> None:
     (tmp_path / "t").write_text("<< number >>")
-    one, two = (
-        Generated([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), ""))
-        for n in (1, 2)
-    )
-    for _ in range(2):
-        assert changes.stale(one.artifacts.values(), two.artifacts.values()).render == {"A.mo"}
-        assert (one.content("A.mo"), two.content("A.mo")) == (b"1", b"2")
-    assert {artifact.owner for artifact in one.artifacts.values()} == {"part"}
+    asked: list[int] = []
+
+    def data(number: int) -> Mapping[str, int]:
+        asked.append(number)
+        return {"number": number}
+
+    files = [Artifact(f"{n}.mo", Role.RECORD, "t", Recipe(data, (n,)), "part") for n in (1, 2)]
+    package = Generated(files, Templates((tmp_path,), ""))
+    assert asked == []
+    assert [package.content("2.mo") for _ in range(2)] == [b"2", b"2"]
+    assert asked == [2]
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ import pytest
 from urdfsync import config, registry
 from urdfsync.build import Request, build
 from urdfsync.diagnostics import OutputError
-from urdfsync.domain import Artifact, Import, Order, Reading, Role, Snapshot, Target
+from urdfsync.domain import Artifact, Import, Order, Parts, Reading, Role, Snapshot, Target
 from urdfsync.planning.memory import Memory
 
 SNAPSHOT: Snapshot = {"name": "n", "elements": {"R1": {"ohm": 1.0}}}
@@ -33,7 +33,12 @@ class Domain:
         return Reading({"content": content.decode(), "file": file, "options": options}, ())
 
     def artifacts(
-        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
+        self,
+        snapshot: Snapshot,
+        imports: Mapping[str, Import],
+        target: Target,
+        options: Any,
+        parts: Parts | None = None,
     ) -> Sequence[Artifact | Order]:
         self.asked += 1
         return [Artifact(self._path, Role.RECORD, "t", {"of": (snapshot, imports, target, options)}, "part")]

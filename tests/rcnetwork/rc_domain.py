@@ -26,6 +26,7 @@ from urdfsync.domain import (
     Import,
     Lookup,
     Order,
+    Parts,
     Proposal,
     Reading,
     Role,
@@ -110,7 +111,12 @@ class RcNetwork:
         return {"elements": {name: name for name in snapshot["elements"]}}
 
     def artifacts(
-        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
+        self,
+        snapshot: Snapshot,
+        imports: Mapping[str, Import],
+        target: Target,
+        options: Options,
+        parts: Parts | None = None,  # networks are small
     ) -> Sequence[Artifact | Order]:
         elements = [snapshot["elements"][name] for name in sorted(snapshot["elements"])]
         nodes = sorted({node for element in elements for node in element["between"]} - {GROUND})

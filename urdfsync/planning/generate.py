@@ -7,31 +7,24 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import msgspec
-
 from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target, Templates
+from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Snapshot, Target, Templates
 
 if TYPE_CHECKING:
     from urdfsync.render import Renderer
 
 _FORBIDDEN = frozenset('\\:*?"<>|')
 """Characters that a path can't have on every system."""
-_FORGOTTEN = "forgotten"
 
 
 class Generated:
-    """The package: text files by their path, and the names for each `package.order`; POSIX, below the package.
-
-    The data of a text is forgotten once that is rendered, since all of a large robot's takes as much memory as the
-    texts. What stands in its place is equal to no other data, so the text counts as stale wherever that is asked.
-    """
+    """The package: text files by their path, and the names for each `package.order`; POSIX, below the package."""
 
     def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates) -> None:
         artifacts = list(artifacts)
-        self.artifacts: dict[str, Artifact] = {a.path: a for a in artifacts if isinstance(a, Artifact)}
+        self.artifacts: Mapping[str, Artifact] = {a.path: a for a in artifacts if isinstance(a, Artifact)}
         self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in artifacts if isinstance(a, Order)}
         self._templates = templates
         self._contents: dict[str, bytes] = {}
@@ -41,7 +34,6 @@ class Generated:
         if path not in self._contents:
             artifact = self.artifacts[path]
             self._contents[path] = _content(_renderer(self._templates), artifact, self._templates.folders)
-            self.artifacts[path] = msgspec.structs.replace(artifact, data={_FORGOTTEN: object()})
         return self._contents[path]
 
 
@@ -55,10 +47,18 @@ def _renderer(templates: Templates) -> Renderer:
 
 @profiling.staged("artifacts")
 def artifacts(
-    domain: Domain, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
+    domain: Domain,
+    snapshot: Snapshot,
+    imports: Mapping[str, Import],
+    target: Target,
+    options: Any,
+    parts: Parts | None = None,
 ) -> Sequence[Artifact | Order]:
-    """The files of the package of a model, before they are rendered. Raises OutputError for paths that can't be."""
-    found = domain.artifacts(snapshot, imports, target, options)
+    """The files of the package of a model, before they are rendered; `parts` are those of the last call.
+
+    Raises OutputError for paths that can't be.
+    """
+    found = domain.artifacts(snapshot, imports, target, options, parts)
     check_paths([artifact.path for artifact in found] + [entry.target for entry in imports.values()])
     return found
 

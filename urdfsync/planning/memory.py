@@ -11,8 +11,7 @@ from typing import Any, Generic, TypeVar
 
 import msgspec
 
-from urdfsync.domain import Artifact, Domain, Import, Order, Reading, Snapshot, Target
-from urdfsync.files import digest
+from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Reading, Snapshot, Target
 from urdfsync.planning import generate
 
 _Value = TypeVar("_Value")
@@ -23,7 +22,7 @@ class Memory:
 
     def __init__(self) -> None:
         self._reading: _Last[Reading] = _Last()
-        self._artifacts: _Last[Sequence[Artifact | Order]] = _Last()
+        self._artifacts: _Files | None = None
 
     def read(self, domain: Domain, options: Any, content: bytes, name: str) -> Reading:
         """What the domain reads in a source: who judges one, and then builds it, reads it once."""
@@ -32,14 +31,45 @@ class Memory:
     def artifacts(
         self, domain: Domain, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
     ) -> Sequence[Artifact | Order]:
-        """The files of a package, see `generate.artifacts`: those of the last build are those that it has made.
+        """The files of a package, see `generate.artifacts`: those of the last build are those that it has made."""
+        last = self._artifacts
+        if last is not None and last.domain is domain and last.are_of(snapshot, imports, target, options):
+            return last.files
+        parts = last.parts if last is not None and last.domain is domain else {}
+        files = generate.artifacts(domain, snapshot, imports, target, options, parts)
+        self._artifacts = _Files(domain, snapshot, _encoded((imports, target, options)), files, parts)
+        return files
 
-        What they are made of is compared as JSON, in which the numbers 1 and 1.0 differ, as they do in a text.
-        """
-        made_of = msgspec.json.encode((snapshot, imports, target, options), order="sorted")
-        return self._artifacts.get(
-            (domain, digest(made_of)), lambda: generate.artifacts(domain, snapshot, imports, target, options)
-        )
+
+class _Files(msgspec.Struct):
+    """The files of a package, with all that they were made of, and what their domain has kept of them."""
+
+    domain: Domain
+    snapshot: Snapshot
+    others: bytes
+    files: Sequence[Artifact | Order]
+    parts: Parts
+
+    def are_of(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> bool:
+        """Whether that is what they were made of."""
+        return self.others == _encoded((imports, target, options)) and _same(self.snapshot, snapshot, 2)
+
+
+def _same(one: Any, other: Any, depth: int) -> bool:
+    """Whether two values of plain data give the same texts: 1 and 1.0 don't, nor do 0.0 and -0.0.
+
+    Mappings are looked into to this depth, for parts that are one and the same.
+    """
+    if one is other:
+        return True
+    if depth and isinstance(one, Mapping) and isinstance(other, Mapping):
+        return one.keys() == other.keys() and all(_same(value, other[key], depth - 1) for key, value in one.items())
+    return _encoded(one) == _encoded(other)
+
+
+def _encoded(value: Any) -> bytes:
+    """The value as JSON, which tells numbers apart as texts do."""
+    return msgspec.json.encode(value, order="sorted")
 
 
 class _Last(Generic[_Value]):

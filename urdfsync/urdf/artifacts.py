@@ -7,13 +7,16 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Artifact, Import, Order, Role, Target
+from urdfsync.domain import Artifact, Import, Order, Parts, Recipe, Role, Target
+from urdfsync.urdf.kept import Kept
 from urdfsync.urdf.model import assembly, notes, shapes
 from urdfsync.urdf.model.numbers import joint_numbers
+from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
+from urdfsync.urdf.naming import Identifier
 from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.robot import Joint, Link, Robot
-from urdfsync.urdf.skeleton import Skeleton
+from urdfsync.urdf.robot import Joint, JointType, Link, Robot
+from urdfsync.urdf.skeleton import Skeleton, bare
 
 LINK_MODEL = "link/model.mo.jinja"
 LINK_RECORD = "link/record.mo.jinja"
@@ -21,20 +24,23 @@ JOINT_RECORD = "joint/record.mo.jinja"
 ROBOT_RECORD = "robot/record.mo.jinja"
 _PARAMETERS = "Parameters"
 
-_Shapes = Sequence[Mapping[str, Any]]
 
+def artifacts(
+    robot: Robot, imports: Mapping[str, Import], target: Target, options: Options, parts: Parts | None = None
+) -> list[Artifact | Order]:
+    """Every file of the robot's package but the imported meshes; see `Domain.artifacts` for `parts`.
 
-def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
-    """Every file of the robot's package but the imported meshes."""
-    skeleton = Skeleton.of(robot, taken=(target.name,))
-    context = _Context(skeleton, imports, target, options)
+    Raises KeyError or ValueError for what is no robot that passed all checks, or has meshes without their facts.
+    """
+    context = _context(robot, imports, target, options, Kept(parts, "robot"))
+    skeleton = context.skeleton
     files: list[Artifact | Order] = [*_package(context)]
     if "package" in options.approach:
-        files += _elements(context)
+        files += _elements(context, Kept(parts, "files"))
         files += _robot(context)
     if has_bench(skeleton.joints, options):
-        data = assembly.generic_data(skeleton, target, options)
-        files.append(Artifact(f"{target.name}Generic.mo", Role.MODEL, "robot/generic.mo.jinja", data, "robot"))
+        bench = Recipe(assembly.generic_data, (context.structure, target, options))
+        files.append(Artifact(f"{target.name}Generic.mo", Role.MODEL, "robot/generic.mo.jinja", bench, "robot"))
     files.append(_record(context, robot.name))
     return files
 
@@ -45,9 +51,9 @@ def record(robot: Robot, target: Target, options: Options) -> Artifact:
     It says what the record in a package says, if that is called like this one, and if no mesh has a part in it.
     """
     name = target.name.removesuffix(_PARAMETERS) or target.name
-    skeleton = Skeleton.of(robot, taken=(name,))
-    artifact = _record(_Context(skeleton, {}, Target(target.package, name), options), robot.name)
-    return msgspec.structs.replace(artifact, path=f"{target.name}.mo", data={**artifact.data, "record": target.name})
+    artifact = _record(_context(robot, {}, Target(target.package, name), options, Kept(None, "")), robot.name)
+    data = {**artifact.data, "record": target.name}
+    return msgspec.structs.replace(artifact, path=f"{target.name}.mo", source=data)
 
 
 def models(joints: Sequence[Joint], target: Target, options: Options) -> tuple[str, ...]:
@@ -65,9 +71,26 @@ def has_bench(joints: Sequence[Joint], options: Options) -> bool:
 
 class _Context(msgspec.Struct, frozen=True):
     skeleton: Skeleton
+    structure: Skeleton
+    """The skeleton of the bare robot: all that models of the whole robot depend on."""
     imports: Mapping[str, Import]
     target: Target
     options: Options
+
+
+def _context(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options, kept: Kept) -> _Context:
+    for found in imports.values():
+        _ = found.facts["bounds"], found.facts["hull"]  # here, and not when a text is rendered
+    target, options = kept.same("target", target), kept.same("options", options)
+    structure = kept.get("structure", _structure, kept.same("bare", bare(robot)), target)
+    return _Context(structure.of_numbers(robot), structure, imports, target, options)
+
+
+def _structure(robot: Robot, target: Target) -> Skeleton:
+    structure = Skeleton.of(robot, taken=(target.name,))
+    if len(structure.leaders_first()) < len(structure.joints):
+        raise ValueError("a joint follows one that is not there, or itself")
+    return structure
 
 
 def _package(context: _Context) -> Iterator[Artifact | Order]:
@@ -88,16 +111,19 @@ def _package(context: _Context) -> Iterator[Artifact | Order]:
     yield Order("package.order", (*classes, *folders))
 
 
-def _elements(context: _Context) -> Iterator[Artifact | Order]:
+def _elements(context: _Context, kept: Kept) -> Iterator[Artifact | Order]:
     """What the package approach has of each link and joint."""
     skeleton = context.skeleton
     yield from _subpackage(context, "Links", [skeleton.link(link.name) for link in skeleton.links])
     if skeleton.joints:
         yield from _subpackage(context, "Joints", [skeleton.joint(joint.name) for joint in skeleton.joints])
+    package, options = context.target.package, context.options
     for link in skeleton.links:
-        yield from _link(context, link)
+        name = skeleton.link(link.name)
+        meshes = kept.same(("meshes", link.name), shapes.meshes((*link.visuals, *link.collisions), context.imports))
+        yield from kept.get(("link", link.name), _link, link, name, meshes, package, options)
     for joint in skeleton.joints:
-        yield from _joint(context, joint)
+        yield from kept.get(("joint", joint.name), _joint, joint, skeleton.joint(joint.name), package)
 
 
 def _subpackage(context: _Context, name: str, identifiers: list[Any]) -> Iterator[Artifact | Order]:
@@ -119,76 +145,104 @@ def _package_file(path: str, **data: Any) -> Artifact:
     return Artifact(path, Role.PACKAGE, "package/package.mo.jinja", data, "robot")
 
 
-def _link(context: _Context, link: Link) -> Iterator[Artifact]:
-    identifier, owner = context.skeleton.link(link.name), f"link {link.name}"
-    found = shapes.link_shapes(link, context.imports, context.target, context.options)
-    names = {
-        "within": f"{context.target.package}.Links",
-        "type": identifier.type,
-        "record": identifier.record,
-        "title": f'link "{link.name}"',
+def _link(
+    link: Link, name: Identifier, meshes: Mapping[str, Import], package: str, options: Options
+) -> tuple[Artifact, ...]:
+    owner, looks = f"link {link.name}", shapes.looks(link, meshes, options)
+    record = Recipe(_link_record, (name, package, link, meshes, options))
+    model = Recipe(_link_model, (name, package, link.name, looks, options))
+    return (
+        Artifact(f"Links/{name.record}.mo", Role.RECORD, LINK_RECORD, record, owner),
+        Artifact(f"Links/{name.type}.mo", Role.MODEL, LINK_MODEL, model, owner),
+    )
+
+
+def _link_names(name: Identifier, package: str, link: str) -> dict[str, Any]:
+    return {"within": f"{package}.Links", "type": name.type, "record": name.record, "title": f'link "{link}"'}
+
+
+def _link_record(
+    name: Identifier, package: str, link: Link, meshes: Mapping[str, Import], options: Options
+) -> dict[str, Any]:
+    return _link_names(name, package, link.name) | link_record(link, meshes, package, options)
+
+
+def _link_model(name: Identifier, package: str, link: str, looks: shapes.Looks, options: Options) -> dict[str, Any]:
+    own = {"replaceable": False, "note": notes.link_note(link)}
+    return _link_names(name, package, link) | link_model(*looks, options) | own
+
+
+def link_record(link: Link, imports: Mapping[str, Import], package: str, options: Options) -> dict[str, Any]:
+    """The numbers of a link, for its record."""
+    visuals, collisions = shapes.numbers(link, imports, package, options)
+    return {"name": link.name, "inertial": link.inertial, "visuals": visuals, "collisions": collisions}
+
+
+def link_model(visuals: Sequence[Look], collisions: Sequence[Look], options: Options) -> dict[str, Any]:
+    """The structure of a link, for its model: nothing in it depends on a number of the URDF."""
+    return {
+        "visuals": visuals,
+        "collisions": collisions,
+        "contacts": shapes.contacts(collisions),
+        "visualizer": options.visualizer,
+        "top": max([100, *(shape.y + 20 for shape in visuals)]),
+        "bottom": min([-100, *(shape.y - 20 for shape in collisions)]),
     }
-    record, model = link_record(link, *found), link_model(*found, context.options)
-    model |= {"replaceable": False, "note": notes.link_note(link)}
-    yield Artifact(f"Links/{identifier.record}.mo", Role.RECORD, LINK_RECORD, names | record, owner)
-    yield Artifact(f"Links/{identifier.type}.mo", Role.MODEL, LINK_MODEL, names | model, owner)
 
 
-def _joint(context: _Context, joint: Joint) -> Iterator[Artifact]:
-    identifier, owner = context.skeleton.joint(joint.name), f"joint {joint.name}"
-    names = {
-        "within": f"{context.target.package}.Joints",
-        "type": identifier.type,
-        "record": identifier.record,
+def _joint(joint: Joint, name: Identifier, package: str) -> tuple[Artifact, ...]:
+    owner, loses = f"joint {joint.name}", joint.dynamics is not None
+    own = Joint(joint.name, joint.type, joint.parent, joint.child)
+    record = Recipe(_joint_record, (name, package, joint))
+    model = Recipe(_joint_model, (name, package, own, loses))
+    return (
+        Artifact(f"Joints/{name.record}.mo", Role.RECORD, JOINT_RECORD, record, owner),
+        Artifact(f"Joints/{name.type}.mo", Role.MODEL, joint_template(joint.type), model, owner),
+    )
+
+
+def _joint_names(name: Identifier, package: str, joint: Joint) -> dict[str, Any]:
+    return {
+        "within": f"{package}.Joints",
+        "type": name.type,
+        "record": name.record,
         "title": notes.joint_title(joint),
         "kind": joint.type.capitalize(),
     }
-    record, model = {"joint": joint_numbers(joint)}, joint_model(joint)
-    model |= {"replaceable": False, "note": notes.joint_note(joint)}
-    yield Artifact(f"Joints/{identifier.record}.mo", Role.RECORD, JOINT_RECORD, names | record, owner)
-    yield Artifact(f"Joints/{identifier.type}.mo", Role.MODEL, joint_template(joint), names | model, owner)
 
 
-def link_record(link: Link, visuals: _Shapes, collisions: _Shapes) -> dict[str, Any]:
-    """The numbers of a link, for its record."""
-    return {
-        "name": link.name,
-        "inertial": link.inertial,
-        "visuals": [shapes.numbers(shape) for shape in visuals],
-        "collisions": [shapes.numbers(shape) for shape in collisions],
-    }
+def _joint_record(name: Identifier, package: str, joint: Joint) -> dict[str, Any]:
+    return _joint_names(name, package, joint) | {"joint": joint_numbers(joint, name.component)}
 
 
-def link_model(visuals: _Shapes, collisions: _Shapes, options: Options) -> dict[str, Any]:
-    """The structure of a link, for its model: nothing in it depends on a number of the URDF."""
-    return {
-        "visuals": [shapes.structure(shape) for shape in visuals],
-        "collisions": [shapes.structure(shape) for shape in collisions],
-        "contacts": shapes.contacts(collisions) if options.base == "floating" else [],
-        "visualizer": options.visualizer,
-        "top": max([100, *(shape["y"] + 20 for shape in visuals)]),
-        "bottom": min([-100, *(shape["y"] - 20 for shape in collisions)]),
-    }
+def _joint_model(name: Identifier, package: str, joint: Joint, loses: bool) -> dict[str, Any]:
+    own = {"replaceable": False, "note": notes.joint_note(joint)}
+    return _joint_names(name, package, joint) | joint_model(loses) | own
 
 
-def joint_model(joint: Joint) -> dict[str, Any]:
-    """The structure of a joint, for its model."""
-    return {"dynamics": joint.dynamics is not None, "assertion_level": "warning"}
+def joint_model(loses: bool) -> dict[str, Any]:
+    """The structure of a joint, for its model; one that `loses` has damping or friction."""
+    return {"dynamics": loses, "assertion_level": "warning"}
 
 
-def joint_template(joint: Joint) -> str:
-    """The template of a joint's model."""
-    return f"joint/{joint.type}.mo.jinja"
+def joint_template(kind: JointType) -> str:
+    """The template of the model of such a joint."""
+    return f"joint/{kind}.mo.jinja"
 
 
 def _robot(context: _Context) -> Iterator[Artifact]:
-    name = context.target.name
-    data = assembly.robot_data(context.skeleton, context.target, context.options)
-    yield Artifact(f"{name}.mo", Role.MODEL, "robot/robot.mo.jinja", data, "robot")
-    yield Artifact(f"{name}Run.mo", Role.MODEL, "robot/run.mo.jinja", data, "robot")
-    yield Artifact(f"{name}Test.mo", Role.MODEL, "robot/test.mo.jinja", data, "robot")
+    name, made_of = context.target.name, (context.structure, context.target, context.options)
+    robot, bench = Recipe(assembly.robot_data, made_of), Recipe(assembly.bench_data, made_of)
+    yield Artifact(f"{name}.mo", Role.MODEL, "robot/robot.mo.jinja", robot, "robot")
+    yield Artifact(f"{name}Run.mo", Role.MODEL, "robot/run.mo.jinja", bench, "robot")
+    yield Artifact(f"{name}Test.mo", Role.MODEL, "robot/test.mo.jinja", bench, "robot")
 
 
 def _record(context: _Context, urdf_name: str) -> Artifact:
-    data = assembly.record_data(context.skeleton, context.imports, context.target, context.options, urdf_name)
-    return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, data, "robot")
+    """The record of the whole robot; what it does not depend on is left out before."""
+    skeleton, options, stands = context.skeleton, context.options, context.options.base == "floating"
+    links = [Link(link.name, link.inertial, (), link.collisions if stands else ()) for link in skeleton.links]
+    numbers = Skeleton(tuple(links), skeleton.joints, skeleton.names)
+    imports = context.imports if stands else {}
+    recipe = Recipe(assembly.record_data, (numbers, imports, context.target, options, urdf_name))
+    return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, recipe, "robot")

@@ -16,6 +16,7 @@ from urdfsync.domain import (
     Import,
     Lookup,
     Order,
+    Parts,
     Proposal,
     Reading,
     Snapshot,
@@ -74,12 +75,17 @@ class UrdfDomain:
         return names
 
     def artifacts(
-        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
+        self,
+        snapshot: Snapshot,
+        imports: Mapping[str, Import],
+        target: Target,
+        options: Options,
+        parts: Parts | None = None,
     ) -> Sequence[Artifact | Order]:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf.artifacts import artifacts
 
-        return artifacts(from_snapshot(snapshot), imports, target, options)
+        return artifacts(from_snapshot(snapshot, parts), imports, target, options, parts)
 
     def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
         """See `urdfsync.domain.Domain`."""

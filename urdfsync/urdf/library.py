@@ -5,19 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from urdfsync.domain import Artifact, Import, Order, Role, Target
+from urdfsync.domain import Artifact, Import, Order, Role
 from urdfsync.urdf.artifacts import LINK_MODEL, LINK_RECORD, joint_model, joint_template, link_model, link_record
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.shapes import link_shapes
+from urdfsync.urdf.model.shapes import looks
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,
     Capsule,
     Collision,
     Cylinder,
-    Dynamics,
     Geometry,
-    Joint,
     JointType,
     Link,
     Mesh,
@@ -67,12 +65,12 @@ def library_artifacts() -> Iterator[Artifact | Order]:
 
 
 def _record(name: str, link: Link) -> Artifact:
-    data = link_record(link, *_shapes(link)) | _names("Links", name, f"{name}Parameters")
+    data = link_record(link, _IMPORTS, "UrdfSync", Options()) | _names("Links", name, f"{name}Parameters")
     return Artifact(f"Links/{name}Parameters.mo", Role.RECORD, LINK_RECORD, data, name)
 
 
 def _link(name: str, record: str, link: Link, note: str) -> Artifact:
-    data = link_model(*_shapes(link), Options()) | _names("Links", name, record)
+    data = link_model(*looks(link, _IMPORTS, Options()), Options()) | _names("Links", name, record)
     data |= {"replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
     return Artifact(f"Links/{name}.mo", Role.MODEL, LINK_MODEL, data, name)
 
@@ -80,10 +78,9 @@ def _link(name: str, record: str, link: Link, note: str) -> Artifact:
 def _joint(kind: JointType, note: str) -> Artifact:
     name = kind.capitalize()
     moving = kind in MOTIONS or kind == "planar"
-    joint = Joint("", kind, "", "", dynamics=Dynamics() if moving else None)
-    data = joint_model(joint) | _names("Joints", name, f"UrdfSync.Records.{name}Joint")
+    data = joint_model(loses=moving) | _names("Joints", name, f"UrdfSync.Records.{name}Joint")
     data |= {"kind": name, "replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
-    return Artifact(f"Joints/{name}.mo", Role.MODEL, joint_template(joint), data, name)
+    return Artifact(f"Joints/{name}.mo", Role.MODEL, joint_template(kind), data, name)
 
 
 def _names(package: str, name: str, record: str) -> dict[str, Any]:
@@ -91,7 +88,3 @@ def _names(package: str, name: str, record: str) -> dict[str, Any]:
     kind = name.removesuffix("Link").lower()
     title = f"{kind} {word}" if kind else word
     return {"within": f"UrdfSync.{package}", "type": name, "record": record, "title": title}
-
-
-def _shapes(link: Link) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    return link_shapes(link, _IMPORTS, Target("UrdfSync", ""), Options())

@@ -34,10 +34,22 @@ class Skeleton(msgspec.Struct, frozen=True):
 
     @classmethod
     def of(cls, robot: Robot, taken: Iterable[str] = ()) -> Skeleton:
-        """The skeleton of a robot that passed all checks; `taken` names are not given to any element."""
+        """The skeleton of a robot that passed all checks; `taken` names are not given to any element.
+
+        Raises KeyError or ValueError for a robot that passes none.
+        """
         links, joints = _depth_first(robot)
         keys = [("link", link.name) for link in links] + [("joint", joint.name) for joint in joints]
         return cls(links, joints, identify(keys, taken))
+
+    def of_numbers(self, robot: Robot) -> Skeleton:
+        """The same with the links and joints of a robot, whose `bare` this is the skeleton of."""
+        links, joints = {link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}
+        return Skeleton(
+            tuple([links[link.name] for link in self.links]),
+            tuple([joints[joint.name] for joint in self.joints]),
+            self.names,
+        )
 
     def link(self, name: str) -> Identifier:
         """Identifier of a link."""
@@ -81,6 +93,18 @@ class Skeleton(msgspec.Struct, frozen=True):
         for joint in order:  # grows while it is walked
             order += (follower for follower, _ in followers.get(joint.name, ()))
         return order
+
+
+def bare(robot: Robot) -> Robot:
+    """What of a robot is no number: its links and joints, and which joints follow which."""
+    links = tuple([Link(link.name) for link in robot.links])
+    joints = tuple([_bare(joint) for joint in robot.joints])
+    return Robot(robot.name, links, joints)
+
+
+def _bare(joint: Joint) -> Joint:
+    mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
+    return Joint(joint.name, joint.type, joint.parent, joint.child, mimic=mimic)
 
 
 def _depth_first(robot: Robot) -> tuple[tuple[Link, ...], tuple[Joint, ...]]:

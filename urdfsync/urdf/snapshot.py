@@ -12,12 +12,15 @@ block of a diff; every number is there, defaults too, so that a change of a numb
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Snapshot
-from urdfsync.urdf.robot import Robot
+from urdfsync.domain import Parts, Snapshot
+from urdfsync.urdf.kept import Kept
+from urdfsync.urdf.robot import Joint, Link, Robot
 
 _NESTED = (dict, list, tuple)
 
@@ -36,10 +39,11 @@ def to_snapshot(robot: Robot) -> Snapshot:
     }
 
 
-def from_snapshot(snapshot: Snapshot) -> Robot:
+def from_snapshot(snapshot: Snapshot, parts: Parts | None = None) -> Robot:
     """The robot of a snapshot, its elements sorted by name: the inverse of `to_snapshot`.
 
-    Raises ValueError (msgspec.ValidationError) or KeyError for data that is no snapshot of a robot.
+    With `parts` of the last call, elements that are the same objects as then give the same links and joints. Raises
+    ValueError (msgspec.ValidationError) or KeyError for data that is no snapshot of a robot.
     """
     extensions = [
         {"owner": owner, "tag": tag, "text": text}
@@ -47,13 +51,21 @@ def from_snapshot(snapshot: Snapshot) -> Robot:
         for tag, texts in tags.items()
         for text in texts
     ]
-    plain = {
-        "name": snapshot["name"],
-        "links": [{"name": name, **link} for name, link in snapshot["links"].items()],
-        "joints": [{"name": name, **joint} for name, joint in snapshot["joints"].items()],
-        "extensions": extensions,
-    }
-    return msgspec.convert(plain, Robot)
+    robot = msgspec.convert({"name": snapshot["name"], "extensions": extensions}, Robot)
+    links, joints = Kept(parts, "links"), Kept(parts, "joints")
+    return msgspec.structs.replace(
+        robot,
+        links=tuple([links.get(name, partial(_link, name), link) for name, link in snapshot["links"].items()]),
+        joints=tuple([joints.get(name, partial(_joint, name), joint) for name, joint in snapshot["joints"].items()]),
+    )
+
+
+def _link(name: str, link: Mapping[str, Any]) -> Link:
+    return msgspec.convert({"name": name, **link}, Link)
+
+
+def _joint(name: str, joint: Mapping[str, Any]) -> Joint:
+    return msgspec.convert({"name": name, **joint}, Joint)
 
 
 def _without_absent(value: Any) -> Any:

@@ -66,8 +66,8 @@ GRIPPER = skeleton(
 
 def test_tables_count_from_one_in_canonical_order() -> None:
     found = record(GRIPPER)
-    assert [link["name"] for link in found["links"]] == ["base", "palm", "camera", "lens", "right", "left", "gear"]
-    assert [joint["name"] for joint in found["joints"]] == ["turn", "mount", "lock", "other", "slide", "pinion"]
+    assert [link.name for link in found["links"]] == ["base", "palm", "camera", "lens", "right", "left", "gear"]
+    assert [joint.name for joint in found["joints"]] == ["turn", "mount", "lock", "other", "slide", "pinion"]
     assert found["connection_matrix"] == [(1, 2), (2, 3), (3, 4), (2, 5), (2, 6), (6, 7)]
     assert found["moveable_joints"] == [(1, 1), (3, 1), (4, 1), (5, 1), (6, 1)]
     assert found["name"] == "the robot"
@@ -76,30 +76,30 @@ def test_tables_count_from_one_in_canonical_order() -> None:
 @given(robots())
 def test_the_tables_say_what_the_tree_is(robot: Robot) -> None:
     found = record(Skeleton.of(robot))
-    names = [link["name"] for link in found["links"]]
+    names = [link.name for link in found["links"]]
     ends = {(names[parent - 1], names[child - 1]) for parent, child in found["connection_matrix"]}
     assert ends == {(joint.parent, joint.child) for joint in robot.joints}
-    moving = {found["joints"][number - 1]["name"] for number, _ in found["moveable_joints"]}
+    moving = {found["joints"][number - 1].name for number, _ in found["moveable_joints"]}
     assert moving == {joint.name for joint in robot.joints if joint.type != "fixed"}
     assert all(child == row + 1 for row, (_, child) in enumerate(found["connection_matrix"], start=1))
 
 
 def test_only_joints_that_follow_nothing_can_be_driven() -> None:
     rotational, translational = vectors(GRIPPER)
-    assert [(axis["name"], axis["number"]) for axis in rotational["axes"]] == [("turn", 1)]
-    assert [(axis["name"], axis["number"]) for axis in translational["axes"]] == [("slide", 1)]
+    assert [(axis.name, axis.number) for axis in rotational["axes"]] == [("turn", 1)]
+    assert [(axis.name, axis.number) for axis in translational["axes"]] == [("slide", 1)]
     assert vectors(skeleton(Joint("j", "fixed", "a", "b"))) == []
 
 
 def test_a_range_respects_all_that_follow() -> None:
     _, translational = vectors(GRIPPER)
     (axis,) = translational["axes"]
-    assert axis["range"].count("leaderRange") == 2
-    assert axis["range"].index("slide.") < axis["range"].index("other.") < axis["range"].index("pinion.")
+    assert axis.range.count("leaderRange") == 2
+    assert axis.range.index("slide.") < axis.range.index("other.") < axis.range.index("pinion.")
 
 
 def test_every_pairing_has_its_coupling() -> None:
-    found = {entry["follower"]: (entry["component"], entry["type"], entry["leader"]) for entry in couplings(GRIPPER)}
+    found = {entry.follower: (entry.component, entry.type, entry.leader) for entry in couplings(GRIPPER)}
     assert found == {
         "other": ("otherMimic", "TranslationalToTranslational", "slide"),
         "pinion": ("pinionMimic", "TranslationalToRotational", "other"),
@@ -108,7 +108,7 @@ def test_every_pairing_has_its_coupling() -> None:
 
 
 def test_joints_are_told_their_axis_and_followers_where_to_start() -> None:
-    modifiers = {joint["component"]: joint["modifiers"] for joint in data(GRIPPER)["joints"]}
+    modifiers = {joint.component: joint.modifiers for joint in data(GRIPPER)["joints"]}
     assert "axisNumber = 1" in modifiers["slide"]
     assert "s_start = s_start[1]" in modifiers["slide"]
     assert modifiers["mount"] == []
@@ -122,13 +122,13 @@ def test_joints_are_told_their_axis_and_followers_where_to_start() -> None:
 
 @pytest.mark.parametrize("kind", ["fixed", "planar", "floating"])
 def test_joints_without_an_axis_have_nothing_to_be_told(kind: JointType) -> None:
-    assert data(skeleton(Joint("j", kind, "a", "b")))["joints"][0]["modifiers"] == []
+    assert data(skeleton(Joint("j", kind, "a", "b")))["joints"][0].modifiers == []
 
 
 @given(robots())
 def test_the_robot_model_has_every_element_once_and_a_place_for_each(robot: Robot) -> None:
     found = data(Skeleton.of(robot))
-    names = [entry["component"] for kind in ("links", "joints", "couplings") for entry in found[kind]]
+    names = [entry.component for kind in ("links", "joints", "couplings") for entry in found[kind]]
     assert len(set(names)) == len(robot.links) + len(robot.joints) + sum(
         joint.mimic is not None and joint.type in MOTIONS for joint in robot.joints
     )

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from urdfsync.urdf.model import notes
-from urdfsync.urdf.robot import Joint, JointType, Link
+from urdfsync.urdf.robot import Joint, JointType
 
 KINDS: tuple[JointType, ...] = ("fixed", "continuous", "revolute", "prismatic", "planar", "floating")
 NAMES = st.text(st.sampled_from("ab<>&\"'/ ;"), min_size=1) | st.sampled_from(["</code></html>", "<!--", "]]>", "&lt;"])
@@ -21,7 +21,7 @@ def codes(note: str) -> list[str]:
 
 @given(NAMES)
 def test_a_links_note_shows_its_name(name: str) -> None:
-    assert codes(notes.link_note(Link(name))) == [name]
+    assert codes(notes.link_note(name)) == [name]
 
 
 @given(NAMES, NAMES, NAMES, st.sampled_from(KINDS))

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 import pytest
 
-from urdfsync.domain import Import, Target
+from urdfsync.domain import Import
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.shapes import GREY, PINK, contacts, hull, link_shapes
+from urdfsync.urdf.model.shapes import GREY, PINK, Numbers, contacts, hull, looks, meshes, numbers
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,
@@ -24,7 +24,7 @@ from urdfsync.urdf.robot import (
     Visual,
 )
 
-TARGET = Target("Plant.Arm", "Arm")
+PACKAGE = "Plant.Arm"
 MESH = Mesh("meshes/a.stl")
 POINTS = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0]]
 
@@ -36,14 +36,14 @@ def imported(points: list[list[float]]) -> Mapping[str, Import]:
 
 def visual_of(
     geometry: Geometry, material: Material | None = None, imports: Mapping[str, Import] | None = None
-) -> dict[str, object]:
+) -> Numbers:
     link = Link("l", visuals=(Visual(geometry, material=material),))
-    visuals, _ = link_shapes(link, imports or {}, TARGET, Options())
+    visuals, _ = numbers(link, imports or {}, PACKAGE, Options())
     return visuals[0]
 
 
 @pytest.mark.parametrize(
-    ("geometry", "kind", "numbers"),
+    ("geometry", "kind", "literals"),
     [
         (Box((1, 2, 0.5)), "Box", [("size", "{1, 2, 0.5}")]),
         (Sphere(0.25), "Sphere", [("radius", "0.25")]),
@@ -51,13 +51,13 @@ def visual_of(
         (Capsule(0.25, 2), "Capsule", [("radius", "0.25"), ("length", "2")]),
     ],
 )
-def test_each_kind_has_its_numbers(geometry: Geometry, kind: str, numbers: list[tuple[str, str]]) -> None:
+def test_each_kind_has_its_numbers(geometry: Geometry, kind: str, literals: list[tuple[str, str]]) -> None:
     visual = visual_of(geometry)
-    assert (visual["type"], visual["numbers"]) == (kind, numbers)
+    assert (visual.type, visual.numbers) == (kind, literals)
 
 
 def test_a_mesh_has_a_modelica_uri_and_its_bounds() -> None:
-    assert visual_of(MESH, imports=imported(POINTS))["numbers"] == [
+    assert visual_of(MESH, imports=imported(POINTS)).numbers == [
         ("uri", '"modelica://Plant.Arm/Resources/a_12345678.stl"'),
         ("lower", "{0, 0, -1}"),
         ("upper", "{1, 0.5, 0}"),
@@ -78,37 +78,39 @@ def test_colours_are_integers_that_tools_take(
     material: Material | None, color: tuple[int, ...], opacity: float
 ) -> None:
     visual = visual_of(Sphere(1), material)
-    assert (visual["color"], visual["opacity"]) == (color, opacity)
+    assert (visual.color, visual.opacity) == (color, opacity)
 
 
 def test_shapes_keep_their_numbers_when_a_mesh_is_not_found() -> None:
     shapes: tuple[Geometry, ...] = (Sphere(1), MESH, Sphere(2))
     link = Link("l", visuals=tuple(map(Visual, shapes)), collisions=tuple(map(Collision, shapes)))
-    visuals, collisions = link_shapes(link, {}, TARGET, Options())
-    assert [shape["component"] for shape in visuals] == ["visual1", "visual3"]
-    assert [shape["component"] for shape in collisions] == ["collision1", "collision3"]
-    assert [shape["y"] for shape in visuals + collisions] == [30, 60, -30, -60]
+    for visuals, collisions in (looks(link, {}, Options()), numbers(link, {}, PACKAGE, Options())):
+        assert [shape.component for shape in visuals] == ["visual1", "visual3"]
+        assert [shape.component for shape in collisions] == ["collision1", "collision3"]
+    visible, tangible = looks(link, {}, Options())
+    assert [shape.y for shape in visible + tangible] == [30, 60, -30, -60]
 
 
 def test_titles_tell_the_name_if_there_is_one() -> None:
     link = Link("l", visuals=(Visual(Sphere(1)), Visual(Sphere(1), name='a "b"')), collisions=(Collision(Sphere(1)),))
-    visuals, collisions = link_shapes(link, {}, TARGET, Options())
-    assert [shape["title"] for shape in visuals + collisions] == ["Visual 1", 'Visual 2: "a "b""', "Collision 1"]
-    assert collisions[0]["color"] == PINK
+    visuals, collisions = numbers(link, {}, PACKAGE, Options())
+    assert [shape.title for shape in visuals + collisions] == ["Visual 1", 'Visual 2: "a "b""', "Collision 1"]
+    assert collisions[0].color == PINK
 
 
 def test_collisions_can_be_left_out() -> None:
     link = Link("l", visuals=(Visual(Sphere(1)),), collisions=(Collision(Sphere(1)),))
-    visuals, collisions = link_shapes(link, {}, TARGET, Options(collisions=False))
-    assert (len(visuals), collisions) == (1, [])
+    hidden = Options(collisions=False)
+    for visuals, collisions in (looks(link, {}, hidden), numbers(link, {}, PACKAGE, hidden)):
+        assert (len(visuals), len(collisions)) == (1, 0)
 
 
 @pytest.mark.parametrize(("base", "points"), [("fixed", ()), ("floating", POINTS)])
 def test_only_what_stands_on_the_ground_needs_a_hull(base: str, points: object) -> None:
     link = Link("l", visuals=(Visual(MESH),), collisions=(Collision(MESH),))
-    visuals, collisions = link_shapes(link, imported(POINTS), TARGET, Options(base=base))  # type: ignore[arg-type]
-    assert visuals[0]["hull"] == ()
-    assert collisions[0]["hull"] == points
+    visuals, collisions = numbers(link, imported(POINTS), PACKAGE, Options(base=base))  # type: ignore[arg-type]
+    assert visuals[0].hull == ()
+    assert collisions[0].hull == points
 
 
 def test_every_collision_touches_the_ground_but_a_mesh_without_points() -> None:
@@ -116,11 +118,22 @@ def test_every_collision_touches_the_ground_but_a_mesh_without_points() -> None:
     options = Options(base="floating")
 
     def touching(points: list[list[float]]) -> list[tuple[str, str, int]]:
-        _, collisions = link_shapes(Link("l", collisions=shapes), imported(points), TARGET, options)
-        return [(contact["component"], contact["type"], contact["y"]) for contact in contacts(collisions)]
+        _, collisions = looks(Link("l", collisions=shapes), imported(points), options)
+        return [(contact.component, contact.type, contact.y) for contact in contacts(collisions)]
 
     assert touching(POINTS) == [("contact1", "Box", -30), ("contact2", "Points", -60), ("contact3", "Sphere", -90)]
     assert touching([]) == [("contact1", "Box", -30), ("contact3", "Sphere", -90)]
+
+
+def test_without_a_ground_nothing_touches_it() -> None:
+    _, collisions = looks(Link("l", collisions=(Collision(Sphere(1)),)), {}, Options())
+    assert contacts(collisions) == []
+
+
+def test_the_imports_of_shapes_are_those_that_they_show() -> None:
+    found, others = imported(POINTS), {"b.stl": imported([])[key(MESH)]}
+    assert meshes([Visual(MESH), Visual(Sphere(1)), Visual(Mesh("c.stl"))], {**found, **others}) == found
+    assert meshes([Visual(MESH)], {}) == {}
 
 
 def test_the_hull_is_that_of_the_import() -> None:

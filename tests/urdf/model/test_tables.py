@@ -217,9 +217,9 @@ def test_references_are_to_what_the_record_has_and_no_number_is_written(robot: R
     of = Skeleton.of(robot)
     fields = {of.link(link.name).component: {"inertial"} for link in of.links}
     for joint in of.joints:
-        numbers = joint_numbers(joint)
+        numbers = joint_numbers(joint, of.joint(joint.name).component)
         groups = {"limits", "dynamics", "mimic"} if joint.type != "fixed" else set()
-        groups |= {"axis"} if numbers["axis"] else set()
+        groups |= {"axis"} if numbers.axis else set()
         fields[of.joint(joint.name).component] = {"name", "origin", *groups}
     text = " ".join(record_tables(of)).replace("Modelica.Constants.inf", "")
     for reference in REFERENCE.findall(text):

@@ -19,7 +19,6 @@ stands above its follower; the line from its leader runs through the gap between
 
 from __future__ import annotations
 
-import functools
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Literal, NamedTuple, TypeAlias
@@ -111,18 +110,6 @@ def layout(tree: Tree) -> Diagram:
     No two components overlap and no line crosses a component. `tree` has to be one, with distinct
     names, and its couplings join rotational and translational joints.
     """
-    children = tuple((link, tuple(joints)) for link, joints in tree.children.items())
-    return _layout(tree.root, children, tuple(tree.leaves.items()), tuple(tree.couplings))
-
-
-@functools.lru_cache(maxsize=1)  # most changes of a robot leave its structure as it is
-def _layout(
-    root: str,
-    children: tuple[tuple[str, tuple[TreeJoint, ...]], ...],
-    leaves: tuple[tuple[str, int], ...],
-    couplings: tuple[TreeCoupling, ...],
-) -> Diagram:
-    tree = Tree(root, dict(children), dict(leaves), couplings)
     plan = _plan(tree)
     lines: dict[Connection, Path] = {}
     kinds: dict[Connection, LineKind] = {}

@@ -23,5 +23,5 @@ def draw(robot: Robot, target: Target) -> str:
         kind = MOTIONS.get(joint.type) or ("fixed" if joint.type == "fixed" else "free")
         labels[component] = Label(kind, component, str(numbers.get(joint.name, "")))
     for coupling in couplings(skeleton):
-        labels[coupling["component"]] = Label("coupling", coupling["component"])
+        labels[coupling.component] = Label("coupling", coupling.component)
     return svg(layout(tree(skeleton)), labels, target.package)

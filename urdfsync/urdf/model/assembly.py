@@ -6,6 +6,8 @@ import math
 from collections.abc import Container, Iterable, Mapping
 from typing import Any
 
+import msgspec
+
 from urdfsync.domain import Import, Target
 from urdfsync.urdf.diagram import layout
 from urdfsync.urdf.kinematics import compose, link_poses, lowest_point, pose, start_positions
@@ -13,7 +15,7 @@ from urdfsync.urdf.model import notes, tables
 from urdfsync.urdf.model.numbers import joint_numbers
 from urdfsync.urdf.model.shapes import hull
 from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.robot import Joint
+from urdfsync.urdf.robot import Inertial, Joint
 from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 
 _WORDS: Mapping[Motion, Mapping[str, Any]] = {
@@ -60,28 +62,83 @@ _WORDS: Mapping[Motion, Mapping[str, Any]] = {
 _LINE_COLORS = {"frame": "95, 95, 95", "rotational": "0, 0, 0", "translational": "0, 127, 0"}
 
 
-def robot_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str, Any]:
-    """Data of the robot model and of its benches: structure only, no number of the URDF."""
-    diagram = layout.layout(tree(skeleton))
-    numbers = axis_numbers(skeleton)
-    motions = {joint.name: MOTIONS.get(joint.type) for joint in skeleton.joints}
-    leaders = skeleton.followers_by_leader()
+class Part(msgspec.Struct, frozen=True):
+    """A link or a joint in the robot model."""
+
+    component: str
+    type: str
+    title: str
+    modifiers: list[str] = []
+
+
+class Named(msgspec.Struct, frozen=True):
+    """A link by its names; its numbers where they are said."""
+
+    component: str
+    name: str
+    inertial: Inertial | None = None
+
+
+class Axis(msgspec.Struct, frozen=True):
+    """An axis that can be driven, with the number that it has in the flange vectors of its kind."""
+
+    component: str
+    name: str
+    number: int
+    range: str
+    """A Modelica expression."""
+    leads: bool
+    """Whether other joints follow it."""
+
+
+class Coupling(msgspec.Struct, frozen=True):
+    """A joint that follows another one, which is None if that has no axis."""
+
+    component: str
+    type: str
+    leader: str | None
+    follower: str
+    title: str
+
+
+class Line(msgspec.Struct, frozen=True):
+    """A connection in the robot's diagram."""
+
+    start: str
+    end: str
+    points: str
+    color: str
+    thick: bool
+
+
+def bench_data(structure: Skeleton, target: Target, options: Options) -> dict[str, Any]:
+    """Data of the robot's benches; as in all that is a `structure` here, no number of the URDF counts."""
     return {
         "within": target.package,
         "type": target.name,
         "record": f"{target.name}Parameters",
         "title": f"robot {target.name}",
-        "note": notes.robot_note(target.name),
         "run_note": notes.run_note(target.name),
         "test_note": notes.test_note(target.name),
-        "assertion_level": "warning",
         "base": options.base,
         "visualizer": options.visualizer,
-        "vectors": vectors(skeleton),
-        "leaves": [{"component": skeleton.link(leaf.name).component, "name": leaf.name} for leaf in skeleton.leaves()],
-        "links": [_link(skeleton, link.name) for link in skeleton.links],
-        "joints": [_joint(skeleton, joint, numbers, motions, leaders) for joint in skeleton.joints],
-        "couplings": couplings(skeleton),
+        "vectors": vectors(structure),
+    }
+
+
+def robot_data(structure: Skeleton, target: Target, options: Options) -> dict[str, Any]:
+    """Data of the robot model."""
+    diagram = layout.layout(tree(structure))
+    numbers = axis_numbers(structure)
+    motions = {joint.name: MOTIONS.get(joint.type) for joint in structure.joints}
+    leaders = structure.followers_by_leader()
+    return bench_data(structure, target, options) | {
+        "note": notes.robot_note(target.name),
+        "assertion_level": "warning",
+        "leaves": [Named(structure.link(leaf.name).component, leaf.name) for leaf in structure.leaves()],
+        "links": [_link(structure, link.name) for link in structure.links],
+        "joints": [_joint(structure, joint, numbers, motions, leaders) for joint in structure.joints],
+        "couplings": couplings(structure),
         "extent": _extent(diagram.extent),
         "diagram": {name: _extent((box.x1, box.y1, box.x2, box.y2)) for name, box in diagram.placements.items()},
         "lines": _lines(diagram),
@@ -119,13 +176,8 @@ def record_data(
         "moveable_joints": [(k, 1) for k, joint in enumerate(skeleton.joints, 1) if joint.type != "fixed"],
         "tables": tables.record_tables(skeleton) if generic else [],
         "vectors": vectors(skeleton) if generic else [],
-        "links": [
-            {"component": skeleton.link(link.name).component, "name": link.name, "inertial": link.inertial}
-            for link in skeleton.links
-        ],
-        "joints": [
-            {"component": skeleton.joint(joint.name).component, **joint_numbers(joint)} for joint in skeleton.joints
-        ],
+        "links": [Named(skeleton.link(link.name).component, link.name, link.inertial) for link in skeleton.links],
+        "joints": [joint_numbers(joint, skeleton.joint(joint.name).component) for joint in skeleton.joints],
     }
 
 
@@ -148,13 +200,7 @@ def vectors(skeleton: Skeleton) -> list[dict[str, Any]]:
     result = []
     for motion, words in _WORDS.items():
         axes = [
-            {
-                "component": skeleton.joint(joint.name).component,
-                "name": joint.name,
-                "number": number,
-                "range": ranges[joint.name],
-                "leads": joint.name in leaders,
-            }
+            Axis(skeleton.joint(joint.name).component, joint.name, number, ranges[joint.name], joint.name in leaders)
             for number, joint in enumerate(skeleton.axes(motion), 1)
         ]
         if axes:
@@ -162,20 +208,21 @@ def vectors(skeleton: Skeleton) -> list[dict[str, Any]]:
     return result
 
 
-def couplings(skeleton: Skeleton) -> list[dict[str, Any]]:
+def couplings(skeleton: Skeleton) -> list[Coupling]:
     """One entry per joint that follows another one."""
     types = {joint.name: MOTIONS.get(joint.type) for joint in skeleton.joints}
     result = []
     for joint, mimic in skeleton.followers():
         leader, follower = types[mimic.joint], MOTIONS[joint.type]
+        component = skeleton.joint(joint.name).component
         result.append(
-            {
-                "component": f"{skeleton.joint(joint.name).component}Mimic",
-                "type": f"{leader.capitalize()}To{follower.capitalize()}" if leader else f"Held{follower.capitalize()}",
-                "leader": skeleton.joint(mimic.joint).component if leader else None,
-                "follower": skeleton.joint(joint.name).component,
-                "title": f'Joint "{joint.name}" follows joint "{mimic.joint}"',
-            }
+            Coupling(
+                f"{component}Mimic",
+                f"{leader.capitalize()}To{follower.capitalize()}" if leader else f"Held{follower.capitalize()}",
+                skeleton.joint(mimic.joint).component if leader else None,
+                component,
+                f'Joint "{joint.name}" follows joint "{mimic.joint}"',
+            )
         )
     return result
 
@@ -199,13 +246,13 @@ def tree(skeleton: Skeleton) -> layout.Tree:
         root=skeleton.link(skeleton.links[0].name).component,
         children=children,
         leaves={skeleton.link(leaf.name).component: k for k, leaf in enumerate(skeleton.leaves(), 1)},
-        couplings=[layout.TreeCoupling(c["component"], c["leader"], c["follower"]) for c in couplings(skeleton)],
+        couplings=[layout.TreeCoupling(c.component, c.leader, c.follower) for c in couplings(skeleton)],
     )
 
 
-def _link(skeleton: Skeleton, name: str) -> dict[str, Any]:
+def _link(skeleton: Skeleton, name: str) -> Part:
     identifier = skeleton.link(name)
-    return {"component": identifier.component, "type": identifier.type, "title": f'link "{name}"'}
+    return Part(identifier.component, identifier.type, f'link "{name}"')
 
 
 def _joint(
@@ -214,7 +261,7 @@ def _joint(
     numbers: Mapping[str, int],
     motions: Mapping[str, Motion | None],
     leaders: Container[str],
-) -> dict[str, Any]:
+) -> Part:
     identifier = skeleton.joint(joint.name)
     modifiers: list[str] = []
     if motion := motions[joint.name]:
@@ -224,12 +271,7 @@ def _joint(
         else:
             leader = skeleton.joint(joint.mimic.joint).component
             modifiers = _following(q, identifier.component, leader, motions[joint.mimic.joint])
-    return {
-        "component": identifier.component,
-        "type": identifier.type,
-        "title": notes.joint_title(joint),
-        "modifiers": modifiers,
-    }
+    return Part(identifier.component, identifier.type, notes.joint_title(joint), modifiers)
 
 
 def _driven(q: str, v: str, number: int, *, leads: bool) -> list[str]:
@@ -299,14 +341,14 @@ def _extent(box: Iterable[int]) -> str:
     return f"{{{{{x1}, {y1}}}, {{{x2}, {y2}}}}}"
 
 
-def _lines(diagram: layout.Diagram) -> list[dict[str, Any]]:
+def _lines(diagram: layout.Diagram) -> list[Line]:
     return [
-        {
-            "start": start,
-            "end": end,
-            "points": ", ".join(f"{{{x}, {y}}}" for x, y in points),
-            "color": _LINE_COLORS[diagram.kinds[start, end]],
-            "thick": diagram.kinds[start, end] == "frame",
-        }
+        Line(
+            start,
+            end,
+            ", ".join([f"{{{x}, {y}}}" for x, y in points]),
+            _LINE_COLORS[diagram.kinds[start, end]],
+            diagram.kinds[start, end] == "frame",
+        )
         for (start, end), points in diagram.lines.items()
     ]

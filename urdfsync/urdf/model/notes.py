@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfsync.literals import html
-from urdfsync.urdf.robot import Joint, Link
+from urdfsync.urdf.robot import Joint
 
 _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
 
@@ -29,9 +29,9 @@ def package_note(name: str, *, bench: bool) -> str:
     return text + "where both changed."
 
 
-def link_note(link: Link) -> str:
+def link_note(name: str) -> str:
     """Documentation of a link's model, as HTML."""
-    return f"Rigid body, visuals and collisions of the URDF link <code>{html(link.name)}</code>. {_EDIT}"
+    return f"Rigid body, visuals and collisions of the URDF link <code>{html(name)}</code>. {_EDIT}"
 
 
 def joint_title(joint: Joint) -> str:

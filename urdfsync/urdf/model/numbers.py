@@ -2,22 +2,34 @@
 
 from __future__ import annotations
 
-from typing import Any
+import msgspec
 
 from urdfsync.literals import INFINITY, real
-from urdfsync.urdf.robot import Joint, Vector
+from urdfsync.urdf.robot import Joint, Origin, Vector
 from urdfsync.urdf.skeleton import MOTIONS
 
 
-def joint_numbers(joint: Joint) -> dict[str, Any]:
-    """Template data of a joint's record: name, origin, axis and the groups that the joint has."""
-    return {
-        "name": joint.name,
-        "kind": joint.type.capitalize(),
-        "origin": joint.origin,
-        "axis": axis(joint),
-        "groups": _groups(joint),
-    }
+class Group(msgspec.Struct, frozen=True):
+    """Numbers of a joint that come and go together: pairs of a field and its literal."""
+
+    name: str
+    numbers: list[tuple[str, str]]
+
+
+class JointNumbers(msgspec.Struct, frozen=True):
+    """What the record of a joint says, and the record of the whole robot under the name of its `component`."""
+
+    component: str
+    name: str
+    kind: str
+    origin: Origin
+    axis: Vector | None
+    groups: list[Group]
+
+
+def joint_numbers(joint: Joint, component: str) -> JointNumbers:
+    """Name, origin, axis and the groups that the joint has."""
+    return JointNumbers(component, joint.name, joint.type.capitalize(), joint.origin, axis(joint), _groups(joint))
 
 
 def axis(joint: Joint) -> Vector | None:
@@ -25,7 +37,7 @@ def axis(joint: Joint) -> Vector | None:
     return joint.axis if joint.type in MOTIONS or joint.type == "planar" else None
 
 
-def _groups(joint: Joint) -> list[dict[str, Any]]:
+def _groups(joint: Joint) -> list[Group]:
     if joint.type == "planar":
         return _planar_groups(joint)
     if joint.type not in MOTIONS:
@@ -50,26 +62,26 @@ def _groups(joint: Joint) -> list[dict[str, Any]]:
     return groups
 
 
-def _planar_groups(joint: Joint) -> list[dict[str, Any]]:
+def _planar_groups(joint: Joint) -> list[Group]:
     if joint.dynamics is None:
         return []
     numbers = {"damping": joint.dynamics.damping, "friction": joint.dynamics.friction}
     return [_group("translation", **numbers), _group("rotation", **numbers)]
 
 
-def _limits(joint: Joint) -> dict[str, Any]:
+def _limits(joint: Joint) -> Group:
     limit = joint.limit
     limited = joint.type != "continuous"
-    return {
-        "name": "limits",
-        "numbers": [
+    return Group(
+        "limits",
+        [
             ("lower", real(limit.lower if limit and limited else None, absent=f"-{INFINITY}")),
             ("upper", real(limit.upper if limit and limited else None)),
             ("velocity", real(limit.velocity if limit else None)),
             ("effort", real(limit.effort if limit else None)),
         ],
-    }
+    )
 
 
-def _group(name: str, **numbers: float | None) -> dict[str, Any]:
-    return {"name": name, "numbers": [(field, real(value)) for field, value in numbers.items()]}
+def _group(name: str, **numbers: float | None) -> Group:
+    return Group(name, [(field, real(value)) for field, value in numbers.items()])

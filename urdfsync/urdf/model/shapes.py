@@ -2,86 +2,169 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+import functools
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TypeAlias, TypeVar
 
-from urdfsync.domain import Import, Target
+import msgspec
+
+from urdfsync.domain import Import
 from urdfsync.literals import real, string, vector
 from urdfsync.urdf.meshes import lookup as mesh_lookup
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Box, Capsule, Collision, Cylinder, Geometry, Link, Material, Mesh, Sphere, Visual
+from urdfsync.urdf.robot import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Geometry,
+    Link,
+    Material,
+    Mesh,
+    Origin,
+    Sphere,
+    Visual,
+)
 
 GREY = (180, 180, 180)
 PINK = (255, 105, 180)
 _ROW = 30  # distance of the shapes in the link's diagram
+_Shape = TypeVar("_Shape", Visual, Collision)
 
 
-def link_shapes(
-    link: Link, imports: Mapping[str, Import], target: Target, options: Options
-) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Template data of a link's visuals and collisions; a shape whose mesh was never found is left out.
+class Look(msgspec.Struct, frozen=True):
+    """What of a shape a model can say: nothing that is a number or a name in the URDF."""
+
+    component: str
+    type: str
+    label: str
+    is_collision: bool
+    y: int
+    touches: bool
+    """Whether it has a ground contact."""
+
+
+class Numbers(msgspec.Struct, frozen=True):
+    """What of a shape a record can say."""
+
+    component: str
+    type: str
+    title: str
+    origin: Origin
+    numbers: list[tuple[str, str]]
+    color: tuple[int, ...]
+    opacity: float
+    hull: Sequence[Sequence[float]]
+
+
+class Contact(msgspec.Struct, frozen=True):
+    """A ground contact, of the collision shape that `record` is the record of."""
+
+    component: str
+    type: str
+    record: str
+    y: int
+
+
+Looks: TypeAlias = tuple[tuple[Look, ...], tuple[Look, ...]]
+"""Visuals and collisions."""
+
+
+def looks(link: Link, imports: Mapping[str, Import], options: Options) -> Looks:
+    """A link's visuals and collisions for its model; a shape whose mesh was never found is left out.
 
     Shapes are numbered as in the URDF, so that the others keep their names when a mesh is found later.
     """
-    visuals = list(_numbered("visual", link.visuals, imports, target))
-    collisions = list(_numbered("collision", link.collisions, imports, target)) if options.collisions else []
-    for row, shape in enumerate(visuals, 1):
-        shape["y"] = row * _ROW
-    for row, shape in enumerate(collisions, 1):
-        shape["y"] = -row * _ROW
-        shape["hull"] = shape["hull"] if options.base == "floating" else ()
+    visuals = _found(link.visuals, imports)
+    collisions = _found(link.collisions, imports) if options.collisions else ()
+    return (
+        tuple(
+            _look("visual", number, row, type(shape.geometry).__name__, touches=False)
+            for row, (number, shape) in enumerate(visuals, 1)
+        ),
+        tuple(
+            _look("collision", number, -row, type(shape.geometry).__name__, touches=_touches(shape, imports, options))
+            for row, (number, shape) in enumerate(collisions, 1)
+        ),
+    )
+
+
+@functools.lru_cache(maxsize=256)  # the shapes of one link look like those of the others
+def _look(word: str, number: int, row: int, kind: str, *, touches: bool) -> Look:
+    """The look of a shape; `row` counts upwards from the body in the link's diagram."""
+    return Look(f"{word}{number}", kind, f"{word.capitalize()} {number}", word == "collision", row * _ROW, touches)
+
+
+def numbers(
+    link: Link, imports: Mapping[str, Import], package: str, options: Options
+) -> tuple[list[Numbers], list[Numbers]]:
+    """A link's visuals and collisions for its record; the same ones as in its model."""
+    visuals = [
+        Numbers(
+            f"visual{number}",
+            type(shape.geometry).__name__,
+            _title(f"Visual {number}", shape.name),
+            shape.origin,
+            _numbers(shape.geometry, imports, package),
+            *_color(shape.material),
+            (),
+        )
+        for number, shape in _found(link.visuals, imports)
+    ]
+    collisions = [
+        Numbers(
+            f"collision{number}",
+            type(shape.geometry).__name__,
+            _title(f"Collision {number}", shape.name),
+            shape.origin,
+            _numbers(shape.geometry, imports, package),
+            PINK,
+            0.5,
+            hull(shape.geometry, imports) if options.base == "floating" else (),
+        )
+        for number, shape in (_found(link.collisions, imports) if options.collisions else ())
+    ]
     return visuals, collisions
 
 
-def structure(shape: Mapping[str, Any]) -> dict[str, Any]:
-    """What of a shape a model can say: nothing that is a number or a name in the URDF."""
-    return {key: shape[key] for key in ("component", "type", "label", "is_collision", "y")}
-
-
-def numbers(shape: Mapping[str, Any]) -> dict[str, Any]:
-    """What of a shape a record can say."""
-    return {key: shape[key] for key in ("component", "type", "title", "origin", "numbers", "color", "opacity", "hull")}
-
-
-def contacts(collisions: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Template data of the ground contacts of a link: one per collision shape, a mesh by its outermost points.
+def contacts(collisions: Iterable[Look]) -> list[Contact]:
+    """The ground contacts of a link: one per collision shape, a mesh by its outermost points.
 
     A mesh without any has none.
     """
     return [
-        {
-            "component": shape["component"].replace("collision", "contact"),
-            "type": "Points" if shape["type"] == "Mesh" else shape["type"],
-            "record": shape["component"],
-            "y": shape["y"],
-        }
+        Contact(
+            shape.component.replace("collision", "contact"),
+            "Points" if shape.type == "Mesh" else shape.type,
+            shape.component,
+            shape.y,
+        )
         for shape in collisions
-        if shape["type"] != "Mesh" or shape["hull"]
+        if shape.touches
     ]
 
 
-def _numbered(
-    word: str, shapes: Sequence[Visual | Collision], imports: Mapping[str, Import], target: Target
-) -> Iterator[dict[str, Any]]:
+def meshes(shapes: Iterable[Visual | Collision], imports: Mapping[str, Import]) -> Mapping[str, Import]:
+    """The imported meshes of some shapes."""
+    if not imports:
+        return imports
+    keys = (mesh_lookup.key(shape.geometry) for shape in shapes if isinstance(shape.geometry, Mesh))
+    return {key: imports[key] for key in keys if key in imports}
+
+
+def _found(shapes: Sequence[_Shape], imports: Mapping[str, Import]) -> Iterator[tuple[int, _Shape]]:
+    """The shapes that can be shown, with their numbers."""
     for number, shape in enumerate(shapes, 1):
-        numbers = _numbers(shape.geometry, imports, target)
-        if numbers is None:
-            continue
-        is_collision = isinstance(shape, Collision)
-        color, opacity = (PINK, 0.5) if isinstance(shape, Collision) else _color(shape.material)
-        label = f"{word.capitalize()} {number}"
-        yield {
-            "component": f"{word}{number}",
-            "type": type(shape.geometry).__name__,
-            "label": label,
-            "title": f'{label}: "{shape.name}"' if shape.name else label,
-            "origin": shape.origin,
-            "numbers": numbers,
-            "color": color,
-            "opacity": opacity,
-            "is_collision": is_collision,
-            "hull": hull(shape.geometry, imports) if is_collision else (),
-        }
+        if not isinstance(shape.geometry, Mesh) or mesh_lookup.key(shape.geometry) in imports:
+            yield number, shape
+
+
+def _touches(shape: Collision, imports: Mapping[str, Import], options: Options) -> bool:
+    return options.base == "floating" and (not isinstance(shape.geometry, Mesh) or bool(hull(shape.geometry, imports)))
+
+
+def _title(label: str, name: str) -> str:
+    return f'{label}: "{name}"' if name else label
 
 
 def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence[float]]:
@@ -92,7 +175,7 @@ def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence
     return found.facts["hull"] if found else ()
 
 
-def _numbers(geometry: Geometry, imports: Mapping[str, Import], target: Target) -> list[tuple[str, str]] | None:
+def _numbers(geometry: Geometry, imports: Mapping[str, Import], package: str) -> list[tuple[str, str]]:
     match geometry:
         case Box(size=size):
             return [("size", vector(size))]
@@ -101,11 +184,9 @@ def _numbers(geometry: Geometry, imports: Mapping[str, Import], target: Target) 
         case Cylinder(radius=radius, length=length) | Capsule(radius=radius, length=length):
             return [("radius", real(radius)), ("length", real(length))]
         case Mesh():
-            found = imports.get(mesh_lookup.key(geometry))
-            if found is None:
-                return None
+            found = imports[mesh_lookup.key(geometry)]
             lower, upper = found.facts["bounds"]
-            uri = string(f"modelica://{target.package}/{found.target}")
+            uri = string(f"modelica://{package}/{found.target}")
             return [("uri", uri), ("lower", vector(lower)), ("upper", vector(upper))]
 
 
