@@ -48,8 +48,9 @@ def matrix(rows: Sequence[Sequence[float]], columns: int) -> str:
 
 def string(value: str) -> str:
     """A Modelica string literal, quotes included; control characters become spaces."""
-    if value.isprintable() and "\\" not in value and '"' not in value:
-        return f'"{value}"'
+    if value.isprintable():
+        escaped = value.replace("\\", "\\\\").replace('"', '\\"')
+        return f'"{escaped}"'
     return f'"{_CONTROLS.sub(" ", value.translate(_ESCAPES))}"'
 
 

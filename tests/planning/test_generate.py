@@ -20,6 +20,7 @@ from urdfsync.planning.generate import Generated, check_paths, generate
         "../evil.mo",
         "a/../../evil.mo",
         "/etc/x",
+        "/x",
         "",
         "a//b",
         "./a",

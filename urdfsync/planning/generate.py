@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -86,33 +86,30 @@ def check_paths(paths: Iterable[str]) -> None:
     problems: list[Diagnostic] = []
     files: dict[str, str] = {}
     folders: dict[str, str] = {}
+    known: set[str] = set()
     for path in paths:
-        if not _is_inside(path):
+        folder, slash, name = path.rpartition("/")
+        if not _is_inside(name) or (slash and folder not in known and not _is_inside(folder)):
             problems.append(_problem("outside", f"{path!r} is no path inside the package"))
             continue
         if path.casefold() in files:
             problems.append(_clash(files[path.casefold()], path))
         files[path.casefold()] = path
-        parents = list(_above(path))
-        others = [folders.setdefault(parent.casefold(), parent) for parent in parents]
-        problems += [_clash(one, two) for one, two in zip(others, parents, strict=True) if one != two]
+        while folder and folder not in known:
+            known.add(folder)
+            other = folders.setdefault(folder.casefold(), folder)
+            problems += [_clash(other, folder)] if other != folder else []
+            folder = folder.rpartition("/")[0]
     classes = {folded.removesuffix(".mo"): path for folded, path in files.items() if folded.endswith(".mo")}
     problems += [_clash(path, f"{folders[name]}/") for name, path in classes.items() if name in folders]
     if problems:
         raise OutputError(*problems)
 
 
-def _above(path: str) -> Iterator[str]:
-    """The folders that a path leads through, innermost first."""
-    while "/" in path:
-        path = path.rpartition("/")[0]
-        yield path
-
-
 def _is_inside(path: str) -> bool:
     parts = path.split("/")
     whole = all(part not in ("", ".", "..") and part == part.rstrip(". ") for part in parts)
-    return whole and path.isprintable() and not _FORBIDDEN & set(path)
+    return whole and path.isprintable() and _FORBIDDEN.isdisjoint(path)
 
 
 def _clash(one: str, two: str) -> Diagnostic:

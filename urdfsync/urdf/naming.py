@@ -38,6 +38,8 @@ RESERVED_SUFFIXES = ("parameters", "run", "test")
 DERIVED_SUFFIXES = ("", "axis", "frame", "mimic")
 """Endings, folded to lower case, of the names in the robot model that come with a link or joint."""
 
+_UNFIT = re.compile(r"[^A-Za-z0-9_]")
+_PARTS = re.compile(r"[0-9]+|[^0-9]+")
 _RESERVED = KEYWORDS | {name.lower() for name in FUNCTIONS} | RESERVED_CLASSES | DEVICES
 _DIGITS = 8
 
@@ -62,12 +64,12 @@ class Identifier(msgspec.Struct, frozen=True):
 def is_reserved(spelling: str) -> bool:
     """Whether an identifier would collide with the language, a library or generated text."""
     folded = spelling.lower()
-    return folded in _RESERVED or folded.endswith(RESERVED_SUFFIXES) or not GENERATED.isdisjoint(_derived(spelling))
+    return folded in _RESERVED or folded.endswith(RESERVED_SUFFIXES) or not GENERATED.isdisjoint(_derived(folded))
 
 
 def spell(name: str, kind: str) -> str:
     """The spelling that a name gets if nothing else wants it: always an identifier, not always a free one."""
-    spelled = re.sub(r"[^A-Za-z0-9_]", "_", name)
+    spelled = _UNFIT.sub("_", name)
     if not spelled[:1].isalpha():
         spelled = f"{kind}_{spelled}" if not spelled.startswith("_") else f"{kind}{spelled}"
     if len(spelled) > LONGEST:
@@ -78,7 +80,7 @@ def spell(name: str, kind: str) -> str:
 
 def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
     """Sort key in which `link10` follows `link9`; total: distinct names have distinct keys."""
-    return tuple(map(_part_key, re.findall(r"[0-9]+|[^0-9]+", name)))
+    return tuple(map(_part_key, _PARTS.findall(name)))
 
 
 def _part_key(part: str) -> tuple[int, int, str, str]:
@@ -100,31 +102,31 @@ def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Id
 
 @functools.lru_cache(maxsize=2)  # most changes of a robot leave its names as they are
 def _identify(names: tuple[Key, ...], taken: tuple[str, ...]) -> Mapping[Key, Identifier]:
-    keys = sorted(set(names), key=lambda key: (key[0] != "link", spell(key[1], key[0]) != key[1], natural_key(key[1])))
+    spelled = {key: spell(key[1], key[0]) for key in names}
+    keys = sorted(spelled, key=lambda key: (key[0] != "link", spelled[key] != key[1], natural_key(key[1])))
     used = {name.lower() for name in taken}
     counts: dict[str, int] = {}
     result: dict[Key, Identifier] = {}
     for key in keys:
-        spelled = spell(key[1], key[0])
-        if _is_free(spelled, used):
-            result[key] = _take(spelled, used)
+        if _is_free(spelled[key], used):
+            result[key] = _take(spelled[key], used)
     for key in keys:
         if key not in result:
-            result[key] = _take(_give_way(f"{spell(key[1], key[0])}_{key[0]}", used, counts), used)
+            result[key] = _take(_give_way(f"{spelled[key]}_{key[0]}", used, counts), used)
     return MappingProxyType(result)
 
 
 def _is_free(spelled: str, used: set[str]) -> bool:
-    return not is_reserved(spelled) and used.isdisjoint(_derived(spelled))
+    return used.isdisjoint(_derived(spelled.lower())) and not is_reserved(spelled)
 
 
 def _take(spelled: str, used: set[str]) -> Identifier:
-    used.update(_derived(spelled))
+    used.update(_derived(spelled.lower()))
     return Identifier(spelled)
 
 
-def _derived(spelled: str) -> list[str]:
-    return [spelled.lower() + suffix for suffix in DERIVED_SUFFIXES]
+def _derived(folded: str) -> list[str]:
+    return [folded + suffix for suffix in DERIVED_SUFFIXES]
 
 
 def _give_way(spelled: str, used: set[str], counts: dict[str, int]) -> str:

@@ -7,7 +7,7 @@ follow from this order.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Literal
 
 import msgspec
@@ -122,5 +122,5 @@ def _depth_first(robot: Robot) -> tuple[tuple[Link, ...], tuple[Joint, ...]]:
     return (links[root], *(links[joint.child] for joint in order)), tuple(order)
 
 
-def _reversed_siblings(joints: Iterable[Joint]) -> list[Joint]:
-    return sorted(joints, key=lambda joint: natural_key(joint.name), reverse=True)
+def _reversed_siblings(joints: Sequence[Joint]) -> list[Joint]:
+    return sorted(joints, key=lambda joint: natural_key(joint.name), reverse=True) if len(joints) > 1 else [*joints]
