@@ -53,6 +53,19 @@ class Recipe(msgspec.Struct, frozen=True):
     made_of: tuple[Any, ...]
 
 
+class Piece(msgspec.Struct, eq=False):
+    """What a part of a text is made of. As long as it is kept, that part is rendered once: see the filter `once`."""
+
+    of: Any
+    rendered: tuple[object, str] | None = None
+    """The macro that has rendered it, and the text."""
+
+    def __eq__(self, other: object) -> bool:
+        return self.of == other.of if isinstance(other, Piece) else NotImplemented
+
+    __hash__ = None  # type: ignore[assignment]
+
+
 class Artifact(msgspec.Struct, frozen=True):
     """One text file of the package: `path` (POSIX, below the package folder) is `template` rendered with `data`."""
 

@@ -7,15 +7,25 @@ that comes from a source reaches Modelica through `string` or `html`, every numb
 
 from __future__ import annotations
 
-from collections.abc import Mapping, MutableMapping, Sequence
+from collections.abc import Callable, Mapping, MutableMapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import jinja2
 
 from urdfsync import bytecode, literals
+from urdfsync.domain import Piece
+
+
+def once(piece: Piece, macro: Callable[[Any], str]) -> str:
+    """What the macro makes of a piece. It must be one that is imported: the others are made anew for each text."""
+    if piece.rendered is None or piece.rendered[0] is not macro:
+        piece.rendered = macro, macro(piece.of)
+    return piece.rendered[1]
+
 
 _FILTERS = (
+    once,
     literals.real,
     literals.vector,
     literals.matrix,

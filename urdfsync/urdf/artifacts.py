@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Artifact, Import, Order, Parts, Recipe, Role, Target
+from urdfsync.domain import Artifact, Import, Order, Parts, Piece, Recipe, Role, Target
 from urdfsync.urdf.kept import Kept
 from urdfsync.urdf.model import assembly, notes, shapes
 from urdfsync.urdf.model.numbers import joint_numbers
@@ -15,7 +16,7 @@ from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.naming import Identifier
 from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.robot import Joint, JointType, Link, Robot
+from urdfsync.urdf.robot import Inertial, Joint, JointType, Link, Robot
 from urdfsync.urdf.skeleton import Skeleton, bare
 
 LINK_MODEL = "link/model.mo.jinja"
@@ -41,7 +42,7 @@ def artifacts(
     if has_bench(skeleton.joints, options):
         bench = Recipe(assembly.generic_data, (context.structure, target, options))
         files.append(Artifact(f"{target.name}Generic.mo", Role.MODEL, "robot/generic.mo.jinja", bench, "robot"))
-    files.append(_record(context, robot.name))
+    files.append(_record(context, robot.name, Kept(parts, "record")))
     return files
 
 
@@ -51,7 +52,8 @@ def record(robot: Robot, target: Target, options: Options) -> Artifact:
     It says what the record in a package says, if that is called like this one, and if no mesh has a part in it.
     """
     name = target.name.removesuffix(_PARAMETERS) or target.name
-    artifact = _record(_context(robot, {}, Target(target.package, name), options, Kept(None, "")), robot.name)
+    kept = Kept(None, "")
+    artifact = _record(_context(robot, {}, Target(target.package, name), options, kept), robot.name, kept)
     data = {**artifact.data, "record": target.name}
     return msgspec.structs.replace(artifact, path=f"{target.name}.mo", source=data)
 
@@ -212,7 +214,7 @@ def _joint_names(name: Identifier, package: str, joint: Joint) -> dict[str, Any]
 
 
 def _joint_record(name: Identifier, package: str, joint: Joint) -> dict[str, Any]:
-    return _joint_names(name, package, joint) | {"joint": joint_numbers(joint, name.component)}
+    return _joint_names(name, package, joint) | {"joint": joint_numbers(joint)}
 
 
 def _joint_model(name: Identifier, package: str, joint: Joint, loses: bool) -> dict[str, Any]:
@@ -238,11 +240,25 @@ def _robot(context: _Context) -> Iterator[Artifact]:
     yield Artifact(f"{name}Test.mo", Role.MODEL, "robot/test.mo.jinja", bench, "robot")
 
 
-def _record(context: _Context, urdf_name: str) -> Artifact:
-    """The record of the whole robot; what it does not depend on is left out before."""
-    skeleton, options, stands = context.skeleton, context.options, context.options.base == "floating"
-    links = [Link(link.name, link.inertial, (), link.collisions if stands else ()) for link in skeleton.links]
-    numbers = Skeleton(tuple(links), skeleton.joints, skeleton.names)
-    imports = context.imports if stands else {}
-    recipe = Recipe(assembly.record_data, (numbers, imports, context.target, options, urdf_name))
+def _record(context: _Context, urdf_name: str, kept: Kept) -> Artifact:
+    skeleton, structure, stands = context.skeleton, context.structure, context.options.base == "floating"
+    links = [
+        kept.get(("link", link.name), partial(_link_piece, number, link.name), structure, link.inertial)
+        for number, link in enumerate(skeleton.links, 1)
+    ]
+    joints = [
+        kept.get(("joint", joint.name), partial(_joint_piece, number), structure, joint)
+        for number, joint in enumerate(skeleton.joints, 1)
+    ]
+    touching = tuple([Link(link.name, collisions=link.collisions) for link in skeleton.links]) if stands else ()
+    ground = (Skeleton(touching, skeleton.joints, skeleton.names), context.imports) if stands else None
+    recipe = Recipe(assembly.record_data, (structure, links, joints, ground, context.target, urdf_name))
     return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, recipe, "robot")
+
+
+def _link_piece(number: int, name: str, structure: Skeleton, inertial: Inertial | None) -> Piece:
+    return Piece(assembly.RecordLink(number, structure.link(name).component, name, inertial))
+
+
+def _joint_piece(number: int, structure: Skeleton, joint: Joint) -> Piece:
+    return Piece(assembly.RecordJoint(number, structure.joint(joint.name).component, joint))

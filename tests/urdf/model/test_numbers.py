@@ -31,7 +31,7 @@ UNLIMITED = {
 
 
 def groups(kind: JointType, **parts: Any) -> dict[str, dict[str, str]]:
-    data = joint_numbers(Joint("j", kind, "a", "b", **parts), "c")
+    data = joint_numbers(Joint("j", kind, "a", "b", **parts))
     return {group.name: dict(group.numbers) for group in data.groups}
 
 
@@ -73,5 +73,5 @@ def test_other_joints_have_no_axis(kind: JointType) -> None:
 
 def test_name_kind_and_origin_pass_as_they_are() -> None:
     origin = Origin((1, 2, 3))
-    data = joint_numbers(Joint('a "b"', "fixed", "a", "b", origin), "c")
-    assert (data.component, data.name, data.kind, data.origin) == ("c", 'a "b"', "Fixed", origin)
+    data = joint_numbers(Joint('a "b"', "fixed", "a", "b", origin))
+    assert (data.name, data.kind, data.origin) == ('a "b"', "Fixed", origin)

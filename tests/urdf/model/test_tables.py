@@ -217,7 +217,7 @@ def test_references_are_to_what_the_record_has_and_no_number_is_written(robot: R
     of = Skeleton.of(robot)
     fields = {of.link(link.name).component: {"inertial"} for link in of.links}
     for joint in of.joints:
-        numbers = joint_numbers(joint, of.joint(joint.name).component)
+        numbers = joint_numbers(joint)
         groups = {"limits", "dynamics", "mimic"} if joint.type != "fixed" else set()
         groups |= {"axis"} if numbers.axis else set()
         fields[of.joint(joint.name).component] = {"name", "origin", *groups}

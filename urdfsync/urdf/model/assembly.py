@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping, Sequence
 from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Import, Target
+from urdfsync.domain import Import, Piece, Target
 from urdfsync.urdf.diagram import layout
 from urdfsync.urdf.kinematics import compose, link_poses, lowest_point, pose, start_positions
 from urdfsync.urdf.model import notes, tables
-from urdfsync.urdf.model.numbers import joint_numbers
+from urdfsync.urdf.model.numbers import JointNumbers, joint_numbers
 from urdfsync.urdf.model.shapes import hull
 from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import Inertial, Joint
@@ -71,12 +71,33 @@ class Part(msgspec.Struct, frozen=True):
     modifiers: list[str] = []
 
 
-class Named(msgspec.Struct, frozen=True):
-    """A link by its names; its numbers where they are said."""
+class Leaf(msgspec.Struct, frozen=True):
+    """A link at which no joint starts."""
 
     component: str
     name: str
-    inertial: Inertial | None = None
+
+
+class RecordLink(msgspec.Struct, frozen=True):
+    """A link in the record of the whole robot; `number` counts from 1."""
+
+    number: int
+    component: str
+    name: str
+    inertial: Inertial | None
+
+
+class RecordJoint(msgspec.Struct, frozen=True):
+    """A joint in the record of the whole robot; `number` counts from 1."""
+
+    number: int
+    component: str
+    joint: Joint
+
+    @property
+    def numbers(self) -> JointNumbers:
+        """What the record says of it."""
+        return joint_numbers(self.joint)
 
 
 class Axis(msgspec.Struct, frozen=True):
@@ -135,7 +156,7 @@ def robot_data(structure: Skeleton, target: Target, options: Options) -> dict[st
     return bench_data(structure, target, options) | {
         "note": notes.robot_note(target.name),
         "assertion_level": "warning",
-        "leaves": [Named(structure.link(leaf.name).component, leaf.name) for leaf in structure.leaves()],
+        "leaves": [Leaf(structure.link(leaf.name).component, leaf.name) for leaf in structure.leaves()],
         "links": [_link(structure, link.name) for link in structure.links],
         "joints": [_joint(structure, joint, numbers, motions, leaders) for joint in structure.joints],
         "couplings": couplings(structure),
@@ -159,11 +180,20 @@ def generic_data(skeleton: Skeleton, target: Target, options: Options) -> dict[s
 
 
 def record_data(
-    skeleton: Skeleton, imports: Mapping[str, Import], target: Target, options: Options, name: str
+    structure: Skeleton,
+    links: Sequence[Piece],
+    joints: Sequence[Piece],
+    ground: tuple[Skeleton, Mapping[str, Import]] | None,
+    target: Target,
+    name: str,
 ) -> dict[str, Any]:
-    """Data of the record of the whole robot; a package around it names the libraries that it uses."""
-    number = {link.name: k for k, link in enumerate(skeleton.links, 1)}
-    generic = tables.has_tables(skeleton.joints)
+    """Data of the record of the whole robot; a package around it names the libraries that it uses.
+
+    `links` and `joints` are pieces of `RecordLink` and `RecordJoint`, `ground` is what has a part in the height that a
+    mobile robot stands at.
+    """
+    number = {link.name: k for k, link in enumerate(structure.links, 1)}
+    generic = tables.has_tables(structure.joints)
     return {
         "within": target.package,
         "record": f"{target.name}Parameters",
@@ -171,13 +201,13 @@ def record_data(
         "note": notes.record_note(target.name, generic),
         "uses": () if target.package else USES,
         "name": name,
-        "standing_height": standing_height(skeleton, imports) if options.base == "floating" else None,
-        "connection_matrix": [(number[joint.parent], number[joint.child]) for joint in skeleton.joints],
-        "moveable_joints": [(k, 1) for k, joint in enumerate(skeleton.joints, 1) if joint.type != "fixed"],
-        "tables": tables.record_tables(skeleton) if generic else [],
-        "vectors": vectors(skeleton) if generic else [],
-        "links": [Named(skeleton.link(link.name).component, link.name, link.inertial) for link in skeleton.links],
-        "joints": [joint_numbers(joint, skeleton.joint(joint.name).component) for joint in skeleton.joints],
+        "standing_height": standing_height(*ground) if ground else None,
+        "connection_matrix": [(number[joint.parent], number[joint.child]) for joint in structure.joints],
+        "moveable_joints": [(k, 1) for k, joint in enumerate(structure.joints, 1) if joint.type != "fixed"],
+        "tables": tables.record_tables(structure) if generic else [],
+        "vectors": vectors(structure) if generic else [],
+        "links": links,
+        "joints": joints,
     }
 
 

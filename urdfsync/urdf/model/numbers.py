@@ -17,9 +17,8 @@ class Group(msgspec.Struct, frozen=True):
 
 
 class JointNumbers(msgspec.Struct, frozen=True):
-    """What the record of a joint says, and the record of the whole robot under the name of its `component`."""
+    """What a record says of a joint."""
 
-    component: str
     name: str
     kind: str
     origin: Origin
@@ -27,9 +26,9 @@ class JointNumbers(msgspec.Struct, frozen=True):
     groups: list[Group]
 
 
-def joint_numbers(joint: Joint, component: str) -> JointNumbers:
+def joint_numbers(joint: Joint) -> JointNumbers:
     """Name, origin, axis and the groups that the joint has."""
-    return JointNumbers(component, joint.name, joint.type.capitalize(), joint.origin, axis(joint), _groups(joint))
+    return JointNumbers(joint.name, joint.type.capitalize(), joint.origin, axis(joint), _groups(joint))
 
 
 def axis(joint: Joint) -> Vector | None:
