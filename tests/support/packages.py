@@ -105,8 +105,9 @@ def _render(
             texts[artifact.path] = "".join(f"{name}\n" for name in artifact.names)
             roles[artifact.path] = Role.ORDER
         else:
-            changed = {key: value for key, value in modifiers.items() if key in artifact.data}
-            texts[artifact.path] = RENDERER.render(artifact.template, {**artifact.data, **changed})
+            data = artifact.data
+            changed = {key: value for key, value in modifiers.items() if key in data}
+            texts[artifact.path] = RENDERER.render(artifact.template, {**data, **changed})
             roles[artifact.path] = artifact.role
     robot = from_snapshot(snapshot)
     return Package(target, options, robot, Skeleton.of(robot, (target.name,)), texts, roles, contents)
