@@ -83,6 +83,11 @@ def check_paths(paths: Iterable[str]) -> None:
 
     Raises OutputError with everything that is wrong.
     """
+    _check_paths(tuple(paths))
+
+
+@functools.lru_cache(maxsize=1)  # most changes of a model leave its paths as they are
+def _check_paths(paths: Sequence[str]) -> None:
     problems: list[Diagnostic] = []
     files: dict[str, str] = {}
     folders: dict[str, str] = {}

@@ -162,13 +162,18 @@ class UrdfDomain:
 
 
 def _shown(snapshot: Snapshot, options: Options) -> Robot:
-    """The robot without the shapes that nothing is made of: the record knows how high collisions stand, no more."""
+    """The links with meshes, without the shapes that nothing is made of: the record knows how high collisions stand."""
     absent: dict[str, list[Any]] = {}
     if not options.collisions or ("package" not in options.approach and options.base == "fixed"):
         absent["collisions"] = []
     if "package" not in options.approach:
         absent["visuals"] = []
-    return from_snapshot({**snapshot, "links": {name: {**link, **absent} for name, link in snapshot["links"].items()}})
+    links = {name: {**link, **absent} for name, link in snapshot["links"].items() if _has_mesh(link)}
+    return from_snapshot({**snapshot, "links": links, "joints": {}})
+
+
+def _has_mesh(link: Mapping[str, Any]) -> bool:
+    return any(shape["geometry"]["kind"] == "mesh" for shape in (*link["visuals"], *link["collisions"]))
 
 
 DOMAIN = UrdfDomain()

@@ -97,11 +97,11 @@ def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Id
     A name keeps its spelling if that is free and not reserved; links go before joints, names that
     need no change before others. What must give way gets `_link` or `_joint`, then a number.
     """
-    return _identify(tuple(names), tuple(taken))
+    return _identify(frozenset(names), tuple(taken))
 
 
 @functools.lru_cache(maxsize=2)  # most changes of a robot leave its names as they are
-def _identify(names: tuple[Key, ...], taken: tuple[str, ...]) -> Mapping[Key, Identifier]:
+def _identify(names: frozenset[Key], taken: tuple[str, ...]) -> Mapping[Key, Identifier]:
     spelled = {key: spell(key[1], key[0]) for key in names}
     keys = sorted(spelled, key=lambda key: (key[0] != "link", spelled[key] != key[1], natural_key(key[1])))
     used = {name.lower() for name in taken}
