@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Literal, NamedTuple, TypeAlias
 
 import msgspec
@@ -111,14 +112,14 @@ def layout(tree: Tree) -> Diagram:
     names, and its couplings join rotational and translational joints.
     """
     plan = _plan(tree)
+    dx, dy = _shift(plan)
     lines: dict[Connection, Path] = {}
     kinds: dict[Connection, LineKind] = {}
-    for ends, kind, points in (*_frame_lines(tree, plan), *_flange_lines(plan), *_coupling_lines(tree, plan)):
-        lines[ends] = routing.path(points)
+    for ends, kind, points in chain(_frame_lines(tree, plan), _flange_lines(plan), _coupling_lines(tree, plan)):
+        lines[ends] = routing.path([(x + dx, y + dy) for x, y in points])
         kinds[ends] = kind
-    right = plan.leaf_bus + _LEAD + _FRAME
-    extent = (0, plan.rows[-1].bottom, right, 0)
-    return _anchored(Diagram(extent, _components(tree, plan), lines, kinds))
+    extent = (dx, plan.rows[-1].bottom + dy, plan.leaf_bus + _LEAD + _FRAME + dx, dy)
+    return Diagram(extent, {name: place.moved(dx, dy) for name, place in _components(tree, plan)}, lines, kinds)
 
 
 class _Cell(NamedTuple):
@@ -260,13 +261,14 @@ def _count(assigned: Mapping[str, int]) -> int:
     return 1 + max(assigned.values(), default=-1)
 
 
-def _components(tree: Tree, plan: _Plan) -> dict[str, Placement]:
-    return (
-        dict(plan.connectors)
-        | {name: plan.link(name) for name in plan.cells.links}
-        | {name: plan.joint(name) for name in plan.cells.joints}
-        | {coupling.name: plan.coupling(coupling.follower) for coupling in tree.couplings}
-    )
+def _components(tree: Tree, plan: _Plan) -> Iterator[tuple[str, Placement]]:
+    yield from plan.connectors.items()
+    for name in plan.cells.links:
+        yield name, plan.link(name)
+    for name in plan.cells.joints:
+        yield name, plan.joint(name)
+    for coupling in tree.couplings:
+        yield coupling.name, plan.coupling(coupling.follower)
 
 
 def _frame_lines(tree: Tree, plan: _Plan) -> Iterator[_Line]:
@@ -328,14 +330,7 @@ def _kind(joint: TreeJoint) -> LineKind:
     return "translational" if joint.kind == "translational" else "rotational"
 
 
-def _anchored(diagram: Diagram) -> Diagram:
-    """The diagram, moved so that `frame_a` is where the class that all robots extend has it."""
-    (x, y), (at_x, at_y) = diagram.placements["frame_a"].centre, FRAME_A
-    dx, dy = at_x - x, at_y - y
-    x1, y1, x2, y2 = diagram.extent
-    return Diagram(
-        (x1 + dx, y1 + dy, x2 + dx, y2 + dy),
-        {name: placement.moved(dx, dy) for name, placement in diagram.placements.items()},
-        {ends: tuple((x + dx, y + dy) for x, y in points) for ends, points in diagram.lines.items()},
-        diagram.kinds,
-    )
+def _shift(plan: _Plan) -> Point:
+    """How far everything moves, so that `frame_a` is where the class that all robots extend has it."""
+    (x, y), (at_x, at_y) = plan.connectors["frame_a"].centre, FRAME_A
+    return at_x - x, at_y - y
