@@ -32,7 +32,7 @@ UNLIMITED = {
 
 def groups(kind: JointType, **parts: Any) -> dict[str, dict[str, str]]:
     data = joint_numbers(Joint("j", kind, "a", "b", **parts))
-    return {group.name: dict(group.numbers) for group in data.groups}
+    return {group.name: dict(modifier.split(" = ") for modifier in group.modifiers) for group in data.groups}
 
 
 @pytest.mark.parametrize("kind", ["revolute", "prismatic"])

@@ -10,10 +10,11 @@ from urdfsync.urdf.skeleton import MOTIONS
 
 
 class Group(msgspec.Struct, frozen=True):
-    """Numbers of a joint that come and go together: pairs of a field and its literal."""
+    """Numbers of a joint that come and go together."""
 
     name: str
-    numbers: list[tuple[str, str]]
+    modifiers: list[str]
+    """For example `damping = 0.5`."""
 
 
 class JointNumbers(msgspec.Struct, frozen=True):
@@ -74,13 +75,13 @@ def _limits(joint: Joint) -> Group:
     return Group(
         "limits",
         [
-            ("lower", real(limit.lower if limit and limited else None, absent=f"-{INFINITY}")),
-            ("upper", real(limit.upper if limit and limited else None)),
-            ("velocity", real(limit.velocity if limit else None)),
-            ("effort", real(limit.effort if limit else None)),
+            f"lower = {real(limit.lower if limit and limited else None, absent=f'-{INFINITY}')}",
+            f"upper = {real(limit.upper if limit and limited else None)}",
+            f"velocity = {real(limit.velocity if limit else None)}",
+            f"effort = {real(limit.effort if limit else None)}",
         ],
     )
 
 
 def _group(name: str, **numbers: float | None) -> Group:
-    return Group(name, [(field, real(value)) for field, value in numbers.items()])
+    return Group(name, [f"{field} = {real(value)}" for field, value in numbers.items()])
