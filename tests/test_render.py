@@ -7,6 +7,7 @@ from pathlib import Path
 import jinja2
 import pytest
 
+from urdfsync.domain import Piece
 from urdfsync.render import Renderer
 
 
@@ -56,3 +57,50 @@ def test_a_template_in_an_earlier_folder_hides_its_namesake(tmp_path: Path) -> N
     renderer = Renderer([users, ours])
     assert renderer.render("t.jinja", {}) == "theirs"
     assert renderer.render("other.jinja", {}) == "other"
+
+
+def test_an_item_of_a_dict_goes_before_its_methods(tmp_path: Path) -> None:
+    assert rendered(tmp_path, "<< d.items >> << d.keys() | list >>", d={"items": 1}) == "1 ['items']"
+
+
+def test_a_template_has_what_jinja_has_everywhere(tmp_path: Path) -> None:
+    assert rendered(tmp_path, "<< range(2) | list >><% set range = 3 %><< range >>") == "[0, 1]3"
+
+
+def test_a_template_is_looked_for_once(tmp_path: Path) -> None:
+    templates = folder(tmp_path / "templates", t="<% include 'part.jinja' %>", part="old")
+    renderer = Renderer([templates])
+    assert renderer.render("t.jinja", {}) == "old"
+    (templates / "part.jinja").write_text("new")
+    assert renderer.render("t.jinja", {}) == "old"
+    assert Renderer([templates]).render("t.jinja", {}) == "new"
+
+
+def test_a_piece_is_rendered_once_by_each_macro(tmp_path: Path) -> None:
+    asked: list[str] = []
+
+    class Name:
+        @property
+        def name(self) -> str:
+            asked.append("name")
+            return "R1"
+
+    one = "<% import 'parts.jinja' as parts %><< piece | once(parts.one) >><< piece | once(parts.one) >>"
+    parts = "<% macro one(part) %>one << part.name >>;<% endmacro %><% macro other(part) %>other<% endmacro %>"
+    ours = folder(tmp_path / "ours", t=one, u=one.replace(".one", ".other"), parts=parts)
+    renderer, piece = Renderer([ours]), Piece(Name())
+    assert [renderer.render("t.jinja", {"piece": piece}) for _ in range(2)] == ["one R1;one R1;"] * 2
+    assert asked == ["name"]
+    assert renderer.render("u.jinja", {"piece": piece}) == "otherother"
+    theirs = folder(tmp_path / "theirs", parts=parts.replace("one <<", "their <<"))
+    assert Renderer([theirs, ours]).render("t.jinja", {"piece": piece}) == "their R1;their R1;"
+
+
+def test_pieces_are_equal_if_they_are_made_of_the_same(tmp_path: Path) -> None:
+    one, two = Piece({"x": 1}), Piece({"x": 1})
+    templates = folder(
+        tmp_path / "templates", t="<% import 'm.jinja' as m %><< p | once(m.x) >>", m="<% macro x(p) %>x<% endmacro %>"
+    )
+    assert Renderer([templates]).render("t.jinja", {"p": one}) == "x"
+    assert one == two
+    assert one != Piece({"x": 2})
