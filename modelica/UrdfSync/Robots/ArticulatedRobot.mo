@@ -142,6 +142,9 @@ equation
     assert(jointInertias[i] > 0,
       getInstanceName() + " (joint " + data.jointNames[i].name + ") of robot " + data.name + " has no inertia about or along its own axis, by which these "
       + "equations divide: use GenericRobot");
+    assert(noEvent(D[i] > 1e-12*jointInertias[i]),
+      getInstanceName() + " (joint " + data.jointNames[i].name + ") of robot " + data.name + " has no inertia about or along its own axis if the joints behind it "
+      + "undo its motion, and these equations divide by that: use GenericRobot, and drive the joint by position");
     z_v[i, :] = cross(w[i + 1, :], e_t[i, :])*v[i];
     b_v[i, :] = cross(w[data.jointTree[i, 1], :], cross(w[data.jointTree[i, 1], :], r[i, :]))*R[i, :, :] + 2*v[i]*cross(w[i + 1, :], e_s[i, :]);
     U_t[i, :] = J_A[i + 1, :, :]*e_t[i, :] + H_A[i + 1, :, :]*e_s[i, :];
