@@ -198,8 +198,8 @@ equations as <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a
 Symmetric 6 x 6 inertias are kept as three matrices: torque per angular acceleration <code>J</code>, torque per acceleration <code>H</code> (force per angular
 acceleration is its transpose) and force per acceleration <code>M</code>. The equations divide by
 <code>D</code>, the inertia of each joint by itself. So a joint with none is refused by name, also where its motion is prescribed, where it follows another one, and
-where only joints that follow it have mass: <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a> takes the latter two. Two joints on the same axis with
-nothing between them are not detected, and have no solution.
+where only joints that follow it have mass: <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a> takes the latter two. Of two joints on the same axis with
+nothing between them the first is refused as well: its free motion has no solution, and it can be driven by position in GenericRobot only.
 </p>
 </html>"));
 end ArticulatedRobot;
