@@ -91,7 +91,8 @@ class Form:
 SAMPLED = Form("discrete Real", "algorithm when sample(0, 1) then", ":=", "end when;")
 """Each function once per configuration: that is possible for robots of any size, if any joint moves.
 
-The compiler does not take results without elements here.
+The compiler does not take results without elements here; and Jacobians that are assigned to parts of an array one by
+one are silently zero, so there is a function for all of them.
 """
 EQUATIONS = Form("Real", "equation", "=", "")
 """At any time. Here the compiler calls a function anew for each element of its result, and writes each call out: 12

@@ -107,7 +107,7 @@ declaration of the robot are followed as they stand.</li>
 <li>Drives beside the robot need literal numbers as sizes.</li>
 <li>A function in an equation is evaluated anew for each element of its result: the functions of <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a> take more
 than a minute for 12 joints. In an algorithm, as in <code>when sample(0, 0.01) then M := UrdfSync.Dynamics.massMatrix(…); end when;</code>, it is evaluated once, also for
-30 joints. <code>M</code> is a discrete variable then, assigned as a whole: an assignment to a part of an array is silently left out there.</li>
+30 joints. <code>M</code> is a discrete variable then. Assign it as a whole: Jacobians that were assigned to parts of one array were silently zero.</li>
 </ul>
 </html>"));
 end RecordApproach;
