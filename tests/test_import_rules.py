@@ -199,7 +199,7 @@ LIGHT = (
 
 FIRST = ("__main__", "hook", "stamping/stamp", "staging/listing", "streams")
 """What is loaded before anybody knows that there is something to do."""
-AT_ONCE = {"errno", "os", "sys", "time", "zlib"}
+AT_ONCE = {"errno", "gc", "os", "sys", "time", "zlib"}
 """Modules of Python's that take no time to load, or have been loaded at its start."""
 
 NO_IO_CALLS = {
