@@ -89,6 +89,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "state/repair": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "planning/memory": ("pathlib", "urdfsync.build", "urdfsync.config", "urdfsync.urdf", *IO, *HEAVY),
     "garbage": ("urdfsync", "pathlib", *IO, *HEAVY),
+    "spelling": ("urdfsync", "pathlib", *IO, *HEAVY),
     "planning/decide": ("rich", "watchdog", "urdfsync.build", "urdfsync.report", "urdfsync.cli"),
     "staging/staged": (
         "urdfsync.build",
@@ -219,6 +220,7 @@ PURE = (
         "plan",
         "order",
         "outcome",
+        "spelling",
         "resolution",
         "status",
         "wording",

@@ -90,13 +90,14 @@ class Report:
         if not (self._explain or self._verbose or builds.has_more(result)):
             builds.plain(result.robot, wording.summary(result))
             return
-        from urdfsync.views import conflicts  # most builds have no use for it
-
         stream = sys.stderr if result.failed else sys.stdout
-        before = sum(len(other.conflicts) for other in self._results[:-1])
-        look = conflicts.Look(self._verbose, self._quiet, before, self._config)
-        terminal.show(builds.lines(result, stream, look, self._explain), stream)
+        lines = builds.lines(result, stream, quiet=self._quiet, verbose=self._verbose, explain=self._explain)
+        terminal.show(lines, stream)
         if result.conflicts:
+            from urdfsync.views import conflicts  # most builds have no use for it
+
+            before = sum(len(other.conflicts) for other in self._results[:-1])
+            look = conflicts.Look(self._verbose, self._quiet, before, self._config)
             terminal.show(conflicts.lines(result, terminal.console(stream), look), stream)
 
     @profiling.staged("presentation")

@@ -5,16 +5,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import IO, TYPE_CHECKING
+from typing import IO
 
 from urdfsync import wording
 from urdfsync.config import shown
 from urdfsync.outcome import Checked, Result
 from urdfsync.plan import Action, Kind
 from urdfsync.views.terminal import Words, has_marks, is_styled, is_terminal, words
-
-if TYPE_CHECKING:
-    from urdfsync.views import conflicts
 
 _KINDS = {
     Kind.CREATE: "green",
@@ -39,24 +36,26 @@ _CHANGES = 12
 """So many changes of a model are shown at most, unless somebody asks."""
 
 
-def lines(result: Result, stream: IO[str], look: conflicts.Look, explain: bool) -> Iterator[Words]:
+def lines(
+    result: Result, stream: IO[str], *, quiet: bool = False, verbose: bool = False, explain: bool = False
+) -> Iterator[Words]:
     """Everything that there is to say about one robot but its conflicts; `explain` names every file."""
     yield _headline(result, stream)
-    if not look.quiet:
-        yield from _details(result, stream, look, explain)
+    if not quiet:
+        yield from _details(result, stream, verbose, explain)
     if result.drawing:
         yield words((f"  diagram: {shown(result.drawing)}", ""))
 
 
-def _details(result: Result, stream: IO[str], look: conflicts.Look, explain: bool) -> Iterator[Words]:
+def _details(result: Result, stream: IO[str], verbose: bool, explain: bool) -> Iterator[Words]:
     """What changed in the model, and the files that deserve attention."""
     if result.changes:
         lines = wording.changes(result.changes)
-        few = len(lines) if look.verbose or len(lines) <= _CHANGES else _CHANGES - 1
+        few = len(lines) if verbose or len(lines) <= _CHANGES else _CHANGES - 1
         yield from (words((f"  {line}", "")) for line in lines[:few])
         if few < len(lines):
             yield words((f"  … and {len(lines) - few} more changes; --verbose shows them", "dim"))
-    if explain or look.verbose:
+    if explain or verbose:
         yield from _explanation(result, stream, everything=explain)
     else:
         for action in result.actions:

@@ -116,8 +116,8 @@ class Chronicle:
             hidden = (CONFLICTS if known else frozenset()) | (frozenset() if left else _LEFT)
             actions = tuple(action for action in result.actions if action.kind not in hidden)
             result = msgspec.structs.replace(result, actions=actions, changes=None)
-        lines = itertools.islice(builds.lines(result, self._console.file, self._look, explain=False), 1, None)
-        yield from (Line(line.__rich__()) for line in lines)
+        lines = builds.lines(result, self._console.file, quiet=self._quiet, verbose=self._verbose)
+        yield from (Line(line.__rich__()) for line in itertools.islice(lines, 1, None))
         if result.conflicts:
             yield from map(Line, conflicts.lines(result, self._console, self._look))
 
