@@ -17,8 +17,13 @@ from urdfsync import bytecode, literals
 from urdfsync.domain import Piece
 
 
-def once(piece: Piece, macro: Callable[[Any], str]) -> str:
-    """What the macro makes of a piece. It must be one that is imported: the others are made anew for each text."""
+def once(piece: Any, macro: Callable[[Any], str]) -> str:
+    """What the macro makes of a piece, or of something that nobody keeps.
+
+    The macro must be one that is imported: the others are made anew for each text.
+    """
+    if not isinstance(piece, Piece):
+        return macro(piece)
     if piece.rendered is None or piece.rendered[0] is not macro:
         piece.rendered = macro, macro(piece.of)
     return piece.rendered[1]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync import cli, registry
+from urdfsync import changes, cli, registry
 from urdfsync.diagnostics import ConfigError, OutputError
 from urdfsync.domain import Artifact, Recipe, Role, Target, Templates
 from urdfsync.files import templates_digest
@@ -89,6 +89,18 @@ def test_data_that_has_a_recipe_is_made_when_the_text_is_rendered_and_once(tmp_p
     assert asked == []
     assert [package.content("2.mo") for _ in range(2)] == [b"2", b"2"]
     assert asked == [2]
+
+
+def test_a_text_counts_as_stale_once_its_data_is_forgotten(tmp_path: Path) -> None:
+    (tmp_path / "t").write_text("<< number >>")
+    one, two = (
+        Generated([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), ""))
+        for n in (1, 2)
+    )
+    for _ in range(2):
+        assert changes.stale(one.artifacts.values(), two.artifacts.values()).render == {"A.mo"}
+        assert (one.content("A.mo"), two.content("A.mo")) == (b"1", b"2")
+    assert {artifact.owner for artifact in one.artifacts.values()} == {"part"}
 
 
 @pytest.fixture

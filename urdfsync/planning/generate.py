@@ -7,10 +7,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
+
 from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Snapshot, Target, Templates
+from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Recipe, Snapshot, Target, Templates
 
 if TYPE_CHECKING:
     from urdfsync.render import Renderer
@@ -20,11 +22,15 @@ _FORBIDDEN = frozenset('\\:*?"<>|')
 
 
 class Generated:
-    """The package: text files by their path, and the names for each `package.order`; POSIX, below the package."""
+    """The package: text files by their path, and the names for each `package.order`; POSIX, below the package.
+
+    What a text is made of is forgotten once that is rendered, since all of a large robot's takes half as much memory as
+    the texts. What stands in its place is equal to nothing else, so the text counts as stale wherever that is asked.
+    """
 
     def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates) -> None:
         artifacts = list(artifacts)
-        self.artifacts: Mapping[str, Artifact] = {a.path: a for a in artifacts if isinstance(a, Artifact)}
+        self.artifacts: dict[str, Artifact] = {a.path: a for a in artifacts if isinstance(a, Artifact)}
         self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in artifacts if isinstance(a, Order)}
         self._templates = templates
         self._contents: dict[str, bytes] = {}
@@ -34,6 +40,7 @@ class Generated:
         if path not in self._contents:
             artifact = self.artifacts[path]
             self._contents[path] = _content(_renderer(self._templates), artifact, self._templates.folders)
+            self.artifacts[path] = msgspec.structs.replace(artifact, source=Recipe(dict, (object(),)))
         return self._contents[path]
 
 

@@ -8,9 +8,10 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Artifact, Import, Order, Parts, Piece, Recipe, Role, Target
+from urdfsync.domain import Artifact, Import, Order, Parts, Recipe, Role, Target
 from urdfsync.urdf.kept import Kept
 from urdfsync.urdf.model import assembly, notes, shapes
+from urdfsync.urdf.model.assembly import RecordJoint, RecordLink
 from urdfsync.urdf.model.numbers import joint_numbers
 from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
@@ -245,11 +246,11 @@ def _robot(context: _Context) -> Iterator[Artifact]:
 def _record(context: _Context, urdf_name: str, kept: Kept) -> Artifact:
     skeleton, structure, stands = context.skeleton, context.structure, context.options.base == "floating"
     links = [
-        kept.get(("link", link.name), partial(_link_piece, number, link.name), structure, link.inertial)
+        kept.piece(("link", link.name), partial(_record_link, number, link.name), structure, link.inertial)
         for number, link in enumerate(skeleton.links, 1)
     ]
     joints = [
-        kept.get(("joint", joint.name), partial(_joint_piece, number), structure, joint)
+        kept.piece(("joint", joint.name), partial(_record_joint, number), structure, joint)
         for number, joint in enumerate(skeleton.joints, 1)
     ]
     touching = tuple([Link(link.name, collisions=link.collisions) for link in skeleton.links]) if stands else ()
@@ -258,9 +259,9 @@ def _record(context: _Context, urdf_name: str, kept: Kept) -> Artifact:
     return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, recipe, "robot")
 
 
-def _link_piece(number: int, name: str, structure: Skeleton, inertial: Inertial | None) -> Piece:
-    return Piece(assembly.RecordLink(number, structure.link(name).component, name, inertial))
+def _record_link(number: int, name: str, structure: Skeleton, inertial: Inertial | None) -> RecordLink:
+    return RecordLink(number, structure.link(name).component, name, inertial)
 
 
-def _joint_piece(number: int, structure: Skeleton, joint: Joint) -> Piece:
-    return Piece(assembly.RecordJoint(number, structure.joint(joint.name).component, joint))
+def _record_joint(number: int, structure: Skeleton, joint: Joint) -> RecordJoint:
+    return RecordJoint(number, structure.joint(joint.name).component, joint)

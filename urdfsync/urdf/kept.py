@@ -6,7 +6,7 @@ import operator
 from collections.abc import Callable, Hashable
 from typing import Any, TypeVar
 
-from urdfsync.domain import Parts
+from urdfsync.domain import Parts, Piece
 
 _Value = TypeVar("_Value")
 
@@ -20,6 +20,7 @@ class Kept:
     def __init__(self, parts: Parts | None, kind: str) -> None:
         self._last: dict[Hashable, tuple[tuple[Any, ...], Any]] = {} if parts is None else parts.get(kind, {})
         self._now: dict[Hashable, tuple[tuple[Any, ...], Any]] = {}
+        self._keeps = parts is not None
         if parts is not None:
             parts[kind] = self._now
 
@@ -31,6 +32,12 @@ class Kept:
         self._now[name] = known
         value: _Value = known[1]
         return value
+
+    def piece(self, name: Hashable, make: Callable[..., _Value], *made_of: Any) -> _Value | Piece:
+        """The same as a piece of a text, if anything is kept."""
+        if not self._keeps:
+            return make(*made_of)
+        return self.get(name, lambda *found: Piece(make(*found)), *made_of)
 
     def same(self, name: Hashable, value: _Value) -> _Value:
         """The value of the last time if this one is equal to it: for texts, and what is made of texts alone."""

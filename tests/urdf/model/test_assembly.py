@@ -70,8 +70,8 @@ GRIPPER = skeleton(
 
 def test_tables_count_from_one_in_canonical_order() -> None:
     found = record(GRIPPER)
-    assert [link.of.name for link in found["links"]] == ["base", "palm", "camera", "lens", "right", "left", "gear"]
-    assert [joint.of.joint.name for joint in found["joints"]] == ["turn", "mount", "lock", "other", "slide", "pinion"]
+    assert [link.name for link in found["links"]] == ["base", "palm", "camera", "lens", "right", "left", "gear"]
+    assert [joint.joint.name for joint in found["joints"]] == ["turn", "mount", "lock", "other", "slide", "pinion"]
     assert found["connection_matrix"] == [(1, 2), (2, 3), (3, 4), (2, 5), (2, 6), (6, 7)]
     assert found["moveable_joints"] == [(1, 1), (3, 1), (4, 1), (5, 1), (6, 1)]
     assert found["name"] == "the robot"
@@ -80,10 +80,10 @@ def test_tables_count_from_one_in_canonical_order() -> None:
 @given(robots())
 def test_the_tables_say_what_the_tree_is(robot: Robot) -> None:
     found = record(Skeleton.of(robot))
-    names = [link.of.name for link in found["links"]]
+    names = [link.name for link in found["links"]]
     ends = {(names[parent - 1], names[child - 1]) for parent, child in found["connection_matrix"]}
     assert ends == {(joint.parent, joint.child) for joint in robot.joints}
-    moving = {found["joints"][number - 1].of.joint.name for number, _ in found["moveable_joints"]}
+    moving = {found["joints"][number - 1].joint.name for number, _ in found["moveable_joints"]}
     assert moving == {joint.name for joint in robot.joints if joint.type != "fixed"}
     assert all(child == row + 1 for row, (_, child) in enumerate(found["connection_matrix"], start=1))
 

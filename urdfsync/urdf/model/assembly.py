@@ -181,16 +181,15 @@ def generic_data(skeleton: Skeleton, target: Target, options: Options) -> dict[s
 
 def record_data(
     structure: Skeleton,
-    links: Sequence[Piece],
-    joints: Sequence[Piece],
+    links: Sequence[RecordLink | Piece],
+    joints: Sequence[RecordJoint | Piece],
     ground: tuple[Skeleton, Mapping[str, Import]] | None,
     target: Target,
     name: str,
 ) -> dict[str, Any]:
     """Data of the record of the whole robot; a package around it names the libraries that it uses.
 
-    `links` and `joints` are pieces of `RecordLink` and `RecordJoint`, `ground` is what has a part in the height that a
-    mobile robot stands at.
+    `ground` is what has a part in the height that a mobile robot stands at.
     """
     number = {link.name: k for k, link in enumerate(structure.links, 1)}
     generic = tables.has_tables(structure.joints)
