@@ -29,7 +29,8 @@ class Kept:
         known = self._last.get(name)
         if known is None or any(map(operator.is_not, known[0], made_of)):
             known = made_of, make(*made_of)
-        self._now[name] = known
+        if self._keeps:
+            self._now[name] = known
         value: _Value = known[1]
         return value
 
@@ -40,7 +41,7 @@ class Kept:
         return self.get(name, lambda *found: Piece(make(*found)), *made_of)
 
     def same(self, name: Hashable, value: _Value) -> _Value:
-        """The value of the last time if this one is equal to it: for texts, and what is made of texts alone."""
+        """The value of the last time if this one is equal to it: for what gives the same texts then."""
         known = self._last.get(name)
         if known is None or known[1] != value:
             known = (), value
