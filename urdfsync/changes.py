@@ -157,6 +157,8 @@ def moves(
     with an identifier that had to give way to another element's. Where an element has several files of one template
     that moved, nothing is matched.
     """
+    if old == new and not renames:
+        return {}
     owners = {f"{kind} {name}": f"{kind} {renamed}" for (kind, name), renamed in renames.items()}
     leaving = {path: (owners.get(owner, owner), template) for path, (owner, template) in old.items()}
     staying = {path for path, key in leaving.items() if new.get(path) == key}

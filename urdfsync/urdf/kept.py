@@ -45,6 +45,7 @@ class Kept:
         known = self._last.get(name)
         if known is None or known[1] != value:
             known = (), value
-        self._now[name] = known
+        if self._keeps:
+            self._now[name] = known
         found: _Value = known[1]
         return found
