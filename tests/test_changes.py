@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from urdfsync.changes import Change, Changes, Comparing, Stale, _by_deepdiff, _of_leaves, compare, moves, stale
 from urdfsync.difference import ChangeClass, Difference, ElementKey, Kind, Meaning, Version
-from urdfsync.domain import Artifact, Import, Order, Role, Snapshot
+from urdfsync.domain import Artifact, Import, Order, Recipe, Role, Snapshot
 
 PLAIN = st.recursive(
     st.none() | st.booleans() | st.integers(-3, 3) | st.floats(-1, 1) | st.text("ab_[]'\"", max_size=3),
@@ -256,6 +256,17 @@ def test_stale_files_are_those_with_other_data_or_template() -> None:
     assert stale([*files, Order("order", ("a",))], [*others, Order("order", ())]) == Stale(
         frozenset({"data", "template", "new", "order"}), frozenset({"gone"})
     )
+
+
+def test_files_with_equal_recipes_are_not_stale_and_nothing_is_made_to_find_out() -> None:
+    def make(number: int) -> dict[str, int]:
+        raise AssertionError(f"nobody needs the data of {number}")
+
+    def artifact(number: int) -> Artifact:
+        return Artifact("A.mo", Role.MODEL, "t", Recipe(make, (number,)), "robot")
+
+    assert stale([artifact(1)], [artifact(1)]) == Stale(frozenset(), frozenset())
+    assert stale([artifact(1)], [artifact(2)]) == Stale(frozenset({"A.mo"}), frozenset())
 
 
 RECORD, MODEL = Role.RECORD, Role.MODEL

@@ -26,6 +26,8 @@ class Domain:
 
     def __init__(self, path: str = "A.mo") -> None:
         self.asked = 0
+        self.found: list[list[int]] = []
+        """What was in the parts, call by call."""
         self._path = path
 
     def read(self, content: bytes, file: str, options: Any) -> Reading:
@@ -41,6 +43,9 @@ class Domain:
         parts: Parts | None = None,
     ) -> Sequence[Artifact | Order]:
         self.asked += 1
+        assert parts is not None
+        self.found.append([*parts])
+        parts[self.asked] = "kept"
         return [Artifact(self._path, Role.RECORD, "t", {"of": (snapshot, imports, target, options)}, "part")]
 
 
@@ -81,6 +86,23 @@ def test_files_of_anything_else_are_made_anew(other: Mapping[str, Any]) -> None:
 def test_files_of_another_domain_are_made_anew() -> None:
     memory, one, two = Memory(), Domain(), Domain("B.mo")
     assert [artifacts(memory, domain)[0].path for domain in (one, two)] == ["A.mo", "B.mo"]
+
+
+def test_a_domain_gets_back_what_it_has_kept_and_no_other_does() -> None:
+    memory, domain, other = Memory(), Domain(), Domain()
+    for snapshot in ({"name": "m"}, {"name": "n"}):
+        artifacts(memory, domain, snapshot=snapshot)
+    artifacts(memory, other)
+    artifacts(memory, domain)
+    assert (domain.found, other.found) == ([[], [1], []], [[]])
+
+
+def test_elements_that_are_the_same_objects_are_not_looked_into() -> None:
+    memory, domain = Memory(), Domain()
+    element = {"ohm": object()}  # whoever looked would find that this is no plain data
+    for _ in range(2):
+        artifacts(memory, domain, snapshot={"name": "n", "elements": {"R1": element}})
+    assert domain.asked == 1
 
 
 def test_paths_are_checked_every_time_that_they_are_no_good() -> None:
