@@ -13,6 +13,7 @@ from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Recipe, Snapshot, Target, Templates
+from urdfsync.shelf import Shelf, Shelved
 
 if TYPE_CHECKING:
     from urdfsync.render import Renderer
@@ -24,24 +25,35 @@ _FORBIDDEN = frozenset('\\:*?"<>|')
 class Generated:
     """The package: text files by their path, and the names for each `package.order`; POSIX, below the package.
 
-    What a text is made of is forgotten once that is rendered, since all of a large robot's takes half as much memory as
-    the texts. What stands in its place is equal to nothing else, so the text counts as stale wherever that is asked.
+    They are in the order of their paths, and texts that were rendered stand on a shelf. What a text is made of is
+    forgotten then, since all of a large robot's takes half as much memory as the texts. What stands in its place is
+    equal to nothing else, so the text counts as stale wherever that is asked.
     """
 
     def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates) -> None:
-        artifacts = list(artifacts)
+        artifacts = sorted(artifacts, key=lambda artifact: artifact.path)
         self.artifacts: dict[str, Artifact] = {a.path: a for a in artifacts if isinstance(a, Artifact)}
         self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in artifacts if isinstance(a, Order)}
         self._templates = templates
-        self._contents: dict[str, bytes] = {}
+        self._shelf = Shelf()
+        self._uneven: set[str] = set()
+        """Paths of texts with carriage returns, which their hashes leave out."""
 
     def content(self, path: str) -> bytes:
         """The text of one file. Raises ConfigError for a template that can't be used."""
-        if path not in self._contents:
-            artifact = self.artifacts[path]
-            self._contents[path] = _content(_renderer(self._templates), artifact, self._templates.folders)
-            self.artifacts[path] = msgspec.structs.replace(artifact, source=Recipe(dict, (object(),)))
-        return self._contents[path]
+        if path in self._shelf:
+            return self._shelf.get(path)
+        artifact = self.artifacts[path]
+        content = _content(_renderer(self._templates), artifact, self._templates.folders)
+        self._shelf.put(path, content)
+        if b"\r" in content:
+            self._uneven.add(path)
+        self.artifacts[path] = msgspec.structs.replace(artifact, source=Recipe(dict, (object(),)))
+        return content
+
+    def shelved(self, path: str, digest: str) -> Shelved | None:
+        """The text of one file, with its hash as a text, for later; None if that is not its hash as bytes, too."""
+        return Shelved(self._shelf, path, digest) if path in self._shelf and path not in self._uneven else None
 
 
 @functools.lru_cache(maxsize=4)

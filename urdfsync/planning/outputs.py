@@ -14,6 +14,7 @@ from urdfsync.changes import stale
 from urdfsync.files import normalised, text_digest
 from urdfsync.plan import FileRecord, State
 from urdfsync.planning.generate import Generated
+from urdfsync.shelf import Shelved
 from urdfsync.state.bases import Bases
 
 _AS_GENERATED = (State.GENERATED, State.EDITED)
@@ -56,6 +57,13 @@ class Outputs:
         """What would be written."""
         known = self._known(path, self._recorded(path))
         return self._now.content(path) if known is None else known.encode()
+
+    def shelved(self, path: str) -> Shelved | bytes:
+        """The same for later, so that not all contents are in memory until then."""
+        known = self._known(path, self._recorded(path))
+        if known is not None:
+            return known.encode()
+        return self._now.shelved(path, self.digest(path)) or self._now.content(path)
 
     def generates(self, path: str, digest: str) -> bool:
         """Whether the text of this hash is what would be written to a path."""

@@ -16,6 +16,7 @@ from urdfsync.planning.decide import Decision, encode
 from urdfsync.planning.imports import Imported
 from urdfsync.planning.outputs import Outputs
 from urdfsync.planning.situation import Situation
+from urdfsync.shelf import Shelved
 from urdfsync.standoff import aside
 from urdfsync.state import bases
 from urdfsync.state.transactions import Change
@@ -85,15 +86,16 @@ class Recording:
                 content = None if action.kind in DELETES else self._content(decision, action.path, action.role)
                 yield Change(disk.path(action.path), content, disk.seen(action.path))
 
-    def _content(self, decision: Decision, key: str, role: Role) -> bytes:
+    def _content(self, decision: Decision, key: str, role: Role) -> bytes | Shelved:
         if key in decision.texts:
             return encode(decision.texts[key])
         path = key.removeprefix(self._situation.key(""))
         if role is Role.IMPORT:
             return self._imported.contents[path]
-        content = self._outputs.content(path)
         mine = (self._situation.disk.read(key) or b"") if self._situation.disk.seen(key) else b""
-        return content.replace(b"\n", b"\r\n") if 2 * mine.count(b"\r\n") > mine.count(b"\n") else content
+        if 2 * mine.count(b"\r\n") > mine.count(b"\n"):
+            return self._outputs.content(path).replace(b"\n", b"\r\n")
+        return self._outputs.shelved(path)
 
     def _aside(self, decision: Decision) -> Iterator[tuple[str, bytes]]:
         """What is put aside of conflicts: path below the robot's folder, and content."""

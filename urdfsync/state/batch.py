@@ -10,7 +10,7 @@ from __future__ import annotations
 import contextlib
 import os
 import stat
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from urdfsync import looking
@@ -53,7 +53,7 @@ class Batch:
         """The folders that come or go."""
         return [Path(os.path.normpath(self._root / path)) for path in (*self.journal.made, *self.journal.emptied)]
 
-    def prepare(self, contents: Sequence[bytes | None]) -> None:
+    def prepare(self, contents: Iterable[bytes | None]) -> None:
         """Write the journal and all temporary files. Raises OutputError; no target has changed then."""
         for folder in (self._folder, self._folder / "journal", self._folder / "undo"):
             with self._about(folder):

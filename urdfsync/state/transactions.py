@@ -11,6 +11,7 @@ import msgspec
 from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree, digest
+from urdfsync.shelf import Shelved
 from urdfsync.state import operations
 from urdfsync.state.batch import Batch, SavedError, find_phase
 from urdfsync.state.journal import FORMAT, Journal, Phase, Step
@@ -24,10 +25,20 @@ class Change(msgspec.Struct, frozen=True):
     """What is to happen to one file."""
 
     path: Path
-    content: bytes | None
+    content: bytes | Shelved | None
     """None to delete it."""
     old: str | None
     """SHA-256 (hex) of the bytes that were there when this was decided; None if there was no file."""
+
+    def read(self) -> bytes | None:
+        """The bytes that are to be there; None for no file."""
+        return self.content.read() if isinstance(self.content, Shelved) else self.content
+
+    def hash(self) -> str | None:
+        """SHA-256 (hex) of these bytes; None for no file."""
+        if isinstance(self.content, Shelved):
+            return self.content.hash
+        return None if self.content is None else digest(self.content)
 
 
 class Transactions:
@@ -49,14 +60,14 @@ class Transactions:
         one of the files, OutputError if one can't be written: then all is as it was. Raises
         UnfinishedError if it can't be put back; `recover` will.
         """
-        steps = [Step(self._key(c.path), c.old, None if c.content is None else digest(c.content)) for c in changes]
+        steps = [Step(self._key(c.path), c.old, c.hash()) for c in changes]
         made = _missing_folders(self._root, [change.path for change in changes if change.content is not None])
         journal = Journal(
             robot, str(os.getpid()), tuple(steps), tuple(map(self._key, made)), tuple(map(self._key, emptied))
         )
         batch = Batch(self._root, self._folder, journal, self._shown)
         try:
-            batch.prepare([change.content for change in changes])
+            batch.prepare(change.read() for change in changes)
             batch.apply()
         except BaseException as error:
             self._roll_back(batch, error)
