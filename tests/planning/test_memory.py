@@ -13,7 +13,7 @@ import pytest
 from urdfsync import config, registry
 from urdfsync.build import Request, build
 from urdfsync.diagnostics import OutputError
-from urdfsync.domain import Artifact, Import, Order, Reading, Role, Snapshot, Target
+from urdfsync.domain import Artifact, Import, Order, Parts, Reading, Role, Snapshot, Target
 from urdfsync.planning.memory import Memory
 
 SNAPSHOT: Snapshot = {"name": "n", "elements": {"R1": {"ohm": 1.0}}}
@@ -28,7 +28,7 @@ class Domain:
         self.asked = 0
         self._path = path
 
-    def read(self, content: bytes, file: str, options: Any) -> Reading:
+    def read(self, content: bytes, file: str, options: Any, parts: Parts | None = None) -> Reading:
         self.asked += 1
         return Reading({"content": content.decode(), "file": file, "options": options}, ())
 

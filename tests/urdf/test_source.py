@@ -151,6 +151,25 @@ def test_the_line_is_where_a_start_tag_begins_even_in_long_files() -> None:
     assert [(d.code, d.line) for d in reading.diagnostics] == [("duplicate-link", 70_003)]
 
 
+def test_tags_in_a_document_type_are_none() -> None:
+    reading = read('<!DOCTYPE robot SYSTEM "<link>">\n<robot name="r">\n<link name="a"/></robot>')
+    assert reading.robot == Robot("r", (Link("a"),))
+    assert reading.lines == {"robot": 2, "link a": 3}
+
+
+def test_the_first_of_two_elements_that_are_called_the_same_has_the_line() -> None:
+    inertial = '<inertial>\n<mass value="1"/>\n<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+    reading = read(f'<robot name="r">\n<link name="a">\n{inertial}</link>\n<link name="a / inertial"/></robot>')
+    assert reading.lines["link a / inertial"] == 3
+
+
+def test_elements_are_counted_without_those_that_are_left_out() -> None:
+    axis = '<parent link="a"/>\n<axis xyz="0 0 2"/>'
+    text = f'<robot name="r"><link name="a"/>\n<joint name="j"/>\n<joint name="j" type="continuous"><child link="a"/>{axis}</joint></robot>'
+    (warning,) = [found for found in read(text).diagnostics if found.code == "axis-not-unit"]
+    assert warning.message == "joint j: the axis 0 0 2 has length 2, and is normalised"
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "utf-32"])
 @pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
 def test_encodings_and_line_ends(encoding: str, line_end: str) -> None:
@@ -229,6 +248,8 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (b"<!DOCTYPE robot SYSTEM 'a.dtd'>\n<robot>\n&e;</robot>", "xml-entity", 3),
         (b"<robot name='\x01'/>", "xml-syntax", 1),
         (b"<a>" * 300 + b"</a>" * 300, "xml-syntax", 1),
+        (b"<robot name='r'>\n<link name='a'/><q>\n" + b"<a>" * 255 + b"</a>" * 255 + b"</q></robot>", "xml-syntax", 3),
+        (b"<robot name='r'>\n<q xml:id='1'/></robot>", "xml-syntax", 2),
         (b"robot: yes", "xml-syntax", 1),
         (b"<robot>\n\n  <link name='\xe4'/></robot>", "file-encoding", 3),
         (b"\x1f\x8b\x08\x00", "file-encoding", 1),

@@ -126,7 +126,7 @@ class _Assembly(Generic[T]):
     def read(self, far: bool = False) -> Document[T]:
         """Parse the excerpt. Raises xml.Fault, or _DoubtError if it does not tell what the whole says."""
         prefixes = xml.parse(self._excerpt, self)
-        if self._waiting or (self._cut_out and prefixes):
+        if self._waiting:
             raise _DoubtError
         return Document(self._root, self._namespaces, self._chunks, self._lines, prefixes, far)
 
