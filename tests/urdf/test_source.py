@@ -164,8 +164,9 @@ def test_the_first_of_two_elements_that_are_called_the_same_has_the_line() -> No
 
 
 def test_elements_are_counted_without_those_that_are_left_out() -> None:
-    axis = '<parent link="a"/>\n<axis xyz="0 0 2"/>'
-    text = f'<robot name="r"><link name="a"/>\n<joint name="j"/>\n<joint name="j" type="continuous"><child link="a"/>{axis}</joint></robot>'
+    inside = '<parent link="a"/><child link="a"/><axis xyz="0 0 2"/>'
+    joints = f'<joint name="j" type="fixed"/><joint name="j" type="continuous">{inside}</joint>'
+    text = f'<robot name="r"><link name="a"/>{joints}</robot>'
     (warning,) = [found for found in read(text).diagnostics if found.code == "axis-not-unit"]
     assert warning.message == "joint j: the axis 0 0 2 has length 2, and is normalised"
 
@@ -229,6 +230,7 @@ def test_every_truncation_is_one_error(encoding: str) -> None:
     assert read_robot(content + b"", "a.urdf", cross_check=False).robot is not None
 
 
+DEEP = b"<origin>" * 254, b"</origin>" * 254
 LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
 
 
@@ -248,8 +250,8 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (b"<!DOCTYPE robot SYSTEM 'a.dtd'>\n<robot>\n&e;</robot>", "xml-entity", 3),
         (b"<robot name='\x01'/>", "xml-syntax", 1),
         (b"<a>" * 300 + b"</a>" * 300, "xml-syntax", 1),
-        (b"<robot name='r'>\n<link name='a'/><q>\n" + b"<a>" * 255 + b"</a>" * 255 + b"</q></robot>", "xml-syntax", 3),
-        (b"<robot name='r'>\n<q xml:id='1'/></robot>", "xml-syntax", 2),
+        (b"<robot name='r'>\n<link name='a'><visual>%b%b</visual></link></robot>" % DEEP, "xml-syntax", 2),
+        (b"<robot name='r'>\n<link name='a' xml:id='1'/></robot>", "xml-syntax", 2),
         (b"robot: yes", "xml-syntax", 1),
         (b"<robot>\n\n  <link name='\xe4'/></robot>", "file-encoding", 3),
         (b"\x1f\x8b\x08\x00", "file-encoding", 1),
