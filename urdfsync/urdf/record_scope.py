@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.model.tables import obstacles
-from urdfsync.urdf.resistance import resistances
+from urdfsync.urdf.resistance import unresisted
 from urdfsync.urdf.robot import Joint, Link, Robot
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
@@ -32,10 +32,11 @@ def out_of_scope(robot: Robot, file: str, lines: Mapping[str, int]) -> Iterator[
 
 
 def _massless(skeleton: Skeleton, file: str, lines: Mapping[str, int]) -> Iterator[Diagnostic]:
-    resisted = resistances(skeleton)
-    idle = {j.name for j in skeleton.joints if j.type in MOTIONS and j.mimic is None and not resisted[j.name]}
+    idle = unresisted(skeleton)
+    if not idle:
+        return
     heavy = _heavy(skeleton)
-    if idle and not heavy:
+    if not heavy:
         message = "no link has a mass, so the joints of the generic robot can be moved by position only"
         yield _warning("moves-no-mass", message, "give the links an <inertial>", file, lines, "robot")
         return

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
 
-from urdfsync.urdf.kinematics import Pose, compose, dot, link_poses, pose, start_positions
+from urdfsync.urdf.kinematics import Pose, compose, dot, link_poses, own_range, pose, start_positions
+from urdfsync.urdf.reader.checks import principal_moments
 from urdfsync.urdf.robot import Joint, Link, Vector
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 _ROUNDING = 1e-12
 """What is left of terms of this size that cancel each other."""
+_CLEAR = 1e-9
+"""A moment of inertia above that much of all terms is far from rounding."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -58,6 +62,58 @@ def resistances(skeleton: Skeleton) -> Mapping[str, float]:
         for follower, mimic in followers.get(joint.name, ()) if joint.name in found else ():
             found[joint.name] += mimic.multiplier**2 * found[follower.name]
     return found
+
+
+def unresisted(skeleton: Skeleton) -> set[str]:
+    """The joints with an axis, followers left out, whose resistance is 0."""
+    axes = [joint for joint in skeleton.joints if joint.type in MOTIONS and joint.mimic is None]
+    if _clearly_resisted(skeleton, axes):
+        return set()
+    found = resistances(skeleton)
+    return {joint.name for joint in axes if not found[joint.name]}
+
+
+def _clearly_resisted(skeleton: Skeleton, axes: Iterable[Joint]) -> bool:
+    """Whether a link behind each of these joints has so much inertia that nothing need be added up to see it.
+
+    About any axis, a body has at least its least principal moment of inertia; those of others only add to it.
+    """
+    least, masses, spread = _least_inertias(skeleton.links)
+    if min(least.values()) < 0 or _starts_shifted(skeleton.joints):
+        return False
+    reach, far = 0.0, {skeleton.links[0].name: 0.0}
+    for joint in skeleton.joints:
+        far[joint.child] = far[joint.parent] + math.hypot(*joint.origin.xyz)
+    for link in skeleton.links:
+        if link.inertial is not None:
+            reach = max(reach, far[link.name] + math.hypot(*link.inertial.origin.xyz))
+    enough = _CLEAR * (spread + 4 * sum(masses.values()) * max(reach, *far.values()) ** 2)  # above all terms of `about`
+    for joint in reversed(skeleton.joints):
+        masses[joint.parent] = max(masses[joint.parent], masses[joint.child])
+        least[joint.parent] = max(least[joint.parent], least[joint.child])
+    return all(
+        masses[joint.child] > 0 if MOTIONS[joint.type] == "translational" else least[joint.child] > enough
+        for joint in axes
+    )
+
+
+def _least_inertias(links: Iterable[Link]) -> tuple[dict[str, float], dict[str, float], float]:
+    """Least principal moments of inertia and masses by link, and the sum of all moments on diagonals."""
+    least, masses, spread = {}, {}, 0.0
+    for link in links:
+        least[link.name] = masses[link.name] = 0.0
+        if link.inertial is not None:
+            inertia = link.inertial.inertia
+            least[link.name], masses[link.name] = principal_moments(inertia)[0], link.inertial.mass
+            spread += inertia.ixx + inertia.iyy + inertia.izz
+    return least, masses, spread
+
+
+def _starts_shifted(joints: Iterable[Joint]) -> bool:
+    """Whether a joint may be shifted at the start; where joints follow each other, ranges are not looked into."""
+    ranges = [own_range(joint) for joint in joints if MOTIONS.get(joint.type) == "translational"]
+    led = bool(ranges) and any(joint.mimic is not None for joint in joints)
+    return led or any(lower > 0 or upper < 0 for lower, upper in ranges)
 
 
 def _moved(joint: Joint, poses: Mapping[str, Pose], body: _Body) -> float:
