@@ -48,7 +48,6 @@ _DEEP = 100
 _INK = re.compile(r"[^\n]")
 _STRICT: dict[str, Any] = {
     "recover": False,
-    "resolve_entities": False,
     "no_network": True,
     "load_dtd": False,
     "huge_tree": False,
@@ -72,7 +71,9 @@ class Child(msgspec.Struct, eq=False):
     def elements(self) -> Sequence[etree._Element]:
         """The child and all elements below it, in document order, as a tree of their own."""
         if not self.parsed:
-            root = etree.fromstring((self.before + self.text + self.after).encode(), etree.XMLParser(**_STRICT))
+            root = etree.fromstring(
+                (self.before + self.text + self.after).encode(), etree.XMLParser(resolve_entities=False, **_STRICT)
+            )
             self.parsed = list(next(root.iterchildren("*")).iter("*"))
         return self.parsed
 
@@ -312,7 +313,7 @@ class _Builder:
 def _build(text: str, prefixes: Mapping[str, Diagnostic], builder: _Builder) -> dict[str, Diagnostic]:
     """Parse without a tree, and return the same as `_tree`: it is asked wherever something may be wrong."""
     target: Any = builder
-    parser = etree.XMLParser(target=target, **_STRICT)
+    parser = etree.XMLParser(target=target, resolve_entities="internal", **_STRICT)  # else `&amp;` is given as `&#38;`
     try:
         etree.fromstring(text.encode(), parser)
     except etree.XMLSyntaxError as error:
@@ -328,7 +329,7 @@ def _build(text: str, prefixes: Mapping[str, Diagnostic], builder: _Builder) -> 
 
 def _tree(text: str, prefixes: Mapping[str, Diagnostic]) -> tuple[etree._Element | None, dict[str, Diagnostic]]:
     """The root as a tree; or None, and a warning for each prefix beside these that lacks a namespace. Raises Fault."""
-    parser = etree.XMLParser(**_STRICT)
+    parser = etree.XMLParser(resolve_entities=False, **_STRICT)
     try:
         root = etree.fromstring(text.encode(), parser)
     except etree.XMLSyntaxError as error:
