@@ -305,7 +305,7 @@ def versions(draw: st.DrawFn) -> list[bytes]:
     return ["".join(pieces).encode() for pieces in known]
 
 
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None)
 @given(versions())
 def test_any_edits_of_any_robots(contents: list[bytes]) -> None:
     read_in_turn(contents)
