@@ -83,9 +83,11 @@ def _plain(element: _Element) -> dict[str, Any]:
 
 def _drop_absent(plain: dict[str, Any]) -> None:
     """Take out what is None, at every level."""
-    for key, value in list(plain.items()):
-        if value is None:
-            del plain[key]
-        for below in value if isinstance(value, list) else (value,):
-            if isinstance(below, dict):
+    for key in [key for key, value in plain.items() if value is None]:
+        del plain[key]
+    for value in plain.values():
+        if type(value) is dict:
+            _drop_absent(value)
+        elif type(value) is list and value and type(value[0]) is dict:
+            for below in value:
                 _drop_absent(below)
