@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import os
-import signal
 import threading
 from collections import deque
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
+
+import msgspec
 
 from urdfsync import garbage, looking, profiling
 from urdfsync.config import Config, RobotConfig
@@ -101,7 +101,7 @@ class Crew:
 
     def _submit(self) -> None:
         """Let others plan some robots more, but not so many that their texts and meshes fill the memory."""
-        request = dataclasses.replace(self._request, progress=in_silence, memory=None)
+        request = msgspec.structs.replace(self._request, progress=in_silence, memory=None)
         while self._pool is not None and self._waiting and len(self._futures) < self._window:
             robot = self._waiting.popleft()
             profiled = profiling.current() is not None
@@ -149,6 +149,7 @@ def _plan(config: Config, robot: RobotConfig, request: Request, profiled: bool) 
 
 def _join(folder: str) -> None:
     """Prepare a process of the crew: it works in the same folder, and ends when its parent does."""
+    import signal  # most builds have no crew
     from multiprocessing import parent_process
     from multiprocessing.connection import wait
 

@@ -25,7 +25,6 @@ from urdfsync.domain import (
 )
 from urdfsync.urdf import naming
 from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.record_scope import out_of_scope
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
@@ -50,6 +49,8 @@ class UrdfDomain:
             return Reading(None, reading.diagnostics, reading.lines)
         said = reading.diagnostics
         if "record" in options.approach:
+            from urdfsync.urdf.record_scope import out_of_scope
+
             said += tuple(out_of_scope(reading.robot, file, reading.lines))
         snapshot = to_snapshot(reading.robot, kept.get("snapshot"))
         kept["snapshot"] = reading.robot, snapshot
@@ -144,6 +145,7 @@ class UrdfDomain:
     def record(self, reading: Reading, file: str, target: Target, options: Options) -> Standalone | None:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf.artifacts import record
+        from urdfsync.urdf.record_scope import out_of_scope
 
         if reading.snapshot is None:
             return None

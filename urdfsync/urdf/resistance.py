@@ -1,24 +1,25 @@
-"""What resists the motion of each joint: the diagonal of the mass matrix, at the start."""
+"""What resists the motion of each joint at the start: the diagonal of the mass matrix, and what is left of it."""
 
 from __future__ import annotations
 
-import dataclasses
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence, Set
+from operator import add, mul
 
-from urdfsync.urdf.kinematics import Pose, compose, dot, link_poses, own_range, pose, start_positions
-from urdfsync.urdf.reader.checks import principal_moments
+import msgspec
+
+from urdfsync.urdf.kinematics import Pose, compose, dot, link_poses, pose, start_positions
 from urdfsync.urdf.robot import Joint, Link, Vector
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 _ROUNDING = 1e-12
 """What is left of terms of this size that cancel each other."""
-_CLEAR = 1e-9
-"""A moment of inertia above that much of all terms is far from rounding."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class _Body:
+_Matrix = Sequence[Sequence[float]]
+
+
+class _Body(msgspec.Struct, frozen=True):
     """Mass (kg), mass times centre of mass (kg.m), inertia about the origin (kg.m2); in the frame of the root link."""
 
     mass: float = 0.0
@@ -43,6 +44,14 @@ class _Body:
         found = sum(terms)
         return found if found > _ROUNDING * sum(map(abs, terms)) else 0.0
 
+    def matrix(self) -> _Matrix:
+        """The same as a spatial inertia: of (angular velocity, velocity at the origin) to (torque about it, force)."""
+        (x, y, z), m = self.moment, self.mass
+        skew = ((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0))
+        upper = [[*row, *cross] for row, cross in zip(self.inertia, skew, strict=True)]
+        lower = [[*(-c for c in cross), *(m * (j == k) for k in range(3))] for j, cross in enumerate(skew)]
+        return upper + lower
+
 
 def resistances(skeleton: Skeleton) -> Mapping[str, float]:
     """Mass (kg) or moment of inertia (kg.m2) that each joint with an axis moves, those of its followers included.
@@ -64,56 +73,50 @@ def resistances(skeleton: Skeleton) -> Mapping[str, float]:
     return found
 
 
-def unresisted(skeleton: Skeleton) -> set[str]:
-    """The joints with an axis, followers left out, whose resistance is 0."""
-    axes = [joint for joint in skeleton.joints if joint.type in MOTIONS and joint.mimic is None]
-    if _clearly_resisted(skeleton, axes):
-        return set()
-    found = resistances(skeleton)
-    return {joint.name for joint in axes if not found[joint.name]}
+def yielding(skeleton: Skeleton) -> Set[str]:
+    """Joints that nothing resists where each joint is at its start, since those behind them can give way.
 
-
-def _clearly_resisted(skeleton: Skeleton, axes: Iterable[Joint]) -> bool:
-    """Whether a link behind each of these joints has so much inertia that nothing need be added up to see it.
-
-    About any axis, a body has at least its least principal moment of inertia; those of others only add to it.
+    Such as the first of two joints on the same axis with nothing between them: the mass matrix is singular then. A
+    joint is one of them if its articulated body has no inertia about or along its axis (Featherstone: Rigid Body
+    Dynamics Algorithms, 2008, section 7.3). Joints that follow others, or lead some, count as fixed here.
     """
-    least, masses, spread = _least_inertias(skeleton.links)
-    if min(least.values()) < 0 or _starts_shifted(skeleton.joints):
-        return False
-    reach, far = 0.0, {skeleton.links[0].name: 0.0}
-    for joint in skeleton.joints:
-        far[joint.child] = far[joint.parent] + math.hypot(*joint.origin.xyz)
-    for link in skeleton.links:
-        if link.inertial is not None:
-            reach = max(reach, far[link.name] + math.hypot(*link.inertial.origin.xyz))
-    enough = _CLEAR * (spread + 4 * sum(masses.values()) * max(reach, *far.values()) ** 2)  # above all terms of `about`
+    poses = link_poses(skeleton, start_positions(skeleton))
+    bodies = {link.name: _body(link, poses[link.name]) for link in skeleton.links}
+    inertias = {name: body.matrix() for name, body in bodies.items()}
+    leaders = skeleton.followers_by_leader()
+    found = set()
     for joint in reversed(skeleton.joints):
-        masses[joint.parent] = max(masses[joint.parent], masses[joint.child])
-        least[joint.parent] = max(least[joint.parent], least[joint.child])
-    return all(
-        masses[joint.child] > 0 if MOTIONS[joint.type] == "translational" else least[joint.child] > enough
-        for joint in axes
-    )
+        inertia = inertias[joint.child]
+        if joint.type in MOTIONS and joint.mimic is None and joint.name not in leaders:
+            motion = _motion(joint, poses)
+            force = [_product(row, motion) for row in inertia]
+            left = _product(force, motion)
+            if left > _ROUNDING * _size(bodies[joint.child].matrix(), motion):
+                inertia = [
+                    [a - f * g / left for a, g in zip(row, force, strict=True)]
+                    for row, f in zip(inertia, force, strict=True)
+                ]
+            else:
+                found.add(joint.name)
+        bodies[joint.parent] += bodies[joint.child]
+        inertias[joint.parent] = [[*map(add, *rows)] for rows in zip(inertias[joint.parent], inertia, strict=True)]
+    return found
 
 
-def _least_inertias(links: Iterable[Link]) -> tuple[dict[str, float], dict[str, float], float]:
-    """Least principal moments of inertia and masses by link, and the sum of all moments on diagonals."""
-    least, masses, spread = {}, {}, 0.0
-    for link in links:
-        least[link.name] = masses[link.name] = 0.0
-        if link.inertial is not None:
-            inertia = link.inertial.inertia
-            least[link.name], masses[link.name] = principal_moments(inertia)[0], link.inertial.mass
-            spread += inertia.ixx + inertia.iyy + inertia.izz
-    return least, masses, spread
+def _motion(joint: Joint, poses: Mapping[str, Pose]) -> Sequence[float]:
+    """Angular velocity, and velocity at the origin, per speed of the joint."""
+    rotation, point = compose(poses[joint.parent], pose(joint.origin))
+    axis: Vector = tuple(dot(row, joint.axis) for row in rotation)  # type: ignore[assignment]
+    return (0.0, 0.0, 0.0, *axis) if MOTIONS[joint.type] == "translational" else (*axis, *_cross(point, axis))
 
 
-def _starts_shifted(joints: Iterable[Joint]) -> bool:
-    """Whether a joint may be shifted at the start; where joints follow each other, ranges are not looked into."""
-    ranges = [own_range(joint) for joint in joints if MOTIONS.get(joint.type) == "translational"]
-    led = bool(ranges) and any(joint.mimic is not None for joint in joints)
-    return led or any(lower > 0 or upper < 0 for lower, upper in ranges)
+def _product(a: Sequence[float], b: Sequence[float]) -> float:
+    return math.fsum(map(mul, a, b))
+
+
+def _size(matrix: _Matrix, motion: Sequence[float]) -> float:
+    """Of the terms that a moment of inertia is the sum of."""
+    return sum(abs(a * x * y) for row, x in zip(matrix, motion, strict=True) for a, y in zip(row, motion, strict=True))
 
 
 def _moved(joint: Joint, poses: Mapping[str, Pose], body: _Body) -> float:

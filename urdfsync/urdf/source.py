@@ -6,9 +6,10 @@ Where a robot can be read in one sensible way although something is amiss, that 
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TypeAlias, TypeVar
+
+import msgspec
 
 from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -37,8 +38,7 @@ _KEY = "document"
 """Where `Parts` hold what the last reading left: its document, and the robot."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class RobotReading:
+class RobotReading(msgspec.Struct, frozen=True):
     """What reading a URDF gave: the robot, unless a diagnostic is an error, and what there is to say.
 
     `lines` maps paths to lines: `robot`, `link NAME`, `joint NAME`, and below them for example
