@@ -185,12 +185,6 @@ def load_model(text: str, file: str) -> Model:
     return model
 
 
-def plain(snapshot: Snapshot) -> Snapshot:
-    """The snapshot as it comes back from a JSON file, so that what is rendered now can be rendered again later."""
-    data: dict[str, Any] = msgspec.json.decode(msgspec.json.encode(snapshot, order="sorted"))
-    return data
-
-
 def text_hash(text: str) -> str:
     """SHA-256 (hex) of a text with its line endings normalised, as in `files.text_digest`."""
     return hashlib.sha256(text.replace("\r\n", "\n").replace("\r", "\n").encode()).hexdigest()

@@ -22,11 +22,16 @@ class Memory:
 
     def __init__(self) -> None:
         self._reading: _Last[Reading] = _Last()
+        self._parts: _Last[Parts] = _Last()
         self._artifacts: _Files | None = None
 
     def read(self, domain: Domain, options: Any, content: bytes, name: str) -> Reading:
-        """What the domain reads in a source: who judges one, and then builds it, reads it once."""
-        return self._reading.get((domain, options, content, name), lambda: domain.read(content, name, options))
+        """What the domain reads in a source: who judges one, and then builds it, reads it once.
+
+        What the next version of the source has in common with it need not be read again.
+        """
+        parts = self._parts.get((domain, options, name), dict)
+        return self._reading.get((domain, options, content, name), lambda: domain.read(content, name, options, parts))
 
     def artifacts(
         self, domain: Domain, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
