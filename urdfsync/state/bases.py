@@ -50,6 +50,7 @@ def dumps(texts: Iterable[tuple[str, str]]) -> bytes:
     packer = zlib.compressobj(_FAST, wbits=_GZIP)
     parts, before = [packer.compress(b"{")], b""
     for digest, text in texts:
-        parts.append(packer.compress(b"%s\n%s:%s" % (before, msgspec.json.encode(digest), msgspec.json.encode(text))))
+        parts.append(packer.compress(b"%s\n%s:" % (before, msgspec.json.encode(digest))))
+        parts.append(packer.compress(msgspec.json.encode(text)))  # by itself: the largest texts have megabytes
         before = b","
     return b"".join([*parts, packer.compress(b"}\n"), packer.flush()])
