@@ -32,20 +32,18 @@ def artifacts(
 ) -> list[Artifact | Order]:
     """Every file of the robot's package but the imported meshes; see `Domain.artifacts` for `parts`.
 
-    The largest come first: the memory that it takes to render them then serves for the others. Raises KeyError or
-    ValueError for what is no robot that passed all checks, or has meshes without their facts.
+    Raises KeyError or ValueError for what is no robot that passed all checks, or has meshes without their facts.
     """
     context = _context(robot, imports, target, options, Kept(parts, "robot"))
     skeleton = context.skeleton
-    whole = "package" in options.approach
-    files: list[Artifact | Order] = [*_robot(context)] if whole else []
-    files.append(_record(context, robot.name, Kept(parts, "record")))
+    files: list[Artifact | Order] = [*_package(context)]
+    if "package" in options.approach:
+        files += _elements(context, Kept(parts, "files"))
+        files += _robot(context)
     if has_bench(skeleton.joints, options):
         bench = Recipe(assembly.generic_data, (context.structure, target, options))
         files.append(Artifact(f"{target.name}Generic.mo", Role.MODEL, "robot/generic.mo.jinja", bench, "robot"))
-    files += _package(context)
-    if whole:
-        files += _elements(context, Kept(parts, "files"))
+    files.append(_record(context, robot.name, Kept(parts, "record")))
     return files
 
 
