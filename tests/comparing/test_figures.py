@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from urdfsync.comparing import figures
@@ -46,6 +46,7 @@ def test_everything_is_everything() -> None:
 
 
 @given(NUMBERS, NUMBERS)
+@example(0.0, 5e-324)
 def test_numbers_that_differ_look_different(old: float, new: float) -> None:
     assume(abs(new - old) > 1e-6 * max(abs(old), abs(new)))
     shown = figures.pair(old, new)

@@ -59,18 +59,18 @@ def rod(izz: float) -> str:
 
 
 AT = {"xyz": "0 0 0", "rpy": "0 0 0"}
-SPIN = urdfs.joint("spin", "continuous", "base", "rod", axis="0 0 1", xyz="70 -30 20")
+SPIN = urdfs.joint("spin", "continuous", "base", "rod", axis="0 0 1", xyz="7000 -3000 2000")
 SPUN = urdfs.joint("spin", "continuous", "far", "rod", axis="0 0 1", **AT)
 FAR = [urdfs.limit(1e6, 2e6)], [urdfs.limit(-2e6, 2e6), urdfs.mimic("lead", 1, 1e6)]
 HIDDEN = {
-    "far from the root": [f'<link name="rod">{rod(1e-12)}</link>', SPIN],
+    "far from the root": [f'<link name="rod">{rod(1e-6)}</link>', SPIN],
     "a negative one": [
         *(f'<link name="{name}">{rod(izz)}</link>' for name, izz in (("rod", 1.0), ("other", -1.0))),
-        *(SPIN, urdfs.joint("hold", "fixed", "rod", "other", **AT)),
+        *(SPIN.replace("7000 -3000 2000", "0 0 0"), urdfs.joint("hold", "fixed", "rod", "other", **AT)),
     ],
     **{
         name: [
-            *(urdfs.link("far"), urdfs.link("led", 1), f'<link name="rod">{rod(1e-3)}</link>'),
+            *(urdfs.link("far", 1), urdfs.link("led", 1), f'<link name="rod">{rod(1e-3)}</link>'),
             *(urdfs.joint("lead", "continuous", "base", "led", axis="0 0 1"), SPUN),
             urdfs.joint("slide", "prismatic", "base", "far", axis="1 0 0", inside=inside, **AT),
         ]

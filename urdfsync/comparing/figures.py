@@ -24,7 +24,7 @@ def pair(old: Any, new: Any, *, everything: bool = False) -> tuple[str, str]:
     if is_number(old) and is_number(new):
         if everything:
             return repr(old), repr(new)
-        decimals = max(_decimals(abs(new - old) / 100), _decimals(abs(old) / 1000), _decimals(abs(new) / 1000))
+        decimals = max(_decimals(abs(new - old), 2), _decimals(abs(old), 3), _decimals(abs(new), 3))
         return _number(old, decimals), _number(new, decimals)
     if isinstance(old, str) and isinstance(new, str):
         if _HASH.fullmatch(old) and _HASH.fullmatch(new):
@@ -35,7 +35,7 @@ def pair(old: Any, new: Any, *, everything: bool = False) -> tuple[str, str]:
 
 def vectors(old: Sequence[Any], new: Sequence[Any], mark: str = "") -> tuple[str, str]:
     """Two vectors of the same length; their components have the same decimals."""
-    decimals = max(_decimals(math.dist(old, new) / 100), _decimals(max(map(abs, (*old, *new))) / 1000))
+    decimals = max(_decimals(math.dist(old, new), 2), _decimals(max(map(abs, (*old, *new))), 3))
     before, after = (", ".join(f"{_number(value, decimals)}{mark}" for value in vector) for vector in (old, new))
     return f"({before})", f"({after})"
 
@@ -43,7 +43,7 @@ def vectors(old: Sequence[Any], new: Sequence[Any], mark: str = "") -> tuple[str
 def one(value: Any) -> str:
     """A value alone."""
     if is_number(value):
-        return _number(value, _decimals(abs(value) / 1000))
+        return _number(value, _decimals(abs(value), 3))
     if is_vector(value):
         return f"({', '.join(map(one, value))})"
     return _cut(value if isinstance(value, str) else json.dumps(value, ensure_ascii=False))
@@ -109,9 +109,9 @@ def _differing(old: str, new: str) -> tuple[str, str]:
     return tuple(_cut(lead + " ".join(text[begin:].split())) for text in (old, new))  # type: ignore[return-value]
 
 
-def _decimals(unit: float) -> int:
-    """So many decimals tell multiples of `unit` apart."""
-    return max(0, -math.floor(math.log10(unit))) if 0 < unit < math.inf else 0
+def _decimals(size: float, digits: int) -> int:
+    """So many decimals show a number of this size down to as many digits after its first one."""
+    return max(0, digits - math.floor(math.log10(size))) if 0 < size < math.inf else 0
 
 
 def _number(value: float, decimals: int) -> str:
