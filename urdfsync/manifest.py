@@ -33,6 +33,8 @@ _HEADER = """\
 _ORDER = "package.order"
 _PARENT = "../package.order"
 """The parent package's order file, as it stands in the text."""
+_PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
+"""What nearly all paths are: nothing that could lead elsewhere."""
 _REPAIR = "restore it from version control, or let `urdfsync build --repair` make it again"
 
 
@@ -148,15 +150,10 @@ def loads(text: str, file: str) -> Manifest:
         raise StateError(_broken(str(error), data, text, file)) from None
     _check_places(manifest, text, file)
 
-    def from_root(path: str) -> str:
-        return _order_above(manifest.folder) if path == _PARENT else f"{manifest.folder}/{path}"
-
-    files, orders = _rekeyed(manifest.files, from_root), _rekeyed(manifest.orders, from_root)
-    files = {
-        path: msgspec.structs.replace(record, origin=from_root(record.origin)) if record.origin else record
-        for path, record in files.items()
-    }
-    return msgspec.structs.replace(manifest, files=files, orders=orders)
+    folder, above = manifest.folder, _order_above(manifest.folder)
+    files = {f"{folder}/{path}": _from_root(record, folder) for path, record in sorted(manifest.files.items())}
+    orders = {above if path == _PARENT else f"{folder}/{path}": names for path, names in manifest.orders.items()}
+    return msgspec.structs.replace(manifest, files=files, orders=dict(sorted(orders.items())))
 
 
 def dump_model(
@@ -234,6 +231,10 @@ def _places(manifest: Manifest) -> Iterator[tuple[bool, str, tuple[str, ...]]]:
         yield _is_inside(dependency.target), dependency.target, ("dependencies", key, "target")
 
 
+def _from_root(record: FileRecord, folder: str) -> FileRecord:
+    return msgspec.structs.replace(record, origin=f"{folder}/{record.origin}") if record.origin else record
+
+
 def _is_text(path: str) -> bool:
     return not any(ord(char) < 32 or ord(char) == 127 for char in path)
 
@@ -246,7 +247,7 @@ def _is_normal(path: str) -> bool:
 
 def _is_inside(path: str) -> bool:
     """Whether a path from a folder is that of a file below it."""
-    return _is_normal(path) and path.split("/")[0] not in (".", "..")
+    return bool(_PLAIN.fullmatch(path)) or (_is_normal(path) and path.split("/")[0] not in (".", ".."))
 
 
 def _order_above(folder: str) -> str:
