@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
 import msgspec
@@ -53,7 +53,7 @@ class Recording:
         else:
             outliving, since = self._outliving(decision), self._since(decision)
             model = manifest.dump_model(self._snapshot, self._imported.imports, outliving, since)
-            changes += store.keep_bases(name, bases.dumps(self._bases(decision)), former)
+            changes += store.keep_bases(name, self._bases(decision), former)
             changes += store.changes(name, manifest.dumps(self._manifest(decision, model)), model, former)
         return tuple(changes), tuple(self._emptied(changes))
 
@@ -155,15 +155,24 @@ class Recording:
                     texts[key.removeprefix(prefix)] = text
         return texts
 
-    def _bases(self, decision: Decision) -> Iterator[tuple[str, str]]:
-        """Hash and text of every base that is known; one after the other, so that not all are in memory."""
-        done = set()
+    def _bases(self, decision: Decision) -> bytes:
+        """The content of the file with every base that is known: the one that is there and what is new, or all anew."""
+        keys: dict[str, str] = {}
         for key, record in decision.files.items():
-            if record.role is not Role.IMPORT and record.base is not None and record.base not in done:
-                text = self._base(record.origin or key, record.base)
-                if text is not None:
-                    done.add(record.base)
-                    yield record.base, text
+            if record.role is not Role.IMPORT and record.base is not None:
+                keys.setdefault(record.base, record.origin or key)
+        kept = self._outputs.bases
+        new = [digest for digest in keys if digest not in kept]
+        if 2 * len(new) <= len(keys) and (more := kept.plus(dict(self._known(keys, new)))) is not None:
+            return more.content
+        return bases.dumps(self._known(keys, keys))
+
+    def _known(self, keys: Mapping[str, str], digests: Iterable[str]) -> Iterator[tuple[str, str]]:
+        """Hash and text of bases that are not lost; one after the other, so that not all are in memory."""
+        for digest in digests:
+            text = self._base(keys[digest], digest)
+            if text is not None:
+                yield digest, text
 
     def _base(self, key: str, digest: str | None) -> str | None:
         if digest is None:
