@@ -65,7 +65,7 @@ def test_a_file_has_not_more_parts_than_can_be_read_quickly() -> None:
 
 
 def test_nothing_is_added_to_a_file_that_is_lost() -> None:
-    assert Bases.loads(None).plus({text_digest(b"a"): "a"}) is None
+    assert Bases.loads(b"").plus({text_digest(b"a"): "a"}) is None
 
 
 def test_nothing_new_leaves_the_file_as_it_is() -> None:
@@ -88,7 +88,7 @@ def test_a_file_of_which_a_later_part_is_cut_short_keeps_nothing() -> None:
 
 def test_what_is_not_there_is_none() -> None:
     assert Bases({}).get(text_digest(b"a")) is None
-    assert Bases.loads(None).get(text_digest(b"a")) is None
+    assert Bases.loads(b"").get(text_digest(b"a")) is None
 
 
 def test_a_text_counts_only_with_its_own_hash() -> None:

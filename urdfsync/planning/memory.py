@@ -7,23 +7,32 @@ never says what is on disk. Of each kind there is one entry, so a memory is as l
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import msgspec
 
 from urdfsync.domain import Artifact, Domain, Import, Order, Reading, Snapshot, Target
 from urdfsync.files import digest
+from urdfsync.manifest import Tables
 from urdfsync.planning import generate
+
+if TYPE_CHECKING:
+    from urdfsync.state.bases import Bases
+    from urdfsync.state.store import State
 
 _Value = TypeVar("_Value")
 
 
 class Memory:
-    """The source that was read last, and the files that were made last of a model."""
+    """The source that was read last, the files that were made last of a model, and the state that was recorded last."""
 
     def __init__(self) -> None:
+        self.tables: Tables = {}
+        """Of the last manifest."""
         self._reading: _Last[Reading] = _Last()
         self._artifacts: _Last[Sequence[Artifact | Order]] = _Last()
+        self._state: _Last[State] = _Last()
+        self._bases: _Last[Bases] = _Last()
 
     def read(self, domain: Domain, options: Any, content: bytes, name: str) -> Reading:
         """What the domain reads in a source: who judges one, and then builds it, reads it once."""
@@ -41,6 +50,22 @@ class Memory:
             (domain, digest(made_of)), lambda: generate.artifacts(domain, snapshot, imports, target, options)
         )
 
+    def state(self, contents: tuple[bytes, bytes | None], load: Callable[[], State]) -> State:
+        """The recorded state in the contents of its two files."""
+        return self._state.get(contents, load)
+
+    def bases(self, content: bytes, load: Callable[[], Bases]) -> Bases:
+        """The kept texts in the content of their file."""
+        return self._bases.get(content, load)
+
+    def recorded(self, contents: tuple[bytes, bytes], state: State) -> None:
+        """A build is about to write a state, which is what will be loaded from these contents."""
+        self._state.put(contents, state)
+
+    def kept(self, bases: Bases) -> None:
+        """A build is about to write these texts."""
+        self._bases.put(bases.content, bases)
+
 
 class _Last(Generic[_Value]):
     """The last value of a kind, with its key."""
@@ -53,3 +78,7 @@ class _Last(Generic[_Value]):
         if self._entry is None or self._entry[0] != key:
             self._entry = key, make()
         return self._entry[1]
+
+    def put(self, key: object, value: _Value) -> None:
+        """Let this be the last value."""
+        self._entry = key, value

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import msgspec
 
-from urdfsync import looking, manifest, profiling
+from urdfsync import looking, profiling
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.manifest import Manifest
 from urdfsync.plan import CONFLICTS, State, Wanted
@@ -66,7 +66,7 @@ def _if_unchanged(situation: Situation) -> Work | None:
         return None
     renewed = msgspec.structs.replace(recorded, files=decision.files, orders=decision.orders)
     left_out = imports.reminder(dependencies, recorded.dependencies, shown(situation.robot.source))
-    writes = () if request.dry else tuple(store.changes(situation.robot.name, manifest.dumps(renewed), None, None))
+    writes = () if request.dry else tuple(store.changes(situation.robot.name, situation.dumps(renewed), None, None))
     return Work(decision, store.witness(), writes, diagnostics=left_out)
 
 

@@ -11,16 +11,18 @@ import msgspec
 from urdfsync import manifest, profiling
 from urdfsync.domain import Role, Snapshot
 from urdfsync.manifest import Manifest
-from urdfsync.plan import CONFLICTS, DELETES, State
+from urdfsync.plan import CONFLICTS, DELETES
+from urdfsync.plan import State as FileState
 from urdfsync.planning.decide import Decision, encode
 from urdfsync.planning.imports import Imported
 from urdfsync.planning.outputs import Outputs
 from urdfsync.planning.situation import Situation
 from urdfsync.standoff import aside
 from urdfsync.state import bases
+from urdfsync.state.store import State
 from urdfsync.state.transactions import Change
 
-_OUTLIVING = (State.CONFLICT, State.WAITING, State.ORPHAN)
+_OUTLIVING = (FileState.CONFLICT, FileState.WAITING, FileState.ORPHAN)
 """States of files whose base is older than the recorded model, which can't give it back."""
 
 
@@ -49,12 +51,10 @@ class Recording:
         if self._drawing is not None:
             changes += store.drawing(name, self._drawing)[1]
         if self._stays(decision):
-            changes += store.changes(name, manifest.dumps(self._chosen(decision)), None, None)
+            changes += store.changes(name, situation.dumps(self._chosen(decision)), None, None)
         else:
-            outliving, since = self._outliving(decision), self._since(decision)
-            model = manifest.dump_model(self._snapshot, self._imported.imports, outliving, since)
             changes += store.keep_bases(name, self._bases(decision), former)
-            changes += store.changes(name, manifest.dumps(self._manifest(decision, model)), model, former)
+            changes += store.changes(name, *self._state(decision), former)
         return tuple(changes), tuple(self._emptied(changes))
 
     def drawing(self) -> Path | None:
@@ -117,6 +117,17 @@ class Recording:
         }
         return sorted(folders, key=lambda folder: len(folder.parts), reverse=True)
 
+    def _state(self, decision: Decision) -> tuple[str, str]:
+        """The texts of manifest and model."""
+        outliving, since = self._outliving(decision), self._since(decision)
+        model = manifest.model_of(self._snapshot, self._imported.imports, outliving, since)
+        text = manifest.dump_model(model)
+        recorded = manifest.recorded(self._manifest(decision, text))
+        texts = self._situation.dumps(recorded), text
+        if memory := self._situation.request.memory:
+            memory.recorded((texts[0].encode(), texts[1].encode()), State(recorded, model, intact=True))
+        return texts
+
     def _manifest(self, decision: Decision, model: str) -> Manifest:
         situation, robot = self._situation, self._situation.robot
         return msgspec.structs.replace(
@@ -164,6 +175,8 @@ class Recording:
         kept = self._outputs.bases
         new = [digest for digest in keys if digest not in kept]
         if 2 * len(new) <= len(keys) and (more := kept.plus(dict(self._known(keys, new)))) is not None:
+            if memory := self._situation.request.memory:
+                memory.kept(more)
             return more.content
         return bases.dumps(self._known(keys, keys))
 

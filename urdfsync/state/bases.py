@@ -32,17 +32,17 @@ class Bases:
         self.content = content
 
     @classmethod
-    def loads(cls, content: bytes | None) -> Self:
+    def loads(cls, content: bytes) -> Self:
         """The texts in a file's content; none if that is lost or damaged."""
         texts: dict[str, str | msgspec.Raw] = {}
         parts = []
         try:
-            for size, part in _parts(content or b""):
+            for size, part in _parts(content):
                 texts |= msgspec.json.decode(part, type=dict[str, msgspec.Raw])
                 parts.append(size)
         except (zlib.error, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return cls({})  # what is missing is rendered again, see `outputs`
-        return cls(texts, content or b"", tuple(parts))
+        return cls(texts, content, tuple(parts))
 
     def __contains__(self, digest: str | None) -> bool:
         """Whether a text is kept under this hash; whether it is the right one, only `get` knows."""

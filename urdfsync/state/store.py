@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from urdfsync import looking, manifest
 from urdfsync.config import STATE_FOLDER
@@ -14,6 +14,9 @@ from urdfsync.files import Tree, digest
 from urdfsync.manifest import Manifest, Model
 from urdfsync.state.bases import Bases
 from urdfsync.state.transactions import Change
+
+if TYPE_CHECKING:
+    from urdfsync.planning.memory import Memory
 
 _IGNORE = """\
 # Written by urdfsync. robots/ belongs into version control, everything else is safe to lose.
@@ -41,9 +44,9 @@ class State:
 class Store:
     """The state folder of one configuration, as one build sees it."""
 
-    def __init__(self, root: Path, shown: Callable[[Path], str] = str) -> None:
+    def __init__(self, root: Path, shown: Callable[[Path], str] = str, memory: Memory | None = None) -> None:
         self.folder = root / STATE_FOLDER
-        self._shown = shown
+        self._shown, self._memory = shown, memory
         self._tree = Tree(root, shown)
         self._seen: dict[Path, bytes | None] = {}
 
@@ -57,11 +60,16 @@ class Store:
 
     def load(self, robot: str) -> State | None:
         """The robot's state, None if it was never built. Raises StateError or OutputError if it can't be used."""
-        path, beside = self.paths(robot)
-        text = self._read(path)
-        if text is None:
+        found, beside = map(self._bytes, self.paths(robot))
+        if found is None:
             return None
-        recorded = manifest.loads(text, self._shown(path))
+        if self._memory is None:
+            return self._loaded(robot)
+        return self._memory.state((found, beside), lambda: self._loaded(robot))
+
+    def _loaded(self, robot: str) -> State:
+        path, beside = self.paths(robot)
+        recorded = manifest.loads(self._read(path) or "", self._shown(path))
         content = self._read(beside)
         if content is None:
             return State(recorded, None, intact=False)
@@ -89,7 +97,8 @@ class Store:
 
     def bases(self, robot: str) -> Bases:
         """The texts that were written last, as far as they are kept."""
-        return Bases.loads(self._bytes(self._base_file(robot)))
+        content = self._bytes(self._base_file(robot)) or b""
+        return self._memory.bases(content, lambda: Bases.loads(content)) if self._memory else Bases.loads(content)
 
     def keep_bases(self, robot: str, content: bytes, former: str | None) -> Iterator[Change]:
         """How the texts that are written now are kept, see `bases.dumps`; `former` as in `changes`."""
