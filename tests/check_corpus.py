@@ -8,7 +8,6 @@ mobile is as `init` proposes. Exits with 1 if anything differs or fails that urd
 from __future__ import annotations
 
 import argparse
-import dataclasses
 import datetime
 import importlib.metadata
 import os
@@ -18,6 +17,7 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+import msgspec
 from support.corpus import FOLDER
 
 import urdfsync
@@ -64,7 +64,7 @@ def _check(files: Sequence[Path], options: argparse.Namespace, folder: Path) -> 
         return 0
     draft = init.draft(folder / config.FILE_NAME, readable, "urdf")
     text = draft.text.replace("[defaults]\n", f'[defaults]\napproach = ["{options.approach}"]\n')
-    init.write(dataclasses.replace(draft, text=text))
+    init.write(msgspec.structs.replace(draft, text=text))
     configuration = config.load(draft.file)
     wishes = Wishes(physics=True, timeout=options.timeout, jobs=options.jobs)
     bases = {

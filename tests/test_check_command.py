@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 
 from urdfsync import cli, wording
@@ -21,10 +21,12 @@ Capture = pytest.CaptureFixture[str]
 
 RIGHT = Verdict("ladder", "Ladder")
 CHANGED = Deviation(Quantity.EFFORT, "R2", 1.0, 10.0, 10.0, "A")
-EDITED = dataclasses.replace(RIGHT, effects=(Effect(("Elements/R2.mo",), (CHANGED,)),))
-INCOMPLETE = dataclasses.replace(RIGHT, gaps=("nothing was compiled: there is no library",))
-WRONG = dataclasses.replace(RIGHT, generated=Comparison((CHANGED,)))
-FAILED = dataclasses.replace(RIGHT, diagnostics=(Diagnostic(Severity.ERROR, "no-compiler", "there is no compiler"),))
+EDITED = msgspec.structs.replace(RIGHT, effects=(Effect(("Elements/R2.mo",), (CHANGED,)),))
+INCOMPLETE = msgspec.structs.replace(RIGHT, gaps=("nothing was compiled: there is no library",))
+WRONG = msgspec.structs.replace(RIGHT, generated=Comparison((CHANGED,)))
+FAILED = msgspec.structs.replace(
+    RIGHT, diagnostics=(Diagnostic(Severity.ERROR, "no-compiler", "there is no compiler"),)
+)
 
 
 class Checker:
@@ -42,7 +44,7 @@ class Checker:
         for robot in robots:
             self.robots.append(robot.name)
             progress(f"{robot.name}: compiling", 0, len(robots))
-            yield dataclasses.replace(self.verdict, robot=robot.name)
+            yield msgspec.structs.replace(self.verdict, robot=robot.name)
 
 
 @pytest.fixture
@@ -84,8 +86,8 @@ def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capt
         (EDITED, [], 0),
         (EDITED, ["--strict"], 1),
         (WRONG, [], 1),
-        (dataclasses.replace(RIGHT, in_step=False), [], 1),
-        (dataclasses.replace(RIGHT, in_step=False, built=False), [], 1),
+        (msgspec.structs.replace(RIGHT, in_step=False), [], 1),
+        (msgspec.structs.replace(RIGHT, in_step=False, built=False), [], 1),
         (INCOMPLETE, [], 0),
         (INCOMPLETE, ["--strict"], 1),
         (FAILED, [], 2),

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Collection, Mapping
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -440,7 +440,7 @@ def test_whatever_waits_is_recorded_as_before_with_its_choice(kind: Kind) -> Non
         chosen_for=both("mine", generated),
     )
     assert record(action) == expected
-    assert record(dataclasses.replace(action, choice=None)) == FileRecord(
+    assert record(msgspec.structs.replace(action, choice=None)) == FileRecord(
         "link a", Role.MODEL, "old", State.WAITING, origin="b"
     )
 
@@ -449,7 +449,7 @@ def test_whatever_waits_is_recorded_as_before_with_its_choice(kind: Kind) -> Non
 def test_a_merged_file_is_edited_unless_nothing_is_left_of_the_edits(kind: Kind) -> None:
     merged = Action("a", kind, Role.MODEL, "link a", "old", "new", mine="mine", result="both")
     assert record(merged) == FileRecord("link a", Role.MODEL, "new", State.EDITED)
-    assert record(dataclasses.replace(merged, result="new")) == FileRecord("link a", Role.MODEL, "new")
+    assert record(msgspec.structs.replace(merged, result="new")) == FileRecord("link a", Role.MODEL, "new")
 
 
 def test_orders_are_recorded_elsewhere() -> None:
@@ -516,7 +516,7 @@ def test_places_that_are_handed_on() -> None:
             "B.mo": (Kind.MOVE, "A.mo", "A"),
             "C.mo": (Kind.CREATE, "B.mo", "B"),
         }
-        recorded = after(dataclasses.replace(action, held=True) for action in actions)
+        recorded = after(msgspec.structs.replace(action, held=True) for action in actions)
 
 
 def test_a_text_of_the_users_is_never_taken_for_ours() -> None:
@@ -526,7 +526,7 @@ def test_a_text_of_the_users_is_never_taken_for_ours() -> None:
     wanted = {"A.mo": Wanted(Role.MODEL, "part A", "new A"), "B.mo": Wanted(Role.MODEL, "part B", "new B")}
     actions = plan(recorded, wanted, found, {"A.mo": "B.mo", "B.mo": "A.mo"})
     assert {action.kind for action in actions} == {Kind.MOVE}
-    waiting = after(dataclasses.replace(action, held=True) for action in actions)
+    waiting = after(msgspec.structs.replace(action, held=True) for action in actions)
     del wanted["B.mo"]
     assert not any(action.writes for action in plan(waiting, wanted, found, {"A.mo": "B.mo"}))
 
@@ -538,7 +538,7 @@ def test_a_place_remembers_what_was_written_there_while_another_file_is_to_come(
     found = {"Pan.mo": Found("pan"), "One.mo": Found("mine")}
     back = plan(recorded, {"Pan.mo": Wanted(Role.MODEL, "joint pan", "new pan")}, found, {"Pan.mo": "One.mo"})
     assert [action.kind for action in back] == [Kind.LEAVE, Kind.MOVE]
-    waiting = after(dataclasses.replace(action, held=True) for action in back)
+    waiting = after(msgspec.structs.replace(action, held=True) for action in back)
     again = plan(waiting, {"One.mo": Wanted(Role.MODEL, "joint one", "one")}, found, {})
     assert {action.path: action.kind for action in again} == {"One.mo": Kind.KEEP, "Pan.mo": Kind.DELETE}
 

@@ -10,6 +10,7 @@ import re
 from collections.abc import Collection, Mapping
 from typing import Any
 
+import msgspec
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
@@ -127,7 +128,7 @@ class Project:
         settled = settle(planned, standoffs, choices, self.merging)
         merged = {action.path: text for action, text in settled if text is not None}
         actions = spare(
-            [dataclasses.replace(action, result=text) for action, text in settled],
+            [msgspec.structs.replace(action, result=text) for action, text in settled],
             lambda path, gone: any(file not in gone and file != path for file in self.files),
         )
         records = [a for a in actions if a.kind in (Kind.UPDATE, Kind.MERGE) and a.role is Role.RECORD]

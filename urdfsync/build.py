@@ -6,9 +6,10 @@ build lock, makes sure that the plan still holds, and keeps the lock until all r
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import garbage, looking, profiling
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
@@ -39,7 +40,7 @@ def build(config: Config, robots: Sequence[RobotConfig], request: Request) -> It
             request.progress(robot.name, count, len(robots))
             result = builder.build(robot)
             said = builder.said()
-            yield dataclasses.replace(result, diagnostics=(*said, *result.diagnostics)) if said else result
+            yield msgspec.structs.replace(result, diagnostics=(*said, *result.diagnostics)) if said else result
 
 
 class _Builder:
@@ -64,7 +65,7 @@ class _Builder:
             locked = unfinished = False
             place = Path(error.filename) if isinstance(error.filename, str) else robot.folder
             found = (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), shown(place)),)
-        return dataclasses.replace(result, diagnostics=found, failed=True, locked=locked, unfinished=unfinished)
+        return msgspec.structs.replace(result, diagnostics=found, failed=True, locked=locked, unfinished=unfinished)
 
     def said(self) -> list[Diagnostic]:
         """What there is to say that belongs to no robot of this command, each only once."""
@@ -133,7 +134,7 @@ class _Builder:
 
 
 def _done(result: Result, work: Work) -> Result:
-    return dataclasses.replace(
+    return msgspec.structs.replace(
         result,
         actions=work.decision.actions,
         diagnostics=work.diagnostics,

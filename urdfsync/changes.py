@@ -6,10 +6,11 @@ which takes one walk; only those of which something comes or goes are handed to 
 
 from __future__ import annotations
 
-import dataclasses
 from collections import defaultdict
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Protocol
+
+import msgspec
 
 from urdfsync.difference import ChangeClass, Difference, ElementKey, Kind, Meaning, Version
 from urdfsync.domain import Artifact, Import, Order, Snapshot
@@ -47,8 +48,7 @@ class Comparing(Protocol):
         ...
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Change:
+class Change(msgspec.Struct, frozen=True):
     """One change in the domain's words; `old` and `new` are plain data, None for what is not there."""
 
     path: tuple[str, ...]
@@ -82,12 +82,11 @@ class Change:
         return " / ".join(self.path)
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Changes:
+class Changes(msgspec.Struct, frozen=True):
     """Everything that differs between two versions of a model."""
 
     changes: tuple[Change, ...] = ()
-    renames: Mapping[ElementKey, str] = dataclasses.field(default_factory=dict)
+    renames: Mapping[ElementKey, str] = msgspec.field(default_factory=dict)
     generator: bool = False
     """Whether what turns the model into files is another."""
 
@@ -111,8 +110,7 @@ class Changes:
         return result
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Stale:
+class Stale(msgspec.Struct, frozen=True):
     """Paths of the files to render, and of those that are no longer generated."""
 
     render: frozenset[str]
@@ -125,8 +123,8 @@ def compare(old: Version, new: Version, domain: Comparing, options: Any) -> Chan
     differences: list[Difference] = []
     if old.snapshot != new.snapshot:
         renames = domain.renames(old.snapshot, new.snapshot)
-        old = dataclasses.replace(old, snapshot=domain.comparable(old.snapshot, renames))
-        new = dataclasses.replace(new, snapshot=domain.comparable(new.snapshot, {}))
+        old = msgspec.structs.replace(old, snapshot=domain.comparable(old.snapshot, renames))
+        new = msgspec.structs.replace(new, snapshot=domain.comparable(new.snapshot, {}))
         differences += _of_snapshots(old.snapshot, new.snapshot)
     if old.imports is not None and new.imports is not None:
         differences += _of_imports(old.imports, new.imports)

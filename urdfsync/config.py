@@ -7,7 +7,6 @@ keys of `CheckKeys`.
 
 from __future__ import annotations
 
-import dataclasses
 import difflib
 import os
 import re
@@ -52,8 +51,7 @@ class CheckKeys(msgspec.Struct, frozen=True):
     library: str | None = None
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class RobotConfig:
+class RobotConfig(msgspec.Struct, frozen=True):
     """One robot of the configuration; paths are absolute, `options` is an instance of `Domain.options`."""
 
     name: str
@@ -80,8 +78,7 @@ class RobotConfig:
         return self.output.joinpath(*self.target.package.split("."))
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class CheckConfig:
+class CheckConfig(msgspec.Struct, frozen=True):
     """What checks need to know of the machine."""
 
     library: Path | None = None
@@ -90,8 +87,7 @@ class CheckConfig:
     """Where the configuration names it; 0 if it does not."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Config:
+class Config(msgspec.Struct, frozen=True):
     """A configuration file and its robots, in the order of the file."""
 
     file: Path
@@ -244,7 +240,7 @@ class _Reader:
         self._option_names |= options
         problems = tables.unknown(table, _KEY_NAMES | options)
         usable = {key: value for key, value in defaults.items() if key in _DEFAULT_NAMES | options}
-        merged = dataclasses.replace(table, values=usable | values)
+        merged = msgspec.structs.replace(table, values=usable | values)
         keys, wrong_keys = tables.read(merged, Keys)
         chosen, wrong_options = tables.read(merged, domain.options)
         problems += wrong_keys + wrong_options
@@ -277,7 +273,7 @@ class _Reader:
             return self._domains(name)
         except ConfigError as error:
             line = table.line("domain")
-            self.problems += [dataclasses.replace(d, file=self._file, line=line) for d in error.diagnostics]
+            self.problems += [msgspec.structs.replace(d, file=self._file, line=line) for d in error.diagnostics]
             return None
 
     def _check_defaults(self, defaults: dict[str, Any]) -> None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import enum
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, TypeAlias
+
+import msgspec
 
 if TYPE_CHECKING:
     from urdfsync.domain import Import, Snapshot
@@ -43,8 +44,7 @@ class ChangeClass(enum.StrEnum):
         return list(ChangeClass).index(self)
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Version:
+class Version(msgspec.Struct, frozen=True):
     """A model as a build sees it."""
 
     snapshot: Snapshot
@@ -54,8 +54,7 @@ class Version:
     """Fingerprint of what turns it into files."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Difference:
+class Difference(msgspec.Struct, frozen=True):
     """One place at which two versions differ; `old` is None for what was added, `new` for what was removed."""
 
     path: tuple[str | int, ...]
@@ -65,8 +64,7 @@ class Difference:
     new: Any
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Meaning:
+class Meaning(msgspec.Struct, frozen=True):
     """A difference in the domain's words."""
 
     path: tuple[str, ...]
@@ -76,8 +74,7 @@ class Meaning:
     """Unit of both values, or `old → new` if they differ; empty for what has none."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Effect:
+class Effect(msgspec.Struct, frozen=True):
     """A property of the whole model in both versions; None where it does not exist."""
 
     path: tuple[str, ...]

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 import datetime
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import msgspec
 
 from urdfsync import difference, resolution, wording
 from urdfsync.diagnostics import Diagnostic
@@ -41,7 +42,7 @@ def change(found: Change) -> dict[str, Any]:
 
 def finding(diagnostic: Diagnostic) -> dict[str, Any]:
     """A diagnostic as plain data."""
-    return dataclasses.asdict(diagnostic)
+    return msgspec.structs.asdict(diagnostic)
 
 
 def robot(result: Result) -> dict[str, Any]:
@@ -162,14 +163,13 @@ def event(found: Event, time: datetime.datetime) -> dict[str, Any]:
     Of a result's files those are left out of which nothing can be said but that they are as they should be.
     """
     values: dict[str, Any] = {"version": VERSION, "event": type(found).__name__.lower(), "time": time.isoformat()}
-    for field in dataclasses.fields(found):
-        value = getattr(found, field.name)
+    for name, value in msgspec.structs.asdict(found).items():
         if isinstance(value, Result):
             inside = {key: part for key, part in robot(value).items() if key != "checked"}  # an event of its own
             actions = [action for action in inside["actions"] if action["action"] != Kind.UNCHANGED]
             values |= {"robot": inside.pop("name"), **inside, "actions": actions}
         else:
-            values[field.name] = _plain(value)
+            values[name] = _plain(value)
     return values
 
 

@@ -8,11 +8,12 @@ nothing in here does IO.
 
 from __future__ import annotations
 
-import dataclasses
 import enum
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, TypeAlias
+
+import msgspec
 
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.difference import Difference, Effect, ElementKey, Meaning, Version
@@ -45,8 +46,7 @@ class Role(enum.StrEnum):
     """An imported file: bytes, not text; a domain describes it as a `Dependency`."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Artifact:
+class Artifact(msgspec.Struct, frozen=True):
     """One text file of the package: `path` (POSIX, below the package folder) is `template` rendered with `data`."""
 
     path: str
@@ -64,16 +64,14 @@ class Templates(NamedTuple):
     digest: str
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Order:
+class Order(msgspec.Struct, frozen=True):
     """One `package.order` file: urdfsync owns the lines in `names`, the user all others."""
 
     path: str
     names: tuple[str, ...]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Dependency:
+class Dependency(msgspec.Struct, frozen=True):
     """A file that a source refers to and that is imported into the package."""
 
     key: str
@@ -89,16 +87,14 @@ class Dependency:
     """Line of the source that first refers to it; 0 if unknown."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Conversion:
+class Conversion(msgspec.Struct, frozen=True):
     """A dependency's content as the package needs it, and `facts` (plain data) that artifacts need of it."""
 
     content: bytes
     facts: Mapping[str, Any]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Import:
+class Import(msgspec.Struct, frozen=True):
     """A dependency that is in the package, now or from an earlier build on a machine that had its source."""
 
     target: str
@@ -111,13 +107,12 @@ class Import:
     facts: Mapping[str, Any]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Reading:
+class Reading(msgspec.Struct, frozen=True):
     """What reading a source gave: the snapshot, unless a diagnostic is an error, and what there is to say."""
 
     snapshot: Snapshot | None
     diagnostics: tuple[Diagnostic, ...]
-    lines: Mapping[str, int] = dataclasses.field(default_factory=dict)
+    lines: Mapping[str, int] = msgspec.field(default_factory=dict)
     """Line of each element, keyed as the domain likes; passed back to `Domain.dependencies`."""
 
 
@@ -128,20 +123,18 @@ class Standalone(NamedTuple):
     diagnostics: tuple[Diagnostic, ...]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Lookup:
+class Lookup(msgspec.Struct, frozen=True):
     """Where to look for the files that a source refers to."""
 
     source: Path
     """The source file, absolute."""
     package_paths: tuple[Path, ...] = ()
     """Folders whose children are packages, from the configuration and the environment, best first."""
-    packages: Mapping[str, Path] = dataclasses.field(default_factory=dict)
+    packages: Mapping[str, Path] = msgspec.field(default_factory=dict)
     """Folders of packages by their name, wherever they are; filled only if something was not found without."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Target:
+class Target(msgspec.Struct, frozen=True):
     """Where the generated package stands in Modelica's namespace."""
 
     package: str
@@ -150,8 +143,7 @@ class Target:
     """Class name of the main model, for example `Arm`."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Proposal:
+class Proposal(msgspec.Struct, frozen=True):
     """What `init` writes for one option, and why."""
 
     option: str
@@ -159,8 +151,7 @@ class Proposal:
     reason: str
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Spot:
+class Spot(msgspec.Struct, frozen=True):
     """A place in a record at which a value stands, or could."""
 
     path: str
@@ -172,8 +163,7 @@ class Spot:
     """As it is written; None if the record does not say."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Echo:
+class Echo(msgspec.Struct, frozen=True):
     """One quantity that two records both give, and of which they say different things."""
 
     one: Spot
@@ -199,8 +189,7 @@ class Quantity(enum.StrEnum):
     """Of the whole model, in m."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Deviation:
+class Deviation(msgspec.Struct, frozen=True):
     """How far one quantity of one element is from the reference, at most, over all instants."""
 
     quantity: Quantity
@@ -220,8 +209,7 @@ class Deviation:
         return self.difference / max(1.0, self.size)
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Probe:
+class Probe(msgspec.Struct, frozen=True):
     """A model that puts a package to the test: Modelica text, what to simulate, and which values to hand back."""
 
     source: str

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import os
 import re
 from collections.abc import Iterator, Sequence
@@ -38,8 +37,7 @@ _LONGEST = 80
 """A longer stem is cut: robots and packages become names of files."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Guess:
+class Guess(msgspec.Struct, frozen=True):
     """What is proposed for one robot."""
 
     robot: str
@@ -48,8 +46,7 @@ class Guess:
     options: tuple[Proposal, ...]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Draft:
+class Draft(msgspec.Struct, frozen=True):
     """A configuration that is not written yet."""
 
     file: Path
@@ -134,7 +131,7 @@ def _once(sources: Sequence[Path]) -> list[Path]:
 def _passed_over(source: Path, error: SourceError) -> Diagnostic:
     first = next(found for found in error.diagnostics if found.severity is Severity.ERROR)
     message, hint = f"{first.message}; passed over", f"put it right and add it, or run `urdfsync init {shown(source)}`"
-    return dataclasses.replace(first, severity=Severity.WARNING, message=message, hint=hint)
+    return msgspec.structs.replace(first, severity=Severity.WARNING, message=message, hint=hint)
 
 
 def _propose(domain: Domain, source: Path) -> tuple[tuple[Proposal, ...], list[Diagnostic]]:

@@ -9,9 +9,10 @@ may be a conflict where git finds none.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator, Sequence, Set
 from typing import NamedTuple
+
+import msgspec
 
 from urdfsync.merging.myers import Change, diff
 from urdfsync.merging.rules import Lines, Piece, merge_tokens
@@ -21,8 +22,7 @@ _MAX_LINES = 200
 """Length of a conflict above which it is a rewrite rather than an edit, and not tried again by tokens."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Conflict:
+class Conflict(msgspec.Struct, frozen=True):
     """Where the sides disagree: line numbers, from 1, in the three texts; an empty range is the place before a line."""
 
     base: range
@@ -30,8 +30,7 @@ class Conflict:
     generated: range
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Merge:
+class Merge(msgspec.Struct, frozen=True):
     """What a merge gave."""
 
     text: str | None

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 import enum
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.plan import CONFLICTS, Action, Kind
@@ -38,8 +39,7 @@ class Checked(enum.StrEnum):
     WRONG = "wrong"
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Result:
+class Result(msgspec.Struct, frozen=True):
     """What a build did with one robot, or would do."""
 
     robot: str

@@ -6,7 +6,6 @@ what would be written. All three are compared by their hashes, never by times.
 
 from __future__ import annotations
 
-import dataclasses
 import enum
 import hashlib
 import re
@@ -102,16 +101,14 @@ class FileRecord(msgspec.Struct, frozen=True, omit_defaults=True):
         return self.stands if self.origin else self.base
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Found:
+class Found(msgspec.Struct, frozen=True):
     """What is on disk: a file's hash, or None and whether the class is now a folder (`X/package.mo` for `X.mo`)."""
 
     hash: str | None = None
     as_folder: bool = False
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Wanted:
+class Wanted(msgspec.Struct, frozen=True):
     """A file that is generated, with its hash."""
 
     role: Role
@@ -119,8 +116,7 @@ class Wanted:
     hash: str
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Action:
+class Action(msgspec.Struct, frozen=True):
     """What happens to one file (`path` as in the manifest), and the hashes that the decision rests on."""
 
     path: str
@@ -243,8 +239,10 @@ def spare(actions: Iterable[Action], stays: Callable[[str, Collection[str]], boo
     for path in sorted(packages, key=lambda path: path.count("/"), reverse=True):
         if stays(path, gone.keys() - kept - free):
             kept.add(path)
-    needed = (dataclasses.replace(a, kind=Kind.NEEDED) if a.path in kept else a for a in actions)
-    return tuple(dataclasses.replace(a, kind=Kind.FORGET, choice=Choice.KEEP) if a.path in free else a for a in needed)
+    needed = (msgspec.structs.replace(a, kind=Kind.NEEDED) if a.path in kept else a for a in actions)
+    return tuple(
+        msgspec.structs.replace(a, kind=Kind.FORGET, choice=Choice.KEEP) if a.path in free else a for a in needed
+    )
 
 
 def is_let_go(action: Action) -> bool:
@@ -268,7 +266,7 @@ def hold(actions: Iterable[Action], numbers_only: Collection[str]) -> tuple[Acti
         bound = action.origin is not None or action.path in origins
         return action.writes and (bound or not _harmless(action, numbers_only))
 
-    return tuple(dataclasses.replace(action, held=True) if waits(action) else action for action in actions)
+    return tuple(msgspec.structs.replace(action, held=True) if waits(action) else action for action in actions)
 
 
 def _harmless(action: Action, numbers_only: Collection[str]) -> bool:

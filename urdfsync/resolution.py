@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import standoff as standoffs
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
@@ -19,8 +20,7 @@ _FEW = 5
 """So many conflicts are named in a message; of more, only the first ones and their number."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Target:
+class Target(msgspec.Struct, frozen=True):
     """A file that the user may decide about.
 
     It conflicts, or its merge is about to be written, or it waits for other conflicts after a choice that may
@@ -65,16 +65,14 @@ class Target:
         return {Path(os.path.normpath(self.result.root / path)) for path in (self.place, self.action.path)}
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Wish:
+class Wish(msgspec.Struct, frozen=True):
     """A path that the user typed, and the absolute places that it may stand for."""
 
     typed: str
     places: tuple[Path, ...]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Aside:
+class Aside(msgspec.Struct, frozen=True):
     """The versions of a conflicting file that are put aside, as paths from the configuration's folder."""
 
     stem: str

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable, Mapping, Set
 from typing import NamedTuple
+
+import msgspec
 
 from urdfsync.merge import merge
 from urdfsync.merging.soundness import flaw
@@ -34,7 +35,7 @@ def stand_off(
         for name, line in mentions(merged.text, vanished)[: 0 if reason else 1]:
             reason = f"mentions `{name}`, which the package has no more (line {line})"
         if reason:
-            merged, rejected = dataclasses.replace(merged, text=None), f"the merge {reason}"
+            merged, rejected = msgspec.structs.replace(merged, text=None), f"the merge {reason}"
     return Standoff(action.path, action.owner, base, mine, generated, merged, action.origin, rejected)
 
 
@@ -52,9 +53,9 @@ def settle(
 def _settled(action: Action, standoff: Standoff | None, choice: Choice | None, merging: bool) -> Settled:
     if action.kind is Kind.ORPHAN:
         if choice is Choice.TAKE and action.mine is not None:
-            return Settled(dataclasses.replace(action, kind=Kind.DELETE, choice=choice))
+            return Settled(msgspec.structs.replace(action, kind=Kind.DELETE, choice=choice))
         if choice is Choice.KEEP:
-            return Settled(dataclasses.replace(action, kind=Kind.FORGET, choice=choice))
+            return Settled(msgspec.structs.replace(action, kind=Kind.FORGET, choice=choice))
         return Settled(action)
     if action.kind is Kind.MOVE and standoff:
         return _moved(action, standoff, choice)
@@ -63,9 +64,9 @@ def _settled(action: Action, standoff: Standoff | None, choice: Choice | None, m
     merged = standoff.merge.text if standoff and standoff.merge else None
     if standoff and merged == standoff.mine:
         return Settled(_with(action, Kind.INCLUDED))
-    action = dataclasses.replace(action, choice=choice)
+    action = msgspec.structs.replace(action, choice=choice)
     if choice is Choice.KEEP:
-        return Settled(dataclasses.replace(action, kind=Kind.KEEP, base=action.generated))
+        return Settled(msgspec.structs.replace(action, kind=Kind.KEEP, base=action.generated))
     if choice is Choice.TAKE and action.mine is not None:
         return Settled(_with(action, Kind.UPDATE))
     if merged is not None and (choice is Choice.MERGE or merging):
@@ -75,7 +76,7 @@ def _settled(action: Action, standoff: Standoff | None, choice: Choice | None, m
 
 def _moved(action: Action, standoff: Standoff, choice: Choice | None) -> Settled:
     """A file that goes with its element's new name: merged, unless the user wants one of the sides."""
-    action = dataclasses.replace(action, choice=choice)
+    action = msgspec.structs.replace(action, choice=choice)
     if choice is Choice.TAKE:
         return Settled(action)
     if choice is Choice.KEEP:
@@ -86,4 +87,4 @@ def _moved(action: Action, standoff: Standoff, choice: Choice | None) -> Settled
 
 
 def _with(action: Action, kind: Kind) -> Action:
-    return dataclasses.replace(action, kind=kind)
+    return msgspec.structs.replace(action, kind=kind)

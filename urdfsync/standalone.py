@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import config, modelica, registry
 from urdfsync.config import shown
@@ -16,8 +17,7 @@ from urdfsync.planning.generate import Generated
 _SUFFIX = "Parameters"
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Record:
+class Record(msgspec.Struct, frozen=True):
     """The text of a record, and what there is to say about its source."""
 
     target: Target
@@ -36,7 +36,7 @@ def make(source: Path, domain_name: str, name: str, within: str, file: Path | No
     target = Target(_package(within), _class_name(source, name, file))
     options = domain.options()
     snapshot, reading = inputs.read(domain, options, _content(source), shown(source))
-    return _render(domain, dataclasses.replace(reading, snapshot=snapshot), shown(source), target)
+    return _render(domain, msgspec.structs.replace(reading, snapshot=snapshot), shown(source), target)
 
 
 def write(record: Record, source: Path, file: Path, force: bool) -> bool:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import enum
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, NamedTuple
+
+import msgspec
 
 if TYPE_CHECKING:
     from urdfsync.merge import Merge
@@ -22,8 +23,7 @@ class Choice(enum.StrEnum):
     """Both sides' changes, if they can be merged without doubt."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Standoff:
+class Standoff(msgspec.Struct, frozen=True):
     """One text file that conflicts: the three texts as they are, line endings included."""
 
     path: str

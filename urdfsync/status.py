@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 import enum
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Result
@@ -56,8 +57,7 @@ _HELD = ", waits"
 """Until the robot's conflicts are settled."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class FileState:
+class FileState(msgspec.Struct, frozen=True):
     """How one file stands, and why; the reason is empty if there is nothing to say."""
 
     path: str
@@ -68,8 +68,7 @@ class FileState:
     """What a build would do."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class RobotState:
+class RobotState(msgspec.Struct, frozen=True):
     """How one robot stands."""
 
     result: Result

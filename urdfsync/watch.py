@@ -12,11 +12,12 @@ wrote: the last build of every robot wrote nothing, and later samples are compar
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import os
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import garbage
 from urdfsync.config import Config, RobotConfig, shown
@@ -56,7 +57,7 @@ class Daemon:
         self._settings = Settings(options)
         self._memory = Memory()
         self._robots = Robots(options.times, options.request.package_paths, self._memory)
-        request = dataclasses.replace(options.request, progress=self._progress, memory=self._memory)
+        request = msgspec.structs.replace(options.request, progress=self._progress, memory=self._memory)
         self._checks = Checks(
             options.request,
             listener,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import errno
 import importlib.util
 import shutil
@@ -10,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 
 from urdfsync import cli, config, looking
@@ -302,7 +302,7 @@ NO_LIBRARY = Diagnostic(Severity.ERROR, "wrong-library-folder", "there is no lib
 def test_a_machine_without_a_compiler_is_a_warning_and_no_fault(project: Path, way: Any, checked: Checked) -> None:
     (result,) = run(Examiner(way))
     assert result.checked is checked
-    assert result.diagnostics == (dataclasses.replace(NO_COMPILER, severity=Severity.WARNING),)
+    assert result.diagnostics == (msgspec.structs.replace(NO_COMPILER, severity=Severity.WARNING),)
     assert run(Examiner(way))[0].diagnostics == result.diagnostics, "it is said at each build"
 
 
@@ -317,7 +317,7 @@ def test_what_keeps_one_package_from_being_checked_keeps_all(project: Path) -> N
 
 
 def test_what_a_check_leaves_out_when_it_compiles_is_not_worth_a_word(project: Path) -> None:
-    (result,) = run(Examiner(dataclasses.replace(RIGHT, unchecked=("poses were not compared",))))
+    (result,) = run(Examiner(msgspec.structs.replace(RIGHT, unchecked=("poses were not compared",))))
     assert (result.checked, result.diagnostics) == (Checked.RIGHT, ())
 
 
@@ -328,7 +328,9 @@ def test_what_could_not_be_checked_at_all_is_not_remembered(project: Path) -> No
 
 
 def test_a_gap_is_said_also_if_something_compiles(project: Path) -> None:
-    verdict = dataclasses.replace(RIGHT, gaps=("half of it was not compiled",), unchecked=("poses were not compared",))
+    verdict = msgspec.structs.replace(
+        RIGHT, gaps=("half of it was not compiled",), unchecked=("poses were not compared",)
+    )
     (result,) = run(Examiner(verdict))
     assert result.checked is Checked.INCOMPLETE
     assert [str(found) for found in result.diagnostics] == ["warning: half of it was not compiled [not-checked]"]
@@ -376,7 +378,7 @@ def test_a_package_with_a_conflict_is_checked_as_it_is_on_disk(project: Path) ->
     assert result.conflicts
     assert result.checked is Checked.RIGHT
     assert exit_code([result]) is Exit.CONFLICT
-    assert exit_code([dataclasses.replace(result, checked=Checked.WRONG)]) is Exit.ERROR
+    assert exit_code([msgspec.structs.replace(result, checked=Checked.WRONG)]) is Exit.ERROR
 
 
 def names(results: Sequence[Result]) -> list[str]:
@@ -391,7 +393,7 @@ def test_results_keep_their_order_and_the_lock_is_free_while_packages_are_checke
         def __call__(
             self, config: Config, robots: Sequence[RobotConfig], request: Request, tell: Progress
         ) -> Iterator[Verdict]:
-            again = dataclasses.replace(request, wait=0)
+            again = msgspec.structs.replace(request, wait=0)
             (project / "ladder.json").write_text((project / "ladder.json").read_text().replace("220.5", "330"))
             assert not any(result.locked for result in build(config, config.robots, again))
             return super().__call__(config, robots, request, tell)

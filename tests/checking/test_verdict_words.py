@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -137,12 +137,12 @@ def test_what_an_edit_does_is_one_sentence(files: list[str], deviations: list[De
         # what differs is labelled where it is not the same as that of the first element
         (
             (),
-            [TURNED, BENT, dataclasses.replace(TURNED, element="link finger")],
+            [TURNED, BENT, msgspec.structs.replace(TURNED, element="link finger")],
             "link hand: orientation differs by 3° (position of link finger by 20 mm and orientation by 3°)",
         ),
         (
             (),
-            [HAND, TURNED, BENT, dataclasses.replace(TURNED, element="link finger")],
+            [HAND, TURNED, BENT, msgspec.structs.replace(TURNED, element="link finger")],
             "link hand: position differs by 12.3 mm and orientation by 3° (link finger by 20 mm and 3°)",
         ),
         (
@@ -193,13 +193,13 @@ def test_two_quantities_of_one_element_are_told_apart() -> None:
         ([BLIND], ["torques are not finite (link wheel)"]),
         ([CENTRE], ["centre of mass differs by 38.5 mm"]),
         ([MASS, CENTRE], ["mass differs by 2 % and centre of mass by 38.5 mm"]),
-        ([MASS, dataclasses.replace(CENTRE, difference=1e-17)], ["mass differs by 2 %"]),
+        ([MASS, msgspec.structs.replace(CENTRE, difference=1e-17)], ["mass differs by 2 %"]),
         (
-            [dataclasses.replace(MASS, difference=math.inf), CENTRE],
+            [msgspec.structs.replace(MASS, difference=math.inf), CENTRE],
             ["mass is not finite and centre of mass differs by 38.5 mm"],
         ),
         (
-            [dataclasses.replace(MASS, difference=0), dataclasses.replace(CENTRE, difference=0)],
+            [msgspec.structs.replace(MASS, difference=0), msgspec.structs.replace(CENTRE, difference=0)],
             ["masses agree exactly"],
         ),
     ],

@@ -6,11 +6,11 @@ joints in a chain and at a joint that does not move, damping and dry friction.
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 import test_limits
@@ -118,7 +118,7 @@ def in_form(name: str, form: str) -> physics.Case:
     probe = case.experiment.probe
     assert probe.source.count(".GenericRobot ") == 1
     source = probe.source.replace(".GenericRobot ", f".{form} ")
-    case.experiment.probe = dataclasses.replace(probe, source=source)
+    case.experiment.probe = msgspec.structs.replace(probe, source=source)
     return case
 
 

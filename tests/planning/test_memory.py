@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 import shutil
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 
 from urdfsync import config, registry
@@ -45,7 +45,7 @@ OTHERS: dict[str, Any] = {
     "the kind of a number": {"snapshot": {"name": "n", "elements": {"R1": {"ohm": 1}}}},
     "the sign of zero": {"snapshot": {"name": "n", "elements": {"R1": {"ohm": -0.0}}}},
     "no import": {"imports": {}},
-    "facts of an import": {"imports": {"k": dataclasses.replace(IMPORT, facts={"rows": 3})}},
+    "facts of an import": {"imports": {"k": msgspec.structs.replace(IMPORT, facts={"rows": 3})}},
     "the package": {"target": Target("M.N", "N")},
     "the class": {"target": Target("N", "M")},
     "an option": {"options": {"a": 2}},

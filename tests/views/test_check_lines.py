@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from urdfsync.checking.verdict import Comparison, Compiled, Effect, Verdict
@@ -50,7 +50,7 @@ RIGHT = Verdict(
     seconds=12.41,
     reference="Pinocchio 4.1.0",
 )
-EDITED = dataclasses.replace(
+EDITED = msgspec.structs.replace(
     RIGHT,
     robot="loader",
     notes=(),
@@ -59,13 +59,13 @@ EDITED = dataclasses.replace(
         Effect(("Links/Hand.mo",), (), ("link hand",)),
     ),
 )
-INCOMPLETE = dataclasses.replace(
+INCOMPLETE = msgspec.structs.replace(
     RIGHT,
     robot="welder",
     notes=(),
     gaps=("what edits do was not measured: `robot.hand.body.m` is not declared",),
 )
-WRONG = dataclasses.replace(
+WRONG = msgspec.structs.replace(
     RIGHT, robot="picker", notes=(), generated=Comparison((*AGREEING, effort("joint mimic", 0.4, 12.5)))
 )
 FAILED = Verdict(
@@ -75,14 +75,14 @@ FAILED = Verdict(
     diagnostics=(BROKEN,),
     seconds=0.9,
 )
-ABSENT = dataclasses.replace(RIGHT, robot="new", notes=(), built=False, in_step=False)
-STALE = dataclasses.replace(
+ABSENT = msgspec.structs.replace(RIGHT, robot="new", notes=(), built=False, in_step=False)
+STALE = msgspec.structs.replace(
     ABSENT,
     robot="hoist",
     built=True,
     gaps=("what edits do was not measured: the package is not in step with its source",),
 )
-TORN = dataclasses.replace(STALE, robot="lift", conflicting=True)
+TORN = msgspec.structs.replace(STALE, robot="lift", conflicting=True)
 BRIEF = Verdict(
     "arm",
     "Arm",
@@ -207,7 +207,7 @@ def test_verbose_lists_models_and_deviations(capsys: Capture) -> None:
 
 def test_many_edited_files_are_a_number_in_a_heading(capsys: Capture) -> None:
     many = Effect(tuple(f"Links/L{number}.mo" for number in range(7)), (effort("joint elbow", 0.672, 21.0),))
-    lines = shown(capsys, dataclasses.replace(RIGHT, effects=(many,)), verbose=True)
+    lines = shown(capsys, msgspec.structs.replace(RIGHT, effects=(many,)), verbose=True)
     assert "    since 7 edited files  quantity    error  difference  of up to" in lines
 
 
@@ -307,7 +307,7 @@ def test_no_line_is_wider_than_the_terminal(capsys: Capture, monkeypatch: pytest
 @pytest.mark.usefixtures("_terminal")
 def test_a_simulation_without_numbers_is_a_difference(capsys: Capture) -> None:
     blind = Deviation(Quantity.ACCELERATION, "joint rotor", math.nan, 12.0, 12.0, "rad/s²")
-    lines = shown(capsys, dataclasses.replace(RIGHT, generated=Comparison((*AGREEING, blind))))
+    lines = shown(capsys, msgspec.structs.replace(RIGHT, generated=Comparison((*AGREEING, blind))))
     assert lines[2].split()[:8] == ["≠", "arm", "3", "1,204", "12", "2.0e-16", "link", "hand"]
     assert lines[2].split()[8:] == ["none", "joint", "rotor", "12.4", "s"]
     assert lines[3] == "    joint rotor: angular acceleration is not finite"
@@ -319,7 +319,7 @@ def test_rows_come_one_by_one(capsys: Capture) -> None:
     report.verdict(RIGHT, False, ["arm", "a_much_longer_name"])  # noqa: FBT003 - as the command calls it
     first = capsys.readouterr().out.splitlines()
     assert first[1].startswith("  robot               compile")
-    report.verdict(dataclasses.replace(RIGHT, robot="a_much_longer_name"), False, [])  # noqa: FBT003
+    report.verdict(msgspec.structs.replace(RIGHT, robot="a_much_longer_name"), False, [])  # noqa: FBT003
     (second,) = capsys.readouterr().out.splitlines()
     assert second.startswith("✓ a_much_longer_name        3")
 

@@ -6,9 +6,10 @@ is checked again after each build: whoever builds twice must not be told that al
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, TypeAlias
+
+import msgspec
 
 from urdfsync.checking.memory import Memory, Note
 from urdfsync.config import Config, RobotConfig
@@ -41,8 +42,7 @@ def on_disk(config: Config, robots: Sequence[RobotConfig], request: Request, tel
     return checker.check(config, robots, wishes, tell)
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Findings:
+class Findings(msgspec.Struct, frozen=True):
     """What a check found."""
 
     checked: Checked
@@ -119,7 +119,7 @@ def _trouble(error: UrdfsyncError | OSError) -> Findings:
 def _lenient(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
     """Findings, what this machine lacks being no error: a build can do without."""
     return tuple(
-        dataclasses.replace(found, severity=Severity.WARNING) if found.code in _ABSENT else found
+        msgspec.structs.replace(found, severity=Severity.WARNING) if found.code in _ABSENT else found
         for found in diagnostics
     )
 
@@ -187,4 +187,4 @@ class _AfterBuild:
         """A result with findings; what is about the machine is said once for all robots."""
         new = tuple(one for one in found.diagnostics if one not in self._said)
         self._said.update(one for one in new if is_general(one))
-        return dataclasses.replace(result, diagnostics=(*result.diagnostics, *new), checked=found.checked)
+        return msgspec.structs.replace(result, diagnostics=(*result.diagnostics, *new), checked=found.checked)

@@ -7,13 +7,14 @@ but time, since the compiler makes again what it misses, and what else is in use
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import os
 import shutil
 import time
 import uuid
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+
+import msgspec
 
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.state.lock import Lock, LockedError
@@ -43,8 +44,7 @@ class CacheError(UrdfsyncError):
     """
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(msgspec.Struct, frozen=True):
     """What is deleted together."""
 
     paths: tuple[str, ...]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 import queue
 import threading
@@ -61,7 +60,7 @@ class _Crew:
     def __init__(self, config: Config, robots: Sequence[RobotConfig], wishes: Wishes, command: Sequence[str]) -> None:
         self._command = command
         self._most = min(wishes.jobs or cores(), len(robots)) or 1
-        self._wishes = dataclasses.replace(wishes, workers=max(1, cores() // self._most))
+        self._wishes = msgspec.structs.replace(wishes, workers=max(1, cores() // self._most))
         self._config, self._cache = config, Cache.of_user()
         self._budget = wishes.memory * 1e9 if wishes.memory else _SHARE * _free()
         self._order = [robot.name for robot in robots]
@@ -185,4 +184,4 @@ def _ended(latest: Verdict, result: process.Result, limits: Limits) -> Verdict:
 def _failed(latest: Verdict, code: str, message: str, hint: str, seconds: float = 0.0) -> Verdict:
     """A verdict that has come to nothing half way, `seconds` after its begin if that is known."""
     found = Diagnostic(Severity.ERROR, code, f"the check of robot `{latest.robot}`: {message}", hint=hint)
-    return dataclasses.replace(latest, diagnostics=(*latest.diagnostics, found), seconds=seconds or latest.seconds)
+    return msgspec.structs.replace(latest, diagnostics=(*latest.diagnostics, found), seconds=seconds or latest.seconds)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import functools
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+
+import msgspec
 
 from urdfsync.checking import loading, workspace
 from urdfsync.checking.cache import Cache
@@ -160,7 +161,7 @@ class _Stages:
 
         def tell(number: int, outcome: Outcome) -> None:
             found = self._explained(outcome.problem, loaded, models[number]) if outcome.problem else ()
-            self._findings.say(dataclasses.replace(one, severity=Severity.WARNING) for one in found)
+            self._findings.say(msgspec.structs.replace(one, severity=Severity.WARNING) for one in found)
 
         self._progress(f"compiling {models[0]}")
         self._tools.run(loaded, [self._task(model) for model in models], tell)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import hashlib
 import os
 import tempfile
@@ -11,6 +10,8 @@ import threading
 import time
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import modelica
 from urdfsync.checking import workspace
@@ -29,8 +30,7 @@ _PAUSE = 1.0
 """Seconds that somebody gets to be done with that."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Loaded:
+class Loaded(msgspec.Struct, frozen=True):
     """What a compiler is given for one version of a robot's package."""
 
     label: str

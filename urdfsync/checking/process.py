@@ -8,7 +8,6 @@ left behind when this process is killed.
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import enum
 import math
 import os
@@ -21,6 +20,8 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, cast
+
+import msgspec
 
 if TYPE_CHECKING:
     import psutil
@@ -43,8 +44,7 @@ class Ending(enum.Enum):
     OUT_OF_MEMORY = "out of memory"
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Limits:
+class Limits(msgspec.Struct, frozen=True):
     """What a child and all that it starts may take."""
 
     seconds: float = math.inf
@@ -56,8 +56,7 @@ class Limits:
 UNLIMITED = Limits()
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Result:
+class Result(msgspec.Struct, frozen=True):
     """How a child ended."""
 
     ending: Ending

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import enum
 import math
 from collections.abc import Iterable, Sequence
+
+import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity
@@ -29,8 +30,7 @@ class Standing(enum.StrEnum):
     FAILED = "failed"
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Compiled:
+class Compiled(msgspec.Struct, frozen=True):
     """A model of the package that compiles and is balanced."""
 
     model: str
@@ -41,8 +41,7 @@ class Compiled:
     """As the compiler counts them before it reduces the index."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Comparison:
+class Comparison(msgspec.Struct, frozen=True):
     """A package against the reference, element by element."""
 
     deviations: tuple[Deviation, ...]
@@ -58,8 +57,7 @@ class Comparison:
         return all(one.relative <= TOLERANCE for one in self.deviations)
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Effect:
+class Effect(msgspec.Struct, frozen=True):
     """What edits of the user do to the robot, compared with what is generated."""
 
     files: tuple[str, ...]
@@ -70,8 +68,7 @@ class Effect:
     """The elements that the files belong to, in the domain's words."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(msgspec.Struct, frozen=True):
     """What was checked of one robot, and what came out."""
 
     robot: str

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import dataclasses
 from pathlib import Path
 from typing import Literal, TypeAlias
+
+import msgspec
 
 Tool: TypeAlias = Literal["rumoca", "omc"]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Wishes:
+class Wishes(msgspec.Struct, frozen=True):
     """How to check."""
 
     physics: bool = False

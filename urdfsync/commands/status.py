@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
 from collections.abc import Iterator
+
+import msgspec
 
 from urdfsync import advice, records, status
 from urdfsync.build import build
@@ -53,4 +54,4 @@ def _results(
     for result in build(configuration, robots, request):
         robot = by_name[result.robot]
         said = records.differing(configuration, robot, result)
-        yield robot, dataclasses.replace(result, diagnostics=(*result.diagnostics, *said)) if said else result
+        yield robot, msgspec.structs.replace(result, diagnostics=(*result.diagnostics, *said)) if said else result

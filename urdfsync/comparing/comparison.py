@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from urdfsync.difference import ChangeClass, Effect
 from urdfsync.outcome import Exit, Result
@@ -13,8 +14,7 @@ if TYPE_CHECKING:
     from urdfsync.changes import Changes
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Comparison:
+class Comparison(msgspec.Struct, frozen=True):
     """A source as it is now, compared with an older version of it."""
 
     result: Result

@@ -6,11 +6,12 @@ source itself is, with the files that it refers to as they are in that version.
 
 from __future__ import annotations
 
-import dataclasses
 import os
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import changes, registry
 from urdfsync.build import build
@@ -51,12 +52,12 @@ def compare(
                 yield _with_last_build(subject, subject.robot, config, request)
         except UrdfsyncError as error:
             result = Result(subject.name, subject.target.package, *_folders(subject, config), failed=True)
-            failed = dataclasses.replace(result, diagnostics=error.diagnostics)
+            failed = msgspec.structs.replace(result, diagnostics=error.diagnostics)
             yield Comparison(failed, shown(subject.source), against)
 
 
 def _with_last_build(subject: Subject, robot: RobotConfig, config: Config, request: Request) -> Comparison:
-    (result,) = build(config, [robot], dataclasses.replace(request, dry=True))
+    (result,) = build(config, [robot], msgspec.structs.replace(request, dry=True))
     comparison = Comparison(result, shown(subject.source))
     if result.failed:
         return comparison
@@ -64,7 +65,7 @@ def _with_last_build(subject: Subject, robot: RobotConfig, config: Config, reque
     last, found = situation.settled, result.changes
     missing = "" if last else "what was built last is not known any more" if situation.recorded else "never built"
     edited = frozenset(action.path for action in result.actions if action.kind in _MINE)
-    comparison = dataclasses.replace(comparison, missing=missing, edited=edited)
+    comparison = msgspec.structs.replace(comparison, missing=missing, edited=edited)
     if last is None or found is None or not found.changes:
         return comparison
     name = shown(subject.source)
@@ -73,7 +74,7 @@ def _with_last_build(subject: Subject, robot: RobotConfig, config: Config, reque
         effects = situation.domain.effects(last, new, found.renames)
     except NO_MODEL:
         return comparison  # what is recorded is no model of the domain
-    return dataclasses.replace(comparison, effects=tuple(effects))
+    return msgspec.structs.replace(comparison, effects=tuple(effects))
 
 
 class _Versions:

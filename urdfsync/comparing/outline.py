@@ -6,7 +6,6 @@ an entry. A long outline is condensed to one row per element.
 
 from __future__ import annotations
 
-import dataclasses
 import enum
 import itertools
 import math
@@ -14,6 +13,8 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
+
+import msgspec
 
 from urdfsync.comparing import figures
 from urdfsync.difference import ChangeClass, Effect, Kind
@@ -48,8 +49,7 @@ class Tone(enum.Enum):
     """Nothing in the package depends on it, or next to nothing."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Row:
+class Row(msgspec.Struct, frozen=True):
     """One line below an element, or beside its name if it has no label."""
 
     label: str
@@ -61,8 +61,7 @@ class Row:
     """How the new value stands to the old one: percent, or degrees."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(msgspec.Struct, frozen=True):
     """Elements of which the same is to be said."""
 
     elements: tuple[str, ...]
@@ -80,8 +79,7 @@ class Entry:
         return f"{begin}{', '.join(names[:few])}{more}"
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Outline:
+class Outline(msgspec.Struct, frozen=True):
     """All entries, and whether numbers were condensed."""
 
     entries: tuple[Entry, ...]
@@ -192,11 +190,11 @@ def _numbered(rows: Iterable[Row]) -> Iterator[Row]:
     for (stem, rest), group in itertools.groupby(rows, key=lambda row: (_COUNTED.sub("", row.label), _plain(row))):
         together = list(group)
         numbers = [row.label.removeprefix(stem).strip() for row in together]
-        yield dataclasses.replace(rest, label=f"{stem} {', '.join(filter(None, numbers))}".strip())
+        yield msgspec.structs.replace(rest, label=f"{stem} {', '.join(filter(None, numbers))}".strip())
 
 
 def _plain(row: Row) -> Row:
-    return dataclasses.replace(row, label="")
+    return msgspec.structs.replace(row, label="")
 
 
 def _numbers(count: int) -> str:

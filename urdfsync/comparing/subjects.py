@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+
+import msgspec
 
 from urdfsync import modelica, registry
 from urdfsync.config import Config, RobotConfig, shown
@@ -17,8 +18,7 @@ DOMAIN = "urdf"
 """What a source is that no robot of the configuration has."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Subject:
+class Subject(msgspec.Struct, frozen=True):
     """One source, with how a package is made from it."""
 
     name: str

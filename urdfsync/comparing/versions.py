@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import manifest
 from urdfsync.comparing.revisions import Revision
@@ -22,8 +23,7 @@ _POINTER = re.compile(rb"version https://git-lfs.*^oid sha256:([0-9a-f]{64})$", 
 """What git holds in the place of a file that is in Git LFS."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Source:
+class Source(msgspec.Struct, frozen=True):
     """What a version is read from."""
 
     content: bytes
@@ -35,8 +35,7 @@ class Source:
     """Puts the files that this version has in the place of those on disk."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Read:
+class Read(msgspec.Struct, frozen=True):
     """A version, and what there is to say about it."""
 
     version: Version
@@ -97,7 +96,7 @@ def known_from(read: Read, copy: Callable[[str], bytes | None]) -> imports.Recor
 def _joined(same: Sequence[Dependency]) -> Dependency:
     """One dependency, as it is looked for from several places."""
     candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
-    return dataclasses.replace(same[0], candidates=tuple(candidates))
+    return msgspec.structs.replace(same[0], candidates=tuple(candidates))
 
 
 def _as_they_were(dependencies: Sequence[Dependency], revision: Revision, scratch: Path) -> list[Dependency]:
@@ -109,7 +108,7 @@ def _as_they_were(dependencies: Sequence[Dependency], revision: Revision, scratc
     def candidates(dependency: Dependency) -> tuple[Path, ...]:
         return tuple(places.get(path, path) for path in dependency.candidates if path in places or path not in held)
 
-    return [dataclasses.replace(dependency, candidates=candidates(dependency)) for dependency in dependencies]
+    return [msgspec.structs.replace(dependency, candidates=candidates(dependency)) for dependency in dependencies]
 
 
 def _place(path: Path, content: bytes, folder: Path) -> Path:

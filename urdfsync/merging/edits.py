@@ -7,8 +7,9 @@ come with a new value, and know over which equal tokens they could be moved.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator, Sequence
+
+import msgspec
 
 from urdfsync.merging.myers import diff
 from urdfsync.merging.tokens import NEWLINE, is_trivia, is_word
@@ -17,18 +18,22 @@ _MAX_WORK = 150_000
 """What comparing the tokens of one conflict may cost (see `urdfsync.merging.myers`): enough for some 500 edits."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Edit:
+class Edit(msgspec.Struct, frozen=True):
     """Base tokens `start` to `stop` (half open) replaced; what lies from `low` to `high` it could be moved over."""
 
     start: int
     stop: int
     inserted: tuple[str, ...]
     deleted: tuple[str, ...]
-    low: int = dataclasses.field(compare=False)
-    high: int = dataclasses.field(compare=False)
-    lines: bool = dataclasses.field(default=False, compare=False)
+    low: int
+    high: int
+    lines: bool = False
     """Nothing but whole lines are inserted or deleted."""
+
+    @property
+    def effect(self) -> tuple[int, int, tuple[str, ...], tuple[str, ...]]:
+        """What comes of it, whatever it could be moved over."""
+        return self.start, self.stop, self.inserted, self.deleted
 
     @property
     def adds(self) -> bool:

@@ -76,12 +76,12 @@ def merge_tokens(base: str, mine: str, generated: str) -> list[Piece]:
     """
     old = tokens(base)
     edits = [edits_between(old, tokens(text)) for text in (mine, generated)]
-    agreed = {*edits[0]} & {*edits[1]}
+    agreed = {edit.effect for edit in edits[0]} & {edit.effect for edit in edits[1]}
     words = [0, *accumulate(map(is_word, old))]
     chunks = [
         _Chunk(side, group)
         for side in (0, 1)
-        for group in _grouped([edit for edit in edits[side] if edit not in agreed], words)
+        for group in _grouped([edit for edit in edits[side] if edit.effect not in agreed], words)
     ]
     clashes = [*_clashes(chunks, old, words), *_twice(chunks)]
     return [

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import os
 import signal
 import threading
@@ -12,6 +11,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
+
+import msgspec
 
 from urdfsync import garbage, looking, profiling
 from urdfsync.config import Config, RobotConfig
@@ -101,7 +102,7 @@ class Crew:
 
     def _submit(self) -> None:
         """Let others plan some robots more, but not so many that their texts and meshes fill the memory."""
-        request = dataclasses.replace(self._request, progress=in_silence, memory=None)
+        request = msgspec.structs.replace(self._request, progress=in_silence, memory=None)
         while self._pool is not None and self._waiting and len(self._futures) < self._window:
             robot = self._waiting.popleft()
             profiled = profiling.current() is not None

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Set
 from pathlib import Path
 from typing import Protocol
+
+import msgspec
 
 from urdfsync import looking, order, profiling
 from urdfsync.config import Config, RobotConfig, shown
@@ -40,8 +41,7 @@ _MARKER = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
 """What git leaves in a file; a line of equal signs alone may be an ornament."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Decision:
+class Decision(msgspec.Struct, frozen=True):
     """All actions of one robot, and what to record of files and orders when they are done."""
 
     actions: tuple[Action, ...]
@@ -141,8 +141,7 @@ def encode(text: str) -> bytes:
     return text.encode(errors="surrogateescape")
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Aim:
+class Aim(msgspec.Struct, frozen=True):
     """What a robot's package should be, and what the user wants where that is in doubt; paths as in the manifest."""
 
     wanted: Mapping[str, Wanted]
@@ -150,9 +149,9 @@ class Aim:
     parents: Parents
     folder: str
     """The package's."""
-    moves: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    moves: Mapping[str, str] = msgspec.field(default_factory=dict)
     """New and old path of files whose element has another name."""
-    choices: Mapping[str, Choice] = dataclasses.field(default_factory=dict)
+    choices: Mapping[str, Choice] = msgspec.field(default_factory=dict)
     merging: bool = False
     """Whether clean merges are welcome without being asked for."""
 
@@ -183,7 +182,7 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
         found = {key: disk.found(key, role) for key, role in roles.items()}
     planned = plan(recorded, aim.wanted, found, aim.moves)
     choices = {**remembered(recorded, planned), **aim.choices}
-    aim = dataclasses.replace(aim, choices=choices)
+    aim = msgspec.structs.replace(aim, choices=choices)
     open_ = texts is not None and any(action.kind in DISPUTED or action.kind is Kind.ORPHAN for action in planned)
     actions, standoffs, merged = _settle(disk, planned, aim, texts) if texts and open_ else (planned, {}, {})
     actions = spare(actions, disk.has_classes)
@@ -268,7 +267,7 @@ def _settle(
             actions.append(action)
         else:
             merged[action.path] = text
-            actions.append(dataclasses.replace(action, result=text_digest(encode(text))))
+            actions.append(msgspec.structs.replace(action, result=text_digest(encode(text))))
     return tuple(actions), standoffs, merged
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import msgspec
 
 from urdfsync import profiling
 from urdfsync.config import shown
@@ -40,7 +41,7 @@ class Generated:
         if path not in self._contents:
             artifact = self.artifacts[path]
             self._contents[path] = _content(_renderer(self._templates), artifact, self._templates.folders)
-            self.artifacts[path] = dataclasses.replace(artifact, data={_FORGOTTEN: object()})
+            self.artifacts[path] = msgspec.structs.replace(artifact, data={_FORGOTTEN: object()})
         return self._contents[path]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -21,8 +20,7 @@ _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Recorded:
+class Recorded(msgspec.Struct, frozen=True):
     """What is known of the imports of the last build, and how their copies in the package are read."""
 
     records: Mapping[str, DependencyRecord]
@@ -35,14 +33,13 @@ class Recorded:
     """Whether the package has another folder now."""
 
 
-@dataclasses.dataclass(slots=True)
-class Imported:
+class Imported(msgspec.Struct):
     """What is in the package now: imports, the bytes that are at hand (by target), and what there is to say."""
 
-    imports: dict[str, Import] = dataclasses.field(default_factory=dict)
-    contents: dict[str, bytes] = dataclasses.field(default_factory=dict)
-    records: dict[str, DependencyRecord] = dataclasses.field(default_factory=dict)
-    diagnostics: list[Diagnostic] = dataclasses.field(default_factory=list)
+    imports: dict[str, Import] = msgspec.field(default_factory=dict)
+    contents: dict[str, bytes] = msgspec.field(default_factory=dict)
+    records: dict[str, DependencyRecord] = msgspec.field(default_factory=dict)
+    diagnostics: list[Diagnostic] = msgspec.field(default_factory=list)
 
 
 def unchanged(dependencies: Sequence[Dependency], records: Mapping[str, DependencyRecord], converter: int) -> bool:
@@ -107,7 +104,7 @@ def sought(
     found = domain.dependencies(snapshot, lookup, options, lines)
     if all(any(map(_is_file, dependency.candidates)) for dependency in found):
         return found
-    lookup = dataclasses.replace(lookup, packages=packages.find(lookup.package_paths, lookup.source))
+    lookup = msgspec.structs.replace(lookup, packages=packages.find(lookup.package_paths, lookup.source))
     return domain.dependencies(snapshot, lookup, options, lines)
 
 
@@ -161,7 +158,7 @@ def _convert(
     try:
         conversion = domain.convert(dependency, path, content)
     except SourceError as error:
-        trouble = dataclasses.replace(error.diagnostics[0], file=source, code="unreadable")
+        trouble = msgspec.structs.replace(error.diagnostics[0], file=source, code="unreadable")
         _refuse(domain, dependency, content, recorded, result, trouble)
         return
     result.contents[dependency.target] = conversion.content
@@ -203,14 +200,14 @@ def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble:
 
     `trouble` says what is wrong with the source; what follows from it is added.
     """
-    trouble = dataclasses.replace(
+    trouble = msgspec.structs.replace(
         trouble, severity=Severity.WARNING, code=f"{dependency.noun}-{trouble.code}", line=dependency.line
     )
     record = recorded.records.get(dependency.key)
     copy = recorded.copy(record.target) if record and record.target_hash else None
     if record is None or copy is None:
         result.records[dependency.key] = DependencyRecord(dependency.uri, dependency.target)
-        result.diagnostics.append(dataclasses.replace(trouble, message=f"{trouble.message}; left out"))
+        result.diagnostics.append(msgspec.structs.replace(trouble, message=f"{trouble.message}; left out"))
         return
     facts = recorded.facts.get(dependency.key)
     if facts is None or facts.source_hash != record.source_hash or record.source_hash is None:
@@ -223,7 +220,7 @@ def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble:
         result.contents[dependency.target], written = copy, copied
     _add(dependency, Import(dependency.target, record.source_hash, written, facts.converter, facts.facts), result)
     message = f"{trouble.message}; the imported copy is kept"
-    result.diagnostics.append(dataclasses.replace(trouble, code=f"{trouble.code}-kept", message=message, hint=""))
+    result.diagnostics.append(msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint=""))
 
 
 def _add(dependency: Dependency, entry: Import, result: Imported) -> None:

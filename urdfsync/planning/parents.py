@@ -6,18 +6,18 @@ Modelica parser. So urdfsync enters its names into files that exist, and makes s
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import looking, modelica
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Parents:
+class Parents(msgspec.Struct, frozen=True):
     """What of the packages above a robot's has to be written."""
 
     created: Mapping[Path, bytes]

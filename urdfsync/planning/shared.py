@@ -5,17 +5,17 @@ So robots that share a parent package can be planned at the same time.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import order
 from urdfsync.files import digest
 from urdfsync.state.transactions import Change
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Shared:
+class Shared(msgspec.Struct, frozen=True):
     """One such file: a `package.mo` that is made if it is not there, or a `package.order`."""
 
     path: Path

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 import json
 from collections.abc import Callable, Mapping, Sequence
@@ -39,8 +38,7 @@ def in_silence(what: str, done: int, total: int) -> None:
     """Tell nobody of the work."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Request:
+class Request(msgspec.Struct, frozen=True):
     """How to build."""
 
     full: bool = False
@@ -55,7 +53,7 @@ class Request:
     """Seconds to wait for another build to finish."""
     repair: bool = False
     """Make a recorded state that can't be read again, from what can be told of it and from the files."""
-    choices: Mapping[str, Choice] = dataclasses.field(default_factory=dict)
+    choices: Mapping[str, Choice] = msgspec.field(default_factory=dict)
     """What the user wants of files that conflict, by their path in the manifest."""
     jobs: int | None = None
     """How many processes may work at once; None for one per core."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.planning.decide import Decision
@@ -15,8 +16,7 @@ if TYPE_CHECKING:
     from urdfsync.changes import Changes
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Work:
+class Work(msgspec.Struct, frozen=True):
     """What there is to do for one robot."""
 
     decision: Decision

@@ -6,9 +6,10 @@ only for robots whose sources are the same in both, and whose files nobody has p
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Collection
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import config as configuration
 from urdfsync.build import build
@@ -37,7 +38,7 @@ class Judge:
         `folder` is where git is asked again what is staged.
         """
         self._index, self._folder, self._writing, self._aside = index, folder, writing, aside
-        self._dry, self._wet = (dataclasses.replace(request, dry=dry) for dry in (True, False))
+        self._dry, self._wet = (msgspec.structs.replace(request, dry=dry) for dry in (True, False))
 
     def verdicts(self, path: str) -> list[Verdict]:
         """What is wrong with the robots of a tracked configuration. Raises UrdfsyncError if it can't be read."""
@@ -138,14 +139,14 @@ class _Staging:
         self._bring(real)
         # packages that a search path inside a mirror can't find, since it is made of links
         elsewhere = tuple(path for path in real.package_paths if path not in robot.package_paths)
-        request = dataclasses.replace(request, package_paths=request.package_paths + elsewhere)
+        request = msgspec.structs.replace(request, package_paths=request.package_paths + elsewhere)
         try:
             if planner.plan_if_unchanged(self._config, robot, request) is not None:
                 return None
         except (UrdfsyncError, OSError):
             pass  # said by the build
         (result,) = build(self._config, [robot], request)
-        if result.in_step and not _records(self._config, robot, dataclasses.replace(request, dry=False)):
+        if result.in_step and not _records(self._config, robot, msgspec.structs.replace(request, dry=False)):
             return None
         return self._mirror.result(result)
 

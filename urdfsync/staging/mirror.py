@@ -9,7 +9,6 @@ Nor are they hard links: these would change a time of the user's files, by which
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import os
 import shutil
 import tempfile
@@ -17,6 +16,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from types import TracebackType
 from typing import Self
+
+import msgspec
 
 from urdfsync.config import Config
 from urdfsync.diagnostics import Diagnostic
@@ -76,7 +77,7 @@ class Mirror:
     def config(self, config: Config) -> Config:
         """A configuration that was read here, with its real paths."""
         robots = (
-            dataclasses.replace(
+            msgspec.structs.replace(
                 robot,
                 source=self.real(robot.source),
                 output=self.real(robot.output),
@@ -91,12 +92,12 @@ class Mirror:
         """What a build found here, said of the real files."""
         found = tuple(map(self.diagnostic, result.diagnostics))
         root, folder = self.real(result.root), self.real(result.folder)
-        return dataclasses.replace(result, root=root, folder=folder, diagnostics=found)
+        return msgspec.structs.replace(result, root=root, folder=folder, diagnostics=found)
 
     def diagnostic(self, found: Diagnostic) -> Diagnostic:
         """A finding about files here, said of the real ones."""
         message, file, hint = map(self._said, (found.message, found.file, found.hint))
-        return dataclasses.replace(found, message=message, file=file, hint=hint)
+        return msgspec.structs.replace(found, message=message, file=file, hint=hint)
 
     def _said(self, text: str) -> str:
         here = Path.cwd()

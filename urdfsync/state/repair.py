@@ -7,7 +7,6 @@ candidate for the base of its file, and what is on disk decides between them.
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import product
@@ -34,8 +33,7 @@ _JSON_FORMAT = re.compile(r'^ "format": (\d{1,9}),?\r?$', re.MULTILINE)
 _Parsed = TypeVar("_Parsed")
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Recovered:
+class Recovered(msgspec.Struct, frozen=True):
     """All that is known from both sides of a state, the own side first."""
 
     manifests: tuple[Manifest, ...]

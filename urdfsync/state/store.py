@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
+
+import msgspec
 
 from urdfsync import looking, manifest
 from urdfsync.config import STATE_FOLDER
@@ -30,8 +31,7 @@ Witness: TypeAlias = Mapping[Path, str | None]
 """Files of the state, and the hashes of their bytes when they were loaded; None for a file that was not there."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class State:
+class State(msgspec.Struct, frozen=True):
     """What the last build recorded of a robot."""
 
     manifest: Manifest

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
@@ -19,8 +20,7 @@ class UnfinishedError(OutputError):
     """Some files have changed, and could not be put back; the journal says which."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Change:
+class Change(msgspec.Struct, frozen=True):
     """What is to happen to one file."""
 
     path: Path

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
+
+import msgspec
 
 from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.urdf.model import assembly, notes, shapes
@@ -46,7 +47,7 @@ def record(robot: Robot, target: Target, options: Options) -> Artifact:
     name = target.name.removesuffix(_PARAMETERS) or target.name
     skeleton = Skeleton.of(robot, taken=(name,))
     artifact = _record(_Context(skeleton, {}, Target(target.package, name), options), robot.name)
-    return dataclasses.replace(artifact, path=f"{target.name}.mo", data={**artifact.data, "record": target.name})
+    return msgspec.structs.replace(artifact, path=f"{target.name}.mo", data={**artifact.data, "record": target.name})
 
 
 def models(joints: Sequence[Joint], target: Target, options: Options) -> tuple[str, ...]:
@@ -62,8 +63,7 @@ def has_bench(joints: Sequence[Joint], options: Options) -> bool:
     return "record" in options.approach and has_tables(joints)
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class _Context:
+class _Context(msgspec.Struct, frozen=True):
     skeleton: Skeleton
     imports: Mapping[str, Import]
     target: Target

@@ -6,12 +6,13 @@ Links and joints of a robot share one namespace, because both become components 
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 import hashlib
 import re
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
+
+import msgspec
 
 from urdfsync.modelica import DEVICES, FUNCTIONS, KEYWORDS, RESERVED_CLASSES
 
@@ -41,8 +42,7 @@ _RESERVED = KEYWORDS | {name.lower() for name in FUNCTIONS} | RESERVED_CLASSES |
 _DIGITS = 8
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Identifier:
+class Identifier(msgspec.Struct, frozen=True):
     """The Modelica spellings of one link or joint."""
 
     component: str

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
+
+import msgspec
 
 from urdfsync.urdf.kinematics import Pose, compose, dot, link_poses, pose, start_positions
 from urdfsync.urdf.robot import Joint, Link, Vector
@@ -13,8 +14,7 @@ _ROUNDING = 1e-12
 """What is left of terms of this size that cancel each other."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class _Body:
+class _Body(msgspec.Struct, frozen=True):
     """Mass (kg), mass times centre of mass (kg.m), inertia about the origin (kg.m2); in the frame of the root link."""
 
     mass: float = 0.0

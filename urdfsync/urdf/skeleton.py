@@ -6,10 +6,11 @@ follow from this order.
 
 from __future__ import annotations
 
-import dataclasses
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Literal
+
+import msgspec
 
 from urdfsync.urdf.naming import Identifier, Key, identify, natural_key
 from urdfsync.urdf.robot import Joint, Link, Mimic, Robot
@@ -24,8 +25,7 @@ MOTIONS: Mapping[str, Motion] = {
 """Kind of motion of each joint type that has one axis."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Skeleton:
+class Skeleton(msgspec.Struct, frozen=True):
     """Links and joints in canonical order; joint `k` leads to link `k + 1`, link 0 is the root."""
 
     links: tuple[Link, ...]

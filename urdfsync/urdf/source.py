@@ -6,9 +6,10 @@ Where a robot can be read in one sensible way although something is amiss, that 
 
 from __future__ import annotations
 
-import dataclasses
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
+
+import msgspec
 
 from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -35,8 +36,7 @@ _TEXTS = ("name", "link", "joint", "filename", "group")
 """Attributes that may hold any text: `${…}` left over in them is odd, but no reason to refuse the robot."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class RobotReading:
+class RobotReading(msgspec.Struct, frozen=True):
     """What reading a URDF gave: the robot, unless a diagnostic is an error, and what there is to say.
 
     `lines` maps paths to lines: `robot`, `link NAME`, `joint NAME`, and below them for example

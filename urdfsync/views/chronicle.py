@@ -6,10 +6,11 @@ are no longer generated) is not repeated.
 
 from __future__ import annotations
 
-import dataclasses
 import itertools
 from collections.abc import Collection, Hashable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
+
+import msgspec
 
 from urdfsync import wording
 from urdfsync.config import shown
@@ -114,7 +115,7 @@ class Chronicle:
         if not self._verbose:
             hidden = (CONFLICTS if known else frozenset()) | (frozenset() if left else _LEFT)
             actions = tuple(action for action in result.actions if action.kind not in hidden)
-            result = dataclasses.replace(result, actions=actions, changes=None)
+            result = msgspec.structs.replace(result, actions=actions, changes=None)
         yield from map(Line, itertools.islice(builds.lines(result, self._console, self._look, explain=False), 1, None))
 
     def _fresh(self, event: events.Built) -> Sequence[Diagnostic]:

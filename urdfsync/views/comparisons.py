@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from urdfsync import wording
 from urdfsync.comparing import outline
@@ -76,7 +77,7 @@ def _tree(comparison: Comparison, console: Console, verbose: bool) -> Renderable
 
 def _titled(entry: Entry) -> Row:
     """What happened to elements as a whole, beside their names."""
-    return dataclasses.replace(entry.rows[0], label=entry.title)
+    return msgspec.structs.replace(entry.rows[0], label=entry.title)
 
 
 class _Columns:
@@ -118,7 +119,7 @@ def _wrapped(row: Row, room: int) -> list[Text]:
     value = _value(row)
     if value.cell_len <= room:
         return [value]
-    new = _value(dataclasses.replace(row, old=""))
+    new = _value(msgspec.structs.replace(row, old=""))
     parts = [text((row.old, "dim")), text(("→ ", "dim")).append_text(new)] if row.old else [new]
     return [line for part in parts for line in part.wrap(Console(width=room), room)]
 
@@ -165,7 +166,7 @@ def _file(comparison: Comparison, action: Action, console: Console) -> Text:
     path = shown(Path(os.path.normpath(comparison.result.root / action.path)))
     line = text((f"  {word:<{_WORD}} ", style), (path, ""))
     if action.path in comparison.edited:
-        told = dataclasses.replace(action, held=False).reason  # the word says already that it waits
+        told = msgspec.structs.replace(action, held=False).reason  # the word says already that it waits
         reason = text(("you edited it" if comparison.against else told, "yellow"))
         fits = line.cell_len + 2 + reason.cell_len <= console.width
         line.append("  " if fits else "\n" + " " * (_WORD + 3)).append_text(reason)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator, Sequence
 from itertools import zip_longest
 from typing import NamedTuple
+
+import msgspec
 
 from urdfsync.merge import Merge, split_lines
 from urdfsync.merging.myers import Change, diff
@@ -239,12 +240,11 @@ def _with_context(run: Sequence[_Group], length: int) -> range:
     return range(max(0, run[0].base.start - CONTEXT), min(length, run[-1].base.stop + CONTEXT))
 
 
-@dataclasses.dataclass(frozen=True)
-class _Highlights:
+class _Highlights(msgspec.Struct, frozen=True):
     """The changed parts of lines, by the lines' indices; `blank` are lines of which only the white space changed."""
 
-    parts: dict[int, tuple[range, ...]] = dataclasses.field(default_factory=dict)
-    blank: set[int] = dataclasses.field(default_factory=set)
+    parts: dict[int, tuple[range, ...]] = msgspec.field(default_factory=dict)
+    blank: set[int] = msgspec.field(default_factory=set)
 
     def line(self, index: int, text: str) -> Line:
         shown = text.rstrip(NEWLINE)

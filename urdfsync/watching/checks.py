@@ -6,11 +6,12 @@ package any more is given up. Everything but the check itself happens in the dae
 
 from __future__ import annotations
 
-import dataclasses
 import threading
 from collections.abc import Callable
 from types import TracebackType
 from typing import Self
+
+import msgspec
 
 from urdfsync.checking.afterbuild import Examine, Findings, Inspector, is_general
 from urdfsync.config import Config, RobotConfig
@@ -23,8 +24,7 @@ _PATIENCE = 10.0
 """Seconds that a check gets to end when the daemon does; a compiler that is left then ends with the process."""
 
 
-@dataclasses.dataclass(slots=True, eq=False)
-class Errand:
+class Errand(msgspec.Struct, eq=False):
     """One check that was asked for."""
 
     robot: RobotConfig

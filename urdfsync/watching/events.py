@@ -7,17 +7,17 @@ Checks go on beside that: `Checking`, and `Checked` for the last one of several 
 
 from __future__ import annotations
 
-import dataclasses
 from pathlib import Path
 from typing import Protocol, TypeAlias
+
+import msgspec
 
 from urdfsync import outcome
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.outcome import Result
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Started:
+class Started(msgspec.Struct, frozen=True):
     """The configuration was read, for the first time or again, and these robots are watched from now on."""
 
     config: Path
@@ -26,22 +26,19 @@ class Started:
     """Whether it was read before: then it has changed, or works again."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Settling:
+class Settling(msgspec.Struct, frozen=True):
     """A file of the robot changed; it is left alone until nothing happens any more."""
 
     robot: str
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Calm:
+class Calm(msgspec.Struct, frozen=True):
     """The files of the robot are what they were before `Settling`: nothing to build."""
 
     robot: str
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Waiting:
+class Waiting(msgspec.Struct, frozen=True):
     """The robot is not built for now, although its files keep still.
 
     Either its source is no model, which an exporter may be about to change: then `diagnostics` say what is
@@ -55,15 +52,13 @@ class Waiting:
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Building:
+class Building(msgspec.Struct, frozen=True):
     """The build of the robot begins."""
 
     robot: str
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Built:
+class Built(msgspec.Struct, frozen=True):
     """The robot was built, perhaps with conflicts, perhaps with nothing to write."""
 
     result: Result
@@ -73,8 +68,7 @@ class Built:
     """Whether the robot's last build failed."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Failed:
+class Failed(msgspec.Struct, frozen=True):
     """The robot can't be built. It is tried again every now and then, and `Built` follows when that works."""
 
     result: Result
@@ -82,15 +76,13 @@ class Failed:
     """Whether the same was said before, and only a change that did not help came in between."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Checking:
+class Checking(msgspec.Struct, frozen=True):
     """The check of the robot's package begins; one that was begun before is given up."""
 
     robot: str
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Checked:
+class Checked(msgspec.Struct, frozen=True):
     """The robot's package was checked as the last build left it."""
 
     robot: str
@@ -101,8 +93,7 @@ class Checked:
     """What is wrong with it, and what could not be checked."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Noted:
+class Noted(msgspec.Struct, frozen=True):
     """Something that concerns no robot in particular; said once, until it is over and happens again.
 
     A configuration that can't be used (the last good one stays in force), files that can't be watched (they are
@@ -112,28 +103,24 @@ class Noted:
     diagnostics: tuple[Diagnostic, ...]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Recovered:
+class Recovered(msgspec.Struct, frozen=True):
     """What `Noted` said of the daemon itself is over: files are watched again."""
 
     what: str
     """In words, for example `all folders are watched again`."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Paused:
+class Paused(msgspec.Struct, frozen=True):
     """Nothing is built for now, for example because pre-commit has stashed changes away."""
 
     reason: str
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Resumed:
+class Resumed(msgspec.Struct, frozen=True):
     """Robots are built again."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Ran:
+class Ran(msgspec.Struct, frozen=True):
     """The command of `--exec` has ended after a build of the robot; if it failed, `Noted` says so as well."""
 
     robot: str
@@ -141,8 +128,7 @@ class Ran:
     """Its exit code; negative if a signal ended it."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Stopping:
+class Stopping(msgspec.Struct, frozen=True):
     """The daemon was told to end; the last event."""
 
     signal: str

@@ -2,30 +2,28 @@
 
 from __future__ import annotations
 
-import dataclasses
 import queue
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
+
+import msgspec
 
 from urdfsync.checking.afterbuild import Findings
 from urdfsync.watching.checks import Errand
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Lost:
+class Lost(msgspec.Struct, frozen=True):
     """Events were lost, so everything has to be looked at."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Ended:
+class Ended(msgspec.Struct, frozen=True):
     """A command of `--exec` has ended."""
 
     robot: str
     code: int
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Examined:
+class Examined(msgspec.Struct, frozen=True):
     """A check has ended."""
 
     errand: Errand
@@ -33,8 +31,7 @@ class Examined:
     """None if it was given up."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Stop:
+class Stop(msgspec.Struct, frozen=True):
     """The daemon is told to end, by this signal."""
 
     signal: str

@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
-import dataclasses
 from pathlib import Path
+
+import msgspec
 
 from urdfsync.checking import afterbuild
 from urdfsync.planning.situation import Request
 from urdfsync.watching.settling import Times
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Options:
+class Options(msgspec.Struct, frozen=True):
     """All that there is to choose; times in seconds."""
 
     file: Path
     """The configuration."""
     robots: tuple[str, ...] = ()
     """Names of the robots; empty for all."""
-    times: Times = dataclasses.field(default_factory=Times)
+    times: Times = msgspec.field(default_factory=Times)
     rescan: float = 30.0
     """Between two looks at everything."""
     poll: bool = False
     """Do without events."""
     command: str = ""
     """What to run after a build that changed something; empty for nothing."""
-    request: Request = dataclasses.field(default_factory=Request)
+    request: Request = msgspec.field(default_factory=Request)
     """How to build; the daemon adds how progress is told."""
     examine: afterbuild.Examine = afterbuild.on_disk
     """How to check packages."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Set as AbstractSet
+
+import msgspec
 
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
@@ -16,8 +17,7 @@ _MANY = 3
 """So many elements have to be gone at least for a source to be doubtful, and more than half of all."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Judgement:
+class Judgement(msgspec.Struct, frozen=True):
     """What is to be said of a source."""
 
     content: str = ""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+
+import msgspec
 
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic
@@ -14,8 +15,7 @@ from urdfsync.watching.scope import Scope, scope
 from urdfsync.watching.settling import Settler, Times
 
 
-@dataclasses.dataclass(slots=True)
-class Watched:
+class Watched(msgspec.Struct):
     """One robot, for as long as the configuration says the same of it."""
 
     robot: RobotConfig
@@ -23,7 +23,7 @@ class Watched:
     settler: Settler[Sample]
     built: Sample | None = None
     """What the last build saw; None if everything has to be built anyway."""
-    settled: Sample = dataclasses.field(default_factory=dict)
+    settled: Sample = msgspec.field(default_factory=dict)
     """What has settled, and is about to be built."""
     announced: bool = False
     """Whether the listener was told that something is going on."""

@@ -5,10 +5,11 @@ Everything here is a string, since there are many of them and they are looked at
 
 from __future__ import annotations
 
-import dataclasses
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
@@ -23,8 +24,7 @@ _LINKS = 40
 """So many symbolic links one path may lead through, as for the system."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Scope:
+class Scope(msgspec.Struct, frozen=True):
     """The files of one robot, absolute, and what the last build recorded of its source."""
 
     source: str
@@ -107,8 +107,7 @@ def _candidates(dependencies: Iterable[Dependency]) -> Iterator[str]:
                 break
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Sight:
+class Sight(msgspec.Struct, frozen=True):
     """Where changes of some scopes can be seen; without symbolic links."""
 
     robots: Mapping[str, tuple[str, ...]]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
+import msgspec
 
 from urdfsync import advice, config
 from urdfsync.config import Config, RobotConfig
@@ -12,8 +12,7 @@ from urdfsync.watching.samples import Sample, alike
 from urdfsync.watching.settling import Settler, Verdict
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Loaded:
+class Loaded(msgspec.Struct, frozen=True):
     """A configuration that can be used."""
 
     config: Config

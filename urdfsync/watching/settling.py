@@ -7,9 +7,10 @@ monotonic clock.
 
 from __future__ import annotations
 
-import dataclasses
 import enum
 from typing import Generic, TypeVar
+
+import msgspec
 
 S = TypeVar("S")
 
@@ -17,8 +18,7 @@ _PAUSE = 1.0
 """Seconds between two samples of what can't be read: most changes are events, which need no sample."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Times:
+class Times(msgspec.Struct, frozen=True):
     """How patient the daemon is; all in seconds."""
 
     settle: float = 0.3

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import enum
 from collections import Counter
 from collections.abc import Sequence
+
+import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Checked, Result
@@ -32,8 +33,7 @@ class Mood(enum.StrEnum):
         return list(Mood).index(self)
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Standing:
+class Standing(msgspec.Struct, frozen=True):
     """One robot at one moment."""
 
     robot: str

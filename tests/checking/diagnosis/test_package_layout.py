@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
 
+import msgspec
 import pytest
 from support import arm, corpus, packages
 from support.arm import ELBOW
@@ -269,18 +269,20 @@ def test_what_a_build_adds_to_an_order_nobody_has_to_add() -> None:
     own = f"{WITHIN}\nmodel Own\nend Own;\n"
     package = arm.package({ORDER: "\n".join(names), "Joints/Own.mo": own})
     owners = {"Joints/package.mo": "robot", "Joints/Turret.mo": "joint turret"}
-    found = layout.check(dataclasses.replace(package, owners=owners))
+    found = layout.check(msgspec.structs.replace(package, owners=owners))
     hints = {one.message: one.hint for one in found}
     advice = "add it where it belongs: tools put it last, or warn"
     assert hints == {"`Own` is not named": advice, "`Turret` is not named": "`urdfsync build` adds it"}
-    elsewhere = dataclasses.replace(arm.package({ORDER: "\n".join(names)}), owners={"Joints/Turret.mo": "joint turret"})
+    elsewhere = msgspec.structs.replace(
+        arm.package({ORDER: "\n".join(names)}), owners={"Joints/Turret.mo": "joint turret"}
+    )
     assert [one.hint for one in layout.check(elsewhere)] == [advice]
 
 
 def test_what_a_build_adds_may_be_a_folder() -> None:
     owners = {"package.mo": "robot", "Joints/package.mo": "robot"}
     order = arm.text("package.order").replace("Joints\n", "")
-    (found,) = layout.check(dataclasses.replace(arm.package({"package.order": order}), owners=owners))
+    (found,) = layout.check(msgspec.structs.replace(arm.package({"package.order": order}), owners=owners))
     assert (found.message, found.hint) == ("`Joints` is not named", "`urdfsync build` adds it")
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -156,7 +156,7 @@ def test_a_top_level_package_of_another_name_is_told_where_it_is_declared(around
 
 
 def test_a_package_in_the_top_level_package_is_no_library() -> None:
-    package = dataclasses.replace(arm.package(name="Plant.Robots.Arm"), folder=arm.HOME / "Plant/Robots/Arm")
+    package = msgspec.structs.replace(arm.package(name="Plant.Robots.Arm"), folder=arm.HOME / "Plant/Robots/Arm")
     (found,) = problems.explain(unresolved("unresolved import: 'Plant.Robots'"), Case(package))
     assert found.message == "there is no class `Plant.Robots`"
 
@@ -201,7 +201,7 @@ def test_the_same_fault_in_other_models_is_said_once() -> None:
     said = problems.explain(unbalanced(1824, 1825), Case(arm.package(EXTRA), FOLDERS, model="SixAxisArm"))
     assert explained(unbalanced(1854, 1855), EXTRA, said, "SixAxisArmRun") == []
     assert len(explained(unbalanced(1853, 1855), EXTRA, said, "SixAxisArmTest")) == 1
-    warnings = [dataclasses.replace(one, severity=Severity.WARNING) for one in said]
+    warnings = [msgspec.structs.replace(one, severity=Severity.WARNING) for one in said]
     assert len(explained(unbalanced(1854, 1855), EXTRA, warnings, "SixAxisArmRun")) == 1
 
 
@@ -308,17 +308,17 @@ def test_what_is_known_of_files_around_the_package_is_not_said_again() -> None:
     broken = Diagnostic(Severity.ERROR, "syntax", "the file lacks a class before `x`", "Plant/Broken.mo", 1)
     case = Case(arm.package(), folders)
     assert [one.file for one in problems.explain(text, case)] == ["Plant"]
-    assert problems.explain(text, dataclasses.replace(case, said=[broken])) == ()
+    assert problems.explain(text, msgspec.structs.replace(case, said=[broken])) == ()
     library = Diagnostic(Severity.ERROR, "syntax", "the file lacks a class before `x`", "/opt/Tools/package.mo", 1)
     text = UNPARSED.replace(COPY, "/opt/Tools")
     assert [one.file for one in problems.explain(text, case)] == ["/opt/Tools"]
-    assert problems.explain(text, dataclasses.replace(case, said=[library])) == ()
+    assert problems.explain(text, msgspec.structs.replace(case, said=[library])) == ()
 
 
 def test_what_one_model_lacks_does_not_hide_what_another_lacks() -> None:
     """Only files that are not in order make a compiler miss what they declare."""
     said = problems.explain(unresolved(kind("Sensors.Elbow")), Case(arm.package(), FOLDERS))
-    at_elbow = [dataclasses.replace(one, file=f"Plant/SixAxisArm/{ELBOW}") for one in said]
+    at_elbow = [msgspec.structs.replace(one, file=f"Plant/SixAxisArm/{ELBOW}") for one in said]
     text = unresolved("unresolved import: 'Tools'", kind("Joints.Elbow"))
     found = explained(text, said=at_elbow)
     assert ["`Tools`" in one for one in found] == [True, False]

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 import itertools
 from collections.abc import Iterator, Mapping, Set
 from pathlib import Path
 from random import Random
 from typing import NamedTuple
 
+import msgspec
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -62,7 +62,7 @@ def render(version: Version, options: Options) -> Mapping[str, File]:
 def referenced(version: Version, options: Options) -> Version:
     """The version with the imports that a build would have."""
     keys = {dependency.key for dependency in DOMAIN.dependencies(version.snapshot, LOOKUP, options, {})}
-    return dataclasses.replace(version, imports={k: i for k, i in (version.imports or {}).items() if k in keys})
+    return msgspec.structs.replace(version, imports={k: i for k, i in (version.imports or {}).items() if k in keys})
 
 
 def differing(before: Mapping[str, File], after: Mapping[str, File]) -> Set[str]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from collections.abc import Callable, Iterator
 from typing import Any
 
+import msgspec
 import pytest
 import support.urdfs as urdfs
 from support.packages import read
@@ -234,7 +234,7 @@ def test_a_shape_without_its_mesh_is_not_modelled() -> None:
 @pytest.mark.parametrize(("meshes", "reach"), [({MESH: import_("a")}, STRUCTURAL), ({}, UNMODELLED), (None, PARAMETER)])
 def test_another_mesh_file_matters_as_far_as_it_is_found(meshes: dict[str, Import] | None, reach: ChangeClass) -> None:
     edit = put(*BASE, "visuals", 1, "geometry", "filename", value="other.stl")
-    old, new = (dataclasses.replace(version(e), imports=meshes) for e in (lambda _: None, edit))
+    old, new = (msgspec.structs.replace(version(e), imports=meshes) for e in (lambda _: None, edit))
     found = compare(old, new, urdf, FIXED).changes
     assert [(str(c), c.change_class) for c in found] == [("link base / visual 2 / geometry / filename", reach)]
 

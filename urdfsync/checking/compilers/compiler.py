@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
@@ -43,8 +42,7 @@ def ignore(number: int, outcome: Outcome) -> None:
     """Nobody wants to hear of an outcome before all are known."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Tool:
+class Tool(msgspec.Struct, frozen=True):
     """A compiler that works behind a process of ours."""
 
     name: str

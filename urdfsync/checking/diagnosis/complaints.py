@@ -6,10 +6,11 @@ with a frame around the source. OpenModelica puts the place first.
 
 from __future__ import annotations
 
-import dataclasses
 import enum
 import re
 from collections.abc import Iterator
+
+import msgspec
 
 
 class Kind(enum.Enum):
@@ -30,8 +31,7 @@ class Kind(enum.Enum):
 UNRESOLVED = frozenset({Kind.CLASS, Kind.FUNCTION, Kind.COMPONENT})
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Complaint:
+class Complaint(msgspec.Struct, frozen=True):
     """One thing that a compiler does not like."""
 
     kind: Kind

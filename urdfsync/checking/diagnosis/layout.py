@@ -8,12 +8,13 @@ The syntax is read as it is after a merge; so people meet the same words.
 from __future__ import annotations
 
 import codecs
-import dataclasses
 import difflib
 import re
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
+
+import msgspec
 
 from urdfsync.checking.diagnosis.package import Package, holds_class
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -39,8 +40,7 @@ _WITHIN = "wrong-within"
 _NOTHING = Outline([], None, 0, [])
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class _Folder:
+class _Folder(msgspec.Struct, frozen=True):
     """A folder that should be a package."""
 
     path: str
@@ -64,13 +64,12 @@ class _Folder:
         return tuple(file.removesuffix(_SUFFIX) for file in self.files if file != PACKAGE)
 
 
-@dataclasses.dataclass(slots=True)
-class _Contents:
+class _Contents(msgspec.Struct):
     """What the files of a folder turned out to declare."""
 
-    stored: set[str] = dataclasses.field(default_factory=set)
+    stored: set[str] = msgspec.field(default_factory=set)
     """Classes that are whole files."""
-    inside: dict[str, int] = dataclasses.field(default_factory=dict)
+    inside: dict[str, int] = msgspec.field(default_factory=dict)
     """Classes and constants in `package.mo`, with their lines."""
     certain: bool = True
     """Whether `package.mo` could be read."""

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 import re
 from collections.abc import Iterable, Iterator, Sequence
+
+import msgspec
 
 from urdfsync.checking.diagnosis.package import Package
 from urdfsync.merging.grammar import Declared, outline
@@ -14,8 +15,7 @@ from urdfsync.merging.reading import Reader, Token, is_identifier
 _BRACKETS = {"[": 1, "]": -1}
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Mention:
+class Mention(msgspec.Struct, frozen=True):
     """A name, possibly with dots, at a place in a file."""
 
     name: str
@@ -23,8 +23,7 @@ class Mention:
     line: int
 
 
-@dataclasses.dataclass(frozen=True)
-class Mentions:
+class Mentions(msgspec.Struct, frozen=True, dict=True):
     """All names in the files of a package; those in edited files come first."""
 
     package: Package

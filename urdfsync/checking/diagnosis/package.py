@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import itertools
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path, PurePosixPath
+
+import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.merging.reading import Reader
@@ -17,8 +18,7 @@ _MODELS = frozenset({"model", "block"})
 _PREFIXES = frozenset({"final", "encapsulated", "partial"})
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Package:
+class Package(msgspec.Struct, frozen=True):
     """A Modelica package that is stored as a folder. Paths are POSIX ones, below that folder."""
 
     name: str
@@ -29,7 +29,7 @@ class Package:
     """Its `.mo` and `package.order` files by path."""
     shown: Callable[[Path], str]
     """How people see a path."""
-    owners: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    owners: Mapping[str, str] = msgspec.field(default_factory=dict)
     """The element that a file belongs to, in the domain's words: `joint elbow`."""
     edited: Collection[str] = ()
     """The files that differ from what is generated."""

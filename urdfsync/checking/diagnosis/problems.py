@@ -6,11 +6,12 @@ there it does not even say where they stand. So the places are looked for in the
 
 from __future__ import annotations
 
-import dataclasses
 import difflib
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
+
+import msgspec
 
 from urdfsync.checking.diagnosis.complaints import UNRESOLVED, Complaint, Kind, complaints
 from urdfsync.checking.diagnosis.mentions import Mention, Mentions
@@ -41,12 +42,11 @@ _FIRST = (Kind.FUNCTION, Kind.CLASS, Kind.COMPONENT)
 """What is said of a name of which several things are said."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Case:
+class Case(msgspec.Struct, frozen=True):
     """A package as a compiler saw it."""
 
     package: Package
-    folders: Mapping[Path, Path] = dataclasses.field(default_factory=dict)
+    folders: Mapping[Path, Path] = msgspec.field(default_factory=dict)
     """Folders that the compiler reads → the ones that people know instead; those inside of others count first."""
     said: Sequence[Diagnostic] = ()
     """What is known of the package already: a compiler's words for the same are left out."""
@@ -95,7 +95,7 @@ def _limited(found: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
     if more <= 0:
         return tuple(found)
     hint = "; ".join(filter(None, [found[_MOST - 1].hint, f"there {'is' if more == 1 else 'are'} {more} more"]))
-    return (*found[: _MOST - 1], dataclasses.replace(found[_MOST - 1], hint=hint))
+    return (*found[: _MOST - 1], msgspec.structs.replace(found[_MOST - 1], hint=hint))
 
 
 # --- complaints in the compiler's words -------------------------------------------------------------------------------
@@ -288,8 +288,7 @@ def _components(names: Sequence[str], classes: Collection[str], mentions: Mentio
         yield _elsewhere(_WORDS[Kind.COMPONENT].format(nowhere[0]), package)
 
 
-@dataclasses.dataclass(slots=True)
-class _Explained:
+class _Explained(msgspec.Struct):
     """Which names of a file can't be found because a class is not there."""
 
     components: set[str]

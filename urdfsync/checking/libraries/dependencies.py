@@ -5,11 +5,12 @@ They are looked for by name in folders. What a library is made of is told by its
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+
+import msgspec
 
 from urdfsync import modelica
 from urdfsync.checking import workspace
@@ -20,8 +21,7 @@ _KNOWN = frozenset((*library.PARTS, modelica.LIBRARY))
 """Libraries that are found in other ways."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Mentioned:
+class Mentioned(msgspec.Struct, frozen=True):
     """What the files of a library mention."""
 
     libraries: frozenset[str]

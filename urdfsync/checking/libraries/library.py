@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import hashlib
 import os
 import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+
+import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 
@@ -37,8 +38,7 @@ class LibraryError(UrdfsyncError):
     """
 
 
-@dataclasses.dataclass(frozen=True, slots=True, order=True)
-class Found:
+class Found(msgspec.Struct, frozen=True, order=True):
     """A library as a folder with a `package.mo`, or as a single file."""
 
     version: Version
@@ -51,8 +51,7 @@ class Found:
         return self.path if self.path.suffix == ".mo" else self.path / "package.mo"
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class StandardLibrary:
+class StandardLibrary(msgspec.Struct, frozen=True):
     """The Modelica Standard Library: three libraries that belong together."""
 
     modelica: Found

@@ -19,11 +19,12 @@ stands above its follower; the line from its leader runs through the gap between
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Literal, NamedTuple, TypeAlias
+
+import msgspec
 
 from urdfsync.urdf.diagram import routing
 from urdfsync.urdf.diagram.routing import DROP, JOINT_AT, LINK_AT, SIZE, Path, Placement, Point, Row, RowNeeds, square
@@ -55,8 +56,7 @@ _BUS = 6  # distance of neighbouring buses
 _LEAD = 8  # from the leaf bus to the connector of the leaf frames
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class TreeJoint:
+class TreeJoint(msgspec.Struct, frozen=True):
     """A joint that leads to the link `child`; `axis` counts from 1 in the flange vectors of its kind.
 
     `axis` is None for a joint whose flanges don't lead outside: fixed, free, or a mimic follower.
@@ -68,8 +68,7 @@ class TreeJoint:
     axis: int | None = None
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class TreeCoupling:
+class TreeCoupling(msgspec.Struct, frozen=True):
     """A mimic coupling between the axis flanges of two joints; a joint follows at most one other.
 
     Without a `leader` the coupling holds its follower by itself.
@@ -80,8 +79,7 @@ class TreeCoupling:
     follower: str
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Tree:
+class Tree(msgspec.Struct, frozen=True):
     """What the diagram shows, by component names: a tree of links and joints, and the couplings across it.
 
     `children` gives the joints that start at a link, in the order they are drawn; links without any
@@ -94,8 +92,7 @@ class Tree:
     couplings: Sequence[TreeCoupling] = ()
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Diagram:
+class Diagram(msgspec.Struct, frozen=True):
     """A finished layout on a grid of 2, y upwards.
 
     `extent` (x1, y1, x2, y2) holds everything. A line leads from the first of its two ends to the
@@ -145,8 +142,7 @@ class _Cell(NamedTuple):
 _Line: TypeAlias = tuple[Connection, LineKind, list[Point]]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class _Cells:
+class _Cells(msgspec.Struct, frozen=True):
     """The cell of every link and joint: a joint stands in its parent's column and in its child's row."""
 
     links: Mapping[str, _Cell]
@@ -154,16 +150,14 @@ class _Cells:
     parts: Mapping[str, TreeJoint]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class _Detours:
+class _Detours(msgspec.Struct, frozen=True):
     """Track numbers of the lines from leaders to couplings: in a row, in the gap left of a column; by leader."""
 
     rows: Mapping[int, Mapping[str, int]]
     columns: Mapping[int, Mapping[str, int]]
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class _Plan:
+class _Plan(msgspec.Struct, frozen=True):
     """All coordinates before anchoring: the left border at x = 0, the upper one at y = 0."""
 
     cells: _Cells

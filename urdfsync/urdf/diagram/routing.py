@@ -6,10 +6,11 @@ axis-parallel segments. All coordinates are even, y points upwards.
 
 from __future__ import annotations
 
-import dataclasses
 import heapq
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import TypeAlias, TypeVar
+
+import msgspec
 
 Point: TypeAlias = tuple[int, int]
 Path: TypeAlias = tuple[Point, ...]
@@ -32,8 +33,7 @@ _BELOW = 44  # from a row's spine down to its end: link, its name, a gap
 _NAME = 8  # room for a name above a component
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Placement:
+class Placement(msgspec.Struct, frozen=True):
     """A component's rectangle in the diagram: lower left corner (x1, y1), upper right corner (x2, y2)."""
 
     x1: int
@@ -57,8 +57,7 @@ class Placement:
         return Placement(self.x1 + dx, self.y1 + dy, self.x2 + dx, self.y2 + dy)
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class RowNeeds:
+class RowNeeds(msgspec.Struct, frozen=True):
     """What a row's channel must hold: one track per bus named in `buses`, `tracks` others, a band of components."""
 
     buses: frozenset[str]
@@ -66,8 +65,7 @@ class RowNeeds:
     band: bool
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Row:
+class Row(msgspec.Struct, frozen=True):
     """Heights of a row: the spine, the middle of its band, each bus's track, the other tracks from the top."""
 
     spine: int

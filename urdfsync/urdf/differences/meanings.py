@@ -5,10 +5,11 @@ The classes follow from what the templates print: models hold structure and name
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
+
+import msgspec
 
 from urdfsync.difference import ChangeClass, Difference, Meaning, Version
 from urdfsync.urdf.differences.shapes import GROUPS, Group, Looks, mesh_of
@@ -44,8 +45,7 @@ def describe(
     return [meanings.of(difference) for difference in differences]
 
 
-@dataclasses.dataclass(frozen=True)
-class _Meanings:
+class _Meanings(msgspec.Struct, frozen=True, dict=True):
     old: Version
     new: Version
     options: Options

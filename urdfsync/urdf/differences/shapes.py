@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
 from typing import Any, Literal, NamedTuple, TypeAlias
+
+import msgspec
 
 from urdfsync.domain import Import
 from urdfsync.urdf.meshes import lookup
@@ -23,8 +24,7 @@ class Look(NamedTuple):
     """Whether it has a ground contact."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Looks:
+class Looks(msgspec.Struct, frozen=True):
     """How one version's shapes appear in models; `imports` are None if nobody looked for the meshes."""
 
     imports: Mapping[str, Import] | None

@@ -8,8 +8,9 @@ up the numbers is left to Modelica, so that none of them is written twice. Every
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+import msgspec
 
 from urdfsync.literals import INFINITY
 from urdfsync.urdf.robot import Joint
@@ -21,8 +22,7 @@ _INDENT = "\n      "
 _RECORDS = "jointNames"  # an array of records, not of strings
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Structure:
+class Structure(msgspec.Struct, frozen=True):
     """The integer tables, as `UrdfSync.Records.Robot` describes them."""
 
     link_bodies: tuple[int, ...]
@@ -39,8 +39,7 @@ class Structure:
     """Per joint that follows another one, leaders first: its number and that of the driven one at the head, or 0."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Ratio:
+class Ratio(msgspec.Struct, frozen=True):
     """What a follower is to the joint at the head of its chain: Modelica expressions of multiplier and offset."""
 
     head: str

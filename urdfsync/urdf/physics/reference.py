@@ -9,10 +9,10 @@ of the driven axes, so that the efforts of these are Bᵀ·tau.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from urdfsync.urdf.physics import motion
@@ -26,8 +26,7 @@ _SINGULAR = 1e-12
 """Ratio of the least to the greatest eigenvalue of an inertia that counts as singular."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Relative:
+class Relative(msgspec.Struct, frozen=True):
     """State of a free joint: the child's frame in the joint frame, all resolved in the latter."""
 
     place: Array
@@ -38,8 +37,7 @@ class Relative:
     """Angular velocity."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Frame:
+class Frame(msgspec.Struct, frozen=True):
     """A link's frame as it moves in the world."""
 
     place: Array
@@ -51,8 +49,7 @@ class Frame:
     """Angular velocity, resolved in the link's frame."""
 
 
-@dataclasses.dataclass(frozen=True)
-class State:
+class State(msgspec.Struct, frozen=True):
     """Pinocchio's configuration, velocity and acceleration; those of free joints may be unknown yet."""
 
     q: Array
@@ -185,8 +182,7 @@ class Reference:
             state.q[_slice(part)], state.v[part.idx_v] = value, speed
 
 
-@dataclasses.dataclass(frozen=True)
-class Instant:
+class Instant(msgspec.Struct, frozen=True):
     """What the reference says of a robot at one instant."""
 
     reference: Reference

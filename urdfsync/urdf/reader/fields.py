@@ -7,7 +7,6 @@ reading goes on and finds the next fault.
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import re
 from collections.abc import Collection, Iterator
@@ -88,7 +87,7 @@ def _as_one(group: list[Diagnostic]) -> Diagnostic:
     lines = list(dict.fromkeys(str(diagnostic.line) for diagnostic in group[1:]))
     shown = ", ".join(lines[:_LINES_SHOWN]) + (", …" if len(lines) > _LINES_SHOWN else "")
     message = f"{group[0].message} (and {len(group) - 1} more like it: line{'s' * (len(lines) > 1)} {shown})"
-    return dataclasses.replace(group[0], message=message)
+    return msgspec.structs.replace(group[0], message=message)
 
 
 class Element(msgspec.Struct, frozen=True, eq=False):

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import codecs
 import copy
-import dataclasses
 import re
 import sys
 from collections.abc import Iterator, Mapping
@@ -70,8 +69,7 @@ class Node(msgspec.Struct, frozen=True, eq=False):
         return re.sub(rf' xmlns:[^=]+="{_UNDECLARED}[^"]*"', "", text)
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Document:
+class Document(msgspec.Struct, frozen=True):
     """A parsed file: `root` is None if a diagnostic is an error."""
 
     root: Node | None
@@ -105,7 +103,7 @@ def parse(content: bytes, file: str) -> Document:
         root = _node(tree, iter(starts))
     except _Fault as fault:
         warnings = [fault.diagnostic]
-    return Document(root, tuple(dataclasses.replace(diagnostic, file=file) for diagnostic in warnings))
+    return Document(root, tuple(msgspec.structs.replace(diagnostic, file=file) for diagnostic in warnings))
 
 
 def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
