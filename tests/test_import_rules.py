@@ -46,6 +46,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "diagnostics": ("urdfsync", *IO, *HEAVY),
     "looking": ("urdfsync", *HEAVY),
     "profiling": ("urdfsync", "pathlib", *(name for name in IO if name != "sys"), *HEAVY),
+    "stamping/trust": ("urdfsync.config", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "stamping/making": ("urdfsync.config", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "domain": ("urdfsync.urdf", "urdfsync.render", "urdfsync.registry", *SHELL_MODULES, *IO, *HEAVY),
     "changes": ("rich", "pathlib", "jinja2", "urdfsync.urdf", *IO, *SHELL_MODULES),

@@ -94,23 +94,31 @@ class Tree:
         Raises OutputError for a link, for anything else that is no regular file, and for what can't be read.
         """
         path = os.fspath(path)
-        if not self.check_folder(os.path.dirname(path)):  # noqa: PTH120
+        return None if self.status(path) is None else self.content(path)
+
+    def status(self, path: str) -> os.stat_result | None:
+        """What the system says of a file before it is read, None if there is none. Raises OutputError as `read`."""
+        if not self.check_folder(path.rpartition(os.sep)[0]):
             return None
         try:
             status = looking.status(path)
-            if status is None:
-                return None
-            if stat.S_ISREG(status.st_mode):
-                profiling.count("read")
-                with open(path, "rb", buffering=0) as file:  # noqa: PTH123
-                    return file.read()
+        except OSError as error:
+            raise self._unreadable(path, error) from None
+        if status is None or stat.S_ISREG(status.st_mode):
+            return status
+        message = f"{kind_of(status.st_mode)} is where urdfsync would write a file"
+        raise self._refusal("output-in-the-way", path, message, "move it away")
+
+    def content(self, path: str) -> bytes | None:
+        """The content of a file of which `status` was asked, None if it is gone since. Raises OutputError as `read`."""
+        profiling.count("read")
+        try:
+            with open(path, "rb", buffering=0) as file:  # noqa: PTH123
+                return file.read()
         except (FileNotFoundError, NotADirectoryError):
             return None
         except OSError as error:
-            hint = _HINTS.get(error.errno or 0, "")
-            raise self._refusal("output-unreadable", path, f"it can't be read: {error.strerror}", hint) from None
-        message = f"{kind_of(status.st_mode)} is where urdfsync would write a file"
-        raise self._refusal("output-in-the-way", path, message, "move it away")
+            raise self._unreadable(path, error) from None
 
     def check_folder(self, folder: str | os.PathLike[str]) -> bool:
         """Whether a folder below the root exists. Raises OutputError if it is a file, a link, or not below the root."""
@@ -129,6 +137,10 @@ class Tree:
             raise self._refusal("output-in-the-way", folder, f"{what} is where a folder is needed", "move it away")
         self._checked.add(folder)
         return True
+
+    def _unreadable(self, path: str, error: OSError) -> OutputError:
+        hint = _HINTS.get(error.errno or 0, "")
+        return self._refusal("output-unreadable", path, f"it can't be read: {error.strerror}", hint)
 
     def _refusal(self, code: str, path: str, message: str, hint: str = "") -> OutputError:
         return OutputError(Diagnostic(Severity.ERROR, code, message, self._shown(Path(path)), hint=hint))

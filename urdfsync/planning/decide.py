@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Set
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 import msgspec
 
@@ -55,13 +55,21 @@ class Decision(msgspec.Struct, frozen=True):
     """What has to be done to files around the package."""
 
 
+Hashed: TypeAlias = tuple[looking.Facts, str, str]
+"""What the system says of a file, and the SHA-256 (hex) of its bytes and of its text, line endings normalised."""
+
+
 class Disk:
     """The files of one robot's package, addressed by their path from the configuration's folder."""
 
-    def __init__(self, config: Config, robot: RobotConfig) -> None:
-        self._root, self._prefix = config.root, os.path.join(config.root, "")  # noqa: PTH118
+    def __init__(self, config: Config, robot: RobotConfig, known: Mapping[str, Hashed] | None = None) -> None:
+        """`known` are hashes that hold as long as the system says the same of a file, by its path."""
+        self._root, self._prefix = config.root, os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
         self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
         self._seen: dict[str, str | None] = {}
+        self._known: Mapping[str, Hashed] = known or {}
+        self.hashed: dict[str, Hashed] = {}
+        """What `found` has found out, in the same way."""
 
     def key(self, path: Path) -> str:
         """How a file is called in manifest and plan."""
@@ -86,10 +94,11 @@ class Disk:
 
     def found(self, key: str, role: Role) -> Found:
         """What is there in the place of a file."""
-        content = self.read(key)
-        if content is not None:
-            seen = self._see(key, content)
-            return Found(seen if role is Role.IMPORT or b"\r" not in content else text_digest(content))
+        hashed = self._hashed(self._place(key))
+        if hashed is not None:
+            _, own, text = hashed
+            self._seen.setdefault(key, own)
+            return Found(own if role is Role.IMPORT else text)
         self._seen.setdefault(key, None)
         is_class = key.endswith(".mo") and not key.endswith("/package.mo")
         return Found(as_folder=is_class and looking.is_file(self._place(f"{key.removesuffix('.mo')}/package.mo")))
@@ -123,6 +132,22 @@ class Disk:
         """All Modelica files below a folder, its own and others, as far as they can be read."""
         return {self.key(path) for path in self.path(folder).rglob("*.mo") if path.is_file()}
 
+    def _hashed(self, place: str) -> Hashed | None:
+        tree = self._tree(place)
+        status = tree.status(place) if tree else None
+        if tree is None or status is None:
+            return None
+        facts = looking.facts_of(status)
+        hashed = self._known.get(place)
+        if hashed is None or hashed[0] != facts:
+            content = tree.content(place)
+            if content is None:
+                return None
+            own = digest(content)
+            hashed = facts, own, text_digest(content) if b"\r" in content else own
+        self.hashed[place] = hashed
+        return hashed
+
     def _see(self, key: str, content: bytes) -> str:
         found = digest(content)
         self._seen.setdefault(key, found)
@@ -130,10 +155,14 @@ class Disk:
 
     def _place(self, key: str) -> str:
         """The path of a file as a string: there are thousands of files."""
-        return os.path.normpath(self._prefix + key)
+        place = self._prefix + key
+        return os.path.normpath(place) if ".." in key or os.sep != "/" else place
 
     def _tree(self, path: str | os.PathLike[str]) -> Tree | None:
-        return next((tree for tree in self._trees if tree.covers(path)), None)
+        for tree in self._trees:
+            if tree.covers(path):
+                return tree
+        return None
 
 
 def encode(text: str) -> bytes:

@@ -15,8 +15,11 @@ from urdfsync.domain import Artifact, Domain, Import, Order, Reading, Snapshot, 
 from urdfsync.files import digest
 from urdfsync.manifest import Tables
 from urdfsync.planning import generate
+from urdfsync.stamping import stamp
 
 if TYPE_CHECKING:
+    from urdfsync.planning.decide import Hashed
+    from urdfsync.stamping.trust import Clock
     from urdfsync.state.bases import Bases
     from urdfsync.state.store import State
 
@@ -29,6 +32,8 @@ class Memory:
     def __init__(self) -> None:
         self.tables: Tables = {}
         """Of the last manifest."""
+        self.hashed: Mapping[str, Hashed] = {}
+        """The files of the last plan, by their paths, as far as a change would show in what the system says of them."""
         self._reading: _Last[Reading] = _Last()
         self._artifacts: _Last[Sequence[Artifact | Order]] = _Last()
         self._state: _Last[State] = _Last()
@@ -57,6 +62,20 @@ class Memory:
     def bases(self, content: bytes, load: Callable[[], Bases]) -> Bases:
         """The kept texts in the content of their file."""
         return self._bases.get(content, load)
+
+    def looked(
+        self, hashed: Mapping[str, Hashed], begin: tuple[int, int], read_clock: Callable[[], Clock | None]
+    ) -> None:
+        """A plan that began at this moment (see `stamp.now`) has looked at these files."""
+        new = {path: entry for path, entry in hashed.items() if self.hashed.get(path) is not entry}
+        clock = read_clock() if new else None
+        passed = stamp.passed(begin)
+        doubtful = {path for path, (facts, _, _) in new.items() if clock is None or not clock.trusts(facts, passed)}
+        self.hashed = {path: entry for path, entry in hashed.items() if path not in doubtful}
+
+    def distrust(self) -> None:
+        """Read all files again, whatever the system says of them."""
+        self.hashed = {}
 
     def recorded(self, contents: tuple[bytes, bytes], state: State) -> None:
         """A build is about to write a state, which is what will be loaded from these contents."""

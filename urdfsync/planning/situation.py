@@ -73,7 +73,7 @@ class Situation:
         self.domain = registry.domain(robot.domain)
         self.parents = parents.check(config, robot, self.domain.uses)
         self.store = Store(config.root, shown, request.memory)
-        self.disk = Disk(config, robot)
+        self.disk = Disk(config, robot, request.memory.hashed if request.memory and not request.full else None)
         self.folder = self.disk.key(robot.folder)
         self.recovered: Recovered | None = None
         """What could be saved of a state that can't be read, if that was asked for."""

@@ -120,6 +120,8 @@ class Robots:
     def distrust(self) -> None:
         """Hash everything again, whatever stat values say."""
         self._sampler.forget()
+        if self._memory:
+            self._memory.distrust()
 
     def _scope(self, robot: RobotConfig) -> Scope:
         if self._config is None:
