@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Set
 from pathlib import Path
-from typing import Protocol, TypeAlias
+from typing import Protocol, TypeAlias, TypeVar
 
 import msgspec
 
@@ -36,6 +36,10 @@ from urdfsync.plan import (
 from urdfsync.planning.parents import Parents
 from urdfsync.planning.shared import Shared
 from urdfsync.standoff import Choice, Standoff
+
+_LEAVES = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
+"""Actions on files that the package has no more."""
+_Entry = TypeVar("_Entry")
 
 _MARKER = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
 """What git leaves in a file; a line of equal signs alone may be an ornament."""
@@ -204,8 +208,8 @@ class Texts(Protocol):
 
 def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None) -> Decision:
     """Plan every file of a robot; without texts, nothing that both sides changed is settled."""
-    recorded = {key: r for key, r in manifest.files.items() if disk.reaches(key)} if manifest else {}
-    owned = {key: n for key, n in manifest.orders.items() if disk.reaches(key)} if manifest else {}
+    recorded = dict(_reached(disk, manifest.files, manifest.folder)) if manifest else {}
+    owned = dict(_reached(disk, manifest.orders, manifest.folder)) if manifest else {}
     roles = {key: record.role for key, record in recorded.items()} | {key: w.role for key, w in aim.wanted.items()}
     with profiling.stage("looking"):
         found = {key: disk.found(key, role) for key, role in roles.items()}
@@ -238,6 +242,14 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     )
 
 
+def _reached(disk: Disk, entries: Mapping[str, _Entry], folder: str) -> Iterator[tuple[str, _Entry]]:
+    """The entries of files that urdfsync may touch; for those of the package's folder that is one question."""
+    inside, whole = f"{folder}/", disk.reaches(f"{folder}/package.mo")
+    for key, entry in entries.items():
+        if whole if key.startswith(inside) else disk.reaches(key):
+            yield key, entry
+
+
 def _refuse_markers(disk: Disk, actions: Iterable[Action], orders: Mapping[str, str | None]) -> None:
     """Refuse to work with files in which version control has left its merge markers. Raises OutputError."""
     edited = [action for action in actions if action.mine not in (None, action.base, action.generated)]
@@ -261,10 +273,12 @@ def _ours(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Action]) -> di
     stay: dict[str, set[str]] = {}
     gone: dict[str, list[str]] = {}
     for action in actions:
+        if action.kind not in _LEAVES:
+            continue
         folder, _, name = action.path.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
         if action.kind in (Kind.ORPHAN, Kind.NEEDED) or is_let_go(action):
             stay.setdefault(f"{folder}/package.order", set()).add(name)
-        elif action.kind in (*DELETES, Kind.FORGET):
+        else:
             gone.setdefault(f"{folder}/package.order", []).append(name)
     return {
         key: tuple(name for name in (*names, *gone.get(key, ())) if name not in stay.get(key, ()))
