@@ -516,11 +516,11 @@ def test_for_programs(repo: Repository, capsys: Capture) -> None:
 
 
 def test_the_script_is_the_command(repo: Repository, capsys: Capture) -> None:
-    assert hook.main(["check"]) == 0
+    assert hook.run(["check"]) == 0
     resistor(120)
-    assert hook.main(["check"]) == 0
+    assert hook.run(["check"]) == 0
     repo.git("add", "ladder.json")
-    assert hook.main(["check"]) == 1
+    assert hook.run(["check"]) == 1
     assert "".join(capsys.readouterr()).splitlines() == said(capsys, "check")
 
 

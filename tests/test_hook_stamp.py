@@ -41,8 +41,8 @@ def _stamp() -> None:
 
 def test_both_modes_pass_without_looking_further(repository: Repository, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(hook, "_nothing_to_do", None)
-    assert hook.main(["check"]) == 0
-    assert hook.main(["build"]) == 0
+    assert hook.run(["check"]) == 0
+    assert hook.run(["build"]) == 0
 
 
 def _expect_no_stamp() -> None:

@@ -90,6 +90,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "state/repair": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "planning/memory": ("pathlib", "urdfsync.build", "urdfsync.config", "urdfsync.urdf", *IO, *HEAVY),
     "garbage": ("urdfsync", "pathlib", *IO, *HEAVY),
+    "spelling": ("urdfsync", "pathlib", *IO, *HEAVY),
     "planning/decide": ("rich", "watchdog", "urdfsync.build", "urdfsync.report", "urdfsync.cli"),
     "staging/staged": (
         "urdfsync.build",
@@ -200,7 +201,7 @@ LIGHT = (
 
 FIRST = ("__main__", "hook", "stamping/stamp", "staging/listing", "streams")
 """What is loaded before anybody knows that there is something to do."""
-AT_ONCE = {"errno", "os", "sys", "time", "zlib"}
+AT_ONCE = {"errno", "gc", "os", "sys", "time", "zlib"}
 """Modules of Python's that take no time to load, or have been loaded at its start."""
 
 NO_IO_CALLS = {
@@ -220,6 +221,7 @@ PURE = (
         "plan",
         "order",
         "outcome",
+        "spelling",
         "resolution",
         "status",
         "wording",

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from urdfsync import looking, profiling, registry
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.spelling import nearest
 
 _SUFFIX = ".jinja"
 
@@ -42,8 +42,8 @@ def _templates(robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]:
                 continue  # a text that only lies there
             if any(name.encode() in looking.content(path) for other, path in own.items() if other != name):
                 continue
-            near = difflib.get_close_matches(replaces, sorted(known), n=1, cutoff=0.5)
-            hint = f"did you mean `{near[0]}`?" if near else f"those of urdfsync are {', '.join(sorted(known))}"
+            near = nearest(replaces, sorted(known), 0.5)
+            hint = f"did you mean `{near}`?" if near else f"those of urdfsync are {', '.join(sorted(known))}"
             message = "no template of urdfsync has this name, so this one replaces none"
             yield Diagnostic(Severity.WARNING, "stray-template", message, shown(own[name]), hint=hint)
 

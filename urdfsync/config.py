@@ -7,7 +7,6 @@ keys of `CheckKeys`.
 
 from __future__ import annotations
 
-import difflib
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -19,6 +18,7 @@ import msgspec
 from urdfsync import looking, modelica, registry, tables, targets, tomlfile
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, Target
+from urdfsync.spelling import nearest
 
 FILE_NAME = "urdfsync.toml"
 OWN_KEYS = ("source", "package", "class")
@@ -104,8 +104,8 @@ class Config(msgspec.Struct, frozen=True):
         known = [robot.name for robot in self.robots]
         for name in names:
             if name not in known:
-                near = difflib.get_close_matches(name, known, n=1)
-                hint = f"did you mean `{near[0]}`?" if near else f"it has {', '.join(known)}"
+                near = nearest(name, known)
+                hint = f"did you mean `{near}`?" if near else f"it has {', '.join(known)}"
                 message = f"no robot `{name}` in the configuration"
                 raise ConfigError(Diagnostic(Severity.ERROR, "unknown-robot", message, shown(self.file), hint=hint))
         return tuple(robot for robot in self.robots if not names or robot.name in names)

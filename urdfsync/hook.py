@@ -1,5 +1,6 @@
 """`urdfsync-hook`: `urdfsync hook` for runners of git hooks. Says nothing, and soon, if nothing is to be done."""
 
+import gc
 import os
 import sys
 
@@ -15,17 +16,25 @@ if TYPE_CHECKING:
 _MODES = (["build"], ["check"])
 
 
-def main(arguments: "Sequence[str] | None" = None) -> int:
-    """Run the hook; returns the exit code."""
-    given = sys.argv[1:] if arguments is None else list(arguments)
+def main() -> int:
+    """Run the hook as a process of its own; returns the exit code."""
+    gc.set_threshold(100_000)  # reference cycles are left alone, as in `__main__`
     try:
-        if given in _MODES and (_is_stamped() or _nothing_to_do()):
-            return 0
-        from urdfsync import cli  # not at the top: this takes longer than all the rest
-
-        return cli.main(["hook", *given])
+        return run(sys.argv[1:])
     except KeyboardInterrupt:
         return 130
+    finally:
+        gc.freeze()
+
+
+def run(arguments: "Sequence[str]") -> int:
+    """Run the hook; returns the exit code."""
+    given = list(arguments)
+    if given in _MODES and (_is_stamped() or _nothing_to_do()):
+        return 0
+    from urdfsync import cli  # not at the top: this takes longer than all the rest
+
+    return cli.main(["hook", *given])
 
 
 def _is_stamped() -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import importlib
 import sys
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import cast
 from urdfsync import looking
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain
+from urdfsync.spelling import nearest
 
 GROUP = "urdfsync.domains"
 """The entry point group; an entry's name is the domain's, its value `module:object`."""
@@ -23,8 +23,8 @@ def domain(name: str) -> Domain:
     """The domain of this name. Raises ConfigError, without file and line, if there is none or it can't be loaded."""
     place = _OWN.get(name) or _installed().get(name)
     if place is None:
-        near = difflib.get_close_matches(name, names(), n=1)
-        hint = f'did you mean "{near[0]}"?' if near else f"installed are {', '.join(names())}"
+        near = nearest(name, names())
+        hint = f'did you mean "{near}"?' if near else f"installed are {', '.join(names())}"
         raise ConfigError(Diagnostic(Severity.ERROR, "unknown-domain", f"there is no domain `{name}`", hint=hint))
     module, _, attribute = place.partition(":")
     try:

@@ -2,7 +2,7 @@
 
 For people: one headline per robot, findings as `file:line: severity: message` on the error stream,
 conflicts with what to do about them. For programs: one JSON document on the output stream. Only
-this module and `views` know rich, and import it only when there is more to say than that all is in step.
+this module and `views` know rich, and import it only for terminals, and for what it lays out: trees, tables, conflicts.
 """
 
 from __future__ import annotations
@@ -90,13 +90,15 @@ class Report:
         if not (self._explain or self._verbose or builds.has_more(result)):
             builds.plain(result.robot, wording.summary(result))
             return
-        from urdfsync.views import conflicts  # most builds have no use for it
+        stream = sys.stderr if result.failed else sys.stdout
+        lines = builds.lines(result, stream, quiet=self._quiet, verbose=self._verbose, explain=self._explain)
+        terminal.show(lines, stream)
+        if result.conflicts:
+            from urdfsync.views import conflicts  # most builds have no use for it
 
-        console = terminal.console(sys.stderr if result.failed else sys.stdout)
-        before = sum(len(other.conflicts) for other in self._results[:-1])
-        look = conflicts.Look(self._verbose, self._quiet, before, self._config)
-        for line in builds.lines(result, console, look, self._explain):
-            console.print(line, soft_wrap=True)
+            before = sum(len(other.conflicts) for other in self._results[:-1])
+            look = conflicts.Look(self._verbose, self._quiet, before, self._config)
+            terminal.show(conflicts.lines(result, terminal.console(stream), look), stream)
 
     @profiling.staged("presentation")
     def status(self, found: RobotState) -> None:
@@ -111,9 +113,8 @@ class Report:
         if not statuses.has_more(found, self._verbose):
             builds.plain(found.result.robot, wording.state(found))
             return
-        console = terminal.console(sys.stderr if found.result.failed else sys.stdout)
-        for line in statuses.lines(found, console, self._verbose):
-            console.print(line, soft_wrap=True)
+        stream = sys.stderr if found.result.failed else sys.stdout
+        terminal.show(statuses.lines(found, stream, self._verbose), stream)
 
     @profiling.staged("presentation")
     def comparison(self, found: Comparison) -> None:
@@ -285,12 +286,9 @@ class Report:
         findings, more = (diagnostics, {}) if self._verbose else wording.folded(diagnostics)
         if not findings:
             return
-        console = terminal.console(sys.stderr)
-        for found in findings:
-            console.print(terminal.finding(found), soft_wrap=True)
-        for code, number in more.items():
-            more_words = f"and {number} more like these [{code}]; --verbose shows them"
-            console.print(terminal.text((more_words, "dim")), soft_wrap=True)
+        hidden = (f"and {number} more like these [{code}]; --verbose shows them" for code, number in more.items())
+        folded = (terminal.words((said, "dim")) for said in hidden)
+        terminal.show([*map(terminal.finding, findings), *folded], sys.stderr)
 
     def _close_checks(self) -> None:
         """What there is to say of all verdicts, as far as the command came."""

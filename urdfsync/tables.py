@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import re
 from collections.abc import Callable, Iterable, Mapping
@@ -11,6 +10,7 @@ from typing import Any, Literal, get_args, get_origin
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.spelling import nearest
 
 _EXPECTED = re.compile(r"Expected `(?P<type>[^`]+)`(?:, got `(?P<got>\w+)`)?(?: - at `\$(?P<at>[^`]*)`)?")
 _WORDS = {
@@ -44,8 +44,8 @@ def unknown(table: Table, known: Iterable[str]) -> list[Diagnostic]:
     found = []
     for key in table.values:
         if key not in known:
-            near = difflib.get_close_matches(key, known, n=1)
-            hint = f"did you mean `{near[0]}`?" if near else f"known keys are {', '.join(known)}"
+            near = nearest(key, known)
+            hint = f"did you mean `{near}`?" if near else f"known keys are {', '.join(known)}"
             found.append(table.problem("unknown-key", key, f"unknown key `{key}` in {table.name}", hint))
     return found
 

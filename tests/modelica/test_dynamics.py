@@ -1,11 +1,15 @@
-"""The functions of UrdfSync.Dynamics against Pinocchio: masses, forces, Jacobians of all links and poses, to 1e-12."""
+"""The functions of UrdfSync.Dynamics against Pinocchio: masses, forces, Jacobians of all links and poses, to 1e-12.
+
+For the robots of the corpus, `python tests/generic_corpus.py functions` does it.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
-from support.functions import Functions
+from support.functions import EQUATIONS, SAMPLED, Form, Functions, errors
 from support.modelica import Run, Task, execute
 from support.packages import generate
 from support.urdfs import joint, link, robot
@@ -21,7 +25,10 @@ STILL = {
     "statue": robot(link("base", 1.0), link("head", 2.0), joint("neck", "fixed", "base", "head")),
 }
 """No moving joint: tables and results are empty, but for poses."""
-EVERY = {**ROBOTS, **STILL}
+CASES = {
+    "gripper": (ROBOTS["gripper"], SAMPLED),
+    **{name: (text, EQUATIONS) for name, text in {"ladder": ROBOTS["ladder"], **STILL}.items()},
+}
 LONG_AXIS = """
 package Axes_
   import Modelica;
@@ -38,14 +45,27 @@ end Axes_;
 """An axis of the gripper is edited by hand; its direction is as before, its length is not."""
 
 
-@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.parametrize(("text", "form"), CASES.values(), ids=CASES)
 def test_functions_agree_with_pinocchio_in_random_configurations(
-    modelica_library: Path, tmp_path: Path, name: str
+    modelica_library: Path, tmp_path: Path, text: str, form: Form
 ) -> None:
     """Base and tool link as well; the Jacobians are those of all links, also behind fixed joints, and of the root."""
-    worst = Functions(EVERY[name].encode()).worst(modelica_library, tmp_path)
+    worst = Functions(text.encode()).worst(modelica_library, tmp_path, form)
     assert worst.keys() == {"found", "mass", "inertias", "bias", "gravity", "jacobian", "poses"}
     assert max(worst.values()) < CLOSE, worst
+
+
+def test_an_error_in_any_element_of_any_result_is_found() -> None:
+    """However small it is beside the greatest element."""
+    expected = Functions(ROBOTS["gripper"].encode()).expected(1)
+    assert max(errors(expected, expected).values()) == 0
+    for part, array in expected.items():
+        size = max(abs(expected["mass"]).max(), abs(array).max(), 1)
+        for place in np.ndindex(array.shape):
+            wrong = array.astype(float)
+            wrong[place] += 2 * CLOSE * size
+            found = errors({**expected, part: wrong}, expected)
+            assert [name for name, error in found.items() if error > CLOSE] == [part], place
 
 
 def test_an_axis_of_any_length_counts_as_a_direction(modelica_library: Path, tmp_path: Path) -> None:

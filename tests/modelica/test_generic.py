@@ -74,6 +74,12 @@ LEADER = robot(
     joint("follow", "continuous", "base", "arm", axis="0 0 1", inside=[mimic("turn", 2.0)]),
 )
 """A joint with mass follows one without."""
+TWINS = robot(
+    *(link(name, mass) for name, mass in {"base": 1.0, "ring": None, "arm": 1.0}.items()),
+    joint("first", "continuous", "base", "ring", axis="0.6 0 0.8"),
+    joint("second", "continuous", "ring", "arm", axis="0.6 0 0.8", xyz="0.3 0 0.4", rpy="0 0 0"),
+)
+"""Two joints on one axis, nothing between them."""
 FREE = """
 package Free_
   import Modelica;
@@ -88,6 +94,12 @@ package Free_
   end Free;
 end Free_;
 """
+DRIVEN = """
+    parameter Real k = 0;
+    Modelica.Mechanics.Rotational.Sources.Position drive(exact = true);
+  equation
+    drive.phi_ref = k*time^2;
+    connect(drive.flange, robot.rotationalAxis[1]);"""
 
 ROBOTS = {"gripper": GRIPPER, "ladder": LADDER}
 BASES = {"gripper": generic.Base(), "ladder": None}
@@ -233,6 +245,30 @@ def test_articulated_equations_refuse_a_joint_without_inertia_of_its_own(
     assert abs(newton.values["robot.q[1]"][-1]) > 1e-6, "it falls"
     assert f"Free.robot (joint {named}) of robot own has no inertia about or along its own axis" in articulated.error
     assert "use GenericRobot" in articulated.error
+
+
+def test_a_joint_that_the_next_one_can_undo_is_refused_and_can_be_driven_by_position(
+    modelica_library: Path, tmp_path: Path
+) -> None:
+    """The arm falls where it would fall by itself, so the second joint takes back what the first one does."""
+    folder = generate(TWINS.encode(), Target("Twins", "Twins"), approach=("record",)).write(tmp_path)
+    articulated, newton = (
+        FREE.format(name="Twins", classes="", form=f"UrdfSync.Robots.{form}")
+        for form in ("ArticulatedRobot", "GenericRobot")
+    )
+    values = ["robot.q[1]", "robot.q[2]"]
+    runs = [Run(0.1, 0.1), Run(0.1, 0.1, {"k": 1})]
+    tasks = [
+        Task(articulated, "Free_.Free", [Run()], values),
+        Task(newton.replace("equation", DRIVEN), "Free_.Free", runs, values),
+    ]
+    (refused,), moved = (outcome.runs for outcome in execute(modelica_library, [folder], tasks))
+    assert "Free.robot (joint first) of robot own has no inertia about or along its own axis if" in refused.error
+    assert "use GenericRobot, and drive the joint by position" in refused.error
+    still, turning = (run.values["robot.q[1]"] + run.values["robot.q[2]"] for run in moved)
+    assert abs(still[-1]) > 1e-3, "it falls"
+    assert turning[-1] == pytest.approx(still[-1], abs=1e-6)
+    assert moved[1].values["robot.q[1]"][-1] == pytest.approx(0.01)
 
 
 GRIPPER_BODY = """<origin xyz="0 0 0.0393"/>

@@ -44,6 +44,7 @@ FUNCTIONS = {
     "getInstanceName",
     "max",
     "min",
+    "noEvent",
     "sin",
     "size",
     "sum",

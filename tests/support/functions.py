@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -15,14 +16,25 @@ from urdfsync.urdf.skeleton import MOTIONS
 
 _CONFIGURATIONS = 3
 _WEIGHING = {"mass", "inertias", "bias", "gravity"}
-_MOST = 12
-"""So many links have their Jacobians compared, picked at random if there are more."""
 
 _SOURCE = """
 package Functions_
   import Modelica;
   import UrdfSync;
   import Bot;
+  function jacobians
+    input Integer jointTree[:, 2];
+    input Real frames[size(jointTree, 1), 15];
+    input Integer linkBodies[:];
+    input Real links[size(linkBodies, 1), 12];
+    input Real q[size(jointTree, 1)];
+    output Real J[size(linkBodies, 1), 6, size(jointTree, 1)];
+  algorithm
+    J := zeros(size(linkBodies, 1), 6, size(jointTree, 1));
+    for k in 1:size(linkBodies, 1) loop
+      J[k, :, :] := UrdfSync.Dynamics.jacobian(jointTree, frames, linkBodies, links, q, k);
+    end for;
+  end jacobians;
   model Functions
     parameter Bot.BotParameters data;
     parameter Integer n = data.movingJoints;
@@ -36,35 +48,55 @@ package Functions_
       data.linkBodies, links, data.linkMasses, data.linkCenters, data.inertialAngles, data.linkInertias, n);
     parameter Real a[n] = {a};
     parameter Real b[n] = {b};
-    parameter Integer seen[{seen}] = {numbers};
     Real q[n];
     Real v[n];
     Real moved(start = 0, fixed = true);
-    Real found[2];
-    Real mass[n, n];
-    Real inertias[n];
-    Real bias[n];
-    Real gravity[n];
-    Real jacobian[{seen}, 6, n];
-    Real poses[{links}, 12];
+    {variable} found[2];
+    {variable} mass[n, n];
+    {variable} inertias[n];
+    {variable} bias[n];
+    {variable} gravity[n];
+    {variable} jacobian[{links}, 6, n];
+    {variable} poses[{links}, 12];
   equation
     der(moved) = 1;
     for i in 1:n loop
       q[i] = a[i]*cos(b[i]*moved + i);
       v[i] = b[i]*sin(a[i]*moved + i);
     end for;
-    found = {{base, tool}};
-    mass = UrdfSync.Dynamics.massMatrix(data.jointTree, frames, bodies, q);
-    inertias = UrdfSync.Dynamics.jointInertias(data.jointTree, frames, bodies, q);
-    bias = UrdfSync.Dynamics.nonlinearEffects(data.jointTree, frames, bodies, q, v);
-    gravity = UrdfSync.Dynamics.gravityEfforts(data.jointTree, frames, bodies, q);
-    for k in 1:{seen} loop
-      jacobian[k, :, :] = UrdfSync.Dynamics.jacobian(data.jointTree, frames, data.linkBodies, links, q, seen[k]);
-    end for;
-    poses = UrdfSync.Dynamics.linkPoses(data.jointTree, frames, data.linkBodies, links, q);
+  {opening}
+    found {sign} {{base, tool}};
+    mass {sign} UrdfSync.Dynamics.massMatrix(data.jointTree, frames, bodies, q);
+    inertias {sign} UrdfSync.Dynamics.jointInertias(data.jointTree, frames, bodies, q);
+    bias {sign} UrdfSync.Dynamics.nonlinearEffects(data.jointTree, frames, bodies, q, v);
+    gravity {sign} UrdfSync.Dynamics.gravityEfforts(data.jointTree, frames, bodies, q);
+    jacobian {sign} jacobians(data.jointTree, frames, data.linkBodies, links, q);
+    poses {sign} UrdfSync.Dynamics.linkPoses(data.jointTree, frames, data.linkBodies, links, q);
+  {closing}
   end Functions;
 end Functions_;
 """
+
+
+@dataclasses.dataclass(frozen=True)
+class Form:
+    """How the model calls the functions."""
+
+    variable: str
+    opening: str
+    sign: str
+    closing: str
+
+
+SAMPLED = Form("discrete Real", "algorithm when sample(0, 1) then", ":=", "end when;")
+"""Each function once per configuration: that is possible for robots of any size, if any joint moves.
+
+The compiler does not take results without elements here; and Jacobians that are assigned to parts of an array one by
+one are silently zero, so there is a function for all of them.
+"""
+EQUATIONS = Form("Real", "equation", "=", "")
+"""At any time. Here the compiler calls a function anew for each element of its result, and writes each call out: 12
+joints take more than a minute."""
 
 
 class Functions:
@@ -79,65 +111,61 @@ class Functions:
         self._joints = [joint.name for joint in skeleton.joints if joint.type in MOTIONS]
         n, chance = len(self._joints), np.random.default_rng(len(self.links))
         self._a, self._b = chance.uniform(0.5, 2, n), chance.uniform(0.5, 2, n)
-        self._seen = [0, *chance.permutation(range(1, len(self.links)))[: _MOST - 1]]
         self._shapes: Mapping[str, Sequence[int]] = {
             "found": (2,),
             "mass": (n, n),
             "inertias": (n,),
             "bias": (n,),
             "gravity": (n,),
-            "jacobian": (len(self._seen), 6, n),
+            "jacobian": (len(self.links), 6, n),
             "poses": (len(self.links), 12),
         }
 
-    def task(self) -> Task:
+    def task(self, form: Form) -> Task:
         """What is to be compiled and run: every second the robot is in another configuration."""
         source = _SOURCE.format(
             links=len(self.links),
             a=_numbers(self._a),
             b=_numbers(self._b),
-            seen=len(self._seen),
-            numbers=f"{{{', '.join(str(link + 1) for link in self._seen)}}}",
+            **dataclasses.asdict(form),
         )
         values = [name for part, shape in self._shapes.items() for name in _elements(part, shape)]
         return Task(source, "Functions_.Functions", [Run(_CONFIGURATIONS - 1, 1)], [*values, "moved"])
 
-    def worst(self, library: Path, folder: Path) -> Mapping[str, float]:
-        """Per function the greatest error of all configurations, relative to the greatest element.
+    def worst(self, library: Path, folder: Path, form: Form = SAMPLED) -> Mapping[str, float]:
+        """Per function the greatest of the `errors` in all configurations.
 
-        That of lengths and directions counts as 1 at least, that of forces as the greatest element of the mass matrix.
         Raises AssertionError for what does not compile or run.
         """
-        (outcome,) = execute(library, [self.robot.package.write(folder)], [self.task()])
+        (outcome,) = execute(library, [self.robot.package.write(folder)], [self.task(form)])
         assert not outcome.error, outcome.error
         (series,) = outcome.runs
         assert not series.error, series.error
-        assert len(series.times) == _CONFIGURATIONS
-        worst = dict.fromkeys(self._shapes, 0.0)
-        for k, moved in enumerate(series.values["moved"]):
-            known = self._expected(moved)
-            inertia = float(np.abs(known["mass"]).max(initial=0)) or 1.0
-            for part, expected in known.items():
-                size = max(inertia if part in _WEIGHING else 1.0, np.abs(expected).max(initial=0))
-                error = np.abs(self._array(part, series, k) - expected).max(initial=0) / size
-                worst[part] = max(worst[part], float(error))
-        return worst
+        configurations = series.values["moved"]
+        last = {round(moved): k for k, moved in enumerate(configurations)}  # an event has a row before it, too
+        assert list(last) == list(range(_CONFIGURATIONS))
+        several = [
+            errors({part: self._array(part, series, k) for part in self._shapes}, self.expected(configurations[k]))
+            for k in last.values()
+        ]
+        return {part: max(one[part] for one in several) for part in self._shapes}
 
     def _array(self, part: str, series: Series, k: int) -> Array:
         shape = self._shapes[part]
         return np.array([series.values[name][k] for name in _elements(part, shape)]).reshape(shape)
 
-    def _expected(self, moved: float) -> Mapping[str, Array]:
+    def expected(self, moved: float) -> Mapping[str, Array]:
+        """What Pinocchio says of each function, in the configuration at this time."""
         pin, model, data = self._pin, self._model, self._model.createData()
         q, v, order = self._state(moved)
         upper = np.triu(pin.crba(model, data, q))
         mass = (upper + np.triu(upper, 1).T)[np.ix_(order, order)]
         bias = pin.nonLinearEffects(model, data, q, v)[order]
         gravity = pin.computeGeneralizedGravity(model, data, q)[order]
-        seen, resolved = [self._frame(self.links[link]) for link in self._seen], pin.LOCAL_WORLD_ALIGNED
-        jacobians = [pin.computeFrameJacobian(model, data, q, frame, resolved)[:, order] for frame in seen]
+        frames, resolved = [self._frame(link) for link in self.links], pin.LOCAL_WORLD_ALIGNED
+        jacobians = [pin.computeFrameJacobian(model, data, q, frame, resolved)[:, order] for frame in frames]
         pin.framesForwardKinematics(model, data, q)
-        places = [data.oMf[self._frame(link)] for link in self.links]
+        places = [data.oMf[frame] for frame in frames]
         return {
             "found": np.array([1, self._tool()]),
             "mass": mass,
@@ -172,6 +200,19 @@ class Functions:
 
     def _frame(self, link: str) -> int:
         return int(self._model.getFrameId(link, self._pin.BODY))
+
+
+def errors(found: Mapping[str, Array], expected: Mapping[str, Array]) -> Mapping[str, float]:
+    """Per function the greatest error of an element, relative to the greatest element.
+
+    That of lengths and directions counts as 1 at least, that of forces as the greatest element of the mass matrix.
+    """
+    inertia = float(np.abs(expected["mass"]).max(initial=0)) or 1.0
+    sizes = {
+        part: max(inertia if part in _WEIGHING else 1.0, np.abs(array).max(initial=0))
+        for part, array in expected.items()
+    }
+    return {part: float(np.abs(found[part] - expected[part]).max(initial=0) / size) for part, size in sizes.items()}
 
 
 def _numbers(values: Array) -> str:

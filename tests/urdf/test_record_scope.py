@@ -43,6 +43,13 @@ LIGHT = urdfs.robot(
 FEATHER = urdfs.robot(
     urdfs.link("base"), urdfs.link("arm"), urdfs.joint("lift", "continuous", "base", "arm", axis="0 1 0")
 )
+TWINS = urdfs.robot(
+    urdfs.link("base", 1),
+    urdfs.link("ring"),
+    urdfs.link("arm", 1),
+    urdfs.joint("first", "continuous", "base", "ring", axis="0.6 0 0.8"),
+    urdfs.joint("second", "continuous", "ring", "arm", axis="-0.6 0 -0.8", xyz="0.3 0 0.4", rpy="0 0 0"),
+)
 CODES = ("planar-not-generic", "floating-not-generic", "moves-no-mass")
 
 
@@ -104,6 +111,15 @@ def test_a_mass_that_is_all_on_the_axis_is_not_turned() -> None:
     ]
 
 
+def test_the_first_of_two_joints_on_one_axis_with_nothing_between_is_named() -> None:
+    """The one behind it takes the load alone; the two may point against each other."""
+    assert warnings(TWINS, "record") == [
+        "own.urdf:6: warning: joint 'first' moves no mass where it starts if joints behind it undo its motion, as one "
+        "about the same axis can, so the generic robot can move it by position only; give the link right behind it an "
+        "<inertial>, or make it a fixed joint [moves-no-mass]"
+    ]
+
+
 def test_a_robot_without_any_mass_says_so_once() -> None:
     assert warnings(FEATHER, "record") == [
         "own.urdf:2: warning: no link has a mass, so the joints of the generic robot can be moved by position only; "
@@ -111,6 +127,6 @@ def test_a_robot_without_any_mass_says_so_once() -> None:
     ]
 
 
-@pytest.mark.parametrize("urdf", [PLANAR, FREE_ROOT, FREE_INSIDE, STATUE, LIGHT, FEATHER])
+@pytest.mark.parametrize("urdf", [PLANAR, FREE_ROOT, FREE_INSIDE, STATUE, LIGHT, FEATHER, TWINS])
 def test_the_package_approach_has_no_reason_to_warn(urdf: str) -> None:
     assert warnings(urdf, "package") == []

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import signal
 import threading
 from collections import deque
 from collections.abc import Callable, Sequence
@@ -150,6 +149,7 @@ def _plan(config: Config, robot: RobotConfig, request: Request, profiled: bool) 
 
 def _join(folder: str) -> None:
     """Prepare a process of the crew: it works in the same folder, and ends when its parent does."""
+    import signal  # most builds have no crew
     from multiprocessing import parent_process
     from multiprocessing.connection import wait
 

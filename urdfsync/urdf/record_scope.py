@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.model.tables import obstacles
-from urdfsync.urdf.resistance import resistances
+from urdfsync.urdf.resistance import resistances, yielding
 from urdfsync.urdf.robot import Joint, Link, Robot
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
@@ -39,8 +39,11 @@ def _massless(skeleton: Skeleton, file: str, lines: Mapping[str, int]) -> Iterat
         message = "no link has a mass, so the joints of the generic robot can be moved by position only"
         yield _warning("moves-no-mass", message, "give the links an <inertial>", file, lines, "robot")
         return
+    giving = yielding(skeleton) - idle
     behind = set[str]()
     for joint in skeleton.joints:
+        if joint.name in giving:
+            yield _given_way(joint, file, lines)
         if joint.name in idle and joint.parent not in behind:
             yield _unresisted(joint, joint.child in heavy, file, lines)
         if joint.parent in behind or (joint.name in idle and joint.child not in heavy):
@@ -54,6 +57,16 @@ def _unresisted(joint: Joint, carries: bool, file: str, lines: Mapping[str, int]
         what, wanted = "turns nothing that has an inertia about its axis", "such an inertia"
     message = f"joint '{joint.name}' {what}, so the generic robot can move it by position only"
     hint = f"give a link behind it {wanted}, or make it a fixed joint"
+    return _warning("moves-no-mass", message, hint, file, lines, f"joint {joint.name}")
+
+
+def _given_way(joint: Joint, file: str, lines: Mapping[str, int]) -> Diagnostic:
+    """The warning of a joint that has a mass behind it, and other joints between."""
+    message = (
+        f"joint '{joint.name}' moves no mass where it starts if joints behind it undo its motion, as one about the "
+        "same axis can, so the generic robot can move it by position only"
+    )
+    hint = "give the link right behind it an <inertial>, or make it a fixed joint"
     return _warning("moves-no-mass", message, hint, file, lines, f"joint {joint.name}")
 
 

@@ -1,8 +1,10 @@
-"""What resists the motion of each joint: the diagonal of the mass matrix, at the start."""
+"""What resists the motion of each joint at the start: the diagonal of the mass matrix, and what is left of it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence, Set
+from operator import add, mul
 
 import msgspec
 
@@ -12,6 +14,9 @@ from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 _ROUNDING = 1e-12
 """What is left of terms of this size that cancel each other."""
+
+
+_Matrix = Sequence[Sequence[float]]
 
 
 class _Body(msgspec.Struct, frozen=True):
@@ -39,6 +44,14 @@ class _Body(msgspec.Struct, frozen=True):
         found = sum(terms)
         return found if found > _ROUNDING * sum(map(abs, terms)) else 0.0
 
+    def matrix(self) -> _Matrix:
+        """The same as a spatial inertia: of (angular velocity, velocity at the origin) to (torque about it, force)."""
+        (x, y, z), m = self.moment, self.mass
+        skew = ((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0))
+        upper = [[*row, *cross] for row, cross in zip(self.inertia, skew, strict=True)]
+        lower = [[*(-c for c in cross), *(m * (j == k) for k in range(3))] for j, cross in enumerate(skew)]
+        return upper + lower
+
 
 def resistances(skeleton: Skeleton) -> Mapping[str, float]:
     """Mass (kg) or moment of inertia (kg.m2) that each joint with an axis moves, those of its followers included.
@@ -58,6 +71,52 @@ def resistances(skeleton: Skeleton) -> Mapping[str, float]:
         for follower, mimic in followers.get(joint.name, ()) if joint.name in found else ():
             found[joint.name] += mimic.multiplier**2 * found[follower.name]
     return found
+
+
+def yielding(skeleton: Skeleton) -> Set[str]:
+    """Joints that nothing resists where each joint is at its start, since those behind them can give way.
+
+    Such as the first of two joints on the same axis with nothing between them: the mass matrix is singular then. A
+    joint is one of them if its articulated body has no inertia about or along its axis (Featherstone: Rigid Body
+    Dynamics Algorithms, 2008, section 7.3). Joints that follow others, or lead some, count as fixed here.
+    """
+    poses = link_poses(skeleton, start_positions(skeleton))
+    bodies = {link.name: _body(link, poses[link.name]) for link in skeleton.links}
+    inertias = {name: body.matrix() for name, body in bodies.items()}
+    leaders = skeleton.followers_by_leader()
+    found = set()
+    for joint in reversed(skeleton.joints):
+        inertia = inertias[joint.child]
+        if joint.type in MOTIONS and joint.mimic is None and joint.name not in leaders:
+            motion = _motion(joint, poses)
+            force = [_product(row, motion) for row in inertia]
+            left = _product(force, motion)
+            if left > _ROUNDING * _size(bodies[joint.child].matrix(), motion):
+                inertia = [
+                    [a - f * g / left for a, g in zip(row, force, strict=True)]
+                    for row, f in zip(inertia, force, strict=True)
+                ]
+            else:
+                found.add(joint.name)
+        bodies[joint.parent] += bodies[joint.child]
+        inertias[joint.parent] = [[*map(add, *rows)] for rows in zip(inertias[joint.parent], inertia, strict=True)]
+    return found
+
+
+def _motion(joint: Joint, poses: Mapping[str, Pose]) -> Sequence[float]:
+    """Angular velocity, and velocity at the origin, per speed of the joint."""
+    rotation, point = compose(poses[joint.parent], pose(joint.origin))
+    axis: Vector = tuple(dot(row, joint.axis) for row in rotation)  # type: ignore[assignment]
+    return (0.0, 0.0, 0.0, *axis) if MOTIONS[joint.type] == "translational" else (*axis, *_cross(point, axis))
+
+
+def _product(a: Sequence[float], b: Sequence[float]) -> float:
+    return math.fsum(map(mul, a, b))
+
+
+def _size(matrix: _Matrix, motion: Sequence[float]) -> float:
+    """Of the terms that a moment of inertia is the sum of."""
+    return sum(abs(a * x * y) for row, x in zip(matrix, motion, strict=True) for a, y in zip(row, motion, strict=True))
 
 
 def _moved(joint: Joint, poses: Mapping[str, Pose], body: _Body) -> float:

@@ -5,19 +5,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import IO
 
 from urdfsync import wording
 from urdfsync.config import shown
 from urdfsync.outcome import Checked, Result
 from urdfsync.plan import Action, Kind
-from urdfsync.views.terminal import has_marks, is_styled, text
-
-if TYPE_CHECKING:
-    from rich.console import Console
-    from rich.text import Text
-
-    from urdfsync.views import conflicts
+from urdfsync.views.terminal import Words, has_marks, is_styled, is_terminal, words
 
 _KINDS = {
     Kind.CREATE: "green",
@@ -42,35 +36,33 @@ _CHANGES = 12
 """So many changes of a model are shown at most, unless somebody asks."""
 
 
-def lines(result: Result, console: Console, look: conflicts.Look, explain: bool) -> Iterator[Text]:
-    """Everything that there is to say about one robot; `explain` names every file."""
-    yield _headline(result, console)
-    if not look.quiet:
-        yield from _details(result, console, look, explain)
-    if result.conflicts:
-        from urdfsync.views import conflicts
-
-        yield from conflicts.lines(result, console, look)
+def lines(
+    result: Result, stream: IO[str], *, quiet: bool = False, verbose: bool = False, explain: bool = False
+) -> Iterator[Words]:
+    """Everything that there is to say about one robot but its conflicts; `explain` names every file."""
+    yield _headline(result, stream)
+    if not quiet:
+        yield from _details(result, stream, verbose, explain)
     if result.drawing:
-        yield text((f"  diagram: {shown(result.drawing)}", ""))
+        yield words((f"  diagram: {shown(result.drawing)}", ""))
 
 
-def _details(result: Result, console: Console, look: conflicts.Look, explain: bool) -> Iterator[Text]:
+def _details(result: Result, stream: IO[str], verbose: bool, explain: bool) -> Iterator[Words]:
     """What changed in the model, and the files that deserve attention."""
     if result.changes:
         lines = wording.changes(result.changes)
-        few = len(lines) if look.verbose or len(lines) <= _CHANGES else _CHANGES - 1
-        yield from (text((f"  {line}", "")) for line in lines[:few])
+        few = len(lines) if verbose or len(lines) <= _CHANGES else _CHANGES - 1
+        yield from (words((f"  {line}", "")) for line in lines[:few])
         if few < len(lines):
-            yield text((f"  … and {len(lines) - few} more changes; --verbose shows them", "dim"))
-    if explain or look.verbose:
-        yield from _explanation(result, console, everything=explain)
+            yield words((f"  … and {len(lines) - few} more changes; --verbose shows them", "dim"))
+    if explain or verbose:
+        yield from _explanation(result, stream, everything=explain)
     else:
         for action in result.actions:
             if action.kind in _LISTED:
-                yield text(("  ", ""), *_verdict(action, _place(result, action)))
+                yield words(("  ", ""), *_verdict(action, _place(result, action)))
     if any(action.kind is Kind.ORPHAN for action in result.actions):
-        yield text((_ORPHANS, "dim"))
+        yield words((_ORPHANS, "dim"))
 
 
 def has_more(result: Result) -> bool:
@@ -87,14 +79,14 @@ def plain(name: str, summary: str) -> None:
     sys.stdout.write(f"{mark}{bold}{name}{off}: {summary}\n")
 
 
-def _headline(result: Result, console: Console) -> Text:
+def _headline(result: Result, stream: IO[str]) -> Words:
     wrong = result.failed or result.checked is Checked.WRONG
     mark, style = ("✗", "bold red") if wrong else ("!", "yellow") if result.conflicts else ("✓", "green")
-    marks = [(f"{mark} ", style)] if has_marks(console.file) else []
-    return text(*marks, (result.robot, "bold"), (f": {wording.summary(result)}", ""))
+    marks = [(f"{mark} ", style)] if has_marks(stream) else []
+    return words(*marks, (result.robot, "bold"), (f": {wording.summary(result)}", ""))
 
 
-def _explanation(result: Result, console: Console, everything: bool) -> Iterator[Text]:
+def _explanation(result: Result, stream: IO[str], everything: bool) -> Iterator[Words]:
     """Each file, what happens to it and why: below its folder on a terminal, else one path per line."""
     actions = [action for action in result.actions if everything or action.kind is not Kind.UNCHANGED]
     actions.sort(key=lambda action: action.path.rpartition("/"))
@@ -102,13 +94,13 @@ def _explanation(result: Result, console: Console, everything: bool) -> Iterator
     width = max((len(Path(action.path).name) for action in actions), default=0)
     for action in actions:
         place = _place(result, action)
-        if not console.is_terminal:
-            yield text(("  ", ""), *_verdict(action, place))
+        if not is_terminal(stream):
+            yield words(("  ", ""), *_verdict(action, place))
             continue
         if place.parent != folder:
             folder = place.parent
-            yield text((f"  {folder}/", "bold blue"))
-        yield text(("    ", ""), *_verdict(action, Path(place.name), width))
+            yield words((f"  {folder}/", "bold blue"))
+        yield words(("    ", ""), *_verdict(action, Path(place.name), width))
 
 
 def _place(result: Result, action: Action) -> Path:

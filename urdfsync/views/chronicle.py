@@ -116,7 +116,10 @@ class Chronicle:
             hidden = (CONFLICTS if known else frozenset()) | (frozenset() if left else _LEFT)
             actions = tuple(action for action in result.actions if action.kind not in hidden)
             result = msgspec.structs.replace(result, actions=actions, changes=None)
-        yield from map(Line, itertools.islice(builds.lines(result, self._console, self._look, explain=False), 1, None))
+        lines = builds.lines(result, self._console.file, quiet=self._quiet, verbose=self._verbose)
+        yield from (Line(line.__rich__()) for line in itertools.islice(lines, 1, None))
+        if result.conflicts:
+            yield from map(Line, conflicts.lines(result, self._console, self._look))
 
     def _fresh(self, event: events.Built) -> Sequence[Diagnostic]:
         """The findings that the robot's last build did not have; lines may have moved.
@@ -143,7 +146,7 @@ class Chronicle:
         findings, more = (diagnostics, {}) if self._verbose else wording.folded(diagnostics)
         for found in findings:
             time = text((f"{clock}  " if clock else "", "dim"))
-            yield Line(time.append_text(terminal.finding(found)), error=True)
+            yield Line(time.append_text(terminal.finding(found).__rich__()), error=True)
         for code, number in more.items():
             said = f"and {number} more like these [{code}]; --verbose shows them"
             yield Line(text((said, "dim")), error=True)

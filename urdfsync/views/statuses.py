@@ -5,16 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import IO
 
 from urdfsync import wording
 from urdfsync.config import shown
 from urdfsync.status import FileState, FileStatus, RobotState
-from urdfsync.views.terminal import has_marks, text
-
-if TYPE_CHECKING:
-    from rich.console import Console
-    from rich.text import Text
+from urdfsync.views.terminal import Words, has_marks, is_terminal, words
 
 _STYLES = {
     FileStatus.CONFLICT: "bold red",
@@ -37,26 +33,26 @@ def has_more(found: RobotState, verbose: bool) -> bool:
     return verbose or not found.in_step or bool(found.result.changes or _listed(found, verbose=verbose))
 
 
-def lines(found: RobotState, console: Console, verbose: bool) -> Iterator[Text]:
+def lines(found: RobotState, stream: IO[str], verbose: bool) -> Iterator[Words]:
     """Everything that there is to say about one robot: with `verbose` all files, else those that are not in step."""
-    yield _headline(found, console)
-    yield from (text((f"  {line}", "")) for line in wording.outlook(found))
+    yield _headline(found, stream)
+    yield from (words((f"  {line}", "")) for line in wording.outlook(found))
     files = _listed(found, verbose)
-    yield from _by_folder(found, files) if console.is_terminal else _one_by_one(found, files)
+    yield from _by_folder(found, files) if is_terminal(stream) else _one_by_one(found, files)
     hidden = found.counts.get(FileStatus.STALE, 0) - sum(file.status is FileStatus.STALE for file in files)
     if hidden and found.built:
-        yield text((f"  … and {hidden} more stale files; --verbose shows them", "dim"))
+        yield words((f"  … and {hidden} more stale files; --verbose shows them", "dim"))
     if found.result.conflicts:
-        yield text((_ADVICE, "dim"))
+        yield words((_ADVICE, "dim"))
 
 
-def _headline(found: RobotState, console: Console) -> Text:
+def _headline(found: RobotState, stream: IO[str]) -> Words:
     if found.result.failed:
         mark, style = "✗", "bold red"
     else:
         mark, style = ("✓", "green") if found.in_step else ("!", "bold red" if found.result.conflicts else "yellow")
-    marks = [(f"{mark} ", style)] if has_marks(console.file) else []
-    return text(*marks, (found.result.robot, "bold"), (f": {wording.state(found)}", ""))
+    marks = [(f"{mark} ", style)] if has_marks(stream) else []
+    return words(*marks, (found.result.robot, "bold"), (f": {wording.state(found)}", ""))
 
 
 def _listed(found: RobotState, verbose: bool) -> Sequence[FileState]:
@@ -70,24 +66,24 @@ def _listed(found: RobotState, verbose: bool) -> Sequence[FileState]:
     return [file for file in files if file.status is not FileStatus.IN_STEP and file.path not in left_out]
 
 
-def _by_folder(found: RobotState, files: Sequence[FileState]) -> Iterator[Text]:
+def _by_folder(found: RobotState, files: Sequence[FileState]) -> Iterator[Words]:
     folder = None
     width = min(_NAMES, max((len(file.path.rpartition("/")[2]) for file in files), default=0))
     for file in files:
         place = _place(found, file)
         if place.parent != folder:
             folder = place.parent
-            yield text((f"  {folder}/", "bold blue"))
+            yield words((f"  {folder}/", "bold blue"))
         yield _line("    ", file, f"{place.name:<{width}}")
 
 
-def _one_by_one(found: RobotState, files: Sequence[FileState]) -> Iterator[Text]:
+def _one_by_one(found: RobotState, files: Sequence[FileState]) -> Iterator[Words]:
     return (_line("  ", file, str(_place(found, file))) for file in files)
 
 
-def _line(indent: str, file: FileState, name: str) -> Text:
+def _line(indent: str, file: FileState, name: str) -> Words:
     word = (f"{indent}{file.status:<{_WORDS}}  ", _STYLES[file.status])
-    return text(word, (name, ""), (f"  {file.reason}", "dim")) if file.reason else text(word, (name.rstrip(), ""))
+    return words(word, (name, ""), (f"  {file.reason}", "dim")) if file.reason else words(word, (name.rstrip(), ""))
 
 
 def _place(found: RobotState, file: FileState) -> Path:

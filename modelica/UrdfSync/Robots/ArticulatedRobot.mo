@@ -142,6 +142,9 @@ equation
     assert(jointInertias[i] > 0,
       getInstanceName() + " (joint " + data.jointNames[i].name + ") of robot " + data.name + " has no inertia about or along its own axis, by which these "
       + "equations divide: use GenericRobot");
+    assert(noEvent(D[i] > 1e-12*jointInertias[i]),
+      getInstanceName() + " (joint " + data.jointNames[i].name + ") of robot " + data.name + " has no inertia about or along its own axis if the joints behind it "
+      + "undo its motion, and these equations divide by that: use GenericRobot, and drive the joint by position");
     z_v[i, :] = cross(w[i + 1, :], e_t[i, :])*v[i];
     b_v[i, :] = cross(w[data.jointTree[i, 1], :], cross(w[data.jointTree[i, 1], :], r[i, :]))*R[i, :, :] + 2*v[i]*cross(w[i + 1, :], e_s[i, :]);
     U_t[i, :] = J_A[i + 1, :, :]*e_t[i, :] + H_A[i + 1, :, :]*e_s[i, :];
@@ -195,8 +198,8 @@ equations as <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a
 Symmetric 6 x 6 inertias are kept as three matrices: torque per angular acceleration <code>J</code>, torque per acceleration <code>H</code> (force per angular
 acceleration is its transpose) and force per acceleration <code>M</code>. The equations divide by
 <code>D</code>, the inertia of each joint by itself. So a joint with none is refused by name, also where its motion is prescribed, where it follows another one, and
-where only joints that follow it have mass: <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a> takes the latter two. Two joints on the same axis with
-nothing between them are not detected, and have no solution.
+where only joints that follow it have mass: <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a> takes the latter two. Of two joints on the same axis with
+nothing between them the first is refused as well: its free motion has no solution, and it can be driven by position in GenericRobot only.
 </p>
 </html>"));
 end ArticulatedRobot;

@@ -265,7 +265,7 @@ order; where nothing is connected the axis moves freely. The constants <code>dat
 <p>
 <i>Limits</i> are checked as in the package approach: a warning names the joint. Another warning names a joint whose element on the diagonal of the mass
 matrix is zero at the start values, joints that follow it included: what it moves has no mass, or no inertia about its axis. Its free motion has no solution. Whether
-the matrix is singular for another reason, as with two joints on the same axis and nothing between them, is not checked. A robot without any moving joint is a rigid body. Robots with planar or floating joints are refused by name when a simulation begins.
+the matrix is singular for another reason, as with two joints on the same axis and nothing between them, is not checked here; <code>urdfsync</code> looks for that when it reads the URDF. A robot without any moving joint is a rigid body. Robots with planar or floating joints are refused by name when a simulation begins.
 </p>
 </html>"));
 end PartialRecordRobot;

@@ -44,7 +44,8 @@ Numbers in the tables are references to the components of links and joints. So e
 <dd>The published formulation, arrays of multibody components. Checked for syntax and names, and simulated with its loops written out for one robot; never as it stands.</dd>
 <dt><a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a></dt>
 <dd>Functions over the same tables: mass matrix, Coriolis and gravity forces, the Jacobian of any link, poses, base and tool link. They can be used
-without the models.</dd>
+without the models. For 40 robots with 2 to 30 moving joints they agree with Pinocchio to 2e-15, relative to the greatest element of a result
+or of the mass matrix, as far as rumoca computes them.</dd>
 </dl>
 <p>
 All of them have flanges for the driven axes, damping and dry friction, mimic joints, limits that are checked, and the poses of all links as
@@ -85,8 +86,9 @@ position, most of the time goes into the differentiation of each of these constr
 it by name when a simulation begins. Use the package approach, or change the URDF: a planar joint can be written as two prismatic joints and a
 continuous one; a floating joint at the root can be left out, and the robot put on a <code>FreeBase</code>.</li>
 <li>A link without mass behind a moving joint usually does no harm if something behind that joint has mass. If the joint has no inertia about or along
-its axis, it can be driven by position only: the models name it when a simulation begins, and <code>urdfsync</code> does with the line of the URDF. Two joints on
-the same axis with nothing between them can't move freely either; this is not detected.
+its axis, it can be driven by position only: the models name it when a simulation begins, and <code>urdfsync</code> does with the line of the URDF. Of two joints on
+the same axis with nothing between them the first can be driven by position only, too: <code>urdfsync</code> and ArticulatedRobot name it,
+GenericRobot does not.
 ArticulatedRobot refuses every joint without inertia of its own, also where it is driven by position, follows another one, or leads one that has mass.</li>
 <li>A robot without any moving joint, also one of a single link, is a rigid body.</li>
 <li>Gravity is taken at <code>frame_a</code> and is the same for the whole robot.</li>
@@ -103,6 +105,9 @@ where it extends a generic robot.</li>
 their defaults, silently: give all of them, as <a href=\"modelica://UrdfSync.Examples.RobotStudy.LongArmParameters\">LongArmParameters</a> does. Modifiers in the
 declaration of the robot are followed as they stand.</li>
 <li>Drives beside the robot need literal numbers as sizes.</li>
+<li>A function in an equation is evaluated anew for each element of its result: the functions of <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a> take more
+than a minute for 12 joints. In an algorithm, as in <code>when sample(0, 0.01) then M := UrdfSync.Dynamics.massMatrix(…); end when;</code>, it is evaluated once, also for
+30 joints. <code>M</code> is a discrete variable then. Assign it as a whole: Jacobians that were assigned to parts of one array were silently zero.</li>
 </ul>
 </html>"));
 end RecordApproach;

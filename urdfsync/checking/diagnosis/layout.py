@@ -8,7 +8,6 @@ The syntax is read as it is after a merge; so people meet the same words.
 from __future__ import annotations
 
 import codecs
-import difflib
 import re
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -23,6 +22,7 @@ from urdfsync.merging.grammar import Declared, Outline, outline
 from urdfsync.merging.reading import Finding
 from urdfsync.merging.soundness import markers
 from urdfsync.modelica import is_identifier, within
+from urdfsync.spelling import nearest
 
 ORDER = "package.order"
 PACKAGE = "package.mo"
@@ -339,6 +339,6 @@ def _listed(text: str) -> Mapping[str, Sequence[int]]:
 
 def _unknown(package: Package, path: str, name: str, line: int, unnamed: set[str]) -> Diagnostic:
     message = f"`{name}` is named, but is no class and no constant of the package"
-    near = difflib.get_close_matches(name, sorted(unnamed), 1)
-    hint = f"did you mean `{near[0]}`?" if near else "take the line out, or bring the class back"
+    near = nearest(name, sorted(unnamed))
+    hint = f"did you mean `{near}`?" if near else "take the line out, or bring the class back"
     return package.finding(Severity.ERROR, "order-unknown", message, path, line, hint=hint)

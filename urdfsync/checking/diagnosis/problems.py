@@ -6,7 +6,6 @@ there it does not even say where they stand. So the places are looked for in the
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
@@ -17,6 +16,7 @@ from urdfsync.checking.diagnosis.complaints import UNRESOLVED, Complaint, Kind, 
 from urdfsync.checking.diagnosis.mentions import Mention, Mentions
 from urdfsync.checking.diagnosis.package import Package
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.spelling import nearest
 
 _MOST = 5
 """So many complaints are passed on; more of them are counted."""
@@ -334,8 +334,8 @@ def _at(place: Mention, message: str, hints: Sequence[str], package: Package) ->
 
 
 def _did_you_mean(name: str, others: Collection[str]) -> str:
-    near = difflib.get_close_matches(name, sorted(others), 1, 0.8)
-    return f"did you mean `{near[0]}`?" if near else ""
+    near = nearest(name, sorted(others), 0.8)
+    return f"did you mean `{near}`?" if near else ""
 
 
 def _also_in(places: Sequence[Mention]) -> str:

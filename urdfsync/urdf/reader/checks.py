@@ -6,7 +6,6 @@ element as a diff does: `link wheel`, `joint elbow / limit`; the second element 
 
 from __future__ import annotations
 
-import difflib
 import itertools
 import math
 from collections import Counter
@@ -15,6 +14,7 @@ from typing import NamedTuple, TypeVar
 
 import msgspec
 
+from urdfsync import spelling
 from urdfsync.diagnostics import Severity
 from urdfsync.urdf.robot import (
     Box,
@@ -75,9 +75,7 @@ def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
 
 def nearest(name: str, names: Collection[str], likeness: float = 0.7) -> str:
     """The name most like `name`; an empty string if none is like it, or if there are too many to look at."""
-    if len(names) > _COMPARED:
-        return ""
-    return next(iter(difflib.get_close_matches(name, names, 1, likeness)), "")
+    return spelling.nearest(name, names, likeness) if len(names) <= _COMPARED else ""
 
 
 def numbered(kind: str, elements: Iterable[_Element]) -> Iterator[tuple[str, _Element]]:
