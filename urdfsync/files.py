@@ -74,13 +74,16 @@ def kind_of(mode: int) -> str:
 
 
 class Tree:
-    """The files below `root`, which no path may leave, not even through a symbolic link."""
+    """The files below `root`, which no path may leave, not even through a symbolic link.
+
+    Each folder is looked at once: one that comes later is found by another tree.
+    """
 
     def __init__(self, root: Path, shown: Callable[[Path], str] = str) -> None:
         self.root = root
         self._shown = shown
         self._below = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
-        self._checked = {str(root)}
+        self._checked = {str(root): True}
 
     def covers(self, path: str | os.PathLike[str]) -> bool:
         """Whether a path is below the root; absolute, and without detours if it is a string."""
@@ -124,19 +127,15 @@ class Tree:
         """Whether a folder below the root exists. Raises OutputError if it is a file, a link, or not below the root."""
         folder = os.fspath(folder)
         if folder in self._checked:
-            return True
+            return self._checked[folder]
         if not self.covers(folder):
             raise self._refusal("outside", folder, f"the path leaves {self._shown(self.root)}")
-        if not self.check_folder(os.path.dirname(folder)):  # noqa: PTH120
-            return False
-        mode = looking.kind(folder, follow=False)
-        if not mode:
-            return False
-        if not stat.S_ISDIR(mode):
+        mode = looking.kind(folder, follow=False) if self.check_folder(os.path.dirname(folder)) else 0  # noqa: PTH120
+        if mode and not stat.S_ISDIR(mode):
             what = "a symbolic link" if stat.S_ISLNK(mode) else "a file"
             raise self._refusal("output-in-the-way", folder, f"{what} is where a folder is needed", "move it away")
-        self._checked.add(folder)
-        return True
+        self._checked[folder] = bool(mode)
+        return bool(mode)
 
     def _unreadable(self, path: str, error: OSError) -> OutputError:
         hint = _HINTS.get(error.errno or 0, "")

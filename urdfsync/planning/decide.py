@@ -104,8 +104,17 @@ class Disk:
             self._seen.setdefault(key, own)
             return Found(own if role is Role.IMPORT else text)
         self._seen.setdefault(key, None)
-        is_class = key.endswith(".mo") and not key.endswith("/package.mo")
-        return Found(as_folder=is_class and looking.is_file(self._place(f"{key.removesuffix('.mo')}/package.mo")))
+        return Found(as_folder=self._is_folder(key))
+
+    def _is_folder(self, key: str) -> bool:
+        """Whether the class of a file that is not there has a folder of its own."""
+        if not key.endswith(".mo") or key.endswith("/package.mo"):
+            return False
+        place = self._place(key)
+        tree = self._tree(place)
+        if tree is not None and not tree.check_folder(place.rpartition(os.sep)[0]):
+            return False
+        return looking.is_file(f"{place.removesuffix('.mo')}{os.sep}package.mo")
 
     def text(self, key: str) -> str | None:
         """The file as text; bytes that are not UTF-8 survive, see `encode`."""

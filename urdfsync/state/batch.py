@@ -36,9 +36,12 @@ class Batch:
     def __init__(self, root: Path, folder: Path, journal: Journal, shown: Callable[[Path], str]) -> None:
         self._root, self._folder, self._shown = root, folder, shown
         self.journal = journal
-        self._targets = [Path(os.path.normpath(root / step.path)) for step in journal.steps]
+        places = [os.path.normpath(os.path.join(root, step.path)) for step in journal.steps]  # noqa: PTH118 - many
+        self._targets = [Path(place) for place in places]
+        self._target_folders = [Path(place) for place in sorted(set(map(os.path.dirname, places)))]
         self._temporaries = [
-            target.with_name(f".{journal.token}-{number}{TEMPORARY}") for number, target in enumerate(self._targets)
+            Path(f"{os.path.dirname(place)}{os.sep}.{journal.token}-{number}{TEMPORARY}")  # noqa: PTH120
+            for number, place in enumerate(places)
         ]
         self._spent: set[int] = set()
         """The targets that have changed, so that their temporary files are gone."""
@@ -89,7 +92,7 @@ class Batch:
         self._change(last, resumed)
         self._check_kept(last)
         with self._about(self._folder):
-            operations.sync(sorted(folder for folder in {path.parent for path in self._targets} if folder.is_dir()))
+            operations.sync([folder for folder in self._target_folders if folder.is_dir()])
         self._enter(Phase.DONE)
 
     def can_be_finished(self) -> bool:
@@ -223,7 +226,7 @@ class Batch:
 
     def _hash(self, path: Path) -> str | None:
         try:
-            if not stat.S_ISREG(path.lstat().st_mode):
+            if not stat.S_ISREG(os.lstat(path).st_mode):
                 return _OTHER
             return digest(path.read_bytes())
         except (FileNotFoundError, NotADirectoryError):

@@ -88,7 +88,8 @@ class Store:
 
     def stands(self, witness: Witness) -> bool:
         """Whether all files still are as they were then."""
-        found = ((self._tree.read(path), before) for path, before in witness.items())
+        tree = Tree(self._tree.root, self._shown)  # which finds folders that have come since
+        found = ((tree.read(path), before) for path, before in witness.items())
         return all((None if content is None else digest(content)) == before for content, before in found)
 
     def has_bases(self, robot: str) -> bool:
