@@ -56,7 +56,7 @@ def templates_digest(folders: Sequence[Path]) -> str:
     templates: dict[str, Path] = {}
     for folder in reversed(folders):
         found = (path for path in looking.files_below(folder) if not path.name.startswith("."))
-        templates |= {path.relative_to(folder).as_posix(): path for path in found}
+        templates |= {str(path)[len(str(folder)) + 1 :].replace(os.sep, "/"): path for path in found}
     lines = [f"{name}\0{text_digest(looking.content(path))}\n" for name, path in sorted(templates.items())]
     return digest("".join(lines).encode())
 

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from urdfsync.state.bases import Bases
     from urdfsync.state.store import State
 
+_FEW = 4
+"""So many files are sooner read again than the clock is."""
 _Value = TypeVar("_Value")
 
 
@@ -68,7 +70,7 @@ class Memory:
     ) -> None:
         """A plan that began at this moment (see `stamp.now`) has looked at these files."""
         new = {path: entry for path, entry in hashed.items() if self.hashed.get(path) is not entry}
-        clock = read_clock() if new else None
+        clock = read_clock() if len(new) > _FEW else None
         passed = stamp.passed(begin)
         doubtful = {path for path, (facts, _, _) in new.items() if clock is None or not clock.trusts(facts, passed)}
         self.hashed = {path: entry for path, entry in hashed.items() if path not in doubtful}

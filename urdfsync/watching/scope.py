@@ -59,8 +59,9 @@ def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path], mem
     outputs.update(map(str, store.paths(robot.name)))
     inputs = {str(robot.source)}
     if state:
-        files = (*state.manifest.files, *state.manifest.orders)
-        outputs.update(os.path.normpath(f"{config.root}/{key}") for key in files)
+        root = os.path.normpath(config.root)
+        for key in (*state.manifest.files, *state.manifest.orders):
+            outputs.add(os.path.normpath(f"{root}/{key}") if ".." in key or os.sep != "/" else f"{root}/{key}")
         inputs.update(_candidates(_dependencies(robot, state, package_paths)))
     recorded = state.manifest.names if state else {}
     return Scope(
