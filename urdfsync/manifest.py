@@ -244,7 +244,8 @@ def plain(snapshot: Mapping[str, Any]) -> dict[str, Any]:
 
 def text_hash(text: str) -> str:
     """SHA-256 (hex) of a text with its line endings normalised, as in `files.text_digest`."""
-    return hashlib.sha256(text.replace("\r\n", "\n").replace("\r", "\n").encode()).hexdigest()
+    normalised = text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
+    return hashlib.sha256(normalised.encode()).hexdigest()
 
 
 def _check_format(value: object, file: str, text: str = "") -> None:

@@ -1,7 +1,8 @@
 """What a process remembers of the robot that it built last, for one that builds again and again.
 
 Each entry stands with all that it was made of, and serves only who asks for exactly that: a memory spares work, and
-never says what is on disk. Of each kind there is one entry, so a memory is as large as one robot.
+never says what is on disk. A file's hash stands with what the system said of it, where that can be believed. Of each
+kind there is one entry, so a memory is as large as one robot.
 """
 
 from __future__ import annotations

@@ -60,12 +60,12 @@ class Store:
 
     def load(self, robot: str) -> State | None:
         """The robot's state, None if it was never built. Raises StateError or OutputError if it can't be used."""
-        found, beside = map(self._bytes, self.paths(robot))
+        path, beside = self.paths(robot)
+        found = self._bytes(path)
         if found is None:
             return None
-        if self._memory is None:
-            return self._loaded(robot)
-        return self._memory.state((found, beside), lambda: self._loaded(robot))
+        contents = found, self._bytes(beside)
+        return self._memory.state(contents, lambda: self._loaded(robot)) if self._memory else self._loaded(robot)
 
     def _loaded(self, robot: str) -> State:
         path, beside = self.paths(robot)
@@ -127,7 +127,8 @@ class Store:
             if self._bytes(file) is not None:
                 yield self._change(file, None)
         for file, text in ((beside, model), (path, recorded)):
-            if text is not None and (self._bytes(file) or b"").replace(b"\r\n", b"\n") != text.encode():
+            old = self._bytes(file) or b""
+            if text is not None and (old.replace(b"\r\n", b"\n") if b"\r" in old else old) != text.encode():
                 yield self._change(file, text.encode())
 
     def ignoring(self) -> list[Change]:
