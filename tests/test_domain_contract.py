@@ -12,9 +12,23 @@ import msgspec
 import pytest
 
 from urdfsync import config, manifest, registry
+from urdfsync.changes import compare
 from urdfsync.config import Keys
 from urdfsync.diagnostics import Severity
-from urdfsync.domain import Artifact, Dependency, Domain, Import, Lookup, Order, Role, Snapshot, Target, Templates
+from urdfsync.difference import Version
+from urdfsync.domain import (
+    Artifact,
+    Dependency,
+    Domain,
+    Import,
+    Lookup,
+    Order,
+    Parts,
+    Role,
+    Snapshot,
+    Target,
+    Templates,
+)
 from urdfsync.files import digest, templates_digest
 from urdfsync.modelica import is_identifier, within
 from urdfsync.planning import generate
@@ -77,7 +91,7 @@ def make(name: str) -> Case:
     reading = domain.read(source, "sample", options)
     assert reading.snapshot is not None
     assert not [found for found in reading.diagnostics if found.severity is Severity.ERROR]
-    snapshot = manifest.plain(reading.snapshot)
+    snapshot = reading.snapshot
     lookup = Lookup(Path("/sources/sample"), (Path("/packages"),))
     (dependency,) = domain.dependencies(snapshot, lookup, options, reading.lines)
     conversion = domain.convert(dependency, dependency.candidates[0], content)
@@ -111,10 +125,29 @@ def test_names_and_options(case: Case) -> None:
 def test_a_snapshot_is_plain_data(case: Case) -> None:
     reading = case.domain.read(SAMPLES[case.domain.name][0], "sample", case.options)
     assert reading.snapshot is not None
-    text = json.dumps(reading.snapshot, allow_nan=False)
-    assert json.loads(text) == case.snapshot
+    text = json.dumps(reading.snapshot, allow_nan=False, sort_keys=True)
+    assert json.loads(text) == reading.snapshot, "a tuple becomes a list"
+    assert json.dumps(reading.snapshot) == text, "a record has sorted keys"
     model = manifest.model_of(case.snapshot, case.imports)
     assert manifest.load_model(manifest.dump_model(model), "sample.json") == model
+
+
+def test_what_is_kept_of_a_reading_makes_no_difference(case: Case) -> None:
+    source, parts = SAMPLES[case.domain.name][0], Parts()
+    for content in (source, source.replace(b"1", b"2"), source[:-9], source):
+        assert case.domain.read(content, "n", case.options, parts) == case.domain.read(content, "n", case.options)
+
+
+def test_nobody_changes_a_snapshot(case: Case) -> None:
+    before = json.dumps(case.snapshot)
+    case.generated()
+    case.domain.names(case.snapshot, TARGET)
+    case.domain.propose(case.snapshot)
+    case.domain.models(case.snapshot, TARGET, case.options)
+    case.domain.drawing(case.snapshot, case.imports, TARGET, case.options)
+    old, new = (Version(snapshot, case.imports) for snapshot in (case.snapshot, {**case.snapshot, "name": "other"}))
+    assert compare(old, new, case.domain, case.options).changes
+    assert json.dumps(case.snapshot) == before
 
 
 @pytest.mark.parametrize("content", [b"", b"\0", b"\xff\xfe", b"<", b"{", b"no source at all", "ä".encode("latin-1")])

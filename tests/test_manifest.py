@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 
 import msgspec
@@ -23,7 +24,6 @@ from urdfsync.manifest import (
     load_model,
     loads,
     model_of,
-    plain,
     recorded,
     text_hash,
 )
@@ -311,15 +311,16 @@ data = st.recursive(
     max_leaves=8,
 )
 snapshots = st.dictionaries(names, data, max_size=3)
+plain_snapshots = snapshots.map(lambda snapshot: json.loads(json.dumps(snapshot, sort_keys=True)))
 
 
 @given(
     st.builds(
         model_of,
-        snapshots.map(plain),
+        plain_snapshots,
         st.dictionaries(names, st.builds(Import, names, names, names, st.integers(0, 9), snapshots), max_size=2),
         st.dictionaries(names, names, max_size=2),
-        st.none() | snapshots.map(plain),
+        st.none() | plain_snapshots,
     )
 )
 def test_a_model_that_comes_back_is_known_before(model: Model) -> None:
@@ -343,11 +344,6 @@ def test_a_model_without_bases_is_one_of_an_older_build() -> None:
 def test_broken_bases_are_refused(bases: str) -> None:
     with pytest.raises(StateError, match="this is no state of urdfsync"):
         load_model(f'{{"snapshot": {{}}, "imports": {{}}, "bases": {bases}}}', "arm.json")
-
-
-def test_a_snapshot_is_used_as_it_will_come_back() -> None:
-    assert list(plain(SNAPSHOT)["links"]) == ["a", "b"]
-    assert plain({"a": (1, 2)}) == {"a": [1, 2]}
 
 
 DEEP = '{"snapshot": {"a":' + "[" * 100_000 + "]" * 100_000 + '}, "imports": {}}'

@@ -21,8 +21,9 @@ from urdfsync.difference import Difference, Effect, ElementKey, Meaning, Version
 Snapshot: TypeAlias = Mapping[str, Any]
 """A model as plain data: mappings with string keys, lists, strings, numbers, booleans, None.
 
-It survives a round trip through JSON, is keyed by element name, does not depend on the order of
-elements in the source, and holds all that artifacts are made from.
+It is what comes back from JSON with sorted keys, so that what is made of it now can be made of its record again. It is
+keyed by element name, does not depend on the order of elements in the source, and holds all that artifacts are made
+from. Nobody changes it: versions of a model may share what they have in common.
 """
 
 Parts: TypeAlias = dict[Any, Any]
@@ -263,8 +264,12 @@ class Domain(Protocol):
     options: type[Any]
     """A frozen msgspec.Struct with the domain's options and their defaults; unknown keys are refused by the core."""
 
-    def read(self, content: bytes, file: str, options: Any) -> Reading:
-        """Read a source; `file` is how diagnostics name it. Raises nothing for bad input: see `Reading`."""
+    def read(self, content: bytes, file: str, options: Any, parts: Parts | None = None) -> Reading:
+        """Read a source; `file` is how diagnostics name it. Raises nothing for bad input: see `Reading`.
+
+        `parts` were passed to the last reading with that name and these options, whatever came of it. Elements that
+        have not changed since may be the same objects in the snapshot.
+        """
         ...
 
     def dependencies(

@@ -16,7 +16,6 @@ from urdfsync import modelica, registry, tables
 from urdfsync.config import is_robot_name, shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
-from urdfsync.manifest import plain
 
 _HEADER = """\
 # Robots that urdfsync keeps in step with their Modelica packages.
@@ -147,7 +146,7 @@ def _propose(domain: Domain, source: Path) -> tuple[tuple[Proposal, ...], list[D
     errors = [found for found in reading.diagnostics if found.severity is Severity.ERROR]
     if errors or reading.snapshot is None:
         raise SourceError(*reading.diagnostics)
-    return tuple(domain.propose(plain(reading.snapshot))), list(reading.diagnostics)
+    return tuple(domain.propose(reading.snapshot)), list(reading.diagnostics)
 
 
 def _guess(root: Path, source: Path, options: tuple[Proposal, ...], taken: Sequence[Guess]) -> Guess:

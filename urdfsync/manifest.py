@@ -180,6 +180,11 @@ def _texts(tables: Mapping[tuple[str, ...], object]) -> list[str]:
     return tomli_w.dumps(document).removesuffix("\n").split("\n\n") if tables else []
 
 
+def _plain(facts: Mapping[str, Any]) -> dict[str, Any]:
+    data: dict[str, Any] = msgspec.json.decode(msgspec.json.encode(facts, order="sorted"))
+    return data
+
+
 def _with_origin(record: FileRecord, prefix: str, cut: int) -> FileRecord:
     """The record with a prefix in the place of so many characters of its origin, if it has one."""
     return msgspec.structs.replace(record, origin=prefix + record.origin[cut:]) if record.origin else record
@@ -213,8 +218,8 @@ def model_of(
     bases: Mapping[str, str] | None = None,
     since: Snapshot | None = None,
 ) -> Model:
-    """What is recorded of a model, as it comes back from the JSON file; both snapshots are `plain` ones."""
-    facts = {key: Facts(i.source_hash, i.converter, plain(i.facts)) for key, i in sorted(imports.items())}
+    """What is recorded of a model, as it comes back from the JSON file; both snapshots are plain data already."""
+    facts = {key: Facts(i.source_hash, i.converter, _plain(i.facts)) for key, i in sorted(imports.items())}
     texts = dict(sorted((bases or {}).items()))
     return Model(dict(snapshot), facts, texts, None if since is None else dict(since))
 
@@ -234,12 +239,6 @@ def load_model(text: str, file: str) -> Model:
         message = "unresolved merge markers" if line else f"this is no state of urdfsync: {error}"
         raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_REPAIR)) from None
     return model
-
-
-def plain(snapshot: Mapping[str, Any]) -> dict[str, Any]:
-    """A snapshot as it comes back from a JSON file, so that what is rendered now can be rendered again later."""
-    data: dict[str, Any] = msgspec.json.decode(msgspec.json.encode(snapshot, order="sorted"))
-    return data
 
 
 def text_hash(text: str) -> str:

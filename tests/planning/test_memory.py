@@ -13,7 +13,7 @@ import pytest
 from urdfsync import config, registry
 from urdfsync.build import Request, build
 from urdfsync.diagnostics import OutputError
-from urdfsync.domain import Artifact, Import, Order, Reading, Role, Snapshot, Target
+from urdfsync.domain import Artifact, Import, Order, Parts, Reading, Role, Snapshot, Target
 from urdfsync.planning.memory import Memory
 
 SNAPSHOT: Snapshot = {"name": "n", "elements": {"R1": {"ohm": 1.0}}}
@@ -26,10 +26,12 @@ class Domain:
 
     def __init__(self, path: str = "A.mo") -> None:
         self.asked = 0
+        self.parts: list[Parts | None] = []
         self._path = path
 
-    def read(self, content: bytes, file: str, options: Any) -> Reading:
+    def read(self, content: bytes, file: str, options: Any, parts: Parts | None = None) -> Reading:
         self.asked += 1
+        self.parts.append(parts)
         return Reading({"content": content.decode(), "file": file, "options": options}, ())
 
     def artifacts(
@@ -93,6 +95,14 @@ def test_a_source_is_read_again_if_anything_is_another(other: Mapping[str, Any])
     found = memory.read(**asked)
     wanted = {"content": asked["content"].decode(), "file": asked["name"], "options": asked["options"]}
     assert found.snapshot == wanted
+
+
+def test_the_next_version_of_a_source_gets_what_the_domain_has_kept() -> None:
+    memory, domain, usual = Memory(), Domain(), {"options": 1, "name": "f"}
+    for content, other in ((b"a", {}), (b"b", {}), (b"b", {"options": 2}), (b"b", {"name": "g"}), (b"b", {})):
+        memory.read(domain, content=content, **{**usual, **other})  # type: ignore[arg-type]
+    assert domain.parts[0] is domain.parts[1]
+    assert len({id(parts) for parts in domain.parts}) == 4, "what was kept for something else is of no use"
 
 
 # Builds with a memory, beside builds of processes that have none

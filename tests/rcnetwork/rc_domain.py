@@ -26,6 +26,7 @@ from urdfsync.domain import (
     Import,
     Lookup,
     Order,
+    Parts,
     Proposal,
     Reading,
     Role,
@@ -73,7 +74,7 @@ class RcNetwork:
     converter = 1
     options = Options
 
-    def read(self, content: bytes, file: str, options: Options) -> Reading:
+    def read(self, content: bytes, file: str, options: Options, parts: Parts | None = None) -> Reading:
         text = content.decode(errors="replace")
         try:
             network = msgspec.json.decode(content, type=Network)
@@ -82,10 +83,11 @@ class RcNetwork:
         problems = tuple(_check(network, file, text))
         if problems:
             return Reading(None, problems)
-        elements = {element.name: msgspec.to_builtins(element) for element in network.elements}
+        elements = {element.name: element for element in network.elements}
         lines = {name: _line_of_name(text, name) for name in elements}
         snapshot = {"name": network.name, "elements": elements, "signal": network.signal, "drives": network.drives}
-        return Reading(snapshot, (), lines | {"signal": _line_of_name(text, network.signal or "")})
+        plain = msgspec.json.decode(msgspec.json.encode(snapshot, order="sorted"))
+        return Reading(plain, (), lines | {"signal": _line_of_name(text, network.signal or "")})
 
     def dependencies(
         self, snapshot: Snapshot, lookup: Lookup, options: Options, lines: Mapping[str, int]

@@ -18,7 +18,7 @@ from unittest import mock
 
 from support import corpus
 from support.packages import proposed_base, read
-from urdfsync import config, manifest, render
+from urdfsync import config, render
 from urdfsync.build import Request, build
 from urdfsync.outcome import Result
 from urdfsync.state import operations
@@ -176,8 +176,7 @@ def models(state: State) -> Mapping[str, str]:
 
 def snapshot_of(content: bytes) -> Mapping[str, object] | None:
     """The model of a version as it is recorded; None if it can't be read."""
-    snapshot = read(content).snapshot
-    return None if snapshot is None else manifest.plain(snapshot)
+    return read(content).snapshot
 
 
 def put_meshes(root: Path, content: bytes) -> None:

@@ -151,6 +151,26 @@ def test_the_line_is_where_a_start_tag_begins_even_in_long_files() -> None:
     assert [(d.code, d.line) for d in reading.diagnostics] == [("duplicate-link", 70_003)]
 
 
+def test_tags_in_a_document_type_are_none() -> None:
+    reading = read('<!DOCTYPE robot SYSTEM "<link>">\n<robot name="r">\n<link name="a"/></robot>')
+    assert reading.robot == Robot("r", (Link("a"),))
+    assert reading.lines == {"robot": 2, "link a": 3}
+
+
+def test_the_first_of_two_elements_that_are_called_the_same_has_the_line() -> None:
+    inertial = '<inertial>\n<mass value="1"/>\n<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+    reading = read(f'<robot name="r">\n<link name="a">\n{inertial}</link>\n<link name="a / inertial"/></robot>')
+    assert reading.lines["link a / inertial"] == 3
+
+
+def test_elements_are_counted_without_those_that_are_left_out() -> None:
+    inside = '<parent link="a"/><child link="a"/><axis xyz="0 0 2"/>'
+    joints = f'<joint name="j" type="fixed"/><joint name="j" type="continuous">{inside}</joint>'
+    text = f'<robot name="r"><link name="a"/>{joints}</robot>'
+    (warning,) = [found for found in read(text).diagnostics if found.code == "axis-not-unit"]
+    assert warning.message == "joint j: the axis 0 0 2 has length 2, and is normalised"
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "utf-32"])
 @pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
 def test_encodings_and_line_ends(encoding: str, line_end: str) -> None:
@@ -210,6 +230,7 @@ def test_every_truncation_is_one_error(encoding: str) -> None:
     assert read_robot(content + b"", "a.urdf", cross_check=False).robot is not None
 
 
+DEEP = b"<origin>" * 254, b"</origin>" * 254
 LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
 
 
@@ -229,6 +250,8 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (b"<!DOCTYPE robot SYSTEM 'a.dtd'>\n<robot>\n&e;</robot>", "xml-entity", 3),
         (b"<robot name='\x01'/>", "xml-syntax", 1),
         (b"<a>" * 300 + b"</a>" * 300, "xml-syntax", 1),
+        (b"<robot name='r'>\n<link name='a'><visual>%b%b</visual></link></robot>" % DEEP, "xml-syntax", 2),
+        (b"<robot name='r'>\n<link name='a' xml:id='1'/></robot>", "xml-syntax", 2),
         (b"robot: yes", "xml-syntax", 1),
         (b"<robot>\n\n  <link name='\xe4'/></robot>", "file-encoding", 3),
         (b"\x1f\x8b\x08\x00", "file-encoding", 1),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import stat
 from typing import TYPE_CHECKING, Any
 
-from urdfsync import looking, manifest, profiling
+from urdfsync import looking, profiling
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Reading, Snapshot, Templates
@@ -45,11 +45,11 @@ def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
 def read(
     domain: Domain, options: Any, content: bytes, name: str, memory: Memory | None = None
 ) -> tuple[Snapshot, Reading]:
-    """The model in a source, as it is recorded, and all that was read; `name` is how diagnostics call the source.
+    """The model in a source, and all that was read; `name` is how diagnostics call the source.
 
     Raises SourceError with all that is wrong in it.
     """
     reading = memory.read(domain, options, content, name) if memory else domain.read(content, name, options)
     if reading.snapshot is None or any(found.severity is Severity.ERROR for found in reading.diagnostics):
         raise SourceError(*reading.diagnostics)
-    return manifest.plain(reading.snapshot), reading
+    return reading.snapshot, reading

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import msgspec
 
-from urdfsync.domain import Artifact, Domain, Import, Order, Reading, Snapshot, Target
+from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Reading, Snapshot, Target
 from urdfsync.files import digest
 from urdfsync.manifest import Tables
 from urdfsync.planning import generate
@@ -38,13 +38,18 @@ class Memory:
         self.hashed: Mapping[str, Hashed] = {}
         """The files of the last plan, by their paths, as far as a change would show in what the system says of them."""
         self._reading: _Last[Reading] = _Last()
+        self._parts: _Last[Parts] = _Last()
         self._artifacts: _Last[Sequence[Artifact | Order]] = _Last()
         self._state: _Last[State] = _Last()
         self._bases: _Last[Bases] = _Last()
 
     def read(self, domain: Domain, options: Any, content: bytes, name: str) -> Reading:
-        """What the domain reads in a source: who judges one, and then builds it, reads it once."""
-        return self._reading.get((domain, options, content, name), lambda: domain.read(content, name, options))
+        """What the domain reads in a source: who judges one, and then builds it, reads it once.
+
+        What the next version of the source has in common with it need not be read again.
+        """
+        parts = self._parts.get((domain, options, name), dict)
+        return self._reading.get((domain, options, content, name), lambda: domain.read(content, name, options, parts))
 
     def artifacts(
         self, domain: Domain, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any

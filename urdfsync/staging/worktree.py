@@ -9,7 +9,7 @@ import os
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import looking, manifest
+from urdfsync import looking
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Snapshot
@@ -137,7 +137,7 @@ class Worktree:
 
     def _read(self, situation: Situation) -> Snapshot:
         reading = situation.domain.read(situation.content, situation.robot.source_text, situation.robot.options)
-        return manifest.plain(reading.snapshot or {})
+        return reading.snapshot or {}
 
 
 def _sources(robot: RobotConfig) -> list[Path]:

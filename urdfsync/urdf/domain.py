@@ -16,6 +16,7 @@ from urdfsync.domain import (
     Import,
     Lookup,
     Order,
+    Parts,
     Proposal,
     Reading,
     Snapshot,
@@ -24,7 +25,6 @@ from urdfsync.domain import (
 )
 from urdfsync.urdf import naming
 from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.record_scope import out_of_scope
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
@@ -39,17 +39,22 @@ class UrdfDomain:
     uses = USES
     options = Options
 
-    def read(self, content: bytes, file: str, options: Options) -> Reading:
+    def read(self, content: bytes, file: str, options: Options, parts: Parts | None = None) -> Reading:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf.source import read_robot
 
-        reading = read_robot(content, file, cross_check=options.cross_check)
+        kept: Parts = {} if parts is None else parts
+        reading = read_robot(content, file, cross_check=options.cross_check, parts=parts)
         if reading.robot is None:
             return Reading(None, reading.diagnostics, reading.lines)
         said = reading.diagnostics
         if "record" in options.approach:
+            from urdfsync.urdf.record_scope import out_of_scope
+
             said += tuple(out_of_scope(reading.robot, file, reading.lines))
-        return Reading(to_snapshot(reading.robot), said, reading.lines)
+        snapshot = to_snapshot(reading.robot, kept.get("snapshot"))
+        kept["snapshot"] = reading.robot, snapshot
+        return Reading(snapshot, said, reading.lines)
 
     def dependencies(
         self, snapshot: Snapshot, lookup: Lookup, options: Options, lines: Mapping[str, int]
@@ -140,6 +145,7 @@ class UrdfDomain:
     def record(self, reading: Reading, file: str, target: Target, options: Options) -> Standalone | None:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf.artifacts import record
+        from urdfsync.urdf.record_scope import out_of_scope
 
         if reading.snapshot is None:
             return None

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.resistance import resistances, yielding
+from urdfsync.urdf.resisted import clearly_resisted
 from urdfsync.urdf.robot import Joint, Link, Robot
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
@@ -32,6 +33,8 @@ def out_of_scope(robot: Robot, file: str, lines: Mapping[str, int]) -> Iterator[
 
 
 def _massless(skeleton: Skeleton, file: str, lines: Mapping[str, int]) -> Iterator[Diagnostic]:
+    if clearly_resisted(skeleton):
+        return
     resisted = resistances(skeleton)
     idle = {j.name for j in skeleton.joints if j.type in MOTIONS and j.mimic is None and not resisted[j.name]}
     heavy = _heavy(skeleton)

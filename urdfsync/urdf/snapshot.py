@@ -12,27 +12,33 @@ block of a diff; every number is there, defaults too, so that a change of a numb
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterable, Mapping
+from typing import Any, TypeAlias
 
 import msgspec
 
 from urdfsync.domain import Snapshot
-from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.robot import Joint, Link, Robot
 
-_NESTED = (dict, list, tuple)
+_ENCODER = msgspec.json.Encoder(order="sorted")
+_NULL = b"null"
+_Element: TypeAlias = Link | Joint
 
 
-def to_snapshot(robot: Robot) -> Snapshot:
-    """The robot as plain data; the names of its links, and of its joints, must be unique."""
-    plain = _without_absent(msgspec.to_builtins(robot, builtin_types=(), str_keys=True))
+def to_snapshot(robot: Robot, before: tuple[Robot, Snapshot] | None = None) -> Snapshot:
+    """The robot as plain data, as it would come back from JSON; names of links, and of joints, must be unique.
+
+    `before` is another robot with its snapshot: of links and joints that are the same objects, the data are so, too.
+    """
+    old, known = before or (Robot(""), {"links": {}, "joints": {}})
     extensions: dict[str, dict[str, list[str]]] = {}
     for extension in sorted(robot.extensions, key=msgspec.structs.astuple):
         extensions.setdefault(extension.owner, {}).setdefault(extension.tag, []).append(extension.text)
     return {
-        "name": robot.name,
-        "links": _by_name(plain["links"]),
-        "joints": _by_name(plain["joints"]),
         "extensions": extensions,
+        "joints": _by_name(robot.joints, old.joints, known["joints"]),
+        "links": _by_name(robot.links, old.links, known["links"]),
+        "name": robot.name,
     }
 
 
@@ -56,19 +62,32 @@ def from_snapshot(snapshot: Snapshot) -> Robot:
     return msgspec.convert(plain, Robot)
 
 
-def _without_absent(value: Any) -> Any:
-    """The value without mapping entries that are None, and with lists instead of tuples."""
-    if isinstance(value, dict):
-        return {
-            key: _without_absent(item) if isinstance(item, _NESTED) else item
-            for key, item in value.items()
-            if item is not None
-        }
-    if isinstance(value, _NESTED):
-        return [_without_absent(item) if isinstance(item, _NESTED) else item for item in value]
-    return value
+def _by_name(elements: Iterable[_Element], old: Iterable[_Element], known: Mapping[str, Any]) -> dict[str, Any]:
+    """The data of the elements by their names, sorted; `known` are those of the old ones."""
+    objects = {element.name: element for element in old}
+    return {
+        element.name: known[element.name] if objects.get(element.name) is element else _plain(element)
+        for element in sorted(elements, key=lambda element: element.name)
+    }
 
 
-def _by_name(elements: list[dict[str, Any]]) -> dict[str, Any]:
-    """The elements keyed by their names, sorted."""
-    return {element.pop("name"): element for element in sorted(elements, key=lambda element: str(element["name"]))}
+def _plain(element: _Element) -> dict[str, Any]:
+    """The data of one element, without its name and without what it does not have."""
+    text = _ENCODER.encode(element)
+    plain: dict[str, Any] = msgspec.json.decode(text)
+    del plain["name"]
+    if _NULL in text:
+        _drop_absent(plain)
+    return plain
+
+
+def _drop_absent(plain: dict[str, Any]) -> None:
+    """Take out what is None, at every level."""
+    for key in [key for key, value in plain.items() if value is None]:
+        del plain[key]
+    for value in plain.values():
+        if type(value) is dict:
+            _drop_absent(value)
+        elif type(value) is list and value and type(value[0]) is dict:
+            for below in value:
+                _drop_absent(below)

@@ -6,21 +6,24 @@ Where a robot can be read in one sensible way although something is amiss, that 
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
+from typing import TypeAlias, TypeVar
 
 import msgspec
 
 from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.urdf.reader import checks, xml
+from urdfsync.domain import Parts
+from urdfsync.urdf.reader import checks, chunks, xml
+from urdfsync.urdf.reader.chunks import Chunk
 from urdfsync.urdf.reader.fields import Element, Findings
-from urdfsync.urdf.reader.joint import read_joint
-from urdfsync.urdf.reader.link import read_link, read_material, resolve_materials
-from urdfsync.urdf.reader.xml import Node
-from urdfsync.urdf.robot import Extension, Joint, Link, Robot
+from urdfsync.urdf.reader.link import resolve_materials
+from urdfsync.urdf.reader.part import MODELLED, Leftover, Part, read_part
+from urdfsync.urdf.robot import Joint, Link, Material, Robot
 
-_PARTS = ("link", "joint", "material")
+_Document: TypeAlias = chunks.Document[Part]
+_Element = TypeVar("_Element", Link, Joint)
+
 _OTHER_ROOTS = {
     "sdf": "an SDF file; export URDF instead",
     "gazebo": "a Gazebo file; export URDF instead",
@@ -31,9 +34,8 @@ _OTHER_ROOTS = {
     "package": "a ROS package manifest; name the URDF instead",
     "html": "a web page; download the file itself",
 }
-_XACRO_LOGIC = ("macro", "if", "unless", "insert_block")
-_TEXTS = ("name", "link", "joint", "filename", "group")
-"""Attributes that may hold any text: `${…}` left over in them is odd, but no reason to refuse the robot."""
+_KEY = "document"
+"""Where `Parts` hold what the last reading left: its document, and the robot."""
 
 
 class RobotReading(msgspec.Struct, frozen=True):
@@ -48,23 +50,33 @@ class RobotReading(msgspec.Struct, frozen=True):
     lines: Mapping[str, int]
 
 
-def read_robot(content: bytes, file: str, *, cross_check: bool = True) -> RobotReading:
+def read_robot(content: bytes, file: str, *, cross_check: bool = True, parts: Parts | None = None) -> RobotReading:
     """Read a URDF; `file` is how diagnostics name it. Raises nothing for bad input.
 
     All faults of the model are reported, not only the first; a fault of the XML is one error.
     With `cross_check`, a robot without errors is read a second time, by yourdfpy, and compared.
+    `parts` are those of an earlier reading: what has not changed since the last one without errors is not read
+    again, and its links and joints are the same objects.
     """
-    document = xml.parse(content, file)
-    findings = Findings(file, document.diagnostics)
-    robot = None
-    if document.root is not None and _is_urdf(document.root, findings):
-        robot = _read(Element(document.root, "robot", findings))
+    kept: Parts = {} if parts is None else parts
+    before: Robot | None
+    document, before = kept.get(_KEY, (None, None))
+    try:
+        text, said = xml.decode(content)
+        document = chunks.read(text, "robot", read_part, document)
+    except xml.Fault as fault:
+        return RobotReading(None, Findings(file, [fault.diagnostic]).result(), {})
+    findings = Findings(file, [*said, *document.prefixes.values()])
+    robot = _assemble(document, before, findings) if _is_urdf(document, findings) else None
     if robot is not None and cross_check and not findings.failed:
         from urdfsync.urdf.reader.cross_check import cross_check as read_again
 
         with profiling.stage("cross-check"):
             _add(read_again(content, robot), findings)
-    return RobotReading(None if findings.failed else robot, findings.result(), findings.lines)
+    if robot is None or findings.failed:
+        return RobotReading(None, findings.result(), findings.lines)
+    kept[_KEY] = document, robot
+    return RobotReading(robot, findings.result(), findings.lines)
 
 
 def _add(found: Iterable[checks.Finding], findings: Findings) -> None:
@@ -73,78 +85,78 @@ def _add(found: Iterable[checks.Finding], findings: Findings) -> None:
         findings.add(finding.severity, finding.code, findings.line(finding.path), finding.message, finding.hint)
 
 
-def _is_urdf(root: Node, findings: Findings) -> bool:
+def _is_urdf(document: _Document, findings: Findings) -> bool:
     """Whether this is a URDF that xacro has expanded; if not, there is one error that says what it is."""
+    root = document.root
     if root.tag != "robot":
         kind, _, hint = _OTHER_ROOTS.get(root.tag, "no URDF; name the URDF file instead").partition("; ")
         message = f"the root element is <{root.tag}> and not <robot>: this is {kind}"
         findings.add(Severity.ERROR, "not-urdf", root.line, message, hint)
         return False
-    xacro = [node for node in root.walk() if node.tag.startswith("xacro:")]
-    expressions = list(_expressions(root))
-    unexpanded = [node for node, numeric in expressions if numeric]
-    unexpanded += [node for node in xacro if node.tag[6:] in _XACRO_LOGIC or not _has_links(root)]
+    left = list(_leftovers(document))
+    expressions = [(line, one) for line, one in left if one.expression]
+    xacro = [(line, one) for line, one in left if not one.expression]
+    has_links = any(chunk.tag == "link" for chunk in document.chunks)
+    unexpanded = [(line, one) for line, one in expressions if one.grave]
+    unexpanded += [(line, one) for line, one in xacro if one.grave or not has_links]
     if unexpanded:
-        message = f"this is a xacro file that is not expanded: <{unexpanded[0].tag}>"
+        line, first = unexpanded[0]
+        message = f"this is a xacro file that is not expanded: <{first.tag}>"
         hint = "run `xacro FILE.xacro > FILE.urdf`, and name the result"
-        findings.add(Severity.ERROR, "xacro-source", unexpanded[0].line, message, hint)
+        findings.add(Severity.ERROR, "xacro-source", line, message, hint)
         return False
-    for node in [*xacro, *(node for node, _ in expressions)][:1]:
+    for line, _ in [*xacro, *expressions][:1]:
         message = "the file has leftovers of xacro, which are taken literally or ignored"
         hint = "expand the source with xacro, if this file is not the result of it"
-        findings.warn("xacro-leftover", node.line, message, hint)
+        findings.warn("xacro-leftover", line, message, hint)
     return True
 
 
-def _has_links(root: Node) -> bool:
-    """Whether there is a link at all."""
-    return any(node.tag == "link" for node in root.children)
+def _leftovers(document: _Document) -> Iterator[tuple[int, Leftover]]:
+    """What xacro has left in the file, with its lines."""
+    for chunk, line in zip(document.chunks, document.lines, strict=True):
+        for left in chunk.made.leftovers:
+            yield line + left.line, left
 
 
-def _expressions(root: Node) -> Iterator[tuple[Node, bool]]:
-    """The elements of links, joints and materials with a xacro expression, and whether that stands for a number."""
-    for part in root.children:
-        if part.tag in _PARTS:
-            for node in part.walk():
-                for name, value in node.attributes.items():
-                    if "$" in value and ("${" in value or "$(" in value):
-                        yield node, name not in _TEXTS
-
-
-def _read(root: Element) -> Robot:
+def _assemble(document: _Document, before: Robot | None, findings: Findings) -> Robot:
     """The robot with its faults among the findings; it is of use only if none of them is an error."""
-    findings = root.findings
+    root = Element(document.root, "robot", findings)
     root.expect(("name",))
     name = root.node.attributes.get("name", "")
     if not name.strip():
         root.warn("missing-name", "the robot has no name", 'write <robot name="…">')
-    extensions = list(root.extensions("", _PARTS))
-    known = [(element.path, read_material(element)) for element in _parts(root, "material")]
-    links, joints = _read_links(root, extensions), _read_joints(root, extensions)
-    complete = len(links) + len(joints) == sum(node.tag in ("link", "joint") for node in root.node.children)
-    links = resolve_materials(list(checks.numbered("link", links)), known, findings)
-    robot = Robot(name, links, joints, tuple(extensions))
-    _add(checks.check(robot, complete=complete), findings)
-    return checks.unit_axes(robot)
+    others, materials, links, joints = _by_kind(document, findings)
+    extensions = tuple(extension for chunk in (*others, *links, *joints) for extension in chunk.made.extensions)
+    known = [(chunk.path, chunk.made.read) for chunk in materials if isinstance(chunk.made.read, Material)]
+    bodies = [chunk.made.read for chunk in links if isinstance(chunk.made.read, Link)]
+    moves = tuple([chunk.made.read for chunk in joints if isinstance(chunk.made.read, Joint)])
+    complete = len(bodies) == len(links) and len(moves) == len(joints)
+    resolved = resolve_materials(list(checks.numbered("link", bodies)), known, findings)
+    robot = Robot(name, resolved, moves, extensions)
+    faults = [fault for chunk in (*links, *joints) for fault in chunk.made.faults] if complete else None
+    _add(checks.check(robot, complete=complete, of_elements=faults), findings)
+    return _as_before(checks.unit_axes(robot), before)
 
 
-def _parts(root: Element, tag: str) -> Iterator[Element]:
-    """The links, joints or materials of the robot, with paths such as `link wheel` and `link wheel #2`."""
-    seen: Counter[str] = Counter()
-    for number, node in enumerate((node for node in root.node.children if node.tag == tag), start=1):
-        name = node.attributes.get("name", "")
-        seen[name] += 1
-        path = f"{tag} {name}" if name.strip() else f"{tag} number {number}"
-        yield Element(node, path + (f" #{seen[name]}" if seen[name] > 1 else ""), root.findings)
+def _by_kind(document: _Document, findings: Findings) -> tuple[list[Chunk[Part]], ...]:
+    """What is not modelled, materials, links and joints; their findings are taken in that order."""
+    kinds: dict[str, list[tuple[Chunk[Part], int]]] = {tag: [] for tag in ("", "material", "link", "joint")}
+    for chunk, line in zip(document.chunks, document.lines, strict=True):
+        kinds[chunk.tag if chunk.tag in MODELLED else ""].append((chunk, line))
+    for kind in kinds.values():
+        for chunk, line in kind:
+            findings.adopt(chunk.made.findings, line)
+    return tuple([chunk for chunk, _ in kind] for kind in kinds.values())
 
 
-def _read_links(root: Element, extensions: list[Extension]) -> tuple[Link, ...]:
-    """All links that have a name."""
-    links = ((element.text("name"), read_link(element, extensions)) for element in _parts(root, "link"))
-    return tuple(link for name, link in links if name)
+def _as_before(robot: Robot, before: Robot | None) -> Robot:
+    """The robot, with the objects of another one for links and joints that are equal."""
+    if before is None:
+        return robot
+    return Robot(robot.name, _same(robot.links, before.links), _same(robot.joints, before.joints), robot.extensions)
 
 
-def _read_joints(root: Element, extensions: list[Extension]) -> tuple[Joint, ...]:
-    """All joints that have a name and ends."""
-    joints = ((element.text("name"), read_joint(element, extensions)) for element in _parts(root, "joint"))
-    return tuple(joint for name, joint in joints if name and joint)
+def _same(elements: Iterable[_Element], before: Iterable[_Element]) -> tuple[_Element, ...]:
+    named = {element.name: element for element in before}
+    return tuple([old if (old := named.get(new.name)) == new else new for new in elements])

@@ -13,10 +13,7 @@ Element = etree._Element
 
 def parse(content: bytes) -> Element:
     """The root element of a URDF that has been read without errors."""
-    root = xml.parse(content, "").root
-    if root is None:
-        raise ValueError("not well-formed XML")
-    return root.element
+    return xml.tree(content)
 
 
 def children(element: Element, tag: str) -> Iterator[Element]:

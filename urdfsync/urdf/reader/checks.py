@@ -58,19 +58,25 @@ class Finding(NamedTuple):
     hint: str
 
 
-def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
+def check(robot: Robot, *, complete: bool = True, of_elements: Iterable[Finding] | None = None) -> Iterator[Finding]:
     """All findings about a robot whose axes are still as they were read.
 
     `complete` is false if faulty joints or links had to be left out: how many roots there are then says nothing.
+    `of_elements` are the findings of `check_elements`, if they are known already.
     """
     yield from _check_names("link", (link.name for link in robot.links))
     yield from _check_names("joint", (joint.name for joint in robot.joints))
     yield from check_tree(robot, complete=complete)
+    yield from check_elements(robot) if of_elements is None else of_elements
+    yield from check_mimics(robot)
+
+
+def check_elements(robot: Robot) -> Iterator[Finding]:
+    """The findings about each link, and then about each joint, that no other element has to do with."""
     for path, link in numbered("link", robot.links):
         yield from check_link(path, link)
     for path, joint in numbered("joint", robot.joints):
         yield from check_joint(path, joint)
-    yield from check_mimics(robot)
 
 
 def nearest(name: str, names: Collection[str], likeness: float = 0.7) -> str:
@@ -112,8 +118,9 @@ def check_tree(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
         return
     parents: dict[str, Joint] = {}
     for path, joint in numbered("joint", robot.joints):
-        yield from _check_ends(path, joint, links)
-        complete &= {joint.parent, joint.child} <= links
+        if joint.parent not in links or joint.child not in links:
+            complete = False
+            yield from _check_ends(path, joint, links)
         first = parents.setdefault(joint.child, joint)
         if first.name != joint.name:
             message = f"link {joint.child!r} is the child of joint {joint.name!r} and of joint {first.name!r}"
@@ -171,10 +178,12 @@ def check_link(path: str, link: Link) -> Iterator[Finding]:
     """Mass properties and shapes of a link that bodies can have."""
     if link.inertial is not None:
         yield from _check_inertial(f"{path} / inertial", link.inertial)
-    shapes = [(f"visual {number}", visual.geometry) for number, visual in enumerate(link.visuals, start=1)]
-    shapes += [(f"collision {number}", shape.geometry) for number, shape in enumerate(link.collisions, start=1)]
-    for place, geometry in shapes:
-        yield from _check_geometry(f"{path} / {place} / {geometry.__struct_config__.tag}", geometry)
+    for number, visual in enumerate(link.visuals, start=1):
+        if _is_empty(visual.geometry):
+            yield _empty(f"{path} / visual {number}", visual.geometry)
+    for number, collision in enumerate(link.collisions, start=1):
+        if _is_empty(collision.geometry):
+            yield _empty(f"{path} / collision {number}", collision.geometry)
 
 
 def _check_inertial(path: str, inertial: Inertial) -> Iterator[Finding]:
@@ -184,12 +193,14 @@ def _check_inertial(path: str, inertial: Inertial) -> Iterator[Finding]:
         yield _error("negative-mass", f"{path} / mass", f"{path}: the mass {inertial.mass:g} kg is negative", hint)
     low, middle, high = principal_moments(inertial.inertia)
     tolerance = _INERTIA_TOLERANCE * max(abs(low), abs(high))
+    if not (low < -tolerance or low + middle < high - tolerance):
+        return
     moments = f"{low:.6g}, {middle:.6g} and {high:.6g} kg·m²"
     place, hint = f"{path} / inertia", "export the inertia again; simulation may not be physical"
     if low < -tolerance:
         message = f"{path}: the inertia is not positive semi-definite: its principal moments are {moments}"
         yield _warning("inertia-not-positive", place, message, hint)
-    elif low + middle < high - tolerance:
+    else:
         message = f"{path}: no body has this inertia: of its principal moments {moments} one exceeds the others' sum"
         yield _warning("inertia-triangle", place, message, hint)
 
@@ -205,6 +216,8 @@ def principal_moments(inertia: Inertia) -> Vector:
         [inertia.ixz, inertia.iyz, inertia.izz],
     ]
     for _ in range(_SWEEPS):
+        if not (a[0][1] or a[0][2] or a[1][2]):
+            break
         for p, q in ((0, 1), (0, 2), (1, 2)):
             if a[p][q] == 0:
                 continue
@@ -221,22 +234,25 @@ def principal_moments(inertia: Inertia) -> Vector:
     return low, middle, high
 
 
-def _check_geometry(path: str, geometry: Geometry) -> Iterator[Finding]:
-    """Sizes are positive, but spheres may be points of contact; a mesh may be mirrored, but not flattened."""
+def _is_empty(geometry: Geometry) -> bool:
+    """Whether a size is not positive; but spheres may be points of contact, and a mesh may be mirrored."""
     match geometry:
         case Box(size=size):
-            faulty = min(size) <= 0
+            return min(size) <= 0
         case Cylinder(radius=radius, length=length):
-            faulty = radius <= 0 or length <= 0
+            return radius <= 0 or length <= 0
         case Capsule(radius=radius, length=length):
-            faulty = radius <= 0 or length < 0
+            return radius <= 0 or length < 0
         case Sphere(radius=radius):
-            faulty = radius < 0
+            return radius < 0
         case Mesh(scale=scale):
-            faulty = 0 in scale
-    if faulty:
-        message = f"{path}: a size is zero or negative, so that the shape is empty"
-        yield _warning("shape-size", path, message, "correct the size, or remove the shape")
+            return 0 in scale
+
+
+def _empty(shape: str, geometry: Geometry) -> Finding:
+    path = f"{shape} / {geometry.__struct_config__.tag}"
+    message = f"{path}: a size is zero or negative, so that the shape is empty"
+    return _warning("shape-size", path, message, "correct the size, or remove the shape")
 
 
 def check_joint(path: str, joint: Joint) -> Iterator[Finding]:
@@ -325,8 +341,13 @@ def unit_axes(robot: Robot) -> Robot:
 
     An axis whose length is 1 but for 1e-12 stays as it is, bit by bit.
     """
-    joints = tuple(msgspec.structs.replace(joint, axis=_unit(joint.axis)) for joint in robot.joints)
-    return msgspec.structs.replace(robot, joints=joints)
+    joints = ((joint, _unit(joint.axis)) for joint in robot.joints)
+    return msgspec.structs.replace(
+        robot,
+        joints=tuple(
+            joint if axis is joint.axis else msgspec.structs.replace(joint, axis=axis) for joint, axis in joints
+        ),
+    )
 
 
 def _unit(axis: Vector) -> Vector:

@@ -7,6 +7,7 @@ reading goes on and finds the next fault.
 
 from __future__ import annotations
 
+import functools
 import math
 import re
 from collections.abc import Collection, Iterator
@@ -21,8 +22,14 @@ from urdfsync.urdf.robot import Extension, Vector
 
 Missing = TypeVar("Missing", float, None)
 
-_DECIMAL = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
-_BLANKS = re.compile(r"[ \t\r\n\f\v]+")
+_NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+_BLANK = r"[ \t\r\n\f\v]"
+_DECIMAL = re.compile(_NUMBER)
+_BLANKS = re.compile(f"{_BLANK}+")
+_NUMBERS = {
+    count: re.compile(rf"{_BLANK}*(?:{_NUMBER}{_BLANK}+){{{count - 1}}}{_NUMBER}{_BLANK}*") for count in (1, 3, 4)
+}
+"""That many decimal numbers between blanks."""
 _ELEMENTS = {
     "link",
     "joint",
@@ -43,12 +50,14 @@ _SHOWN = 60
 
 
 class Findings:
-    """Collects what there is to say about one file, and the line of each element by its path."""
+    """Collects what there is to say about a file, or a part of one, and the line of each element by its path."""
 
-    def __init__(self, file: str, diagnostics: Collection[Diagnostic] = ()) -> None:
+    def __init__(self, file: str = "", diagnostics: Collection[Diagnostic] = ()) -> None:
         self.file = file
         self.lines: dict[str, int] = {}
-        self._diagnostics = list(diagnostics)
+        self._diagnostics: list[Diagnostic] = []
+        for found in diagnostics:
+            self._diagnostics.append(msgspec.structs.replace(found, file=file))
 
     @property
     def failed(self) -> bool:
@@ -62,6 +71,13 @@ class Findings:
     def warn(self, code: str, line: int, message: str, hint: str) -> None:
         """Add a warning about a line of the file."""
         self.add(Severity.WARNING, code, line, message, hint)
+
+    def adopt(self, part: Findings, line: int) -> None:
+        """Add the findings of a part of the file whose line 0 is this one; of a path's lines the first counts."""
+        for path, below in part.lines.items():
+            self.lines.setdefault(path, line + below)
+        for found in part._diagnostics:
+            self.add(found.severity, found.code, line + found.line, found.message, found.hint)
 
     def line(self, path: str) -> int:
         """Line of the element, or of the nearest one that contains it; 0 if unknown."""
@@ -123,22 +139,18 @@ class Element(msgspec.Struct, frozen=True, eq=False):
 
     def expect(self, attributes: Collection[str]) -> None:
         """Warn about attributes that look like misspelt ones of `attributes`."""
-        absent = [name for name in attributes if name not in self.node.attributes]
-        for name in self.node.attributes if absent else ():
-            if name not in attributes and (meant := nearest(name, absent)):
-                message = f"{self.path}: the attribute {name!r} is unknown, and has no effect"
-                self.warn("unknown-attribute", message, f"perhaps {meant!r} is meant")
+        for name in self.node.attributes:
+            if name not in attributes:
+                absent = [known for known in attributes if known not in self.node.attributes]
+                if meant := nearest(name, absent):
+                    message = f"{self.path}: the attribute {name!r} is unknown, and has no effect"
+                    self.warn("unknown-attribute", message, f"perhaps {meant!r} is meant")
 
     def extensions(self, owner: str, tags: Collection[str]) -> Iterator[Extension]:
         """The children that have none of `tags`; warns about those that look like a misspelt one."""
         for node in self.node.children:
-            if node.tag in tags:
-                continue
-            if node.tag not in _ELEMENTS and ":" not in node.tag and (meant := nearest(node.tag, tags, 0.8)):
-                message = f"{self.path}: the element <{node.tag}> is unknown, and has no effect"
-                hint = f"perhaps <{meant}> is meant"
-                self.findings.warn("unknown-element", node.line, message, hint)
-            yield Extension(owner, node.tag, node.canonical())
+            if node.tag not in tags:
+                yield extension(owner, node, self.path, tags, self.findings)
 
     def text(self, name: str) -> str:
         """A text that must be there; an empty one, after an error, if it is not."""
@@ -175,29 +187,39 @@ class Element(msgspec.Struct, frozen=True, eq=False):
 
     def _numbers(self, name: str, count: int) -> tuple[float, ...] | None:
         """The numbers of an attribute; None if it is absent, or after an error."""
-        if name not in self.node.attributes:
+        text = self.node.attributes.get(name)
+        if text is None:
             return None
         try:
-            return parse_numbers(self.node.attributes[name], count)
+            return parse_numbers(text, count)
         except ValueError as error:
-            code = "bad-number" if self.node.attributes[name].strip() else "empty-attribute"
-            message = f"{self.path}: {name}={brief(self.node.attributes[name])} {error}"
+            code = "bad-number" if text.strip() else "empty-attribute"
+            message = f"{self.path}: {name}={brief(text)} {error}"
             self.error(code, message, "write decimal numbers such as -0.5 or 1e-3")
             return None
 
 
+def extension(owner: str, node: Node, path: str, tags: Collection[str], findings: Findings) -> Extension:
+    """A child of the element at `path` that has none of `tags`; warns about one that looks like a misspelt one."""
+    if node.tag not in _ELEMENTS and ":" not in node.tag and (meant := nearest(node.tag, tags, 0.8)):
+        message = f"{path}: the element <{node.tag}> is unknown, and has no effect"
+        findings.warn("unknown-element", node.line, message, f"perhaps <{meant}> is meant")
+    return Extension(owner, node.tag, node.canonical())
+
+
+@functools.lru_cache(maxsize=1024)
 def parse_numbers(text: str, count: int) -> tuple[float, ...]:
     """Exactly `count` decimal numbers between blanks; raises ValueError that says what is wrong.
 
     Negative zero becomes zero, so that it makes no difference between two exports.
     """
-    words = [word for word in _BLANKS.split(text) if word]
-    if not all(map(_DECIMAL.fullmatch, words)):
-        wrong = next(word for word in words if not _DECIMAL.fullmatch(word))
-        raise ValueError(f"is not a decimal number: {brief(wrong)}" if len(words) > 1 else "is not a decimal number")
-    if len(words) != count:
-        raise ValueError(f"has {len(words)} numbers instead of {count}")
-    values = tuple([float(word) + 0.0 for word in words])
+    if not _NUMBERS[count].fullmatch(text):
+        words = [word for word in _BLANKS.split(text) if word]
+        wrong = next((word for word in words if not _DECIMAL.fullmatch(word)), None)
+        if wrong is None:
+            raise ValueError(f"has {len(words)} numbers instead of {count}")
+        raise ValueError(f"is not a decimal number{f': {brief(wrong)}' if len(words) > 1 else ''}")
+    values = tuple([float(word) + 0.0 for word in text.split()])
     if not all(map(math.isfinite, values)):
         raise ValueError("is too large for a floating-point number")
     return values

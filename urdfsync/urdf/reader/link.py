@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterable, Iterator
 
 import msgspec
@@ -197,5 +198,6 @@ def _with_materials(path: str, link: Link, table: dict[str, Material], findings:
             findings.warn("unknown-material", line, message, "define it in the robot or in a visual")
         elif material == Material():
             material = None
-        visuals.append(msgspec.structs.replace(visual, material=material))
-    return msgspec.structs.replace(link, visuals=tuple(visuals))
+        visuals.append(visual if material is visual.material else msgspec.structs.replace(visual, material=material))
+    same = all(map(operator.is_, visuals, link.visuals))
+    return link if same else msgspec.structs.replace(link, visuals=tuple(visuals))
