@@ -305,6 +305,15 @@ def test_tables_nested_without_reason_are_refused(text: str) -> None:
     assert failures(text) == ["urdfsync.toml: error: tables and lists are nested more than 50 deep [toml-syntax]"]
 
 
+@pytest.mark.parametrize("depth", [1, tomlfile.DEEPEST - 1, tomlfile.DEEPEST])
+def test_tables_and_lists_may_be_nested_so_deep_and_no_deeper(depth: int) -> None:
+    for text in (f"a = {'[' * (depth - 1)}1{']' * (depth - 1)}", ".".join("a" * depth) + " = 1"):
+        assert tomlfile.parse(text, "f", ConfigError)
+        if depth == tomlfile.DEEPEST:
+            with pytest.raises(ConfigError, match="more than 50 deep"):
+                tomlfile.parse(f"b.{text}", "f", ConfigError)
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [

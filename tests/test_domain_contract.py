@@ -128,8 +128,8 @@ def test_a_snapshot_is_plain_data(case: Case) -> None:
     text = json.dumps(reading.snapshot, allow_nan=False, sort_keys=True)
     assert json.loads(text) == reading.snapshot, "a tuple becomes a list"
     assert json.dumps(reading.snapshot) == text, "a record has sorted keys"
-    again = manifest.load_model(manifest.dump_model(case.snapshot, case.imports), "sample.json").snapshot
-    assert again == case.snapshot
+    model = manifest.model_of(case.snapshot, case.imports)
+    assert manifest.load_model(manifest.dump_model(model), "sample.json") == model
 
 
 def test_what_is_kept_of_a_reading_makes_no_difference(case: Case) -> None:

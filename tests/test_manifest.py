@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+import re
+
 import msgspec
 import pytest
 from hypothesis import given
@@ -13,11 +16,15 @@ from urdfsync.manifest import (
     DependencyRecord,
     Generator,
     Manifest,
+    Model,
     Source,
+    Tables,
     dump_model,
     dumps,
     load_model,
     loads,
+    model_of,
+    recorded,
     text_hash,
 )
 from urdfsync.plan import FileRecord, State
@@ -60,27 +67,50 @@ names = st.text(st.characters(exclude_categories=["Cs"]), min_size=1, max_size=1
 paths = st.from_regex(r"[a-z ]{1,5}(/[A-Za-z_. ]{1,8})?[a-z]", fullmatch=True)
 
 
-@given(
-    files=st.dictionaries(paths, st.builds(FileRecord, names, st.sampled_from(Role), st.none() | names)),
-    mapping=st.dictionaries(names, names, min_size=1),
-    uri=names,
+records = st.builds(
+    FileRecord,
+    names,
+    st.sampled_from(Role),
+    st.none() | names,
+    st.sampled_from(State),
+    st.none() | paths.map("m/P/{}".format),
+    st.none() | names,
+    st.none() | st.sampled_from(Choice),
 )
-def test_any_names_survive(files: dict[str, FileRecord], mapping: dict[str, str], uri: str) -> None:
-    files = {f"m/P/{path}": record for path, record in files.items()}
-    dependencies = {uri: DependencyRecord(uri, "Resources/a")}
-    manifest = Manifest(
-        package="P",
-        class_="P",
-        folder="m/P",
-        source=MANIFEST.source,
-        generator=MANIFEST.generator,
-        names={"links": mapping},
-        dependencies=dependencies,
-        files=files,
-    )
-    text = dumps(manifest)
-    assert loads(text, "p.toml") == manifest
-    assert dumps(loads(text, "p.toml")) == text
+manifests = st.builds(
+    Manifest,
+    package=st.just("P"),
+    class_=names,
+    folder=st.just("m/P"),
+    source=st.just(MANIFEST.source),
+    generator=st.just(MANIFEST.generator),
+    names=st.dictionaries(names, st.dictionaries(names, names, max_size=3), max_size=2),
+    dependencies=st.dictionaries(names, st.builds(DependencyRecord, names, paths, st.none() | names), max_size=2),
+    orders=st.dictionaries(
+        st.sampled_from(["m/package.order", "m/P/package.order", "m/P/A/package.order", "m/Q/package.order"]),
+        st.lists(names, max_size=3).map(tuple),
+    ),
+    files=st.dictionaries(paths.map("m/P/{}".format) | st.just("m/Q/A.mo"), records, max_size=4),
+)
+
+
+@given(manifests)
+def test_what_comes_back_is_known_before(manifest: Manifest) -> None:
+    """Whoever writes a manifest need not read it to know what it says."""
+    text, expected = dumps(manifest), recorded(manifest)
+    found = loads(text, "p.toml")
+    assert msgspec.json.encode(found) == msgspec.json.encode(expected), "in the same order, too"
+    assert found == expected
+    assert dumps(found) == text
+    assert "m/Q/A.mo" not in found.files
+
+
+@given(st.lists(manifests, min_size=2, max_size=3))
+def test_tables_of_another_manifest_make_no_difference(several: list[Manifest]) -> None:
+    tables: Tables = {}
+    for manifest in several:
+        assert dumps(manifest, tables) == dumps(manifest, tables) == dumps(manifest)
+        assert len(tables) == len(re.findall(r"^\[", dumps(manifest), re.MULTILINE)) + 1
 
 
 def test_order_of_entries_does_not_matter() -> None:
@@ -269,18 +299,41 @@ IMPORTS = {"a.stl": Import("Resources/a.stl", "1f", "2f", 4, {"size": [1, 2.5]})
 
 
 def test_model_round_trip() -> None:
-    model = load_model(dump_model(SNAPSHOT, IMPORTS), "arm.json")
+    model = load_model(dump_model(model_of(SNAPSHOT, IMPORTS)), "arm.json")
     assert model.snapshot == SNAPSHOT
     facts = model.imports["a.stl"]
     assert (facts.source_hash, facts.converter, facts.facts) == ("1f", 4, {"size": [1, 2.5]})
 
 
+data = st.recursive(
+    st.none() | st.booleans() | st.integers(-(2**53), 2**53) | st.floats(allow_nan=False, allow_infinity=False) | names,
+    lambda inner: st.lists(inner, max_size=3).map(tuple) | st.dictionaries(names, inner, max_size=3),
+    max_leaves=8,
+)
+snapshots = st.dictionaries(names, data, max_size=3)
+plain_snapshots = snapshots.map(lambda snapshot: json.loads(json.dumps(snapshot, sort_keys=True)))
+
+
+@given(
+    st.builds(
+        model_of,
+        plain_snapshots,
+        st.dictionaries(names, st.builds(Import, names, names, names, st.integers(0, 9), snapshots), max_size=2),
+        st.dictionaries(names, names, max_size=2),
+        st.none() | plain_snapshots,
+    )
+)
+def test_a_model_that_comes_back_is_known_before(model: Model) -> None:
+    again = load_model(dump_model(model), "arm.json")
+    assert repr(again) == repr(model), "in the same order, too, and with the same kinds of numbers"
+
+
 def test_bases_of_files_that_wait_are_recorded_with_the_model() -> None:
     texts = {"Links/B.mo": "model B\nend B;\n", "Links/A.mo": 'model A "\N{DEGREE SIGN}"\r\nend A;\n'}
-    text = dump_model(SNAPSHOT, IMPORTS, texts)
+    text = dump_model(model_of(SNAPSHOT, IMPORTS, texts))
     assert load_model(text, "arm.json").bases == texts
-    assert text == dump_model(SNAPSHOT, IMPORTS, dict(reversed(texts.items())))
-    assert load_model(dump_model(SNAPSHOT, IMPORTS), "arm.json").bases == {}
+    assert text == dump_model(model_of(SNAPSHOT, IMPORTS, dict(reversed(texts.items()))))
+    assert load_model(dump_model(model_of(SNAPSHOT, IMPORTS)), "arm.json").bases == {}
 
 
 def test_a_model_without_bases_is_one_of_an_older_build() -> None:

@@ -19,7 +19,7 @@ from support.stamps import repeated, stamped
 
 from urdfsync import cli, looking, report, streams
 from urdfsync.checking import afterbuild
-from urdfsync.stamping import making, stamp
+from urdfsync.stamping import making, stamp, trust
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]
@@ -275,7 +275,8 @@ def test_only_what_is_older_than_the_command_is_believed(age: float, facts: dict
     )
     seen = (0o100644, 7, int(facts.get("device", 1)), 10, changed, altered)
     status = os.stat_result((0o100644, 8, 1, 1, 0, 0, 0, 0, 0, 0), {"st_mtime_ns": now, "st_dev": 1})
-    assert making._are_settled([seen], status, passed) is settled
+    assert trust.Clock(status, is_sound=True).trusts(seen, passed) is settled
+    assert not trust.Clock(status, is_sound=False).trusts(seen, passed)
 
 
 # What is no stamp
@@ -311,7 +312,7 @@ def test_a_pipe_in_its_place_is_none(folder: Path) -> None:
 def test_there_is_none_where_nobody_knows_when_a_file_changed(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     time.sleep(0.1)  # so that it would be written
     with monkeypatch.context() as patch:
-        patch.setattr(making, "_HAS_CHANGE_TIMES", False)
+        patch.setattr(trust, "HAS_CHANGE_TIMES", False)
         assert cli.main(BUILD) == 0
         assert not Path(STAMP).exists()
     with monkeypatch.context() as patch:

@@ -56,7 +56,7 @@ def templates_digest(folders: Sequence[Path]) -> str:
     templates: dict[str, Path] = {}
     for folder in reversed(folders):
         found = (path for path in looking.files_below(folder) if not path.name.startswith("."))
-        templates |= {path.relative_to(folder).as_posix(): path for path in found}
+        templates |= {str(path)[len(str(folder)) + 1 :].replace(os.sep, "/"): path for path in found}
     lines = [f"{name}\0{text_digest(looking.content(path))}\n" for name, path in sorted(templates.items())]
     return digest("".join(lines).encode())
 
@@ -74,13 +74,16 @@ def kind_of(mode: int) -> str:
 
 
 class Tree:
-    """The files below `root`, which no path may leave, not even through a symbolic link."""
+    """The files below `root`, which no path may leave, not even through a symbolic link.
+
+    Each folder is looked at once: one that comes later is found by another tree.
+    """
 
     def __init__(self, root: Path, shown: Callable[[Path], str] = str) -> None:
         self.root = root
         self._shown = shown
         self._below = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
-        self._checked = {str(root)}
+        self._checked = {str(root): True}
 
     def covers(self, path: str | os.PathLike[str]) -> bool:
         """Whether a path is below the root; absolute, and without detours if it is a string."""
@@ -94,41 +97,49 @@ class Tree:
         Raises OutputError for a link, for anything else that is no regular file, and for what can't be read.
         """
         path = os.fspath(path)
-        if not self.check_folder(os.path.dirname(path)):  # noqa: PTH120
+        return None if self.status(path) is None else self.content(path)
+
+    def status(self, path: str) -> os.stat_result | None:
+        """What the system says of a file before it is read, None if there is none. Raises OutputError as `read`."""
+        if not self.check_folder(path.rpartition(os.sep)[0]):
             return None
         try:
             status = looking.status(path)
-            if status is None:
-                return None
-            if stat.S_ISREG(status.st_mode):
-                profiling.count("read")
-                with open(path, "rb", buffering=0) as file:  # noqa: PTH123
-                    return file.read()
+        except OSError as error:
+            raise self._unreadable(path, error) from None
+        if status is None or stat.S_ISREG(status.st_mode):
+            return status
+        message = f"{kind_of(status.st_mode)} is where urdfsync would write a file"
+        raise self._refusal("output-in-the-way", path, message, "move it away")
+
+    def content(self, path: str) -> bytes | None:
+        """The content of a file of which `status` was asked, None if it is gone since. Raises OutputError as `read`."""
+        profiling.count("read")
+        try:
+            with open(path, "rb", buffering=0) as file:  # noqa: PTH123
+                return file.read()
         except (FileNotFoundError, NotADirectoryError):
             return None
         except OSError as error:
-            hint = _HINTS.get(error.errno or 0, "")
-            raise self._refusal("output-unreadable", path, f"it can't be read: {error.strerror}", hint) from None
-        message = f"{kind_of(status.st_mode)} is where urdfsync would write a file"
-        raise self._refusal("output-in-the-way", path, message, "move it away")
+            raise self._unreadable(path, error) from None
 
     def check_folder(self, folder: str | os.PathLike[str]) -> bool:
         """Whether a folder below the root exists. Raises OutputError if it is a file, a link, or not below the root."""
         folder = os.fspath(folder)
         if folder in self._checked:
-            return True
+            return self._checked[folder]
         if not self.covers(folder):
             raise self._refusal("outside", folder, f"the path leaves {self._shown(self.root)}")
-        if not self.check_folder(os.path.dirname(folder)):  # noqa: PTH120
-            return False
-        mode = looking.kind(folder, follow=False)
-        if not mode:
-            return False
-        if not stat.S_ISDIR(mode):
+        mode = looking.kind(folder, follow=False) if self.check_folder(os.path.dirname(folder)) else 0  # noqa: PTH120
+        if mode and not stat.S_ISDIR(mode):
             what = "a symbolic link" if stat.S_ISLNK(mode) else "a file"
             raise self._refusal("output-in-the-way", folder, f"{what} is where a folder is needed", "move it away")
-        self._checked.add(folder)
-        return True
+        self._checked[folder] = bool(mode)
+        return bool(mode)
+
+    def _unreadable(self, path: str, error: OSError) -> OutputError:
+        hint = _HINTS.get(error.errno or 0, "")
+        return self._refusal("output-unreadable", path, f"it can't be read: {error.strerror}", hint)
 
     def _refusal(self, code: str, path: str, message: str, hint: str = "") -> OutputError:
         return OutputError(Diagnostic(Severity.ERROR, code, message, self._shown(Path(path)), hint=hint))

@@ -3,7 +3,6 @@
 import gc
 import os
 import sys
-import time
 
 from urdfsync.staging import listing
 from urdfsync.stamping import stamp
@@ -86,7 +85,7 @@ def _is_committed(index: "Index", path: str) -> bool:
     from urdfsync.staging.worktree import Worktree
     from urdfsync.stamping import making
 
-    begin = time.monotonic_ns(), time.time_ns()
+    begin = stamp.now()
     with looking.taken_down() as looks:
         request = Request(dry=True, package_paths=config.ros_package_path(os.environ))
         tree = Worktree(index, config.load(index.top / path), request)

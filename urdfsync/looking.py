@@ -134,13 +134,21 @@ def rests_on(path: str | os.PathLike[str]) -> None:
 
 def files_below(folder: Path) -> Iterator[Path]:
     """All regular files below a folder, and links to such files."""
-    rests_on(folder)
-    for path in folder.rglob("*"):
-        found = kind(path)
-        if found == stat.S_IFREG:
-            yield path
-        elif found == stat.S_IFDIR:
-            rests_on(path)
+    waiting = [folder]
+    while waiting:
+        current = waiting.pop()
+        rests_on(current)
+        inside: list[str] = []
+        with contextlib.suppress(OSError):  # it is not there, or can't be read
+            inside = os.listdir(current)  # noqa: PTH208
+        for path in [current / name for name in inside]:
+            found = kind(path)
+            if found == stat.S_IFREG:
+                yield path
+            elif found == stat.S_IFDIR and path.is_symlink():
+                rests_on(path)
+            elif found == stat.S_IFDIR:
+                waiting.append(path)
 
 
 def _see(looks: Looks, path: str | os.PathLike[str]) -> None:

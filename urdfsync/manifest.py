@@ -7,12 +7,11 @@ again. Neither holds absolute paths, times or host names.
 
 from __future__ import annotations
 
-import functools
 import hashlib
 import posixpath
 import re
-from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeAlias
 
 import msgspec
 import tomli_w
@@ -33,6 +32,8 @@ _HEADER = """\
 _ORDER = "package.order"
 _PARENT = "../package.order"
 """The parent package's order file, as it stands in the text."""
+_PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
+"""What nearly all paths are: nothing that could lead elsewhere."""
 _REPAIR = "restore it from version control, or let `urdfsync build --repair` make it again"
 
 
@@ -116,24 +117,79 @@ class Model(msgspec.Struct, frozen=True):
     format: int = FORMAT
 
 
-def dumps(manifest: Manifest) -> str:
-    """The manifest as text: the same value gives the same text everywhere."""
-    document: dict[str, Any] = msgspec.to_builtins(manifest)
-    document["names"] = {kind: dict(sorted(names.items())) for kind, names in sorted(manifest.names.items()) if names}
-    document["dependencies"] = dict(sorted(document["dependencies"].items()))
-    for entry in document["files"].values():
-        if "origin" in entry:
-            entry["origin"] = entry["origin"][len(manifest.folder) + 1 :]
-    above = _order_above(manifest.folder)
-    for key in ("orders", "files"):
-        inside = {path: entry for path, entry in document[key].items() if path.startswith(f"{manifest.folder}/")}
-        if key == "orders" and above in document[key]:
-            inside[above] = document[key][above]
-        document[key] = _rekeyed(inside, lambda path: _PARENT if path == above else path[len(manifest.folder) + 1 :])
-    return _HEADER + tomli_w.dumps({key: value for key, value in document.items() if value != {}})
+Tables: TypeAlias = dict[tuple[str, ...], tuple[object, str]]
+"""The tables of a manifest by their keys: what each is made of, and its text."""
 
 
-@functools.lru_cache(maxsize=1)  # the daemon makes sure of each build by another one, and the next begins with it
+def dumps(manifest: Manifest, tables: Tables | None = None) -> str:
+    """The manifest as text: the same value gives the same text everywhere.
+
+    `tables` are those of a manifest that was written before; what is the same serves again. They are replaced by those
+    of this one.
+    """
+    known = {} if tables is None else tables
+    wanted = dict(_tables(recorded(manifest)))
+    new = {keys: made_of for keys, made_of in wanted.items() if keys not in known or known[keys][0] != made_of}
+    known.update(zip(new, zip(new.values(), _texts(new), strict=True), strict=True))
+    for keys in known.keys() - wanted.keys():
+        del known[keys]
+    return _HEADER + "\n\n".join([known[keys][1] for keys in wanted]) + "\n"
+
+
+def recorded(manifest: Manifest) -> Manifest:
+    """What comes back from the manifest's text: sorted, and without what lies outside of the package."""
+    folder, above = manifest.folder, _order_above(manifest.folder)
+    inside = f"{folder}/"
+    return msgspec.structs.replace(
+        manifest,
+        names={kind: dict(sorted(names.items())) for kind, names in sorted(manifest.names.items()) if names},
+        dependencies=dict(sorted(manifest.dependencies.items())),
+        orders={key: names for key, names in sorted(manifest.orders.items()) if key == above or key.startswith(inside)},
+        files={
+            key: _with_origin(record, inside, len(inside))
+            for key, record in sorted(manifest.files.items())
+            if key.startswith(inside)
+        },
+    )
+
+
+def _tables(manifest: Manifest) -> Iterator[tuple[tuple[str, ...], object]]:
+    """The tables of a manifest as it is recorded, in their order: the keys of each, and what it is made of."""
+    below, above = len(manifest.folder) + 1, _order_above(manifest.folder)
+    folder = {"package": manifest.package, "class": manifest.class_, "folder": manifest.folder}
+    yield (), {"format": manifest.format, **folder}
+    yield ("source",), manifest.source
+    yield ("generator",), manifest.generator
+    yield from ((("names", kind), names) for kind, names in manifest.names.items())
+    yield from ((("dependencies", key), dependency) for key, dependency in manifest.dependencies.items())
+    orders = {_PARENT if path == above else path[below:]: names for path, names in manifest.orders.items()}
+    if orders:
+        yield ("orders",), dict(sorted(orders.items()))
+    for path, record in manifest.files.items():
+        yield ("files", path[below:]), _with_origin(record, "", below)
+
+
+def _texts(tables: Mapping[tuple[str, ...], object]) -> list[str]:
+    """The text of each table, without the end of its last line: there are no empty lines but those between tables."""
+    document: dict[str, Any] = {}
+    for keys, made_of in tables.items():
+        inner = document
+        for key in keys[:-1]:
+            inner = inner.setdefault(key, {})
+        inner.update(msgspec.to_builtins({keys[-1]: made_of} if keys else made_of))
+    return tomli_w.dumps(document).removesuffix("\n").split("\n\n") if tables else []
+
+
+def _plain(facts: Mapping[str, Any]) -> dict[str, Any]:
+    data: dict[str, Any] = msgspec.json.decode(msgspec.json.encode(facts, order="sorted"))
+    return data
+
+
+def _with_origin(record: FileRecord, prefix: str, cut: int) -> FileRecord:
+    """The record with a prefix in the place of so many characters of its origin, if it has one."""
+    return msgspec.structs.replace(record, origin=prefix + record.origin[cut:]) if record.origin else record
+
+
 def loads(text: str, file: str) -> Manifest:
     """The manifest in `text`, which errors call `file`.
 
@@ -148,29 +204,29 @@ def loads(text: str, file: str) -> Manifest:
         raise StateError(_broken(str(error), data, text, file)) from None
     _check_places(manifest, text, file)
 
-    def from_root(path: str) -> str:
-        return _order_above(manifest.folder) if path == _PARENT else f"{manifest.folder}/{path}"
-
-    files, orders = _rekeyed(manifest.files, from_root), _rekeyed(manifest.orders, from_root)
+    folder, above = manifest.folder, _order_above(manifest.folder)
     files = {
-        path: msgspec.structs.replace(record, origin=from_root(record.origin)) if record.origin else record
-        for path, record in files.items()
+        f"{folder}/{path}": _with_origin(record, f"{folder}/", 0) for path, record in sorted(manifest.files.items())
     }
-    return msgspec.structs.replace(manifest, files=files, orders=orders)
+    orders = {above if path == _PARENT else f"{folder}/{path}": names for path, names in manifest.orders.items()}
+    return msgspec.structs.replace(manifest, files=files, orders=dict(sorted(orders.items())))
 
 
-def dump_model(
+def model_of(
     snapshot: Snapshot,
     imports: Mapping[str, Import],
     bases: Mapping[str, str] | None = None,
     since: Snapshot | None = None,
-) -> str:
+) -> Model:
+    """What is recorded of a model, as it comes back from the JSON file; both snapshots are plain data already."""
+    facts = {key: Facts(i.source_hash, i.converter, _plain(i.facts)) for key, i in sorted(imports.items())}
+    texts = dict(sorted((bases or {}).items()))
+    return Model(dict(snapshot), facts, texts, None if since is None else dict(since))
+
+
+def dump_model(model: Model) -> str:
     """The JSON file's text."""
-    facts = {key: Facts(i.source_hash, i.converter, dict(i.facts)) for key, i in imports.items()}
-    encoded = msgspec.json.encode(
-        Model(dict(snapshot), facts, dict(bases or {}), None if since is None else dict(since)), order="sorted"
-    )
-    return msgspec.json.format(encoded, indent=1).decode() + "\n"
+    return msgspec.json.format(msgspec.json.encode(model, order="sorted"), indent=1).decode() + "\n"
 
 
 def load_model(text: str, file: str) -> Model:
@@ -187,7 +243,8 @@ def load_model(text: str, file: str) -> Model:
 
 def text_hash(text: str) -> str:
     """SHA-256 (hex) of a text with its line endings normalised, as in `files.text_digest`."""
-    return hashlib.sha256(text.replace("\r\n", "\n").replace("\r", "\n").encode()).hexdigest()
+    normalised = text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
+    return hashlib.sha256(normalised.encode()).hexdigest()
 
 
 def _check_format(value: object, file: str, text: str = "") -> None:
@@ -240,7 +297,7 @@ def _is_normal(path: str) -> bool:
 
 def _is_inside(path: str) -> bool:
     """Whether a path from a folder is that of a file below it."""
-    return _is_normal(path) and path.split("/")[0] not in (".", "..")
+    return bool(_PLAIN.fullmatch(path)) or (_is_normal(path) and path.split("/")[0] not in (".", ".."))
 
 
 def _order_above(folder: str) -> str:
@@ -265,8 +322,3 @@ def _fits(table: str, entry: object) -> bool:
     except msgspec.ValidationError:
         return False
     return True
-
-
-def _rekeyed(entries: Mapping[str, Any], rename: Callable[[str], str]) -> dict[str, Any]:
-    renamed = {rename(path): entry for path, entry in entries.items()}
-    return dict(sorted(renamed.items()))

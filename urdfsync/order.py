@@ -14,8 +14,10 @@ def merge(text: str | None, names: Sequence[str], owned: Collection[str] = ()) -
     """
     if text is None:
         return "".join(f"{name}\n" for name in names)
-    wanted = set(names)
-    lines = _without(text.splitlines(), wanted | set(owned), wanted)
+    wanted, found = set(names), text.splitlines()
+    if found == list(names) and len(wanted) == len(found):
+        return text
+    lines = _without(found, wanted | set(owned), wanted)
     present = [_name(line) for line in lines if _name(line) in wanted]
     kept = set(present)
     ordered = [name for name in names if name in kept]
@@ -25,7 +27,7 @@ def merge(text: str | None, names: Sequence[str], owned: Collection[str] = ()) -
     for index, name in enumerate(names):
         if name not in kept:
             lines.insert(_place(lines, names, index), name)
-    if lines == text.splitlines():
+    if lines == found:
         return text
     ending = "\r\n" if "\r\n" in text else "\n"
     return ending.join(lines) + ending if any(map(_name, lines)) else ""

@@ -108,6 +108,9 @@ class Found(msgspec.Struct, frozen=True):
     as_folder: bool = False
 
 
+_NO_FILE = Found()
+
+
 class Wanted(msgspec.Struct, frozen=True):
     """A file that is generated, with its hash."""
 
@@ -180,7 +183,7 @@ def plan(
     """
     going = Moves(recorded, found, moves or {})
     actions = []
-    for path in sorted(wanted.keys() | recorded.keys()):
+    for path in sorted(dict.fromkeys((*recorded, *wanted))):  # mostly in order already, as a set is not
         action = _action(path, recorded.get(path), wanted.get(path), found, going)
         if action is not None:
             actions.append(action)
@@ -193,7 +196,7 @@ def _action(
     """The action for one file; None if it only waited to be written, and is not wanted any more."""
     known = target or record
     role, owner = (known.role, known.owner) if known else (Role.MODEL, "")
-    base, mine = record.own if record else None, found.get(path, Found())
+    base, mine = record.own if record else None, found.get(path, _NO_FILE)
     generated = target.hash if target else None
 
     def coming(kind: Kind, origin: str, mine: str | None) -> Action:
@@ -287,6 +290,8 @@ def after(actions: Iterable[Action]) -> dict[str, FileRecord]:
 
 
 def _after(action: Action) -> FileRecord | None:
+    if action.kind is Kind.UNCHANGED:
+        return FileRecord(action.owner, action.role, action.generated)
     base = action.base
     if action.held:
         state = State.WAITING

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator
 from typing import Any, TypeAlias
+
+import tomli
 
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 
@@ -34,8 +35,8 @@ def parse(text: str, file: str, error: type[UrdfsyncError], hint: str = "") -> d
     """
     line = column = 0
     try:
-        document = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as problem:
+        document = tomli.loads(text)
+    except tomli.TOMLDecodeError as problem:
         message, line, column, better = _explain(problem, text)
         hint = hint or better
     except RecursionError:
@@ -43,13 +44,24 @@ def parse(text: str, file: str, error: type[UrdfsyncError], hint: str = "") -> d
     except ValueError:  # from int(), which refuses to read thousands of digits
         message = "a number has too many digits"
     else:
-        if all(len(path) <= DEEPEST for path, _ in _walk(document)):
+        if not _is_too_deep(document):
             return document
         message = _TOO_DEEP
     raise error(Diagnostic(Severity.ERROR, "toml-syntax", message, file, line, column, hint)) from None
 
 
 _TOO_DEEP = f"tables and lists are nested more than {DEEPEST} deep"
+
+
+def _is_too_deep(document: dict[str, Any]) -> bool:
+    """Whether anything lies deeper than `DEEPEST`; by levels, since a robot's record has thousands of tables."""
+    level: list[Any] = [document]
+    for _ in range(DEEPEST):
+        items = (table.values() if isinstance(table, dict) else table for table in level)
+        level = [item for values in items for item in values if isinstance(item, dict | list)]
+        if not level:
+            return False
+    return any(level)
 
 
 def strings(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
@@ -72,7 +84,7 @@ def _walk(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], Any]]:
             waiting += [((*path, str(key)), item) for key, item in items]
 
 
-def _explain(problem: tomllib.TOMLDecodeError, text: str) -> tuple[str, int, int, str]:
+def _explain(problem: tomli.TOMLDecodeError, text: str) -> tuple[str, int, int, str]:
     """Message, line, column and hint."""
     if marker := marker_line(text):
         return "unresolved merge markers", marker, 0, "settle the merge"
@@ -134,6 +146,6 @@ def _keys(line: str) -> tuple[str, ...]:
 
 def _unescaped(quoted: str) -> str:
     try:
-        return str(tomllib.loads(f'key = "{quoted}"')["key"]) if "\\" in quoted else quoted
-    except tomllib.TOMLDecodeError:
+        return str(tomli.loads(f'key = "{quoted}"')["key"]) if "\\" in quoted else quoted
+    except tomli.TOMLDecodeError:
         return quoted

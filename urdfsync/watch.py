@@ -55,8 +55,8 @@ class Daemon:
         self._inbox = Inbox()
         self._observer = Observer(self._inbox.notice, lambda: self._inbox.put(Lost()))
         self._settings = Settings(options)
-        self._robots = Robots(options.times, options.request.package_paths)
         self._memory = Memory()
+        self._robots = Robots(options.times, options.request.package_paths, self._memory)
         request = msgspec.structs.replace(options.request, progress=self._progress, memory=self._memory)
         self._checks = Checks(
             options.request,

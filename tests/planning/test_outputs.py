@@ -81,6 +81,15 @@ def test_without_base_and_file_it_is_rendered(disk: Mapping[str, bytes]) -> None
     assert now.rendered == ["a"]
 
 
+def test_a_text_that_is_kept_under_a_wrong_hash_is_rendered() -> None:
+    now = Package(a=1)
+    kept = Bases({_hash("a", 1): "somebody else's"})
+    outputs = Outputs(now, Package(a=1), _record("a", 1), kept, {}, lambda path: None)
+    assert outputs.digest("a") == _hash("a", 1)
+    assert outputs.content("a") == _text("a", 1).encode()
+    assert now.rendered == ["a"]
+
+
 def test_what_is_made_of_other_data_is_rendered() -> None:
     now = Package(a=2)
     outputs = _outputs(now, Package(a=1), _record("a", 1), bases=[_text("a", 1)])

@@ -30,9 +30,65 @@ def test_the_same_texts_give_the_same_file(kept: list[str]) -> None:
     assert json.loads(gzip.decompress(content)) == dict(pairs)
 
 
+@given(st.lists(texts, min_size=1), st.lists(st.lists(texts, min_size=1), max_size=3))
+def test_what_is_added_is_kept_with_the_rest(first: list[str], more: list[list[str]]) -> None:
+    by_hash = {text_digest(text.encode()): text for text in first}
+    bases = Bases.loads(dumps(by_hash.items()))
+    for added in more:
+        news = {text_digest(text.encode()): text for text in added}
+        by_hash |= news
+        bases = bases.plus(news) or Bases.loads(dumps(by_hash.items()))
+        for one in (bases, Bases.loads(bases.content)):
+            assert {digest: one.get(digest) for digest in by_hash} == by_hash
+            assert all(digest in one for digest in by_hash)
+
+
+def test_a_file_is_added_to_until_that_is_as_much_as_it_was_first() -> None:
+    pairs = [(text_digest(b"%d" % number), str(number)) for number in range(1000)]
+    bases: Bases | None = Bases.loads(dumps(pairs[:200]))
+    assert bases is not None
+    first = old = bases.content
+    for number in range(200, 1000, 10):
+        if (bases := bases.plus(dict(pairs[number : number + 10]))) is None:
+            break
+        assert bases.content.startswith(old), "what was there stays as it is"
+        old = bases.content
+    assert 1.9 * len(first) < len(old) <= 2 * len(first)
+
+
+def test_a_file_has_not_more_parts_than_can_be_read_quickly() -> None:
+    bases: Bases | None = Bases.loads(dumps((text_digest(b"%d" % number), str(number)) for number in range(1000)))
+    count = 0
+    while bases is not None and (bases := bases.plus({text_digest(b"%d" % count): str(count)})) is not None:
+        count += 1
+    assert count == 63
+
+
+def test_nothing_is_added_to_a_file_that_is_lost() -> None:
+    assert Bases.loads(b"").plus({text_digest(b"a"): "a"}) is None
+
+
+def test_nothing_new_leaves_the_file_as_it_is() -> None:
+    content = dumps([(text_digest(b"a"), "a")])
+    more = Bases.loads(content).plus({})
+    assert more is not None
+    assert more.content == content
+
+
+def test_a_file_of_which_a_later_part_is_cut_short_keeps_nothing() -> None:
+    one, other = text_digest(b"one"), text_digest(b"other")
+    first = dumps((digest, "one") for digest in (one, *map(str, range(99))))
+    whole = Bases.loads(first).plus({other: "other"})
+    assert whole is not None
+    for end in range(len(first) + 1, len(whole.content)):
+        kept = Bases.loads(whole.content[:end])
+        assert one not in kept
+        assert other not in kept
+
+
 def test_what_is_not_there_is_none() -> None:
     assert Bases({}).get(text_digest(b"a")) is None
-    assert Bases.loads(None).get(text_digest(b"a")) is None
+    assert Bases.loads(b"").get(text_digest(b"a")) is None
 
 
 def test_a_text_counts_only_with_its_own_hash() -> None:

@@ -17,6 +17,7 @@ from urdfsync import config
 from urdfsync.build import Request, build
 from urdfsync.outcome import Result
 from urdfsync.state import operations
+from urdfsync.state.store import Store
 
 NAMES = ("make_folder", "remove_folder", "write", "keep", "exchange", "replace", "place", "remove", "sync")
 ALL = "URDFSYNC_CRASHES"
@@ -130,9 +131,21 @@ def copy(project: Path, to: Path) -> Path:
 
 
 def contents(project: Path) -> Mapping[str, bytes | None]:
-    """All files and folders of a project, but for the lock and an empty journal; folders have no content."""
+    """All files and folders of a project, but for the lock and an empty journal; folders have no content.
+
+    Of the kept bases, those count that the recorded files need: others may be left of an earlier build.
+    """
     found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
     found.pop(".urdfsync/lock", None)
     if not any(name.startswith(".urdfsync/journal/") for name in found):
         found.pop(".urdfsync/journal", None)
-    return {name: path.read_bytes() if path.is_file() else None for name, path in sorted(found.items())}
+    contents = {name: path.read_bytes() if path.is_file() else None for name, path in sorted(found.items())}
+    return contents | {name: _needed(project, path) for name, path in found.items() if path.suffix == ".gz"}
+
+
+def _needed(project: Path, file: Path) -> bytes:
+    """The bases in a file that the manifest needs, by their hashes."""
+    store, robot = Store(project), file.name.removesuffix(".json.gz")
+    state, bases = store.load(robot), store.bases(robot)
+    needed = {record.base for record in state.manifest.files.values() if record.base} if state else set()
+    return repr([(digest, bases.get(digest)) for digest in sorted(needed)]).encode()

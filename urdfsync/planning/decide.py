@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Set
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, TypeAlias, TypeVar
 
 import msgspec
 
@@ -37,6 +37,10 @@ from urdfsync.planning.parents import Parents
 from urdfsync.planning.shared import Shared
 from urdfsync.standoff import Choice, Standoff
 
+_LEAVES = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
+"""Actions on files that the package has no more."""
+_Entry = TypeVar("_Entry")
+
 _MARKER = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
 """What git leaves in a file; a line of equal signs alone may be an ornament."""
 
@@ -55,13 +59,21 @@ class Decision(msgspec.Struct, frozen=True):
     """What has to be done to files around the package."""
 
 
+Hashed: TypeAlias = tuple[looking.Facts, str, str]
+"""What the system says of a file, and the SHA-256 (hex) of its bytes and of its text, line endings normalised."""
+
+
 class Disk:
     """The files of one robot's package, addressed by their path from the configuration's folder."""
 
-    def __init__(self, config: Config, robot: RobotConfig) -> None:
-        self._root, self._prefix = config.root, os.path.join(config.root, "")  # noqa: PTH118
+    def __init__(self, config: Config, robot: RobotConfig, known: Mapping[str, Hashed] | None = None) -> None:
+        """`known` are hashes that hold as long as the system says the same of a file, by its path."""
+        self._root, self._prefix = config.root, os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
         self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
         self._seen: dict[str, str | None] = {}
+        self._known: Mapping[str, Hashed] = known or {}
+        self.hashed: dict[str, Hashed] = {}
+        """What `found` has found out, in the same way."""
 
     def key(self, path: Path) -> str:
         """How a file is called in manifest and plan."""
@@ -86,13 +98,23 @@ class Disk:
 
     def found(self, key: str, role: Role) -> Found:
         """What is there in the place of a file."""
-        content = self.read(key)
-        if content is not None:
-            seen = self._see(key, content)
-            return Found(seen if role is Role.IMPORT or b"\r" not in content else text_digest(content))
+        hashed = self._hashed(self._place(key))
+        if hashed is not None:
+            _, own, text = hashed
+            self._seen.setdefault(key, own)
+            return Found(own if role is Role.IMPORT else text)
         self._seen.setdefault(key, None)
-        is_class = key.endswith(".mo") and not key.endswith("/package.mo")
-        return Found(as_folder=is_class and looking.is_file(self._place(f"{key.removesuffix('.mo')}/package.mo")))
+        return Found(as_folder=self._is_folder(key))
+
+    def _is_folder(self, key: str) -> bool:
+        """Whether the class of a file that is not there has a folder of its own."""
+        if not key.endswith(".mo") or key.endswith("/package.mo"):
+            return False
+        place = self._place(key)
+        tree = self._tree(place)
+        if tree is not None and not tree.check_folder(place.rpartition(os.sep)[0]):
+            return False
+        return looking.is_file(f"{place.removesuffix('.mo')}{os.sep}package.mo")
 
     def text(self, key: str) -> str | None:
         """The file as text; bytes that are not UTF-8 survive, see `encode`."""
@@ -123,6 +145,22 @@ class Disk:
         """All Modelica files below a folder, its own and others, as far as they can be read."""
         return {self.key(path) for path in self.path(folder).rglob("*.mo") if path.is_file()}
 
+    def _hashed(self, place: str) -> Hashed | None:
+        tree = self._tree(place)
+        status = tree.status(place) if tree else None
+        if tree is None or status is None:
+            return None
+        facts = looking.facts_of(status)
+        hashed = self._known.get(place)
+        if hashed is None or hashed[0] != facts:
+            content = tree.content(place)
+            if content is None:
+                return None
+            own = digest(content)
+            hashed = facts, own, text_digest(content) if b"\r" in content else own
+        self.hashed[place] = hashed
+        return hashed
+
     def _see(self, key: str, content: bytes) -> str:
         found = digest(content)
         self._seen.setdefault(key, found)
@@ -130,10 +168,14 @@ class Disk:
 
     def _place(self, key: str) -> str:
         """The path of a file as a string: there are thousands of files."""
-        return os.path.normpath(self._prefix + key)
+        place = self._prefix + key
+        return os.path.normpath(place) if ".." in key or os.sep != "/" else place
 
     def _tree(self, path: str | os.PathLike[str]) -> Tree | None:
-        return next((tree for tree in self._trees if tree.covers(path)), None)
+        for tree in self._trees:
+            if tree.covers(path):
+                return tree
+        return None
 
 
 def encode(text: str) -> bytes:
@@ -175,8 +217,8 @@ class Texts(Protocol):
 
 def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None) -> Decision:
     """Plan every file of a robot; without texts, nothing that both sides changed is settled."""
-    recorded = {key: r for key, r in manifest.files.items() if disk.reaches(key)} if manifest else {}
-    owned = {key: n for key, n in manifest.orders.items() if disk.reaches(key)} if manifest else {}
+    recorded = dict(_reached(disk, manifest.files, manifest.folder)) if manifest else {}
+    owned = dict(_reached(disk, manifest.orders, manifest.folder)) if manifest else {}
     roles = {key: record.role for key, record in recorded.items()} | {key: w.role for key, w in aim.wanted.items()}
     with profiling.stage("looking"):
         found = {key: disk.found(key, role) for key, role in roles.items()}
@@ -209,6 +251,14 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     )
 
 
+def _reached(disk: Disk, entries: Mapping[str, _Entry], folder: str) -> Iterator[tuple[str, _Entry]]:
+    """The entries of files that urdfsync may touch; for those of the package's folder that is one question."""
+    inside, whole = f"{folder}/", disk.reaches(f"{folder}/package.mo")
+    for key, entry in entries.items():
+        if whole if key.startswith(inside) else disk.reaches(key):
+            yield key, entry
+
+
 def _refuse_markers(disk: Disk, actions: Iterable[Action], orders: Mapping[str, str | None]) -> None:
     """Refuse to work with files in which version control has left its merge markers. Raises OutputError."""
     edited = [action for action in actions if action.mine not in (None, action.base, action.generated)]
@@ -232,10 +282,12 @@ def _ours(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Action]) -> di
     stay: dict[str, set[str]] = {}
     gone: dict[str, list[str]] = {}
     for action in actions:
+        if action.kind not in _LEAVES:
+            continue
         folder, _, name = action.path.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
         if action.kind in (Kind.ORPHAN, Kind.NEEDED) or is_let_go(action):
             stay.setdefault(f"{folder}/package.order", set()).add(name)
-        elif action.kind in (*DELETES, Kind.FORGET):
+        else:
             gone.setdefault(f"{folder}/package.order", []).append(name)
     return {
         key: tuple(name for name in (*names, *gone.get(key, ())) if name not in stay.get(key, ()))

@@ -1,29 +1,46 @@
 """What a process remembers of the robot that it built last, for one that builds again and again.
 
 Each entry stands with all that it was made of, and serves only who asks for exactly that: a memory spares work, and
-never says what is on disk. Of each kind there is one entry, so a memory is as large as one robot.
+never says what is on disk. A file's hash stands with what the system said of it, where that can be believed. Of each
+kind there is one entry, so a memory is as large as one robot.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import msgspec
 
 from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Reading, Snapshot, Target
+from urdfsync.manifest import Tables
 from urdfsync.planning import generate
+from urdfsync.stamping import stamp
 
+if TYPE_CHECKING:
+    from urdfsync.planning.decide import Hashed
+    from urdfsync.stamping.trust import Clock
+    from urdfsync.state.bases import Bases
+    from urdfsync.state.store import State
+
+_FEW = 4
+"""So many files are sooner read again than the clock is."""
 _Value = TypeVar("_Value")
 
 
 class Memory:
-    """The source that was read last, and the files that were made last of a model."""
+    """The source that was read last, the files that were made last of a model, and the state that was recorded last."""
 
     def __init__(self) -> None:
+        self.tables: Tables = {}
+        """Of the last manifest."""
+        self.hashed: Mapping[str, Hashed] = {}
+        """The files of the last plan, by their paths, as far as a change would show in what the system says of them."""
         self._reading: _Last[Reading] = _Last()
         self._parts: _Last[Parts] = _Last()
         self._artifacts: _Files | None = None
+        self._state: _Last[State] = _Last()
+        self._bases: _Last[Bases] = _Last()
 
     def read(self, domain: Domain, options: Any, content: bytes, name: str) -> Reading:
         """What the domain reads in a source: who judges one, and then builds it, reads it once.
@@ -44,6 +61,36 @@ class Memory:
         files = generate.artifacts(domain, snapshot, imports, target, options, parts)
         self._artifacts = _Files(domain, snapshot, _encoded((imports, target, options)), files, parts)
         return files
+
+    def state(self, contents: tuple[bytes, bytes | None], load: Callable[[], State]) -> State:
+        """The recorded state in the contents of its two files."""
+        return self._state.get(contents, load)
+
+    def bases(self, content: bytes, load: Callable[[], Bases]) -> Bases:
+        """The kept texts in the content of their file."""
+        return self._bases.get(content, load)
+
+    def looked(
+        self, hashed: Mapping[str, Hashed], begin: tuple[int, int], read_clock: Callable[[], Clock | None]
+    ) -> None:
+        """A plan that began at this moment (see `stamp.now`) has looked at these files."""
+        new = {path: entry for path, entry in hashed.items() if self.hashed.get(path) is not entry}
+        clock = read_clock() if len(new) > _FEW else None
+        passed = stamp.passed(begin)
+        doubtful = {path for path, (facts, _, _) in new.items() if clock is None or not clock.trusts(facts, passed)}
+        self.hashed = {path: entry for path, entry in hashed.items() if path not in doubtful}
+
+    def distrust(self) -> None:
+        """Read all files again, whatever the system says of them."""
+        self.hashed = {}
+
+    def recorded(self, contents: tuple[bytes, bytes], state: State) -> None:
+        """A build is about to write a state, which is what will be loaded from these contents."""
+        self._state.put(contents, state)
+
+    def kept(self, bases: Bases) -> None:
+        """A build is about to write these texts."""
+        self._bases.put(bases.content, bases)
 
 
 class _Files(msgspec.Struct):
@@ -88,3 +135,7 @@ class _Last(Generic[_Value]):
         if self._entry is None or self._entry[0] != key:
             self._entry = key, make()
         return self._entry[1]
+
+    def put(self, key: object, value: _Value) -> None:
+        """Let this be the last value."""
+        self._entry = key, value

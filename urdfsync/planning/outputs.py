@@ -43,7 +43,7 @@ class Outputs:
         """
         self._older, self._again = older, again
         self._now, self._last, self._records = now, last, records
-        self._bases, self._aside, self._mine = bases, aside, mine
+        self.bases, self._aside, self._mine = bases, aside, mine
         self._digests: dict[str, str] = {}
         self._texts: dict[tuple[str, str], str | None] = {}
 
@@ -86,7 +86,8 @@ class Outputs:
         record = self._records.get(path)
         if record is None or record.state not in _AS_GENERATED or path in self._stale:
             return None
-        return record.base if self._known(path, record.base) is not None else None
+        kept = record.base in self.bases or self._known(path, record.base) is not None
+        return record.base if kept else None
 
     @functools.cached_property
     @profiling.staged("comparing")
@@ -105,7 +106,7 @@ class Outputs:
         return self._texts[path, digest]
 
     def _look_for(self, path: str, digest: str) -> str | None:
-        kept = self._bases.get(digest)
+        kept = self.bases.get(digest)
         if kept is not None:
             return kept
         mine = self._mine(path)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import msgspec
 
-from urdfsync import looking, manifest, profiling
+from urdfsync import looking, profiling
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.manifest import Manifest
 from urdfsync.plan import CONFLICTS, State, Wanted
@@ -15,6 +15,7 @@ from urdfsync.planning import imports
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.situation import NO_MODEL, Request, Situation
 from urdfsync.planning.work import Work
+from urdfsync.stamping import stamp, trust
 
 
 def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
@@ -22,6 +23,7 @@ def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
 
     Raises UrdfsyncError for whatever is wrong.
     """
+    begin = stamp.now()
     with profiling.stage("looking"):
         situation = Situation(config, robot, request)
         work = _if_unchanged(situation)
@@ -30,6 +32,8 @@ def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
         from urdfsync.planning.renewal import Renewal
 
         work = Renewal(situation).work()
+    if request.memory:
+        request.memory.looked(situation.disk.hashed, begin, lambda: trust.clock(situation.store.folder))
     return work
 
 
@@ -66,7 +70,7 @@ def _if_unchanged(situation: Situation) -> Work | None:
         return None
     renewed = msgspec.structs.replace(recorded, files=decision.files, orders=decision.orders)
     left_out = imports.reminder(dependencies, recorded.dependencies, shown(situation.robot.source))
-    writes = () if request.dry else tuple(store.changes(situation.robot.name, manifest.dumps(renewed), None, None))
+    writes = () if request.dry else tuple(store.changes(situation.robot.name, situation.dumps(renewed), None, None))
     return Work(decision, store.witness(), writes, diagnostics=left_out)
 
 

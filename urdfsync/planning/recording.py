@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
 import msgspec
@@ -11,7 +11,8 @@ import msgspec
 from urdfsync import manifest, profiling
 from urdfsync.domain import Role, Snapshot
 from urdfsync.manifest import Manifest
-from urdfsync.plan import CONFLICTS, DELETES, State
+from urdfsync.plan import CONFLICTS, DELETES
+from urdfsync.plan import State as FileState
 from urdfsync.planning.decide import Decision, encode
 from urdfsync.planning.imports import Imported
 from urdfsync.planning.outputs import Outputs
@@ -19,9 +20,10 @@ from urdfsync.planning.situation import Situation
 from urdfsync.shelf import Shelved
 from urdfsync.standoff import aside
 from urdfsync.state import bases
+from urdfsync.state.store import State
 from urdfsync.state.transactions import Change
 
-_OUTLIVING = (State.CONFLICT, State.WAITING, State.ORPHAN)
+_OUTLIVING = (FileState.CONFLICT, FileState.WAITING, FileState.ORPHAN)
 """States of files whose base is older than the recorded model, which can't give it back."""
 
 
@@ -50,12 +52,10 @@ class Recording:
         if self._drawing is not None:
             changes += store.drawing(name, self._drawing)[1]
         if self._stays(decision):
-            changes += store.changes(name, manifest.dumps(self._chosen(decision)), None, None)
+            changes += store.changes(name, situation.dumps(self._chosen(decision)), None, None)
         else:
-            outliving, since = self._outliving(decision), self._since(decision)
-            model = manifest.dump_model(self._snapshot, self._imported.imports, outliving, since)
-            changes += store.keep_bases(name, bases.dumps(self._bases(decision)), former)
-            changes += store.changes(name, manifest.dumps(self._manifest(decision, model)), model, former)
+            changes += store.keep_bases(name, self._bases(decision), former)
+            changes += store.changes(name, *self._state(decision), former)
         return tuple(changes), tuple(self._emptied(changes))
 
     def drawing(self) -> Path | None:
@@ -119,6 +119,17 @@ class Recording:
         }
         return sorted(folders, key=lambda folder: len(folder.parts), reverse=True)
 
+    def _state(self, decision: Decision) -> tuple[str, str]:
+        """The texts of manifest and model."""
+        outliving, since = self._outliving(decision), self._since(decision)
+        model = manifest.model_of(self._snapshot, self._imported.imports, outliving, since)
+        text = manifest.dump_model(model)
+        recorded = manifest.recorded(self._manifest(decision, text))
+        texts = self._situation.dumps(recorded), text
+        if memory := self._situation.request.memory:
+            memory.recorded((texts[0].encode(), texts[1].encode()), State(recorded, model, intact=True))
+        return texts
+
     def _manifest(self, decision: Decision, model: str) -> Manifest:
         situation, robot = self._situation, self._situation.robot
         return msgspec.structs.replace(
@@ -157,15 +168,26 @@ class Recording:
                     texts[key.removeprefix(prefix)] = text
         return texts
 
-    def _bases(self, decision: Decision) -> Iterator[tuple[str, str]]:
-        """Hash and text of every base that is known; one after the other, so that not all are in memory."""
-        done = set()
+    def _bases(self, decision: Decision) -> bytes:
+        """The content of the file with every base that is known: the one that is there and what is new, or all anew."""
+        keys: dict[str, str] = {}
         for key, record in decision.files.items():
-            if record.role is not Role.IMPORT and record.base is not None and record.base not in done:
-                text = self._base(record.origin or key, record.base)
-                if text is not None:
-                    done.add(record.base)
-                    yield record.base, text
+            if record.role is not Role.IMPORT and record.base is not None:
+                keys.setdefault(record.base, record.origin or key)
+        kept = self._outputs.bases
+        new = [digest for digest in keys if digest not in kept]
+        if 2 * len(new) <= len(keys) and (more := kept.plus(dict(self._known(keys, new)))) is not None:
+            if memory := self._situation.request.memory:
+                memory.kept(more)
+            return more.content
+        return bases.dumps(self._known(keys, keys))
+
+    def _known(self, keys: Mapping[str, str], digests: Iterable[str]) -> Iterator[tuple[str, str]]:
+        """Hash and text of bases that are not lost; one after the other, so that not all are in memory."""
+        for digest in digests:
+            text = self._base(keys[digest], digest)
+            if text is not None:
+                yield digest, text
 
     def _base(self, key: str, digest: str | None) -> str | None:
         if digest is None:

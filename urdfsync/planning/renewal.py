@@ -11,7 +11,7 @@ from urdfsync.changes import Changes
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.difference import ElementKey, Version
-from urdfsync.domain import Role, Target
+from urdfsync.domain import Artifact, Role, Target
 from urdfsync.moves import places
 from urdfsync.plan import Kind, State, Wanted
 from urdfsync.planning import imports, inputs
@@ -142,9 +142,9 @@ class Renewal:
     @profiling.staged("deciding")
     def _decide(self, renames: Mapping[ElementKey, str]) -> Decision:
         situation = self._situation
-        key = situation.key
+        key, prefix, digest = situation.key, situation.key(""), self._outputs.digest
         wanted = {
-            key(path): Wanted(artifact.role, artifact.owner, self._outputs.digest(path))
+            f"{prefix}{path}": Wanted(artifact.role, artifact.owner, digest(path))
             for path, artifact in self._generated.artifacts.items()
         }
         for name, entry in self._imported.imports.items():
@@ -162,7 +162,7 @@ class Renewal:
             situation.request.choices,
             situation.robot.merging,
         )
-        hashes = {key: target.hash for key, target in wanted.items()}
+        hashes = {key: target.hash for key, target in wanted.items()} if situation.recovered else {}
         return decide(situation.disk, situation.rebuilt(hashes), aim, self)
 
     def generated(self, key: str) -> str:
@@ -223,12 +223,15 @@ class Renewal:
         situation, recorded = self._situation, self._situation.recorded
         if recorded is None:
             return {}
+        before, now = self._before.artifacts if self._before else {}, self._generated.artifacts
+        stay = recorded.folder == situation.folder and not renames and _is_placed_alike(before, now)
+        if stay and not any(record.origin for record in recorded.files.values()):
+            return {}
         texts = {
             self._old_path(key): record
             for key, record in recorded.files.items()
             if record.role is not Role.IMPORT and record.state is not State.ORPHAN
         }
-        before, now = self._before.artifacts if self._before else {}, self._generated.artifacts
         old = {path: (a.owner, a.template) for path, a in before.items() if path in texts}
         renamed = changes.moves(old, {path: (a.owner, a.template) for path, a in now.items()}, renames)
         targets = {situation.old_key(path): situation.key(renamed.get(path, path)) for path in texts}
@@ -247,3 +250,9 @@ class Renewal:
             actions = decision.actions
             said += leftovers.left_behind(situation.disk, situation.recorded, actions, situation.folder, *place)
         return said
+
+
+def _is_placed_alike(before: Mapping[str, Artifact], now: Mapping[str, Artifact]) -> bool:
+    """Whether every file of one package is one of the other: of the same element, from the same template."""
+    pairs = ((artifact, now.get(path)) for path, artifact in before.items())
+    return all(new and (new.owner, new.template) == (old.owner, old.template) for old, new in pairs)

@@ -72,8 +72,8 @@ class Situation:
         self.config, self.robot, self.request = config, robot, request
         self.domain = registry.domain(robot.domain)
         self.parents = parents.check(config, robot, self.domain.uses)
-        self.store = Store(config.root, shown)
-        self.disk = Disk(config, robot)
+        self.store = Store(config.root, shown, request.memory)
+        self.disk = Disk(config, robot, request.memory.hashed if request.memory and not request.full else None)
         self.folder = self.disk.key(robot.folder)
         self.recovered: Recovered | None = None
         """What could be saved of a state that can't be read, if that was asked for."""
@@ -140,6 +140,11 @@ class Situation:
             if (record := dependencies.get(key)) is not None
         }
         return Version(model.snapshot, imported, self.recorded.generator.fingerprint if self.recorded else "")
+
+    def dumps(self, recorded: Manifest) -> str:
+        """The text of a manifest."""
+        memory = self.request.memory
+        return manifest.dumps(recorded, memory.tables if memory else None)
 
     def key(self, path: str) -> str:
         """How manifest and plan call a file of the package; `path` is below its folder."""

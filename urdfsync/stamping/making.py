@@ -1,45 +1,30 @@
-"""Makes stamps, after a command has found that there is nothing to do.
-
-What a file was when it was looked at says something of what it is later only if it was not just being written: a
-change within the same tick of the clock gives the same time again. So nothing is believed that changed after, or
-shortly before, the command began, by the clock of the file system itself.
-"""
+"""Makes stamps, after a command has found that there is nothing to do; nothing is stamped that can't be trusted."""
 
 from __future__ import annotations
 
 import contextlib
 import os
 import sys
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync import looking, streams
 from urdfsync.files import TEMPORARY
-from urdfsync.stamping import stamp
+from urdfsync.stamping import stamp, trust
 from urdfsync.stamping.stamp import Facts, Stamp
 
-_TICK = 50_000_000
-"""No clock of a file system with fractions of seconds is coarser (ns)."""
-_COARSE_TICK = 2_000_000_000
-"""Nor any other; that of FAT is this coarse."""
-_SKEW = 60_000_000_000
-"""Clocks of different file systems, one perhaps of another machine, are at most so far apart (ns)."""
-_SECOND = 1_000_000_000
 _MOST_CLAIMS = 16
 _LONGEST = 100_000
 """Characters of an answer."""
 _Paths = dict[str, Facts]
-_HAS_CHANGE_TIMES = os.name != "nt"
-"""Whether files have a time of change that nobody can set: on Windows it is that of their creation."""
 
 
 def carry_out(arguments: list[str], run: Callable[[streams.Said | None], int]) -> int:
     """Run a command, which takes down what it says, and stamp it if it can be said again. Returns its exit code."""
-    if not _HAS_CHANGE_TIMES or not arguments or arguments[0] not in stamp.COMMANDS:
+    if not trust.HAS_CHANGE_TIMES or not arguments or arguments[0] not in stamp.COMMANDS:
         return run(None)
     said: streams.Said = []
-    begin = time.monotonic_ns(), time.time_ns()
+    begin = stamp.now()
     with looking.taken_down() as looks:
         question, file = _question(arguments)
         code = run(said)
@@ -50,7 +35,7 @@ def carry_out(arguments: list[str], run: Callable[[streams.Said | None], int]) -
 
 def keep(file: str, claims: dict[str, list[str]], looks: looking.Looks, begin: tuple[int, int]) -> None:
     """Stamp what follows from looks since `begin` for a configuration; what can't be stamped is not."""
-    if not looks.complete or not _HAS_CHANGE_TIMES:
+    if not looks.complete or not trust.HAS_CHANGE_TIMES:
         return
     with contextlib.suppress(OSError, ValueError):
         made = Stamp(stamp.program(), *_paths(looks), claims)
@@ -138,14 +123,15 @@ def _write(made: Stamp, looks: looking.Looks, path: str, begin: tuple[int, int])
     with contextlib.ExitStack() as stack:
         file = stack.enter_context(open(temporary, "xb"))  # noqa: PTH123
         stack.callback(_remove, temporary)
-        now = os.fstat(file.fileno())  # the clock of the file system: our own may be another one's
+        clock = trust.Clock.of(file.fileno())
         seen = (facts for group in looks.contents for facts in group.values())
         modules = (facts for _, facts in _modules())
-        if not _are_settled(seen, now, stamp.passed(begin)) or not _are_settled(modules, now, stamp.since_begin()):
+        passed, running = stamp.passed(begin), stamp.since_begin()
+        if not all(clock.trusts(facts, passed) for facts in seen):
             return
-        os.utime(file.fileno(), ns=(0, 0))
-        if os.fstat(file.fileno()).st_ctime_ns < now.st_ctime_ns:
-            return  # on this file system anybody can set the time of the last change of status
+        if not all(clock.trusts(facts, running) for facts in modules):
+            return
+        now = clock.made
         file.write(made.dumps(now.st_ino, now.st_mtime_ns))
         file.flush()
         os.utime(file.fileno(), ns=(now.st_mtime_ns, now.st_mtime_ns))
@@ -156,15 +142,3 @@ def _write(made: Stamp, looks: looking.Looks, path: str, begin: tuple[int, int])
 def _remove(temporary: str) -> None:
     with contextlib.suppress(OSError):
         os.unlink(temporary)  # noqa: PTH108
-
-
-def _are_settled(seen: Iterable[looking.Facts], now: os.stat_result, passed: int) -> bool:
-    """Whether all of this has been as it is since before the time that has passed, for certain."""
-    limit = now.st_mtime_ns - passed
-    for _, _, device, _, changed, altered in seen:
-        coarse = changed % _SECOND == 0 or altered % _SECOND == 0 or now.st_mtime_ns % _SECOND == 0
-        margin = _SKEW if device != now.st_dev else _COARSE_TICK if coarse else _TICK
-        newest = altered if device == now.st_dev else max(changed, altered)  # somebody may have set `changed`
-        if altered <= 0 or newest >= limit - margin:
-            return False
-    return True

@@ -223,6 +223,11 @@ def repeat(arguments: list[str]) -> int | None:
     return 0
 
 
+def now() -> tuple[int, int]:
+    """This moment by both clocks, for `passed`."""
+    return time.monotonic_ns(), time.time_ns()
+
+
 def since_begin() -> int:
     """Nanoseconds since the program has been loaded, or more."""
     return passed(BEGUN)

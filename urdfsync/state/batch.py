@@ -8,6 +8,7 @@ by the process that writes or by the next one.
 from __future__ import annotations
 
 import contextlib
+import functools
 import os
 import stat
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -36,12 +37,17 @@ class Batch:
     def __init__(self, root: Path, folder: Path, journal: Journal, shown: Callable[[Path], str]) -> None:
         self._root, self._folder, self._shown = root, folder, shown
         self.journal = journal
-        self._targets = [Path(os.path.normpath(root / step.path)) for step in journal.steps]
+        places = [os.path.normpath(os.path.join(root, step.path)) for step in journal.steps]  # noqa: PTH118 - many
+        self._targets = [Path(place) for place in places]
+        self._target_folders = [Path(place) for place in sorted(set(map(os.path.dirname, places)))]
         self._temporaries = [
-            target.with_name(f".{journal.token}-{number}{TEMPORARY}") for number, target in enumerate(self._targets)
+            Path(f"{os.path.dirname(place)}{os.sep}.{journal.token}-{number}{TEMPORARY}")  # noqa: PTH120
+            for number, place in enumerate(places)
         ]
         self._spent: set[int] = set()
         """The targets that have changed, so that their temporary files are gone."""
+        self._hashed: dict[int, tuple[int, ...] | None] = {}
+        """What the system said of targets before they were hashed."""
 
     @property
     def targets(self) -> Sequence[Path]:
@@ -89,7 +95,7 @@ class Batch:
         self._change(last, resumed)
         self._check_kept(last)
         with self._about(self._folder):
-            operations.sync(sorted(folder for folder in {path.parent for path in self._targets} if folder.is_dir()))
+            operations.sync([folder for folder in self._target_folders if folder.is_dir()])
         self._enter(Phase.DONE)
 
     def can_be_finished(self) -> bool:
@@ -108,7 +114,7 @@ class Batch:
                 with contextlib.suppress(FileNotFoundError, FileExistsError):
                     operations.place(source, target)
             elif current == step.new and os.path.lexists(source):
-                self._swap(source, target, step.new)
+                self._swap(source, target, functools.partial(self._has, step.new))
             elif current == step.new and step.old is None:
                 self._take(target, temporary, step.new)
 
@@ -141,6 +147,7 @@ class Batch:
     def _change(self, number: int, resumed: bool) -> None:
         target, step, temporary = self._targets[number], self._step(number), self._temporaries[number]
         with self._about(target):
+            self._hashed[number] = _identity(target)
             current = self._hash(target)
             if current == step.new or (resumed and current != step.old and self._hash(temporary) != step.new):
                 return  # done by the run that was killed; it may have been edited since
@@ -160,23 +167,28 @@ class Batch:
             operations.place(temporary, target)
             return True
         operations.keep(target, self._undo(number))
-        if self._hash(self._undo(number)) != step.old:
+        if not self._is_old(number, self._undo(number)):
             return False
         if step.new is None:
             return self._take(target, temporary, step.old)
-        return self._swap(temporary, target, step.old)
+        return self._swap(temporary, target, functools.partial(self._is_old, number))
 
-    def _swap(self, source: Path, target: Path, expected: str | None) -> bool:
+    def _is_old(self, number: int, path: Path) -> bool:
+        """Whether a file is what the target was when it was hashed; what is written to it, `_check_kept` will see."""
+        found = _identity(path)
+        return found is not None and (found == self._hashed[number] or self._hash(path) == self._step(number).old)
+
+    def _swap(self, source: Path, target: Path, is_expected: Callable[[Path], bool]) -> bool:
         """Put a file in the place of another. Returns False, and leaves both, if the other is not as expected.
 
         Where files can't be swapped, a save within the microseconds after the last look is lost.
         """
         if not operations.exchange(source, target):
-            if self._hash(target) != expected:
+            if not is_expected(target):
                 return False
             operations.replace(source, target)
             return True
-        if self._hash(source) != expected:
+        if not is_expected(source):
             operations.exchange(source, target)
             return False
         operations.remove(source)
@@ -223,11 +235,14 @@ class Batch:
 
     def _hash(self, path: Path) -> str | None:
         try:
-            if not stat.S_ISREG(path.lstat().st_mode):
+            if not stat.S_ISREG(os.lstat(path).st_mode):
                 return _OTHER
             return digest(path.read_bytes())
         except (FileNotFoundError, NotADirectoryError):
             return None
+
+    def _has(self, expected: str | None, path: Path) -> bool:
+        return self._hash(path) == expected
 
     def _step(self, number: int) -> Step:
         return self.journal.steps[number]
@@ -245,6 +260,15 @@ class Batch:
             yield
         except OSError as error:
             raise failure(error, self._shown(path)) from None
+
+
+def _identity(path: Path) -> tuple[int, ...] | None:
+    """What tells a file from another one, by whatever name; None if there is none."""
+    try:
+        status = os.lstat(path)
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    return status.st_mode, status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
 
 
 def find_phase(folder: Path) -> Phase | None:

@@ -33,6 +33,16 @@ else:
         fcntl.flock(descriptor, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
 
 
+def _sign(descriptor: int) -> None:
+    """Leave the number of this process in the file, unless it is there: a daemon locks again and again."""
+    number = f"{os.getpid()}\n".encode()
+    os.lseek(descriptor, 0, os.SEEK_SET)
+    if os.read(descriptor, len(number) + 1) != number:
+        os.lseek(descriptor, 0, os.SEEK_SET)
+        os.ftruncate(descriptor, 0)
+        os.write(descriptor, number)
+
+
 class LockedError(UrdfsyncError):
     """Another process holds the lock for too long."""
 
@@ -105,9 +115,7 @@ class Lock:
             waiting()
             time.sleep(_PAUSE)
         if not shared:
-            os.lseek(descriptor, 0, os.SEEK_SET)
-            os.ftruncate(descriptor, 0)
-            os.write(descriptor, f"{os.getpid()}\n".encode())
+            _sign(descriptor)
 
     def _locked(self, descriptor: int) -> LockedError:
         os.lseek(descriptor, 0, os.SEEK_SET)

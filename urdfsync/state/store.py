@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import msgspec
 
@@ -15,6 +15,9 @@ from urdfsync.files import Tree, digest
 from urdfsync.manifest import Manifest, Model
 from urdfsync.state.bases import Bases
 from urdfsync.state.transactions import Change
+
+if TYPE_CHECKING:
+    from urdfsync.planning.memory import Memory
 
 _IGNORE = """\
 # Written by urdfsync. robots/ belongs into version control, everything else is safe to lose.
@@ -41,9 +44,9 @@ class State(msgspec.Struct, frozen=True):
 class Store:
     """The state folder of one configuration, as one build sees it."""
 
-    def __init__(self, root: Path, shown: Callable[[Path], str] = str) -> None:
+    def __init__(self, root: Path, shown: Callable[[Path], str] = str, memory: Memory | None = None) -> None:
         self.folder = root / STATE_FOLDER
-        self._shown = shown
+        self._shown, self._memory = shown, memory
         self._tree = Tree(root, shown)
         self._seen: dict[Path, bytes | None] = {}
 
@@ -58,10 +61,15 @@ class Store:
     def load(self, robot: str) -> State | None:
         """The robot's state, None if it was never built. Raises StateError or OutputError if it can't be used."""
         path, beside = self.paths(robot)
-        text = self._read(path)
-        if text is None:
+        found = self._bytes(path)
+        if found is None:
             return None
-        recorded = manifest.loads(text, self._shown(path))
+        contents = found, self._bytes(beside)
+        return self._memory.state(contents, lambda: self._loaded(robot)) if self._memory else self._loaded(robot)
+
+    def _loaded(self, robot: str) -> State:
+        path, beside = self.paths(robot)
+        recorded = manifest.loads(self._read(path) or "", self._shown(path))
         content = self._read(beside)
         if content is None:
             return State(recorded, None, intact=False)
@@ -80,7 +88,8 @@ class Store:
 
     def stands(self, witness: Witness) -> bool:
         """Whether all files still are as they were then."""
-        found = ((self._tree.read(path), before) for path, before in witness.items())
+        tree = Tree(self._tree.root, self._shown)  # which finds folders that have come since
+        found = ((tree.read(path), before) for path, before in witness.items())
         return all((None if content is None else digest(content)) == before for content, before in found)
 
     def has_bases(self, robot: str) -> bool:
@@ -89,7 +98,8 @@ class Store:
 
     def bases(self, robot: str) -> Bases:
         """The texts that were written last, as far as they are kept."""
-        return Bases.loads(self._bytes(self._base_file(robot)))
+        content = self._bytes(self._base_file(robot)) or b""
+        return self._memory.bases(content, lambda: Bases.loads(content)) if self._memory else Bases.loads(content)
 
     def keep_bases(self, robot: str, content: bytes, former: str | None) -> Iterator[Change]:
         """How the texts that are written now are kept, see `bases.dumps`; `former` as in `changes`."""
@@ -117,7 +127,8 @@ class Store:
             if self._bytes(file) is not None:
                 yield self._change(file, None)
         for file, text in ((beside, model), (path, recorded)):
-            if text is not None and (self._bytes(file) or b"").replace(b"\r\n", b"\n") != text.encode():
+            old = self._bytes(file) or b""
+            if text is not None and (old.replace(b"\r\n", b"\n") if b"\r" in old else old) != text.encode():
                 yield self._change(file, text.encode())
 
     def ignoring(self) -> list[Change]:

@@ -192,7 +192,7 @@ class Transactions:
 def _missing_folders(root: Path, paths: Iterable[Path]) -> list[Path]:
     """The folders of these files that do not exist, outermost first."""
     missing: set[Path] = set()
-    for innermost in {path.parent for path in paths}:
+    for innermost in map(Path, {os.path.dirname(path) for path in paths}):  # noqa: PTH120 - thousands of files
         for folder in (innermost, *innermost.parents):
             if folder == root or folder in missing or folder.is_dir():
                 break

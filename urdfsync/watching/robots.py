@@ -9,6 +9,7 @@ import msgspec
 
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.planning.memory import Memory
 from urdfsync.watching.samples import Sample, Sampler, alike, changed
 from urdfsync.watching.scope import Scope, scope
 from urdfsync.watching.settling import Settler, Times
@@ -48,9 +49,9 @@ class Watched(msgspec.Struct):
 class Robots:
     """All robots that are watched, and samples of their files."""
 
-    def __init__(self, times: Times, package_paths: Sequence[Path]) -> None:
+    def __init__(self, times: Times, package_paths: Sequence[Path], memory: Memory | None = None) -> None:
         """`package_paths` are where to look for packages beside those of the configuration."""
-        self._times, self._package_paths = times, package_paths
+        self._times, self._package_paths, self._memory = times, package_paths, memory
         self._sampler = Sampler()
         self._config: Config | None = None
         self._robots: dict[str, Watched] = {}
@@ -119,8 +120,10 @@ class Robots:
     def distrust(self) -> None:
         """Hash everything again, whatever stat values say."""
         self._sampler.forget()
+        if self._memory:
+            self._memory.distrust()
 
     def _scope(self, robot: RobotConfig) -> Scope:
         if self._config is None:
             raise LookupError(robot.name)
-        return scope(self._config, robot, self._package_paths)
+        return scope(self._config, robot, self._package_paths, self._memory)

@@ -44,14 +44,15 @@ class Sampler:
 
     def sample(self, paths: Iterable[str]) -> Sample:
         """The paths as they are now. Links are followed; whatever can't be read has an entry that says so."""
-        return {path: self._look(path) for path in paths}
+        now = self._now()
+        return {path: self._look(path, now) for path in paths}
 
     def may_differ(self, path: str, from_: Entry | None) -> bool:
         """Whether a path is not what it was, as far as can be told at little cost: a file that changes is not read."""
         facts = _facts(path)
         if isinstance(facts, Entry) or from_ is None:
             return facts != from_
-        return facts != from_.facts or self._look(path) != from_
+        return facts != from_.facts or self._look(path, self._now()) != from_
 
     def keep(self, paths: Iterable[str]) -> None:
         """Forget all other paths."""
@@ -61,8 +62,7 @@ class Sampler:
         """Hash everything again."""
         self._seen.clear()
 
-    def _look(self, path: str) -> Entry:
-        now = self._now()
+    def _look(self, path: str, now: int) -> Entry:
         facts = _facts(path)
         if isinstance(facts, Entry):
             self._seen.pop(path, None)

@@ -16,6 +16,7 @@ from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Dependency, Lookup
 from urdfsync.planning.imports import sought
+from urdfsync.planning.memory import Memory
 from urdfsync.state.store import State, Store
 from urdfsync.watching.samples import files_below
 
@@ -51,15 +52,16 @@ class Scope(msgspec.Struct, frozen=True):
         yield from self.outputs
 
 
-def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path]) -> Scope:
+def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path], memory: Memory | None = None) -> Scope:
     """What matters to a robot, as far as the last build knew it; `package_paths` are those beside the robot's own."""
-    state = _recorded(config, robot)
+    state = _recorded(config, robot, memory)
     store, outputs = Store(config.root), set(_parents(robot))
     outputs.update(map(str, store.paths(robot.name)))
     inputs = {str(robot.source)}
     if state:
-        files = (*state.manifest.files, *state.manifest.orders)
-        outputs.update(os.path.normpath(f"{config.root}/{key}") for key in files)
+        root = os.path.normpath(config.root)
+        for key in (*state.manifest.files, *state.manifest.orders):
+            outputs.add(os.path.normpath(f"{root}/{key}") if ".." in key or os.sep != "/" else f"{root}/{key}")
         inputs.update(_candidates(_dependencies(robot, state, package_paths)))
     recorded = state.manifest.names if state else {}
     return Scope(
@@ -73,10 +75,10 @@ def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path]) -> 
     )
 
 
-def _recorded(config: Config, robot: RobotConfig) -> State | None:
+def _recorded(config: Config, robot: RobotConfig, memory: Memory | None) -> State | None:
     """The recorded state; None if there is none, or if it can't be read: then the build says so."""
     try:
-        return Store(config.root, shown).load(robot.name)
+        return Store(config.root, shown, memory).load(robot.name)
     except (UrdfsyncError, OSError):
         return None
 

@@ -24,7 +24,7 @@ class Times(msgspec.Struct, frozen=True):
     settle: float = 0.3
     """So long no event."""
     sample: float = 0.2
-    """Between the two samples that have to be alike."""
+    """Between the two samples that have to be alike; where there is no time between them, one sample is enough."""
     patience: float = 30.0
     """So long a source may be no model before that is an error."""
     doubt: float = 2.0
@@ -76,10 +76,10 @@ class Settler(Generic[S]):
         """Take note of a sample that was due."""
         alike = sample == self._sample
         self._sample = sample
-        if self._phase is _Phase.QUIET:
+        if self._phase is _Phase.QUIET and self._times.sample:
             self._phase, self.deadline = _Phase.COMPARE, now + self._times.sample
             return Verdict.PENDING
-        if not alike:
+        if self._phase is not _Phase.QUIET and not alike:
             self.touch(now)
             return Verdict.PENDING
         if self._phase is _Phase.WAIT:
