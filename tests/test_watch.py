@@ -14,7 +14,8 @@ import pytest
 from support.daemon import Daemons
 
 from urdfsync import registry
-from urdfsync.watching import events, observer
+from urdfsync.outcome import Result
+from urdfsync.watching import builder, events, observer, stash
 
 
 @pytest.fixture
@@ -62,6 +63,32 @@ def test_a_bug_of_a_domain_is_one_error_and_the_daemon_goes_on(
     since = len(daemon.events)
     edit(project, "330", "331")
     assert daemon.wait(events.Built, since).recovered
+
+
+def test_a_build_is_not_made_sure_of_during_a_pause(
+    project: Path, start: Start, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Changes are stashed away while a robot is built: the next build would take what is left for the user's."""
+    real, stashed = builder.results, threading.Event()
+    begun: list[bool] = []
+
+    def results(*arguments: Any) -> Iterator[Result]:
+        begun.append(stashed.is_set())
+        if len(begun) == 1:
+            stashed.set()
+        yield from real(*arguments)
+
+    monkeypatch.setattr(builder, "results", results)
+    monkeypatch.setattr(stash, "holder", lambda *_: 1 if stashed.is_set() else None)
+    daemon = start()
+    daemon.wait(events.Paused)
+    stashed.clear()
+    daemon.wait(events.Resumed)
+    since = len(daemon.events)
+    edit(project, "220.5", "330")
+    assert daemon.wait(events.Built, since).files
+    assert len(begun) > 1
+    assert not any(begun)
 
 
 def test_folders_that_can_not_be_watched_are_said_once_and_looked_at(

@@ -425,7 +425,7 @@ def test_writes_that_are_rolled_back_are_made_again(
 
 def test_it_pauses_while_pre_commit_has_stashed_changes(project: Path, start: Start, tmp_path: Path) -> None:
     watch = start()
-    time.sleep(0.5)  # the build that makes sure of the first one asks nobody
+    time.sleep(0.5)  # the build that makes sure of the first one may have begun before the pause
     store = tmp_path / "pre-commit"
     store.mkdir()
     (store / f"patch{int(time.time())}-{2**22 + 1}").write_text("of a process that has ended")

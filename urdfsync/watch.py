@@ -64,7 +64,16 @@ class Daemon:
             lambda errand, found: self._inbox.put(Examined(errand, found)),
             options.examine,
         )
-        self._builds = Builds(self._robots, request, listener, self._touch, self._arm, self._run_command, self._check)
+        self._builds = Builds(
+            self._robots,
+            request,
+            listener,
+            self._touch,
+            self._arm,
+            self._run_command,
+            self._check,
+            self._is_paused,
+        )
         self._runner = Runner(
             options.command, options.file.absolute().parent, lambda robot, code: self._inbox.put(Ended(robot, code))
         )

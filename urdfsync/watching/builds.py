@@ -31,13 +31,16 @@ class Builds:
         arm: Callable[[], None],
         ran: Callable[[RobotConfig, Sequence[Path]], None],
         done: Callable[[RobotConfig], None],
+        pauses: Callable[[], bool],
     ) -> None:
         """What a build leads to: `touch` for a robot that has to settle again, `arm` where scopes have changed.
 
         `ran` is told of a robot of which these files were written or deleted, `done` of one that is built for now.
+        `pauses` says whether nothing may be built at this moment.
         """
         self._robots, self._request = robots, request
         self._tell, self._touch, self._arm, self._ran, self._done = tell, touch, arm, ran, done
+        self._pauses = pauses
 
     def build(self, config: Config, settled: Sequence[Watched]) -> None:
         """Build robots until each is in step with itself: until a build of it finds nothing to write."""
@@ -49,6 +52,8 @@ class Builds:
             settled = [watched for watched in settled if not self._rests(watched)]
             if not settled:
                 return
+            if self._pauses():
+                break
         for watched in settled:
             self._touch(watched)
 
