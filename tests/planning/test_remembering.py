@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from random import Random
 
+import msgspec
 import pytest
 
 from urdfsync import config
@@ -132,9 +133,11 @@ EDITS: tuple[Edit, ...] = (
 def _planned(project: Path, memory: Memory | None) -> Work | tuple[str, ...]:
     loaded = config.load(project / "urdfsync.toml")
     try:
-        return plan(loaded, loaded.robots[0], Request(memory=memory))
+        work = plan(loaded, loaded.robots[0], Request(memory=memory))
     except UrdfsyncError as error:
         return tuple(map(str, error.diagnostics))
+    writes = tuple(msgspec.structs.replace(change, content=change.read()) for change in work.writes)
+    return msgspec.structs.replace(work, writes=writes)
 
 
 def _built(project: Path, memory: Memory) -> bool:
