@@ -77,7 +77,7 @@ class Daemon:
         self._runner = Runner(
             options.command, options.file.absolute().parent, lambda robot, code: self._inbox.put(Ended(robot, code))
         )
-        self._sight = Sight({}, frozenset(), {})
+        self._sight = Sight({}, {}, frozenset(), {})
         self._store = stash.store(os.environ, Path(os.path.expanduser("~")))  # noqa: PTH111 - it can't fail
         self._config: Config
         self._stopped = ""

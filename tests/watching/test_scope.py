@@ -142,7 +142,7 @@ def test_packages_and_templates_are_watched_as_a_whole(tmp_path: Path) -> None:
     package.mkdir(parents=True)
     own.mkdir()
     found = seen(tmp_path, bare(tmp_path / "arm.urdf", package, own, package / "Links/A.mo"))
-    assert found.trees == {str(package): (), str(own): ("arm",)}
+    assert found.trees == {str(package): set(), str(own): {"arm"}}
     assert names(tmp_path, found.folders) == {".", "modelica"}
     assert found.concerned(str(package / "Links/A.mo")) == {"arm"}
     assert found.concerned(str(package / "Bench.mo")) == set()

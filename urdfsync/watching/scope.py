@@ -5,6 +5,7 @@ Everything here is a string, since there are many of them and they are looked at
 
 from __future__ import annotations
 
+import functools
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -24,7 +25,7 @@ _LINKS = 40
 """So many symbolic links one path may lead through, as for the system."""
 
 
-class Scope(msgspec.Struct, frozen=True):
+class Scope(msgspec.Struct, frozen=True, dict=True):
     """The files of one robot, absolute, and what the last build recorded of its source."""
 
     source: str
@@ -40,6 +41,11 @@ class Scope(msgspec.Struct, frozen=True):
     """SHA-256 (hex) of the source in the last build; empty if there was none."""
     names: frozenset[tuple[str, str]] = frozenset()
     """Elements of the model in the last build: kind and name."""
+
+    @functools.cached_property
+    def folders(self) -> frozenset[str]:
+        """Those that the outputs are in."""
+        return frozenset([path.rpartition(os.sep)[0] for path in self.outputs])
 
     def ingredients(self) -> Iterator[str]:
         """All files that the robot is built from, as they are now."""
@@ -111,19 +117,25 @@ def _candidates(dependencies: Iterable[Dependency]) -> Iterator[str]:
 class Sight(msgspec.Struct, frozen=True):
     """Where changes of some scopes can be seen; without symbolic links."""
 
-    robots: Mapping[str, tuple[str, ...]]
-    """The robots to which a change of this name matters: a file's, or that of a folder or link on the way to it."""
+    robots: Mapping[str, set[str]]
+    """The robots to which a change of this name matters: an input's, that of a folder or link on the way to a file."""
+    outputs: Mapping[str, Sequence[tuple[str, str, frozenset[str]]]]
+    """By folder, the robots that have outputs in it, what they call it, and these outputs: there are thousands."""
     folders: frozenset[str]
     """Folders to watch, without those in them."""
-    trees: Mapping[str, tuple[str, ...]]
+    trees: Mapping[str, set[str]]
     """Folders to watch with all folders in them; if robots are named, every file in them matters to these."""
 
     def concerned(self, path: str) -> set[str]:
         """The robots to which a change of this path matters."""
         found = set(self.robots.get(path, ()))
-        for folder, robots in self.trees.items():
-            if robots and path.startswith(f"{folder}{os.sep}"):
-                found.update(robots)
+        folder, _, file = path.rpartition(os.sep)
+        found.update(
+            robot for robot, called, outputs in self.outputs.get(folder, ()) if f"{called}{os.sep}{file}" in outputs
+        )
+        for tree, robots in self.trees.items():
+            if robots and path.startswith(f"{tree}{os.sep}"):
+                found |= robots
         return found
 
 
@@ -137,6 +149,7 @@ def sight(root: str, scopes: Mapping[str, Scope], others: Iterable[str] = ()) ->
     root = trail.follow(root)
     above = {root, *map(str, Path(root).parents)}
     robots: dict[str, set[str]] = {}
+    outputs: dict[str, list[tuple[str, str, frozenset[str]]]] = {}
     trees: dict[str, set[str]] = {}
 
     def add(path: str, robot: str) -> str:
@@ -150,30 +163,30 @@ def sight(root: str, scopes: Mapping[str, Scope], others: Iterable[str] = ()) ->
     for name, one in scopes.items():
         for path in one.inputs:
             add(path, name)
-        for path in one.outputs:  # themselves no links: a build refuses those
-            folder, file = os.path.split(path)
-            robots.setdefault(f"{add(folder, name)}{os.sep}{file}", set()).add(name)
+        for folder in one.folders:  # the outputs are no links: a build refuses those
+            outputs.setdefault(add(folder, name), []).append((name, folder, one.outputs))
         trees.setdefault(add(one.package, name), set())
         if one.templates:
             trees.setdefault(add(one.templates, name), set()).add(name)
     trees = {folder: names for folder, names in trees.items() if os.path.isdir(folder)}  # noqa: PTH112
-    return Sight(
-        robots={path: tuple(sorted(names)) for path, names in robots.items()},
-        folders=frozenset(_folders(robots, above - {root}, trees)),
-        trees={folder: tuple(sorted(names)) for folder, names in trees.items()},
-    )
+    above.remove(root)
+    folders = {folder for name in robots if (folder := os.path.dirname(name)) not in above or os.path.exists(name)}  # noqa: PTH110, PTH120 - many, and often
+    folders |= {folder for folder, found in outputs.items() if folder not in above or any(map(_are_there, found))}
+    return Sight(robots, outputs, frozenset(_alone(folders, trees)), trees)
 
 
-def _folders(names: Iterable[str], above: set[str], trees: Iterable[str]) -> Iterator[str]:
-    """The folders that exist in which these names are, without those that are watched as trees."""
+def _are_there(entry: tuple[str, str, frozenset[str]]) -> bool:
+    """Whether any of the outputs in one folder exists."""
+    _, folder, outputs = entry
+    return any(path.rpartition(os.sep)[0] == folder and os.path.exists(path) for path in outputs)  # noqa: PTH110
+
+
+def _alone(folders: Iterable[str], trees: Iterable[str]) -> Iterator[str]:
+    """The folders that exist, without those that are watched as trees."""
     inside = tuple(f"{tree}{os.sep}" for tree in trees)
-    parents: dict[str, bool] = {}
-    for name in names:
-        folder = os.path.dirname(name)  # noqa: PTH120 - many, and often
-        parents[folder] = parents.get(folder, False) or folder not in above or os.path.exists(name)  # noqa: PTH110
-    for folder, wanted in parents.items():
-        if wanted and not _is_top(folder) and not f"{folder}{os.sep}".startswith(inside):
-            yield from [folder] if os.path.isdir(folder) else []  # noqa: PTH112
+    for folder in folders:
+        if not _is_top(folder) and not f"{folder}{os.sep}".startswith(inside) and os.path.isdir(folder):  # noqa: PTH112
+            yield folder
 
 
 def _is_top(folder: str) -> bool:
