@@ -51,9 +51,10 @@ class Shelf:
         batch = bisect.bisect_right(self._firsts, number) - 1
         if batch == len(self._batches):
             return self._rest[number - self._firsts[batch]]
+        before, after = self._starts[batch : batch + 2]
         if self._taken[0] != batch:
-            self._taken = batch, zlib.decompress(self._batches[batch])
-        before = self._starts[batch]
+            self._taken = -1, b""  # before there is another one
+            self._taken = batch, zlib.decompress(self._batches[batch], bufsize=after - before)
         start = self._ends[number - 1] if number else 0
         return self._taken[1][start - before : self._ends[number] - before]
 
