@@ -157,7 +157,7 @@ def test_a_build_killed_in_the_middle_of_a_file_is_finished_by_the_next(changed:
         assert_healed(project, wanted, operation)
 
 
-@pytest.mark.parametrize("missing", ["links", "exchange"])
+@pytest.mark.parametrize("missing", ["links", "renames"])
 def test_killed_builds_on_lesser_file_systems(
     changed: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, missing: str
 ) -> None:
@@ -166,7 +166,7 @@ def test_killed_builds_on_lesser_file_systems(
 
     if missing == "links":
         monkeypatch.setattr(os, "link", refuse)
-    monkeypatch.setattr(operations, "exchange", lambda path, target: False)
+    monkeypatch.setattr(operations, "_rename", lambda path, target, flag: False)
     wanted = expected(changed, tmp_path / "clean")
     for operation, project in every(changed, tmp_path / "work", CHANGES):
         assert killed(project, operation.number)

@@ -20,8 +20,10 @@ def refusing(number: int) -> Callable[..., None]:
     return refuse
 
 
-@pytest.fixture(params=["links", "no links", "other file system"])
+@pytest.fixture(params=["renames", "links", "no links", "other file system"])
 def system(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
+    if request.param != "renames":
+        monkeypatch.setattr(operations, "_renaming", lambda: lambda *_: errno.ENOSYS)
     if request.param == "no links":
         monkeypatch.setattr(os, "link", refusing(errno.EPERM))
     if request.param == "other file system":

@@ -26,8 +26,10 @@ _NO_LINKS = {errno.EXDEV, errno.EPERM, errno.ENOTSUP, errno.EOPNOTSUPP, errno.EN
 _NOFOLLOW = {"follow_symlinks": False} if os.link in os.supports_follow_symlinks else {}
 
 
-_FROM_HERE, _SWAP = -100, 2
-"""AT_FDCWD and RENAME_EXCHANGE of Linux."""
+_FROM_HERE, _KEEP, _SWAP = -100, 1, 2
+"""AT_FDCWD, RENAME_NOREPLACE and RENAME_EXCHANGE of Linux."""
+_NO_RENAMES = {errno.EINVAL, errno.ENOSYS, errno.ENOTSUP, errno.EXDEV}
+"""What the system says where it can't do that, or not from one file system to the other."""
 
 
 def make_folder(path: Path) -> None:
@@ -68,12 +70,7 @@ def keep(path: Path, copy: Path) -> None:
 
 def exchange(path: Path, target: Path) -> bool:
     """Swap two files at one stroke. Returns False, and does nothing, where the system can't do that."""
-    number = _exchange()(os.fsencode(path), os.fsencode(target))
-    if number in (errno.EINVAL, errno.ENOSYS, errno.ENOTSUP, errno.EXDEV):
-        return False
-    if number:
-        raise OSError(number, os.strerror(number), str(target))
-    return True
+    return _rename(path, target, _SWAP)
 
 
 def replace(path: Path, target: Path) -> None:
@@ -91,6 +88,8 @@ def replace(path: Path, target: Path) -> None:
 
 def place(path: Path, target: Path) -> None:
     """Move a file to a name that must be free. Raises FileExistsError if it is not."""
+    if _rename(path, target, _KEEP):
+        return
     try:
         os.link(path, target)
     except OSError as error:
@@ -155,9 +154,17 @@ def _sync_one(path: Path, failed: list[OSError], done: Callable[[], None] = lamb
         done()
 
 
+def _rename(path: Path, target: Path, flag: int) -> bool:
+    """Rename a file in this way, at one stroke. Returns False, and does nothing, where the system can't do that."""
+    number = _renaming()(os.fsencode(path), os.fsencode(target), flag)
+    if number and number not in _NO_RENAMES:
+        raise OSError(number, os.strerror(number), str(target))
+    return not number
+
+
 @functools.cache
-def _exchange() -> Callable[[bytes, bytes], int]:
-    """A function that swaps two files and returns the number of the error, 0 for none."""
+def _renaming() -> Callable[[bytes, bytes, int], int]:
+    """A function that renames with a flag and returns the number of the error, 0 for none."""
     import ctypes  # only builds that write need it
 
     try:
@@ -165,7 +172,7 @@ def _exchange() -> Callable[[bytes, bytes], int]:
     except (AttributeError, OSError, TypeError):  # another system, or an old library
         return lambda *_: errno.ENOSYS
 
-    def call(path: bytes, target: bytes) -> int:
-        return ctypes.get_errno() if rename(_FROM_HERE, path, _FROM_HERE, target, _SWAP) else 0
+    def call(path: bytes, target: bytes, flag: int) -> int:
+        return ctypes.get_errno() if rename(_FROM_HERE, path, _FROM_HERE, target, flag) else 0
 
     return call
