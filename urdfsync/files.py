@@ -73,6 +73,15 @@ def kind_of(mode: int) -> str:
     return "a symbolic link" if stat.S_ISLNK(mode) else "a folder" if stat.S_ISDIR(mode) else "no regular file"
 
 
+def placed(prefix: str, key: str) -> str:
+    """The path of a file as a string, by its POSIX path from a folder, which `prefix` is with a separator at its end.
+
+    There are thousands of files, and hardly any has a detour in its path.
+    """
+    path = prefix + key
+    return os.path.normpath(path) if ".." in key or os.sep != "/" else path
+
+
 class Tree:
     """The files below `root`, which no path may leave, not even through a symbolic link.
 

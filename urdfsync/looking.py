@@ -137,10 +137,9 @@ def files_below(folder: Path) -> Iterator[Path]:
     waiting = [folder]
     while waiting:
         current = waiting.pop()
-        rests_on(current)
         inside: list[str] = []
         with contextlib.suppress(OSError):  # it is not there, or can't be read
-            inside = os.listdir(current)  # noqa: PTH208
+            inside = names(current)
         for path in [current / name for name in inside]:
             found = kind(path)
             if found == stat.S_IFREG:

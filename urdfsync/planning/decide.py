@@ -14,7 +14,7 @@ from urdfsync import looking, order, profiling
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
-from urdfsync.files import Tree, digest, text_digest
+from urdfsync.files import Tree, digest, placed, text_digest
 from urdfsync.manifest import Manifest
 from urdfsync.plan import (
     CONFLICTS,
@@ -167,9 +167,7 @@ class Disk:
         return found
 
     def _place(self, key: str) -> str:
-        """The path of a file as a string: there are thousands of files."""
-        place = self._prefix + key
-        return os.path.normpath(place) if ".." in key or os.sep != "/" else place
+        return placed(self._prefix, key)
 
     def _tree(self, path: str | os.PathLike[str]) -> Tree | None:
         for tree in self._trees:

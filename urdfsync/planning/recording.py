@@ -124,10 +124,11 @@ class Recording:
         outliving, since = self._outliving(decision), self._since(decision)
         model = manifest.model_of(self._snapshot, self._imported.imports, outliving, since)
         text = manifest.dump_model(model)
-        recorded = manifest.recorded(self._manifest(decision, text))
-        texts = self._situation.dumps(recorded), text
+        whole = self._manifest(decision, text)
+        texts = self._situation.dumps(whole), text
         if memory := self._situation.request.memory:
-            memory.recorded((texts[0].encode(), texts[1].encode()), State(recorded, model, intact=True))
+            state = State(manifest.recorded(whole), model, intact=True)
+            memory.recorded((texts[0].encode(), texts[1].encode()), state)
         return texts
 
     def _manifest(self, decision: Decision, model: str) -> Manifest:

@@ -16,6 +16,7 @@ from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Dependency, Lookup
+from urdfsync.files import placed
 from urdfsync.planning.imports import sought
 from urdfsync.planning.memory import Memory
 from urdfsync.state.store import State, Store
@@ -65,9 +66,8 @@ def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path], mem
     outputs.update(map(str, store.paths(robot.name)))
     inputs = {str(robot.source)}
     if state:
-        root = os.path.normpath(config.root)
-        for key in (*state.manifest.files, *state.manifest.orders):
-            outputs.add(os.path.normpath(f"{root}/{key}") if ".." in key or os.sep != "/" else f"{root}/{key}")
+        prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
+        outputs.update(placed(prefix, key) for key in (*state.manifest.files, *state.manifest.orders))
         inputs.update(_candidates(_dependencies(robot, state, package_paths)))
     recorded = state.manifest.names if state else {}
     return Scope(

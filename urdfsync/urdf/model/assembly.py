@@ -134,16 +134,10 @@ class Line(msgspec.Struct, frozen=True):
 
 def bench_data(structure: Skeleton, target: Target, options: Options) -> dict[str, Any]:
     """Data of the robot's benches; as in all that is a `structure` here, no number of the URDF counts."""
-    return {
-        "within": target.package,
-        "type": target.name,
-        "record": f"{target.name}Parameters",
-        "title": f"robot {target.name}",
+    return _model_data(structure, target, options) | {
         "run_note": notes.run_note(target.name),
         "test_note": notes.test_note(target.name),
-        "base": options.base,
         "visualizer": options.visualizer,
-        "vectors": vectors(structure),
     }
 
 
@@ -168,14 +162,18 @@ def robot_data(structure: Skeleton, target: Target, options: Options) -> dict[st
 
 def generic_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str, Any]:
     """Data of the bench in which the generic robot reads the record: structure only."""
+    return _model_data(skeleton, target, options) | {"note": notes.generic_note(target.name, options.base)}
+
+
+def _model_data(structure: Skeleton, target: Target, options: Options) -> dict[str, Any]:
+    """What all models of the whole robot need."""
     return {
         "within": target.package,
         "type": target.name,
         "record": f"{target.name}Parameters",
         "title": f"robot {target.name}",
-        "note": notes.generic_note(target.name, options.base),
         "base": options.base,
-        "vectors": vectors(skeleton),
+        "vectors": vectors(structure),
     }
 
 

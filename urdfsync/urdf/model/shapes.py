@@ -100,23 +100,14 @@ def numbers(
 ) -> tuple[list[Numbers], list[Numbers]]:
     """A link's visuals and collisions for its record; the same ones as in its model."""
     visuals = [
-        Numbers(
-            f"visual{number}",
-            type(shape.geometry).__name__,
-            _title(f"Visual {number}", shape.name),
-            shape.origin,
-            _numbers(shape.geometry, imports, package),
-            *_color(shape.material),
-            (),
-        )
+        _shape_numbers("visual", number, shape, _numbers(shape.geometry, imports, package), *_color(shape.material))
         for number, shape in _found(link.visuals, imports)
     ]
     collisions = [
-        Numbers(
-            f"collision{number}",
-            type(shape.geometry).__name__,
-            _title(f"Collision {number}", shape.name),
-            shape.origin,
+        _shape_numbers(
+            "collision",
+            number,
+            shape,
             _numbers(shape.geometry, imports, package),
             PINK,
             0.5,
@@ -125,6 +116,19 @@ def numbers(
         for number, shape in (_found(link.collisions, imports) if options.collisions else ())
     ]
     return visuals, collisions
+
+
+def _shape_numbers(
+    word: str,
+    number: int,
+    shape: Visual | Collision,
+    sizes: list[tuple[str, str]],
+    color: tuple[int, ...],
+    opacity: float,
+    points: Sequence[Sequence[float]] = (),
+) -> Numbers:
+    title = f"{word.capitalize()} {number}" + (f': "{shape.name}"' if shape.name else "")
+    return Numbers(f"{word}{number}", type(shape.geometry).__name__, title, shape.origin, sizes, color, opacity, points)
 
 
 def contacts(collisions: Iterable[Look]) -> list[Contact]:
@@ -161,10 +165,6 @@ def _found(shapes: Sequence[_Shape], imports: Mapping[str, Import]) -> Iterator[
 
 def _touches(shape: Collision, imports: Mapping[str, Import], options: Options) -> bool:
     return options.base == "floating" and (not isinstance(shape.geometry, Mesh) or bool(hull(shape.geometry, imports)))
-
-
-def _title(label: str, name: str) -> str:
-    return f'{label}: "{name}"' if name else label
 
 
 def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence[float]]:
