@@ -14,7 +14,7 @@ from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Role
 from urdfsync.merge import Merge, merge
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Kind
+from urdfsync.plan import Action, Actions, Kind
 from urdfsync.resolution import Target, Wish
 from urdfsync.standoff import Choice, Standoff
 
@@ -42,7 +42,7 @@ def arm(*standoffs: Standoff) -> Result:
     actions = [conflict(found.path, origin=found.origin) for found in standoffs]
     actions += [conflict(MESH, Role.IMPORT), conflict(GONE, kind=Kind.ORPHAN), conflict(EDITED, kind=Kind.KEEP)]
     actions.append(Action(WAITING, Kind.UPDATE, Role.MODEL, "robot", held=True))
-    return Result("arm", "Arm", ROOT / "modelica/Arm", ROOT, tuple(actions), standoffs=standoffs)
+    return Result("arm", "Arm", ROOT / "modelica/Arm", ROOT, Actions(actions), standoffs=standoffs)
 
 
 ARM = arm(standoff(LINK), standoff(OTHER, CLASH), standoff(MOVED, origin=ORIGIN))
@@ -51,7 +51,7 @@ CART = Result(
     "Cart",
     ROOT / "modelica/Cart",
     ROOT,
-    (conflict("modelica/Cart/Cart.mo"),),
+    Actions([conflict("modelica/Cart/Cart.mo")]),
     standoffs=(standoff("modelica/Cart/Cart.mo"),),
 )
 
@@ -67,7 +67,9 @@ def meant(*typed: str) -> tuple[list[str], list[str]]:
 
 def target(path: str = LINK, merged: Merge | None = CLEAN, kind: Kind = Kind.CONFLICT, rejected: str = "") -> Target:
     action, found = conflict(path, kind=kind), standoff(path, merged, rejected=rejected)
-    return Target(Result("arm", "Arm", ROOT / "modelica/Arm", ROOT, (action,), standoffs=(found,)), action, found)
+    return Target(
+        Result("arm", "Arm", ROOT / "modelica/Arm", ROOT, Actions([action]), standoffs=(found,)), action, found
+    )
 
 
 def shown(path: Path) -> str:
@@ -118,7 +120,7 @@ def test_a_path_of_no_place_means_nothing() -> None:
 def test_what_is_decided_but_waits_can_be_decided_again() -> None:
     held = Action(LINK, Kind.UPDATE, Role.MODEL, choice=Choice.TAKE, held=True)
     moves = Action(MOVED, Kind.MOVE, Role.MODEL, origin=ORIGIN)
-    result = Result("arm", "Arm", ROOT / "modelica/Arm", ROOT, (held, moves))
+    result = Result("arm", "Arm", ROOT / "modelica/Arm", ROOT, Actions([held, moves]))
     for choice in Choice:
         for typed, path in ((LINK, LINK), (ORIGIN, MOVED)):
             found, missing = resolution.targets([result], [wish(typed)])
@@ -233,7 +235,7 @@ def test_where_the_versions_are() -> None:
 def test_a_package_outside_of_the_configurations_folder() -> None:
     path = "../lib/Arm/Arm.mo"
     action, found = conflict(path), standoff(path)
-    result = Result("arm", "Arm", ROOT.parent / "lib/Arm", ROOT, (action,), standoffs=(found,))
+    result = Result("arm", "Arm", ROOT.parent / "lib/Arm", ROOT, Actions([action]), standoffs=(found,))
     aside = resolution.aside(Target(result, action, found))
     assert aside
     assert aside.generated == ".urdfsync/conflicts/arm/Arm.generated.mo"

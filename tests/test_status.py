@@ -14,7 +14,7 @@ from urdfsync.difference import Kind as Happening
 from urdfsync.domain import Role
 from urdfsync.merge import merge
 from urdfsync.outcome import Result
-from urdfsync.plan import CONFLICTS, WRITES, Action, Kind
+from urdfsync.plan import CONFLICTS, WRITES, Action, Actions, Kind
 from urdfsync.standoff import Standoff
 from urdfsync.status import FileStatus, RobotState
 
@@ -25,7 +25,9 @@ def action(kind: Kind, held: bool = False, path: str = "") -> Action:
 
 def state(*actions: Action, changes: Changes | None = None, standoffs: tuple[Standoff, ...] = ()) -> RobotState:
     folder = Path("/project/Arm")
-    return status.of(Result("arm", "Arm", folder, folder.parent, actions, changes=changes, standoffs=standoffs))
+    return status.of(
+        Result("arm", "Arm", folder, folder.parent, Actions(actions), changes=changes, standoffs=standoffs)
+    )
 
 
 def changed(*classes: ChangeClass, noise: bool = False) -> Changes:

@@ -86,7 +86,7 @@ class _Builder:
                 if self._is_current(work):
                     return _done(result, work)
                 continue
-            if work.writes or any(action.writes for action in work.decision.actions):
+            if work.writes or any(action.writes for action in work.decision.actions.decided):
                 looking.beyond()  # and it will look different
                 with profiling.stage("waiting"):
                     self._lock.acquire(waiting=self._wait)

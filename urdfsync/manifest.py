@@ -7,11 +7,12 @@ again. Neither holds absolute paths, times or host names.
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import posixpath
 import re
-from collections.abc import Iterator, Mapping
-from typing import Any, TypeAlias
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, TypeAlias, TypeVar
 
 import msgspec
 import tomli_w
@@ -67,7 +68,7 @@ class DependencyRecord(msgspec.Struct, frozen=True, omit_defaults=True):
     unreadable_by: int | None = None
 
 
-class Manifest(msgspec.Struct, frozen=True, kw_only=True):
+class Manifest(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     """The state of one robot after a build.
 
     The keys of `files` and `orders` are POSIX paths relative to the configuration's folder, like
@@ -86,6 +87,36 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True):
     dependencies: Mapping[str, DependencyRecord] = {}
     orders: Mapping[str, tuple[str, ...]] = {}
     files: Mapping[str, FileRecord] = {}
+
+    @functools.cached_property
+    def recorded(self) -> Manifest:
+        """What comes back from the manifest's text: sorted, and without what lies outside of the package."""
+        inside, above = f"{self.folder}/", _order_above(self.folder)
+        found = msgspec.structs.replace(
+            self,
+            names={kind: dict(sorted(names.items())) for kind, names in sorted(self.names.items()) if names},
+            dependencies=dict(sorted(self.dependencies.items())),
+            orders={
+                path: names for path, names in sorted(self.orders.items()) if path == above or path.startswith(inside)
+            },
+            files={
+                path: _with_origin(record, inside, len(inside)) if record.origin else record
+                for path, record in sorted(self.files.items())
+                if path.startswith(inside)
+            },
+        )
+        vars(found)["recorded"] = found
+        return found
+
+    @functools.cached_property
+    def plain(self) -> Mapping[str, FileRecord]:
+        """The files that are just as generated, and for which nothing waits."""
+        return {path: record for path, record in self.files.items() if record.plain}
+
+    @functools.cached_property
+    def special(self) -> Mapping[str, FileRecord]:
+        """All other files."""
+        return {path: record for path, record in self.files.items() if path not in self.plain}
 
 
 class Facts(msgspec.Struct, frozen=True):
@@ -117,44 +148,43 @@ class Model(msgspec.Struct, frozen=True):
     format: int = FORMAT
 
 
-Tables: TypeAlias = dict[tuple[str, ...], tuple[object, str]]
-"""The tables of a manifest by their keys: what each is made of, and its text."""
+_Keys: TypeAlias = tuple[str, ...]
+"""Those of a table in the text, outermost first."""
+_Name = TypeVar("_Name")
+_Value = TypeVar("_Value")
+
+
+class Tables:
+    """The tables of the last manifest's text, each with what it is made of: what is the same serves again."""
+
+    def __init__(self) -> None:
+        self._folder = ""
+        self._heads: dict[_Keys, tuple[object, str]] = {}
+        self._files: dict[str, tuple[FileRecord, str]] = {}
+
+    def texts(self, manifest: Manifest) -> list[str]:
+        """The texts of all tables of a manifest as it is recorded, in their order."""
+        if manifest.folder != self._folder:
+            self._folder, self._files = manifest.folder, {}
+        heads, below = dict(_heads(manifest)), len(manifest.folder) + 1
+        self._heads = _renewed(self._heads, heads, lambda keys, made_of: (keys, made_of))
+        self._files = _renewed(
+            self._files, manifest.files, lambda path, record: (("files", path[below:]), _with_origin(record, "", below))
+        )
+        found = (*self._heads.values(), *self._files.values())
+        return [text for _, text in found]
 
 
 def dumps(manifest: Manifest, tables: Tables | None = None) -> str:
     """The manifest as text: the same value gives the same text everywhere.
 
-    `tables` are those of a manifest that was written before; what is the same serves again. They are replaced by those
-    of this one.
+    `tables` are those of a manifest that was written before; they are replaced by those of this one.
     """
-    known = {} if tables is None else tables
-    wanted = dict(_tables(recorded(manifest)))
-    new = {keys: made_of for keys, made_of in wanted.items() if keys not in known or known[keys][0] != made_of}
-    known.update(zip(new, zip(new.values(), _texts(new), strict=True), strict=True))
-    for keys in known.keys() - wanted.keys():
-        del known[keys]
-    return _HEADER + "\n\n".join([known[keys][1] for keys in wanted]) + "\n"
+    return _HEADER + "\n\n".join((tables or Tables()).texts(manifest.recorded)) + "\n"
 
 
-def recorded(manifest: Manifest) -> Manifest:
-    """What comes back from the manifest's text: sorted, and without what lies outside of the package."""
-    folder, above = manifest.folder, _order_above(manifest.folder)
-    inside = f"{folder}/"
-    return msgspec.structs.replace(
-        manifest,
-        names={kind: dict(sorted(names.items())) for kind, names in sorted(manifest.names.items()) if names},
-        dependencies=dict(sorted(manifest.dependencies.items())),
-        orders={key: names for key, names in sorted(manifest.orders.items()) if key == above or key.startswith(inside)},
-        files={
-            key: _with_origin(record, inside, len(inside))
-            for key, record in sorted(manifest.files.items())
-            if key.startswith(inside)
-        },
-    )
-
-
-def _tables(manifest: Manifest) -> Iterator[tuple[tuple[str, ...], object]]:
-    """The tables of a manifest as it is recorded, in their order: the keys of each, and what it is made of."""
+def _heads(manifest: Manifest) -> Iterator[tuple[_Keys, object]]:
+    """The tables of a manifest without those of its files: the keys of each, and what it is made of."""
     below, above = len(manifest.folder) + 1, _order_above(manifest.folder)
     folder = {"package": manifest.package, "class": manifest.class_, "folder": manifest.folder}
     yield (), {"format": manifest.format, **folder}
@@ -165,11 +195,23 @@ def _tables(manifest: Manifest) -> Iterator[tuple[tuple[str, ...], object]]:
     orders = {_PARENT if path == above else path[below:]: names for path, names in manifest.orders.items()}
     if orders:
         yield ("orders",), dict(sorted(orders.items()))
-    for path, record in manifest.files.items():
-        yield ("files", path[below:]), _with_origin(record, "", below)
 
 
-def _texts(tables: Mapping[tuple[str, ...], object]) -> list[str]:
+def _renewed(
+    known: dict[_Name, tuple[_Value, str]],
+    wanted: Mapping[_Name, _Value],
+    table: Callable[[_Name, _Value], tuple[_Keys, object]],
+) -> dict[_Name, tuple[_Value, str]]:
+    """What each wanted table is made of, and its text; `table` gives the keys of a table and what is in it."""
+    new = [name for name, made_of in wanted.items() if name not in known or known[name][0] != made_of]
+    texts = _texts(dict(table(name, wanted[name]) for name in new))
+    made = {name: (wanted[name], text) for name, text in zip(new, texts, strict=True)}
+    if not made.keys() <= known.keys() or len(known) != len(wanted):
+        return {name: made.get(name) or known[name] for name in wanted}
+    return {**known, **made}  # in the same order
+
+
+def _texts(tables: Mapping[_Keys, object]) -> list[str]:
     """The text of each table, without the end of its last line: there are no empty lines but those between tables."""
     document: dict[str, Any] = {}
     for keys, made_of in tables.items():

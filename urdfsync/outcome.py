@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.plan import CONFLICTS, Action, Kind
+from urdfsync.plan import CONFLICTS, Action, Actions, Kind
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
@@ -47,7 +47,7 @@ class Result(msgspec.Struct, frozen=True):
     folder: Path
     """The package's folder, absolute; the paths of `actions` count from `root`."""
     root: Path
-    actions: tuple[Action, ...] = ()
+    actions: Actions = Actions()
     diagnostics: tuple[Diagnostic, ...] = ()
     failed: bool = False
     locked: bool = False
@@ -67,13 +67,13 @@ class Result(msgspec.Struct, frozen=True):
     @property
     def conflicts(self) -> list[Action]:
         """The files that were left alone although they should be otherwise."""
-        return [action for action in self.actions if action.kind in CONFLICTS]
+        return [action for action in self.actions.decided if action.kind in CONFLICTS]
 
     @property
     def in_step(self) -> bool:
         """Whether every file is what it should be, edits apart."""
         fine = {Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
-        return not self.failed and all(action.kind in fine for action in self.actions)
+        return not self.failed and all(action.kind in fine for action in self.actions.decided)
 
 
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:

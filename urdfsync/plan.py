@@ -7,9 +7,11 @@ what would be written. All three are compared by their hashes, never by times.
 from __future__ import annotations
 
 import enum
+import functools
 import hashlib
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from typing import Self, overload
 
 import msgspec
 
@@ -100,6 +102,12 @@ class FileRecord(msgspec.Struct, frozen=True, omit_defaults=True):
         """Hash of what urdfsync wrote at the path itself."""
         return self.stands if self.origin else self.base
 
+    @property
+    def plain(self) -> bool:
+        """Whether the file is just as generated, and nothing waits: there are thousands of such."""
+        waits = self.origin or self.stands or self.choice
+        return self.state is State.GENERATED and self.base is not None and not waits
+
 
 class Found(msgspec.Struct, frozen=True):
     """What is on disk: a file's hash, or None and whether the class is now a folder (`X/package.mo` for `X.mo`)."""
@@ -117,6 +125,11 @@ class Wanted(msgspec.Struct, frozen=True):
     role: Role
     owner: str
     hash: str
+
+    @classmethod
+    def again(cls, record: FileRecord) -> Self:
+        """The file of a plain record as it is recorded."""
+        return cls(record.role, record.owner, record.base or "")
 
 
 class Action(msgspec.Struct, frozen=True):
@@ -150,6 +163,47 @@ class Action(msgspec.Struct, frozen=True):
     def writes(self) -> bool:
         """Whether a file changes now."""
         return self.kind in WRITES and not self.held
+
+
+class Actions(Sequence[Action]):
+    """The actions for all files of a robot, in the order of their paths.
+
+    Mostly, nearly all files are as they are recorded and shall stay so. Nothing has to be decided on them, and their
+    actions are made when somebody wants to see them.
+    """
+
+    def __init__(self, decided: Iterable[Action] = (), unchanged: Mapping[str, FileRecord] | None = None) -> None:
+        """`unchanged` are the plain records of files on which nothing was decided."""
+        self.decided = tuple(sorted(decided, key=lambda action: action.path))
+        """All others."""
+        self.unchanged = unchanged or {}
+
+    def __len__(self) -> int:
+        return len(self.decided) + len(self.unchanged)
+
+    @overload
+    def __getitem__(self, index: int) -> Action: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Action]: ...
+    def __getitem__(self, index: int | slice) -> Action | Sequence[Action]:
+        return self._all[index]
+
+    def __iter__(self) -> Iterator[Action]:
+        return iter(self._all)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Actions) and self._all == other._all
+
+    def __hash__(self) -> int:
+        return hash(self._all)
+
+    @functools.cached_property
+    def _all(self) -> tuple[Action, ...]:
+        unchanged = (
+            Action(path, Kind.UNCHANGED, record.role, record.owner, record.base, record.base, mine=record.base)
+            for path, record in self.unchanged.items()
+        )
+        return tuple(sorted((*self.decided, *unchanged), key=lambda action: action.path))
 
 
 def decide(base: str | None, mine: Found, generated: str | None) -> Kind:

@@ -107,7 +107,7 @@ def targets(results: Iterable[Result], wishes: Iterable[Wish]) -> tuple[list[Tar
     A folder stands for all conflicts below it; a file that does not conflict has to be named itself.
     """
     results = list(results)
-    others = [Target(result, action) for result in results for action in result.actions]
+    others = [Target(result, action) for result in results for action in result.actions.decided]
     others = [target for target in others if target.orphan or target.settled]
     candidates = conflicts(results)
     chosen: dict[str, Target] = {}
@@ -136,7 +136,7 @@ def unknown(results: Iterable[Result], missing: Sequence[Wish], shown: Callable[
 
 
 def _waits(results: Iterable[Result], wish: Wish) -> bool:
-    held = (Target(result, action) for result in results for action in result.actions if action.held)
+    held = (Target(result, action) for result in results for action in result.actions.decided if action.held)
     return any(not target.places().isdisjoint(wish.places) for target in held)
 
 

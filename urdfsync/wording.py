@@ -31,11 +31,12 @@ def summary(result: Result) -> str:
         end = "the next build finishes or undoes what was begun" if result.unfinished else "nothing was changed"
         return f"{counted(errors, 'error')}, {end}"
     parts = deeds(result)
-    waiting = sum(action.held for action in result.actions)
+    waiting = sum(action.held for action in result.actions.decided)
     if waiting:
         parts.append(f"{counted(waiting, 'change')} waiting for that")
     if result.in_step:
-        total = sum(action.kind in (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED) for action in result.actions)
+        fine = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED)
+        total = len(result.actions.unchanged) + sum(action.kind in fine for action in result.actions.decided)
         parts.insert(0, f"in step, {counted(total, 'file')}")
     return "; ".join([", ".join(parts), *([checked(result.checked, result.diagnostics)] if result.checked else [])])
 
@@ -60,7 +61,7 @@ def deeds(result: Result, silent: Container[Kind] = ()) -> list[str]:
 
 
 def _counts(result: Result) -> list[tuple[Kind, int]]:
-    kinds = Counter(action.kind for action in result.actions if not action.held)
+    kinds = Counter(action.kind for action in result.actions.decided if not action.held)
     written = kinds.pop(Kind.CREATE, 0) + kinds.pop(Kind.UPDATE, 0)
     conflicts = kinds.pop(Kind.CONFLICT, 0) + kinds.pop(Kind.UNOWNED, 0)
     yours = (Kind.MERGE, Kind.MOVE, Kind.INCLUDED, Kind.KEEP, Kind.ORPHAN, Kind.NEEDED)
@@ -122,12 +123,12 @@ def _tally(status: FileStatus, number: int) -> str:
 def outlook(found: RobotState) -> list[str]:
     """What a robot waits for and what the next build does about it, in a line or two; nothing if nothing is due."""
     changed = _change_classes(found.result.changes) if found.result.changes else ""
-    moving = [action for action in found.result.actions if action.writes]
+    moving = [action for action in found.result.actions.decided if action.writes]
     deleted = sum(action.kind in DELETES for action in moving)
     does = [f"writes {counted(len(moving) - deleted, 'file')}"] if len(moving) > deleted else []
     does += [f"deletes {deleted if does else counted(deleted, 'file')}"] if deleted else []
     build = f"`urdfsync build` {' and '.join(does)}" if does else ""
-    held = sum(action.held for action in found.result.actions)
+    held = sum(action.held for action in found.result.actions.decided)
     if not held:
         return ["; ".join(filter(None, [changed, build]))] if changed or build else []
     waits = f"{counted(held, 'file')} {'waits' if held == 1 else 'wait'} for the conflict"

@@ -11,7 +11,7 @@ from urdfsync.comparing.comparison import Comparison, exit_code
 from urdfsync.difference import ChangeClass, Kind
 from urdfsync.domain import Role
 from urdfsync.outcome import Result
-from urdfsync.plan import Action
+from urdfsync.plan import Action, Actions
 from urdfsync.plan import Kind as Does
 
 
@@ -24,7 +24,7 @@ def comparison(
         "Arm",
         Path("Arm"),
         Path(),
-        actions=(Action("Arm/Arm.mo", does, Role.MODEL),),
+        actions=Actions([Action("Arm/Arm.mo", does, Role.MODEL)]),
         failed=failed,
         locked=locked,
         changes=Changes((change,)) if change else None,

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from urdfsync.changes import stale
 from urdfsync.domain import Artifact, Role, Templates
 from urdfsync.files import text_digest
 from urdfsync.plan import FileRecord, State
@@ -55,7 +56,8 @@ def _outputs(
     again: bool = False,
 ) -> Outputs:
     kept = Bases({text_digest(text.encode()): text for text in bases})
-    return Outputs(now, last, records or {}, kept, aside or {}, (disk or {}).get, older, again)
+    differing = stale(last.artifacts.values() if last else (), now.artifacts.values()).render
+    return Outputs(now, last, differing, (records or {}).get, kept, aside or {}, (disk or {}).get, older, again)
 
 
 def test_what_is_made_of_the_same_data_is_not_rendered() -> None:
@@ -84,7 +86,7 @@ def test_without_base_and_file_it_is_rendered(disk: Mapping[str, bytes]) -> None
 def test_a_text_that_is_kept_under_a_wrong_hash_is_rendered() -> None:
     now = Package(a=1)
     kept = Bases({_hash("a", 1): "somebody else's"})
-    outputs = Outputs(now, Package(a=1), _record("a", 1), kept, {}, lambda path: None)
+    outputs = Outputs(now, Package(a=1), frozenset(), _record("a", 1).get, kept, {}, lambda path: None)
     assert outputs.digest("a") == _hash("a", 1)
     assert outputs.content("a") == _text("a", 1).encode()
     assert now.rendered == ["a"]

@@ -15,7 +15,7 @@ from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Event
 from urdfsync.domain import Role
 from urdfsync.outcome import Checked, Result
-from urdfsync.plan import Action, Kind
+from urdfsync.plan import Action, Actions, Kind
 from urdfsync.views.chronicle import Chronicle
 from urdfsync.watching import events
 
@@ -32,7 +32,7 @@ def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def built(*actions: Action, recovered: bool = False, **more: Any) -> events.Built:
     files = tuple(Path(action.path).absolute() for action in actions if action.writes)
-    return events.Built(Result("arm", "Arm", Path("Arm"), Path(), actions, **more), files, recovered)
+    return events.Built(Result("arm", "Arm", Path("Arm"), Path(), Actions(actions), **more), files, recovered)
 
 
 def failed(*diagnostics: Diagnostic, again: bool = False) -> events.Failed:

@@ -12,7 +12,7 @@ from rich.console import Console
 from urdfsync.domain import Role
 from urdfsync.merge import merge
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Kind
+from urdfsync.plan import Action, Actions, Kind
 from urdfsync.standoff import Standoff
 from urdfsync.views import conflicts
 from urdfsync.views.conflicts import FULL, LINES, Look
@@ -38,7 +38,7 @@ def standoff(mine: str, generated: str, base: str | None = BASE, path: str = ELB
 def result(*standoffs: Standoff, kind: Kind = Kind.CONFLICT, dry: bool = False) -> Result:
     actions = [Action(s.path, kind, Role.MODEL, s.owner, origin=s.origin, mine="hash") for s in standoffs]
     return Result(
-        "arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), tuple(actions), dry=dry, standoffs=standoffs
+        "arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), Actions(actions), dry=dry, standoffs=standoffs
     )
 
 
@@ -153,7 +153,7 @@ def test_a_file_whose_element_has_another_name() -> None:
 def test_what_is_no_text_can_be_kept_or_taken() -> None:
     path = "modelica/Arm/Resources/hand.stl"
     action = Action(path, Kind.CONFLICT, Role.IMPORT, "package://arm/hand.stl", mine="hash")
-    found = Result("arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), (action,))
+    found = Result("arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), Actions([action]))
     assert seen(found) == [
         "",
         f"  conflict   {path}  package://arm/hand.stl",
@@ -166,7 +166,7 @@ def test_what_is_no_text_can_be_kept_or_taken() -> None:
 def test_a_class_that_became_a_folder_can_only_be_kept() -> None:
     action = Action(ELBOW, Kind.CONFLICT, Role.MODEL, "link elbow")
     texts = Standoff(ELBOW, "link elbow", BASE, EDITED, EXPORTED, None, rejected="you made a folder of the class")
-    found = Result("arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), (action,), standoffs=(texts,))
+    found = Result("arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), Actions([action]), standoffs=(texts,))
     assert seen(found)[2] == "    You edited it, and what it is made from changed too. You made a folder of the class."
     assert seen(found)[-1] == "    --keep leaves your file as it is: first put into it what you want of both"
 
@@ -184,7 +184,7 @@ def test_commands_can_be_copied(path: str, typed: str) -> None:
     conflict = standoff(EDITED, EXPORTED, path=path)
     action = Action(path, Kind.CONFLICT, Role.MODEL, "link elbow")
     folder = Path(path).parent.absolute()
-    found = Result("arm", "Arm", folder, Path.cwd(), (action,), standoffs=(conflict,))
+    found = Result("arm", "Arm", folder, Path.cwd(), Actions([action]), standoffs=(conflict,))
     assert f"    urdfsync resolve {typed} --merge" in seen(found)
 
 

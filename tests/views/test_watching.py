@@ -21,7 +21,7 @@ from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Event
 from urdfsync.domain import Role
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Kind
+from urdfsync.plan import Action, Actions, Kind
 from urdfsync.views import watching
 from urdfsync.views.watching import ForPeople, ForPrograms
 from urdfsync.watching import events
@@ -59,7 +59,7 @@ def clock() -> datetime.datetime:
 
 
 def result(robot: str, *kinds: Kind, **more: Any) -> Result:
-    actions = tuple(Action(f"modelica/Arm/F{number}.mo", kind, Role.RECORD) for number, kind in enumerate(kinds))
+    actions = Actions(Action(f"modelica/Arm/F{number}.mo", kind, Role.RECORD) for number, kind in enumerate(kinds))
     return Result(robot, "Arm", Path("Arm").absolute(), Path.cwd(), actions, **more)
 
 
@@ -133,7 +133,7 @@ def change(element: str, path: str, old: float, new: float) -> Change:
 
 def told(robot: str, actions: Sequence[Action], changes: Sequence[Change]) -> events.Built:
     """A build with these changes."""
-    found = Result(robot, "Arm", Path("Arm"), Path(), tuple(actions), changes=Changes(tuple(changes)))
+    found = Result(robot, "Arm", Path("Arm"), Path(), Actions(actions), changes=Changes(tuple(changes)))
     return events.Built(found, (Path("F.mo"),))
 
 

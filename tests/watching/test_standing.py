@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.outcome import Checked, Result
-from urdfsync.plan import Action, Kind
+from urdfsync.plan import Action, Actions, Kind
 from urdfsync.watching import events
 from urdfsync.watching.standing import Board, Mood
 
@@ -20,7 +20,7 @@ ODD = Diagnostic(Severity.WARNING, "odd", "this is odd", "arm.urdf", 7)
 
 
 def result(robot: str, *kinds: Kind, failed: bool = False, diagnostics: tuple[Diagnostic, ...] = ()) -> Result:
-    actions = tuple(Action(f"modelica/Arm/F{number}.mo", kind, Role.RECORD) for number, kind in enumerate(kinds))
+    actions = Actions(Action(f"modelica/Arm/F{number}.mo", kind, Role.RECORD) for number, kind in enumerate(kinds))
     return Result(robot, "Arm", Path("Arm"), Path(), actions, diagnostics, failed)
 
 

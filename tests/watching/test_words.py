@@ -10,7 +10,7 @@ from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Event
 from urdfsync.domain import Role
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Kind
+from urdfsync.plan import Action, Actions, Kind
 from urdfsync.watching.words import news
 
 MASS = ("link elbow", "inertial", "mass")
@@ -26,7 +26,7 @@ def action(kind: Kind, name: str = "Elbow", role: Role = Role.RECORD, **more: An
 
 def said(changes: list[Change] | Changes | None, *actions: Action, known: bool = False) -> str:
     found = Changes(tuple(changes)) if isinstance(changes, list) else changes
-    return news(Result("arm", "Arm", Path("Arm"), Path(), actions, changes=found), known=known)
+    return news(Result("arm", "Arm", Path("Arm"), Path(), Actions(actions), changes=found), known=known)
 
 
 WRITTEN = action(Kind.UPDATE)

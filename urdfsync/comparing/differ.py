@@ -26,7 +26,7 @@ from urdfsync.difference import Version
 from urdfsync.domain import Import, Role, Templates
 from urdfsync.files import Tree, digest, templates_digest, text_digest
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Kind
+from urdfsync.plan import Action, Actions, Kind
 from urdfsync.planning import imports, inputs
 from urdfsync.planning.generate import Generated, generate
 from urdfsync.planning.situation import NO_MODEL, Request, Situation
@@ -64,7 +64,7 @@ def _with_last_build(subject: Subject, robot: RobotConfig, config: Config, reque
     situation = Situation(config, robot, request)
     last, found = situation.settled, result.changes
     missing = "" if last else "what was built last is not known any more" if situation.recorded else "never built"
-    edited = frozenset(action.path for action in result.actions if action.kind in _MINE)
+    edited = frozenset(action.path for action in result.actions.decided if action.kind in _MINE)
     comparison = msgspec.structs.replace(comparison, missing=missing, edited=edited)
     if last is None or found is None or not found.changes:
         return comparison
@@ -97,7 +97,7 @@ class _Versions:
             new = self._read(versions.from_file(subject.source), self._recorded())
             old = self._read(other, versions.known_from(new, self._copy))
         found = changes.compare(old.version, new.version, domain, subject.options)
-        actions = self._actions(old.version, new.version) if found.changes else ()
+        actions = self._actions(old.version, new.version) if found.changes else Actions()
         effects = domain.effects(old.version, new.version, found.renames) if found.changes else ()
         said = {(known.code, known.message) for known in old.diagnostics}
         result = Result(
@@ -110,7 +110,7 @@ class _Versions:
             changes=found if found.changes else None,
             dry=True,
         )
-        edited = frozenset(action.path for action in actions if self._is_edited(action.path))
+        edited = frozenset(action.path for action in actions.decided if self._is_edited(action.path))
         return Comparison(result, shown(subject.source), against, "", tuple(effects), edited)
 
     def _other(self, against: str, folder: Path, scratch: Path) -> Source:
@@ -141,7 +141,7 @@ class _Versions:
     def _copy(self, target: str) -> bytes | None:
         return self._tree.read(self._folder / target) if self._tree else None
 
-    def _actions(self, old: Version, new: Version) -> tuple[Action, ...]:
+    def _actions(self, old: Version, new: Version) -> Actions:
         """What would happen to the files that differ, if nobody had edited any."""
         before, after = self._package(old), self._package(new)
         found = []
@@ -161,7 +161,7 @@ class _Versions:
             Action(self._key(entry.target), kind, Role.IMPORT, key)
             for key, entry, kind in _imports(old.imports or {}, new.imports or {})
         ]
-        return tuple(sorted(found, key=lambda action: action.path))
+        return Actions(found)
 
     def _package(self, version: Version) -> Generated:
         subject, config, domain = self._subject, self._config, self._domain

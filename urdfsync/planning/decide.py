@@ -21,6 +21,7 @@ from urdfsync.plan import (
     DELETES,
     DISPUTED,
     Action,
+    Actions,
     FileRecord,
     Found,
     Kind,
@@ -48,7 +49,7 @@ _MARKER = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
 class Decision(msgspec.Struct, frozen=True):
     """All actions of one robot, and what to record of files and orders when they are done."""
 
-    actions: tuple[Action, ...]
+    actions: Actions
     texts: Mapping[str, str]
     """New text of every `package.order`, of parent packages that have to be made, and of merged files."""
     files: Mapping[str, FileRecord]
@@ -57,6 +58,12 @@ class Decision(msgspec.Struct, frozen=True):
     """The texts of the files that conflict."""
     shared: tuple[Shared, ...] = ()
     """What has to be done to files around the package."""
+
+    @property
+    def others(self) -> Mapping[str, FileRecord]:
+        """What to record of all files that are not unchanged."""
+        unchanged = self.actions.unchanged
+        return {key: record for key, record in self.files.items() if key not in unchanged}
 
 
 Hashed: TypeAlias = tuple[looking.Facts, str, str]
@@ -105,6 +112,15 @@ class Disk:
             return Found(own if role is Role.IMPORT else text)
         self._seen.setdefault(key, None)
         return Found(as_folder=self._is_folder(key))
+
+    def unchanged(self, records: Mapping[str, FileRecord]) -> dict[str, FileRecord]:
+        """Those of the plain records whose files are just as they say."""
+        seen = ((key, record, self._hashed(self._place(key))) for key, record in records.items())
+        return {
+            key: record
+            for key, record, hashed in seen
+            if hashed is not None and record.base == (hashed[1] if record.role is Role.IMPORT else hashed[2])
+        }
 
     def _is_folder(self, key: str) -> bool:
         """Whether the class of a file that is not there has a folder of its own."""
@@ -185,10 +201,13 @@ class Aim(msgspec.Struct, frozen=True):
     """What a robot's package should be, and what the user wants where that is in doubt; paths as in the manifest."""
 
     wanted: Mapping[str, Wanted]
+    """Without the files that stay."""
     orders: Mapping[str, tuple[str, ...]]
     parents: Parents
     folder: str
     """The package's."""
+    stay: Mapping[str, FileRecord] = msgspec.field(default_factory=dict)
+    """The plain records of files that are wanted just as they are recorded; none of them is part of a move."""
     moves: Mapping[str, str] = msgspec.field(default_factory=dict)
     """New and old path of files whose element has another name."""
     choices: Mapping[str, Choice] = msgspec.field(default_factory=dict)
@@ -214,13 +233,22 @@ class Texts(Protocol):
 
 
 def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None) -> Decision:
-    """Plan every file of a robot; without texts, nothing that both sides changed is settled."""
-    recorded = dict(_reached(disk, manifest.files, manifest.folder)) if manifest else {}
+    """Plan every file of a robot; without texts, nothing that both sides changed is settled.
+
+    Only what is not as recorded, or not to stay so, is decided on.
+    """
+    files = manifest.files if manifest else {}
+    with profiling.stage("looking"):
+        unchanged = disk.unchanged(aim.stay)
+    rest = {key: record for key, record in files.items() if key not in unchanged}
+    recorded = dict(_reached(disk, rest, manifest.folder)) if manifest else {}
     owned = dict(_reached(disk, manifest.orders, manifest.folder)) if manifest else {}
-    roles = {key: record.role for key, record in recorded.items()} | {key: w.role for key, w in aim.wanted.items()}
+    again = {key: Wanted.again(record) for key, record in aim.stay.items() if key not in unchanged}
+    wanted = {**again, **aim.wanted}
+    roles = {key: record.role for key, record in recorded.items()} | {key: w.role for key, w in wanted.items()}
     with profiling.stage("looking"):
         found = {key: disk.found(key, role) for key, role in roles.items()}
-    planned = plan(recorded, aim.wanted, found, aim.moves)
+    planned = plan(recorded, wanted, found, aim.moves)
     choices = {**remembered(recorded, planned), **aim.choices}
     aim = msgspec.structs.replace(aim, choices=choices)
     open_ = texts is not None and any(action.kind in DISPUTED or action.kind is Kind.ORPHAN for action in planned)
@@ -240,9 +268,9 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     folders = (aim.folder, manifest.folder if manifest else aim.folder)
     around = [key for key in sorted(keys) if not key.startswith(tuple(f"{folder}/" for folder in folders))]
     return Decision(
-        actions=tuple(sorted(held, key=lambda action: action.path)),
+        actions=Actions(held, unchanged),
         texts=order_texts | extra_texts | merged,
-        files=after(held[: len(actions)]),
+        files={**unchanged, **after(held[: len(actions)])},
         orders={key: entry for key, entry in names.items() if entry},
         standoffs=tuple(standoff for path, standoff in sorted(standoffs.items()) if path in conflicts),
         shared=tuple(file for file in _shared(disk, aim, ours, around) if disk.key(file.path) not in waits),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import operator
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +19,7 @@ from urdfsync.shelf import Shelf, Shelved
 if TYPE_CHECKING:
     from urdfsync.render import Renderer
 
+_PATH = operator.attrgetter("path")
 _FORBIDDEN = frozenset('\\:*?"<>|')
 """Characters that a path can't have on every system."""
 
@@ -31,7 +33,7 @@ class Generated:
     """
 
     def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates) -> None:
-        artifacts = sorted(artifacts, key=lambda artifact: artifact.path)
+        artifacts = sorted(artifacts, key=_PATH)
         self.artifacts: dict[str, Artifact] = {a.path: a for a in artifacts if isinstance(a, Artifact)}
         self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in artifacts if isinstance(a, Order)}
         self._templates = templates
@@ -75,9 +77,9 @@ def artifacts(
 ) -> Sequence[Artifact | Order]:
     """The files of the package of a model, before they are rendered; `parts` are those of the last call.
 
-    Raises OutputError for paths that can't be.
+    They are in the order of their paths. Raises OutputError for paths that can't be.
     """
-    found = domain.artifacts(snapshot, imports, target, options, parts)
+    found = sorted(domain.artifacts(snapshot, imports, target, options, parts), key=_PATH)
     check_paths([artifact.path for artifact in found] + [entry.target for entry in imports.values()])
     return found
 

@@ -32,7 +32,7 @@ class Memory:
     """The source that was read last, the files that were made last of a model, and the state that was recorded last."""
 
     def __init__(self) -> None:
-        self.tables: Tables = {}
+        self.tables = Tables()
         """Of the last manifest."""
         self.hashed: Mapping[str, Hashed] = {}
         """The files of the last plan, by their paths, as far as a change would show in what the system says of them."""

@@ -6,11 +6,8 @@ text is the one that was written then, and its hash is recorded.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Mapping, Sequence, Set
 
-from urdfsync import profiling
-from urdfsync.changes import stale
 from urdfsync.files import normalised, text_digest
 from urdfsync.plan import FileRecord, State
 from urdfsync.planning.generate import Generated
@@ -28,21 +25,24 @@ class Outputs:
         self,
         now: Generated,
         last: Generated | None,
-        records: Mapping[str, FileRecord],
+        differing: Set[str],
+        record: Callable[[str], FileRecord | None],
         bases: Bases,
         aside: Mapping[str, str],
         mine: Callable[[str], bytes | None],
         older: Sequence[Generated] = (),
         again: bool = False,
     ) -> None:
-        """`last` is the package of the last build, None if it can't be rendered again; `records` are of that build.
+        """`last` is the package of the last build, None if it can't be rendered again; `record` gives its records.
 
-        `aside` are texts that were recorded because nothing else gives them back; `mine` reads a file of the last
-        build. `older` are packages that may give back what was written last, too. With `again`, everything counts
-        as stale.
+        `differing` are the paths of files that are made of something else than in `last`. `aside` are texts that were
+        recorded because nothing else gives them back; `mine` reads a file of the last build. `older` are packages that
+        may give back what was written last, too. With `again`, everything counts as stale.
         """
-        self._older, self._again = older, again
-        self._now, self._last, self._records = now, last, records
+        self._now, self._last, self._older = now, last, older
+        self.stale = now.artifacts.keys() if last is None or again else differing
+        """The paths of texts that may be other than in the last build."""
+        self._record = record
         self.bases, self._aside, self._mine = bases, aside, mine
         self._digests: dict[str, str] = {}
         self._texts: dict[tuple[str, str], str | None] = {}
@@ -83,19 +83,11 @@ class Outputs:
 
     def _recorded(self, path: str) -> str | None:
         """The recorded hash of a text that is not stale and need not be rendered."""
-        record = self._records.get(path)
-        if record is None or record.state not in _AS_GENERATED or path in self._stale:
+        record = None if path in self.stale else self._record(path)
+        if record is None or record.state not in _AS_GENERATED:
             return None
         kept = record.base in self.bases or self._known(path, record.base) is not None
         return record.base if kept else None
-
-    @functools.cached_property
-    @profiling.staged("comparing")
-    def _stale(self) -> Set[str]:
-        """The paths of texts that may be other than in the last build."""
-        if self._last is None or self._again:
-            return self._now.artifacts.keys()
-        return stale(self._last.artifacts.values(), self._now.artifacts.values()).render
 
     def _known(self, path: str, digest: str | None) -> str | None:
         """The text of this hash, as far as it can be had without rendering."""

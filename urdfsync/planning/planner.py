@@ -55,7 +55,7 @@ def _if_unchanged(situation: Situation) -> Work | None:
     recorded = state.manifest
     if situation.heading(recorded.source.snapshot) != _heading_of(recorded) or situation.parents.created:
         return None
-    if any(record.state in (State.CONFLICT, State.WAITING) for record in recorded.files.values()):
+    if any(record.state in (State.CONFLICT, State.WAITING) for record in recorded.special.values()):
         return None
     if not request.dry and not store.has_bases(situation.robot.name):
         return None  # a clone: what its files are merged with is rendered while that is possible
@@ -76,14 +76,16 @@ def _if_unchanged(situation: Situation) -> Work | None:
 
 def _kept(situation: Situation, recorded: Manifest) -> Decision | None:
     """The decision if what the manifest records is what is wanted; None if that leaves something to write."""
+    stay = recorded.plain
+    others = {key: record for key, record in recorded.files.items() if key not in stay}
     wanted = {
         key: Wanted(record.role, record.owner, record.base)
-        for key, record in recorded.files.items()
+        for key, record in others.items()
         if record.base is not None and record.state is not State.ORPHAN
     }
-    aim = Aim(wanted, recorded.orders, situation.parents, situation.folder)
+    aim = Aim(wanted, recorded.orders, situation.parents, situation.folder, stay)
     decision = decide(situation.disk, recorded, aim, None)
-    return None if any(a.writes or a.kind in CONFLICTS for a in decision.actions) else decision
+    return None if any(a.writes or a.kind in CONFLICTS for a in decision.actions.decided) else decision
 
 
 def _heading_of(recorded: Manifest) -> Manifest:

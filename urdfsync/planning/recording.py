@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import msgspec
@@ -11,7 +11,7 @@ import msgspec
 from urdfsync import manifest, profiling
 from urdfsync.domain import Role, Snapshot
 from urdfsync.manifest import Manifest
-from urdfsync.plan import CONFLICTS, DELETES
+from urdfsync.plan import CONFLICTS, DELETES, FileRecord
 from urdfsync.plan import State as FileState
 from urdfsync.planning.decide import Decision, encode
 from urdfsync.planning.imports import Imported
@@ -75,13 +75,13 @@ class Recording:
         """Whether the record of the package's old folder is still needed: the package can't move yet."""
         recorded = self._situation.recorded
         moves = recorded is not None and recorded.folder != self._situation.folder
-        return moves and any(action.held for action in decision.actions)
+        return moves and any(action.held for action in decision.actions.decided)
 
     def _files(self, decision: Decision) -> Iterator[Change]:
         """The changes of the package itself."""
         disk = self._situation.disk
         shared = {disk.key(file.path) for file in decision.shared}
-        for action in decision.actions:
+        for action in decision.actions.decided:
             if action.writes and action.path not in shared:
                 content = None if action.kind in DELETES else self._content(decision, action.path, action.role)
                 yield Change(disk.path(action.path), content, disk.seen(action.path))
@@ -127,7 +127,7 @@ class Recording:
         whole = self._manifest(decision, text)
         texts = self._situation.dumps(whole), text
         if memory := self._situation.request.memory:
-            state = State(manifest.recorded(whole), model, intact=True)
+            state = State(whole.recorded, model, intact=True)
             memory.recorded((texts[0].encode(), texts[1].encode()), state)
         return texts
 
@@ -155,14 +155,14 @@ class Recording:
     def _since(self, decision: Decision) -> Snapshot | None:
         """The model with which what waits is compared; None if nothing waits."""
         settled = self._situation.settled
-        waits = any(action.held or action.kind in CONFLICTS for action in decision.actions)
+        waits = any(action.held or action.kind in CONFLICTS for action in decision.actions.decided)
         return settled.snapshot if waits and settled else None
 
     def _outliving(self, decision: Decision) -> Mapping[str, str]:
         """The bases that can't be rendered from the recorded model, by path below the package's folder."""
         texts = {}
         prefix = self._situation.key("")
-        for key, record in decision.files.items():
+        for key, record in decision.others.items():
             if record.state in _OUTLIVING and record.role is not Role.IMPORT and key.startswith(prefix):
                 text = self._base(record.origin or key, record.base)
                 if text is not None:
@@ -171,22 +171,18 @@ class Recording:
 
     def _bases(self, decision: Decision) -> bytes:
         """The content of the file with every base that is known: the one that is there and what is new, or all anew."""
-        keys: dict[str, str] = {}
-        for key, record in decision.files.items():
-            if record.role is not Role.IMPORT and record.base is not None:
-                keys.setdefault(record.base, record.origin or key)
-        kept = self._outputs.bases
-        new = [digest for digest in keys if digest not in kept]
-        if 2 * len(new) <= len(keys) and (more := kept.plus(dict(self._known(keys, new)))) is not None:
+        kept = self._outputs.bases  # those of unchanged files are among them
+        new = {digest: key for digest, key in _keys(decision.others).items() if digest not in kept}
+        if 2 * len(new) <= len(decision.files) and (more := kept.plus(dict(self._known(new)))) is not None:
             if memory := self._situation.request.memory:
                 memory.kept(more)
             return more.content
-        return bases.dumps(self._known(keys, keys))
+        return bases.dumps(self._known(_keys(decision.files)))
 
-    def _known(self, keys: Mapping[str, str], digests: Iterable[str]) -> Iterator[tuple[str, str]]:
+    def _known(self, keys: Mapping[str, str]) -> Iterator[tuple[str, str]]:
         """Hash and text of bases that are not lost; one after the other, so that not all are in memory."""
-        for digest in digests:
-            text = self._base(keys[digest], digest)
+        for digest, key in keys.items():
+            text = self._base(key, digest)
             if text is not None:
                 yield digest, text
 
@@ -197,3 +193,12 @@ class Recording:
         if self._outputs.generates(path, digest):
             return self._outputs.content(path).decode()
         return self._last(key, digest)
+
+
+def _keys(records: Mapping[str, FileRecord]) -> dict[str, str]:
+    """Where each base is, by its hash."""
+    keys: dict[str, str] = {}
+    for key, record in records.items():
+        if record.role is not Role.IMPORT and record.base is not None:
+            keys.setdefault(record.base, record.origin or key)
+    return keys

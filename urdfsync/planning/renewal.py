@@ -7,13 +7,13 @@ import functools
 from collections.abc import Mapping, Set
 
 from urdfsync import changes, profiling, vanished
-from urdfsync.changes import Changes
+from urdfsync.changes import Changes, Stale
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.difference import ElementKey, Version
-from urdfsync.domain import Artifact, Role, Target
+from urdfsync.domain import Role, Target
 from urdfsync.moves import places
-from urdfsync.plan import Kind, State, Wanted
+from urdfsync.plan import FileRecord, Kind, State, Wanted
 from urdfsync.planning import imports, inputs
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.generate import Generated, artifacts
@@ -43,6 +43,7 @@ class Renewal:
         """The model as it is in the source, with what it imports."""
         self._before = self._last()  # first: it may be in the memory, where the next one takes its place
         self._generated = self._generate(self.now, situation.robot.target)
+        self._differing = self._compared()
         self._outputs = self._known_outputs()
 
     def work(self) -> Work:
@@ -96,18 +97,25 @@ class Renewal:
     def _known_outputs(self) -> Outputs:
         situation = self._situation
         recorded, state = situation.recorded, situation.state
-        prefix = f"{recorded.folder}/" if recorded else ""
-        records = {path.removeprefix(prefix): record for path, record in recorded.files.items()} if recorded else {}
+        same = recorded is not None and recorded.generator == situation.generator
+        files = recorded.files if recorded else {}
         return Outputs(
             now=self._generated,
-            last=self._before if recorded and recorded.generator == situation.generator else None,
-            records=records,
+            last=self._before if same else None,
+            differing=self._differing.render,
+            record=lambda path: files.get(situation.old_key(path)),
             bases=situation.store.bases(situation.former or situation.robot.name),
             aside=state.model.bases if state and state.model else {},
             mine=lambda path: situation.disk.read(situation.old_key(path)),
             older=self._sides(),
             again=situation.request.full,
         )
+
+    @profiling.staged("comparing")
+    def _compared(self) -> Stale:
+        """The files that may be other than those of the last build, if templates and options are the same."""
+        before = self._before.artifacts if self._before else {}
+        return changes.stale(before.values(), self._generated.artifacts.values())
 
     def _last(self) -> Generated | None:
         """The package of the last build. Its texts are right only if the generator still is the same."""
@@ -143,12 +151,16 @@ class Renewal:
     def _decide(self, renames: Mapping[ElementKey, str]) -> Decision:
         situation = self._situation
         key, prefix, digest = situation.key, situation.key(""), self._outputs.digest
+        moves = self._moves(renames)
+        stay = {} if moves or situation.recovered else self._staying()
         wanted = {
-            f"{prefix}{path}": Wanted(artifact.role, artifact.owner, digest(path))
+            place: Wanted(artifact.role, artifact.owner, digest(path))
             for path, artifact in self._generated.artifacts.items()
+            if (place := prefix + path) not in stay
         }
         for name, entry in self._imported.imports.items():
-            wanted[key(entry.target)] = Wanted(Role.IMPORT, name, entry.target_hash)
+            if (place := key(entry.target)) not in stay:
+                wanted[place] = Wanted(Role.IMPORT, name, entry.target_hash)
         orders = {key(path): names for path, names in self._generated.orders.items()}
         folder = situation.robot.folder
         if folder.parent != situation.robot.output and situation.parents.listed:
@@ -158,12 +170,29 @@ class Renewal:
             orders,
             situation.parents,
             situation.folder,
-            self._moves(renames),
+            stay,
+            moves,
             situation.request.choices,
             situation.robot.merging,
         )
         hashes = {key: target.hash for key, target in wanted.items()} if situation.recovered else {}
         return decide(situation.disk, situation.rebuilt(hashes), aim, self)
+
+    def _staying(self) -> dict[str, FileRecord]:
+        """The plain records of files that are wanted as they are recorded, and whose texts are kept."""
+        plain = self._situation.recorded.plain if self._situation.recorded else {}
+        prefix, stale, kept = self._situation.key(""), self._outputs.stale, self._outputs.bases
+        stay = {}
+        for path, artifact in self._generated.artifacts.items():
+            if path not in stale and (record := plain.get(prefix + path)) is not None:
+                same = record.owner == artifact.owner and record.role is artifact.role
+                if same and record.base in kept:
+                    stay[prefix + path] = record
+        for name, entry in self._imported.imports.items():
+            wanted = FileRecord(name, Role.IMPORT, entry.target_hash)
+            if plain.get(prefix + entry.target) == wanted:
+                stay[prefix + entry.target] = wanted
+        return stay
 
     def generated(self, key: str) -> str:
         """What would be written to a file of the plan."""
@@ -224,8 +253,8 @@ class Renewal:
         if recorded is None:
             return {}
         before, now = self._before.artifacts if self._before else {}, self._generated.artifacts
-        stay = recorded.folder == situation.folder and not renames and _is_placed_alike(before, now)
-        if stay and not any(record.origin for record in recorded.files.values()):
+        alike = recorded.folder == situation.folder and not renames and self._is_placed_alike()
+        if alike and not any(record.origin for record in recorded.special.values()):
             return {}
         texts = {
             self._old_path(key): record
@@ -236,6 +265,14 @@ class Renewal:
         renamed = changes.moves(old, {path: (a.owner, a.template) for path, a in now.items()}, renames)
         targets = {situation.old_key(path): situation.key(renamed.get(path, path)) for path in texts}
         return places(recorded.files, targets, {situation.key(path) for path in now})
+
+    def _is_placed_alike(self) -> bool:
+        """Whether every file of the last build still is one: of the same element, from the same template."""
+        before, now = self._before.artifacts if self._before else {}, self._generated.artifacts
+        pairs = ((before[path], now[path]) for path in self._differing.render if path in before)
+        return not self._differing.gone and all(
+            (new.owner, new.template) == (old.owner, old.template) for old, new in pairs
+        )
 
     def _moved(self, decision: Decision) -> list[Diagnostic]:
         """What there is to say if robot or package had another name in the last build."""
@@ -250,9 +287,3 @@ class Renewal:
             actions = decision.actions
             said += leftovers.left_behind(situation.disk, situation.recorded, actions, situation.folder, *place)
         return said
-
-
-def _is_placed_alike(before: Mapping[str, Artifact], now: Mapping[str, Artifact]) -> bool:
-    """Whether every file of one package is one of the other: of the same element, from the same template."""
-    pairs = ((artifact, now.get(path)) for path, artifact in before.items())
-    return all(new and (new.owner, new.template) == (old.owner, old.template) for old, new in pairs)

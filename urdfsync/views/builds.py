@@ -58,17 +58,18 @@ def _details(result: Result, stream: IO[str], verbose: bool, explain: bool) -> I
     if explain or verbose:
         yield from _explanation(result, stream, everything=explain)
     else:
-        for action in result.actions:
+        for action in result.actions.decided:
             if action.kind in _LISTED:
                 yield words(("  ", ""), *_verdict(action, _place(result, action)))
-    if any(action.kind is Kind.ORPHAN for action in result.actions):
+    if any(action.kind is Kind.ORPHAN for action in result.actions.decided):
         yield words((_ORPHANS, "dim"))
 
 
 def has_more(result: Result) -> bool:
     """Whether there is more to say about a robot than its headline, or the headline is no good news."""
     wrong = result.failed or result.conflicts or result.checked is Checked.WRONG
-    return bool(wrong or result.drawing or result.changes or any(action.kind in _LISTED for action in result.actions))
+    listed = any(action.kind in _LISTED for action in result.actions.decided)
+    return bool(wrong or result.drawing or result.changes or listed)
 
 
 def plain(name: str, summary: str) -> None:

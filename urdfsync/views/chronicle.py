@@ -16,7 +16,7 @@ from urdfsync import wording
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Checked, Result
-from urdfsync.plan import CONFLICTS, Kind
+from urdfsync.plan import CONFLICTS, Actions, Kind
 from urdfsync.views import builds, conflicts, terminal
 from urdfsync.views.terminal import text
 from urdfsync.watching import events, words
@@ -78,7 +78,7 @@ class Chronicle:
         yield from self._findings(self._fresh(event))
         had = self._said.get((result.robot, "conflicts"))
         known = not self._is_new(result.robot, "conflicts", {(a.path, a.mine, a.generated) for a in result.conflicts})
-        left = self._is_new(result.robot, "left", {a.path for a in result.actions if a.kind in _LEFT})
+        left = self._is_new(result.robot, "left", {a.path for a in result.actions.decided if a.kind in _LEFT})
         if self._quiet and (known or not result.conflicts):
             return
         again = "in step again" if not result.conflicts and (event.recovered or had) else ""
@@ -114,8 +114,8 @@ class Chronicle:
         """What `build` has below its headline; without what was said before, unless somebody wants everything."""
         if not self._verbose:
             hidden = (CONFLICTS if known else frozenset()) | (frozenset() if left else _LEFT)
-            actions = tuple(action for action in result.actions if action.kind not in hidden)
-            result = msgspec.structs.replace(result, actions=actions, changes=None)
+            seen = [action for action in result.actions.decided if action.kind not in hidden]
+            result = msgspec.structs.replace(result, actions=Actions(seen, result.actions.unchanged), changes=None)
         lines = builds.lines(result, self._console.file, quiet=self._quiet, verbose=self._verbose)
         yield from (Line(line.__rich__()) for line in itertools.islice(lines, 1, None))
         if result.conflicts:

@@ -58,7 +58,7 @@ def written(result: Result) -> tuple[Path, ...]:
     """The files that a build wrote or deleted, absolute."""
     if result.failed or result.dry:
         return ()
-    return tuple(Path(os.path.normpath(result.root / action.path)) for action in result.actions if action.writes)
+    return tuple(Path(os.path.normpath(result.root / one.path)) for one in result.actions.decided if one.writes)
 
 
 def warm_up(config: Config, robots: Sequence[RobotConfig]) -> None:

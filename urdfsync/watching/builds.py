@@ -103,9 +103,10 @@ class Builds:
 
     def _say_built(self, watched: Watched, result: Result) -> None:
         files, recovered = builder.written(result), watched.failed is not None
-        left = (action for action in result.actions if action.kind is not Kind.UNCHANGED and not action.writes)
+        decided = result.actions.decided
+        left = (action for action in decided if action.kind is not Kind.UNCHANGED and not action.writes)
         special = frozenset((action.path, str(action.kind)) for action in left)
-        watched.busy = any(action.writes or action.kind in _NOTES for action in result.actions)
+        watched.busy = any(action.writes or action.kind in _NOTES for action in decided)
         if watched.announced or files or recovered or special != watched.special:
             self._tell(events.Built(result, files, recovered))
         watched.failed, watched.announced, watched.special, watched.trouble = None, False, special, ()

@@ -39,7 +39,7 @@ def news(result: Result, *, known: bool = False) -> str:
     `known` says that the conflicts are those of the build before.
     """
     changed = _changes(result.changes) if result.changes else ""
-    parts = [*_done(result.actions), *_deeds(result), *_conflicts(result, known=known)]
+    parts = [*_done(result.actions.decided), *_deeds(result), *_conflicts(result, known=known)]
     if not changed:
         return ", ".join(parts)
     return ", ".join([changed, *(parts or ["nothing to write"])])
@@ -59,7 +59,7 @@ def _deeds(result: Result) -> Iterator[str]:
     """What else was done; where few files are concerned, with their names."""
     silent = set(_APART)
     for kind in _NAMED:
-        found = [action for action in result.actions if action.kind is kind and not action.held]
+        found = [action for action in result.actions.decided if action.kind is kind and not action.held]
         if 0 < len(found) <= _NAMES:
             silent.add(kind)
             yield from map(_deed, found)
@@ -81,7 +81,7 @@ def _deed(action: Action) -> str:
 def _conflicts(result: Result, *, known: bool) -> Iterator[str]:
     if result.conflicts:
         yield wording.counted(len(result.conflicts), "conflict") + (" as before" if known else "")
-        if held := sum(action.held for action in result.actions):
+        if held := sum(action.held for action in result.actions.decided):
             yield f"{wording.counted(held, 'change')} waiting for that"
 
 
