@@ -109,8 +109,12 @@ class _Builder:
 
     @profiling.staged("looking")
     def _is_current(self, work: Work) -> bool:
-        """Whether no other build has written, or begun to, since the plan was made."""
-        return not self._transactions.pending() and Store(self._config.root, shown).stands(work.witness)
+        """Whether no other build has written, or begun to, since the plan was made.
+
+        What is about to be written is looked at when it is.
+        """
+        targets = {change.path for change in work.writes}
+        return not self._transactions.pending() and Store(self._config.root, shown).stands(work.witness, targets)
 
     def _settle(self) -> None:
         """Wait for a build that is writing; finish or undo what one has left that was killed."""

@@ -106,12 +106,14 @@ class Tree:
         Raises OutputError for a link, for anything else that is no regular file, and for what can't be read.
         """
         path = os.fspath(path)
-        return None if self.status(path) is None else self.content(path)
+        is_there = self.check_folder(path.rpartition(os.sep)[0]) and self.status(path) is not None
+        return self.content(path) if is_there else None
 
     def status(self, path: str) -> os.stat_result | None:
-        """What the system says of a file before it is read, None if there is none. Raises OutputError as `read`."""
-        if not self.check_folder(path.rpartition(os.sep)[0]):
-            return None
+        """What the system says of a file in a folder that was checked, before it is read; None if there is none.
+
+        Raises OutputError as `read`.
+        """
         try:
             status = looking.status(path)
         except OSError as error:

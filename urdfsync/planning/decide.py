@@ -77,6 +77,8 @@ class Disk:
         """`known` are hashes that hold as long as the system says the same of a file, by its path."""
         self._root, self._prefix = config.root, os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
         self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
+        self._homes: dict[str, Tree | None] = {}
+        """The trees that folders are in; None for a folder that is in none, or not there."""
         self._seen: dict[str, str | None] = {}
         self._known: Mapping[str, Hashed] = known or {}
         self.hashed: dict[str, Hashed] = {}
@@ -162,7 +164,11 @@ class Disk:
         return {self.key(path) for path in self.path(folder).rglob("*.mo") if path.is_file()}
 
     def _hashed(self, place: str) -> Hashed | None:
-        tree = self._tree(place)
+        folder = place.rpartition(os.sep)[0]
+        if folder not in self._homes:
+            tree = self._tree(place)
+            self._homes[folder] = tree if tree and tree.check_folder(folder) else None
+        tree = self._homes[folder]
         status = tree.status(place) if tree else None
         if tree is None or status is None:
             return None

@@ -156,11 +156,15 @@ class Situation:
 
     def heading(self, snapshot: str) -> Manifest:
         """The manifest of this build without the lists in it; `snapshot` is the hash of the JSON file."""
-        source = manifest.Source(self.robot.source_text, text_digest(self.content), snapshot)
+        source = manifest.Source(self.robot.source_text, self._source_hash, snapshot)
         target = self.robot.target
         return Manifest(
             package=target.package, class_=target.name, folder=self.folder, source=source, generator=self.generator
         )
+
+    @functools.cached_property
+    def _source_hash(self) -> str:
+        return text_digest(self.content)
 
     def dependencies(self, snapshot: Snapshot, lines: Mapping[str, int]) -> Sequence[Dependency]:
         """The files that a model refers to."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -49,6 +49,7 @@ class Store:
         self._shown, self._memory = shown, memory
         self._tree = Tree(root, shown)
         self._seen: dict[Path, bytes | None] = {}
+        self._hashes: dict[Path, str | None] = {}
 
     def names(self) -> list[str]:
         """The robots that have a state, by their names."""
@@ -84,12 +85,12 @@ class Store:
 
     def witness(self) -> Witness:
         """What all files were when they were loaded."""
-        return {path: None if content is None else digest(content) for path, content in self._seen.items()}
+        return {path: self._hash(path) for path in self._seen}
 
-    def stands(self, witness: Witness) -> bool:
-        """Whether all files still are as they were then."""
+    def stands(self, witness: Witness, but: Collection[Path] = ()) -> bool:
+        """Whether all files still are as they were then, but for some that somebody else looks at."""
         tree = Tree(self._tree.root, self._shown)  # which finds folders that have come since
-        found = ((tree.read(path), before) for path, before in witness.items())
+        found = ((tree.read(path), before) for path, before in witness.items() if path not in but)
         return all((None if content is None else digest(content)) == before for content, before in found)
 
     def has_bases(self, robot: str) -> bool:
@@ -150,8 +151,14 @@ class Store:
         return self.folder / "base" / f"{robot}.json.gz"
 
     def _change(self, path: Path, content: bytes | None) -> Change:
-        old = self._seen.get(path)
-        return Change(path, content, None if old is None else digest(old))
+        return Change(path, content, self._hash(path) if path in self._seen else None)
+
+    def _hash(self, path: Path) -> str | None:
+        """SHA-256 (hex) of a file as it was loaded; None if there was none."""
+        if path not in self._hashes:
+            content = self._seen[path]
+            self._hashes[path] = None if content is None else digest(content)
+        return self._hashes[path]
 
     def _bytes(self, path: Path) -> bytes | None:
         if path not in self._seen:
