@@ -50,7 +50,7 @@ def _templates(robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]:
 
 def _files(folder: Path) -> dict[str, Path]:
     """The files below a folder by their names in it, POSIX; hidden ones are left out."""
-    files = {path.relative_to(folder): path for path in looking.files_below(folder)}
+    files = {path.relative_to(folder): path for path in map(Path, looking.files_below(folder))}
     return {
         name.as_posix(): path for name, path in files.items() if not any(part.startswith(".") for part in name.parts)
     }

@@ -53,10 +53,10 @@ def put(file: Path, content: bytes) -> None:
 
 def templates_digest(folders: Sequence[Path]) -> str:
     """SHA-256 (hex) over the templates in use, by name and content; an earlier folder hides names of a later one."""
-    templates: dict[str, Path] = {}
-    for folder in reversed(folders):
-        found = (path for path in looking.files_below(folder) if not path.name.startswith("."))
-        templates |= {str(path)[len(str(folder)) + 1 :].replace(os.sep, "/"): path for path in found}
+    templates: dict[str, str] = {}
+    for folder in map(str, reversed(folders)):
+        found = ((path[len(folder) + 1 :].replace(os.sep, "/"), path) for path in looking.files_below(folder))
+        templates |= {name: path for name, path in found if not name.rpartition("/")[2].startswith(".")}
     lines = [f"{name}\0{text_digest(looking.content(path))}\n" for name, path in sorted(templates.items())]
     return digest("".join(lines).encode())
 

@@ -12,7 +12,6 @@ import os
 import stat
 from collections.abc import Iterator
 from contextvars import ContextVar
-from pathlib import Path
 from typing import TypeAlias
 
 Facts: TypeAlias = tuple[int, int, int, int, int, int]
@@ -94,11 +93,12 @@ def is_folder(path: str | os.PathLike[str]) -> bool:
     return kind(path) == stat.S_IFDIR
 
 
-def content(path: Path) -> bytes:
+def content(path: str | os.PathLike[str]) -> bytes:
     """A file's content. Raises OSError if it can't be read."""
     if (looks := _looks.get()) is not None:
         _see(looks, path)
-    return path.read_bytes()
+    with open(path, "rb", buffering=0) as file:  # noqa: PTH123 - many, and on the way of every build
+        return file.read()
 
 
 def status(path: str | os.PathLike[str]) -> os.stat_result | None:
@@ -118,7 +118,7 @@ def status(path: str | os.PathLike[str]) -> os.stat_result | None:
     return found
 
 
-def names(folder: Path) -> list[str]:
+def names(folder: str | os.PathLike[str]) -> list[str]:
     """The names in a folder, in no order. Raises OSError if it can't be read."""
     if (looks := _looks.get()) is not None:
         _see(looks, folder)
@@ -132,19 +132,19 @@ def rests_on(path: str | os.PathLike[str]) -> None:
             _see(looks, path)
 
 
-def files_below(folder: Path) -> Iterator[Path]:
+def files_below(folder: str | os.PathLike[str]) -> Iterator[str]:
     """All regular files below a folder, and links to such files."""
-    waiting = [folder]
+    waiting = [os.fspath(folder)]
     while waiting:
         current = waiting.pop()
         inside: list[str] = []
         with contextlib.suppress(OSError):  # it is not there, or can't be read
             inside = names(current)
-        for path in [current / name for name in inside]:
+        for path in [f"{current}{os.sep}{name}" for name in inside]:
             found = kind(path)
             if found == stat.S_IFREG:
                 yield path
-            elif found == stat.S_IFDIR and path.is_symlink():
+            elif found == stat.S_IFDIR and os.path.islink(path):  # noqa: PTH114 - it is a string
                 rests_on(path)
             elif found == stat.S_IFDIR:
                 waiting.append(path)
