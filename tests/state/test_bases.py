@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.files import text_digest
-from urdfsync.state.bases import Bases, dumps
+from urdfsync.state.bases import Bases, Kept, Passage, dumps
 
 texts = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\r"), max_size=30)
 
@@ -41,6 +41,52 @@ def test_what_is_added_is_kept_with_the_rest(first: list[str], more: list[list[s
         for one in (bases, Bases.loads(bases.content)):
             assert {digest: one.get(digest) for digest in by_hash} == by_hash
             assert all(digest in one for digest in by_hash)
+
+
+def lines(*numbers: int) -> str:
+    """A long text that some numbers make another one."""
+    return "".join(f"  Real x{line} = {numbers.count(line)};\n" for line in range(500))
+
+
+def test_of_a_long_text_the_passage_is_kept_that_is_new() -> None:
+    kept = [
+        lines(),
+        *(lines(number) for number in range(100, 110)),
+        lines(1, 490),
+        lines(*range(500)),
+        lines()[:-9],
+        "",
+    ]
+    hashes = [text_digest(text.encode()) for text in kept]
+    bases = Bases.loads(dumps([(hashes[0], kept[0]), *((f"{number}", str(number)) for number in range(5000))]))
+    sizes = []
+    for text, digest, before in zip(kept[1:], hashes[1:], hashes, strict=False):
+        more = bases.plus({digest: text}, {digest: before})
+        assert more is not None
+        sizes.append(len(more.content) - len(bases.content))
+        bases = more
+        for one in (bases, Bases.loads(bases.content)):
+            assert [one.get(digest) for digest in hashes[: len(sizes) + 1]] == kept[: len(sizes) + 1]
+    whole = len(dumps([(hashes[0], kept[0])]))
+    assert max(sizes[:10]) < whole / 8, "one line"
+    assert min(sizes[10:12]) > whole / 2, "nearly all"
+
+
+@given(texts, texts, texts, texts)
+def test_a_passage_gives_the_text_back(start: str, one: str, other: str, end: str) -> None:
+    text, whole = start + one + end, start + other + end
+    passage = Passage.of(text, "", whole)
+    assert passage.text(whole) == text
+    assert len(passage.new) <= len(one)
+
+
+@pytest.mark.parametrize("whole", ["lost", "a passage itself", "another text"])
+def test_a_passage_is_nothing_without_its_whole(whole: str) -> None:
+    digest, other = text_digest(b"abc"), text_digest(b"axc")
+    there: dict[str, Kept] = {"a passage itself": Passage(other, 1, "x", 1), "another text": "ayyyc"}
+    bases = Bases({digest: Passage(other, 1, "b", 1)} | ({other: there[whole]} if whole in there else {}))
+    assert bases.get(digest) is None
+    assert digest in bases
 
 
 def test_a_file_is_added_to_until_that_is_as_much_as_it_was_first() -> None:

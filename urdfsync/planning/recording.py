@@ -173,7 +173,9 @@ class Recording:
         """The content of the file with every base that is known: the one that is there and what is new, or all anew."""
         kept = self._outputs.bases  # those of unchanged files are among them
         new = {digest: key for digest, key in _keys(decision.others).items() if digest not in kept}
-        if 2 * len(new) <= len(decision.files) and (more := kept.plus(dict(self._known(new)))) is not None:
+        recorded = self._situation.recorded.files if self._situation.recorded else {}
+        before = {digest: recorded[key].base or "" for digest, key in new.items() if key in recorded}
+        if 2 * len(new) <= len(decision.files) and (more := kept.plus(dict(self._known(new)), before)) is not None:
             if memory := self._situation.request.memory:
                 memory.kept(more)
             return more.content
