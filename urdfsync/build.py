@@ -111,9 +111,10 @@ class _Builder:
     def _is_current(self, work: Work) -> bool:
         """Whether no other build has written, or begun to, since the plan was made.
 
-        What is about to be written is looked at when it is.
+        Every build that does anything writes the manifest, as the last file. The others that are about to be written
+        are looked at when they are.
         """
-        targets = {change.path for change in work.writes}
+        targets = {change.path for change in work.writes[:-1]}
         return not self._transactions.pending() and Store(self._config.root, shown).stands(work.witness, targets)
 
     def _settle(self) -> None:
