@@ -19,7 +19,7 @@ from support.stamps import repeated, stamped
 
 from urdfsync import cli, looking, report, streams
 from urdfsync.checking import afterbuild
-from urdfsync.stamping import making, stamp, trust
+from urdfsync.stamping import beside, making, stamp, trust
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]
@@ -29,6 +29,26 @@ STAMP = ".urdfsync/stamp"
 LEG = "modelica/Leg/Links/Tip.mo"
 URDF = "robots/leg.urdf"
 IN_STEP = "arm: in step, 18 files, 1 kept because you edited it\nleg: in step, 17 files, 1 kept because you edited it"
+
+
+SHARING = [True, False] if hasattr(os, "fork") else [False]
+"""Whether a second process looks at half of the files."""
+
+
+def share(monkeypatch: pytest.MonkeyPatch, whether: bool) -> None:
+    monkeypatch.setattr(stamp, "_MANY", 0 if whether else sys.maxsize)
+    monkeypatch.setattr(beside, "_may_fork", lambda: True)
+
+
+def both_ways(monkeypatch: pytest.MonkeyPatch, *command: str) -> list[str] | None:
+    """What the stamp answers, whether a second process helps or not."""
+    answers = []
+    for whether in SHARING:
+        with monkeypatch.context() as patch:
+            share(patch, whether)
+            answers.append(repeated(*command))
+    assert answers[0] == answers[-1]
+    return answers[0]
 
 
 @pytest.fixture
@@ -205,8 +225,9 @@ def test_whatever_matters_ends_a_stamp(folder: Path, name: str, monkeypatch: pyt
     (folder / "target").mkdir()
     (folder / "ros/marked/package.xml").symlink_to(folder / "target")
     stamped(*BUILD)
+    assert both_ways(monkeypatch, *BUILD) is not None
     EDITS[name](folder)
-    assert repeated(*BUILD) is None
+    assert both_ways(monkeypatch, *BUILD) is None
 
 
 def test_so_does_another_program(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -229,6 +250,55 @@ def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
     for path in ("notes.txt", "modelica/notes.txt", "modelica/Leg/Own.mo", "robots/other.urdf", ".urdfsync/own.txt"):
         _write(path)(folder)
     assert repeated(*BUILD) is not None
+
+
+FILES = st.lists(st.tuples(st.sampled_from(["a", "b", "a/deep"]), st.booleans()), min_size=1, max_size=8)
+"""Folders of files; whether a file is seen as the target of a link."""
+
+
+@given(st.data(), FILES)
+@settings(max_examples=20)
+def test_every_file_counts_whoever_looks_at_it(
+    tmp_path_factory: pytest.TempPathFactory, data: st.DataObject, files: list[tuple[str, bool]]
+) -> None:
+    site = tmp_path_factory.mktemp("site")
+    for folder in ("a/deep", "b"):
+        (site / folder).mkdir(parents=True)
+    paths = [site / folder / f"{number}.mo" for number, (folder, _) in enumerate(files)]
+    for path in paths:
+        path.write_text("1")
+    groups: tuple[list[Path], list[Path]] = [], []
+    for path, (_, is_target) in zip(paths, files, strict=True):
+        groups[is_target].append(path)
+    reading = _reading(site, *groups)
+    with pytest.MonkeyPatch.context() as patch:
+        for whether in SHARING:
+            share(patch, whether)
+            assert reading.stands()
+        data.draw(st.sampled_from(paths)).write_text("22")
+        for whether in SHARING:
+            share(patch, whether)
+            assert not reading.stands()
+
+
+def _reading(site: Path, own: list[Path], targets: list[Path]) -> stamp.Reading:
+    """A stamp that rests on these files, and on four other places."""
+    contents: list[dict[str, stamp.Facts]] = [
+        {str(path): looking.facts_of(path.stat()) for path in paths} for paths in (own, targets)
+    ]
+    kinds: dict[str, stamp.Facts] = {str(site): (0o040000,), str(site / "none"): (0,)}
+    made = stamp.Stamp("program", (contents[0], contents[1]), (kinds, kinds), {})
+    return stamp.Reading(made.dumps(1, 2), 1, 2)
+
+
+def test_two_processes_share_the_work(tmp_path: Path) -> None:
+    """By the number of paths: folders may differ much."""
+    for number in range(20):
+        (tmp_path / f"{number}.mo").touch()
+    reading = _reading(tmp_path, paths := sorted(tmp_path.iterdir()), [])
+    first, second = reading._halves
+    assert [half[0].count("\0") for half in (first, second)] == [12, 8], "four more go with the second"
+    assert reading.own == [str(path) for path in paths]
 
 
 # When a stamp is trusted
@@ -395,7 +465,7 @@ def test_stamp_and_decision_agree(
             else:
                 time.sleep(0.06)  # long enough for the next stamp
             for command in (BUILD, CHECK, STATUS):
-                said = repeated(*command)
+                said = both_ways(monkeypatch, *command)
                 assert said is None or said == _full(command), (command, step)
 
 
@@ -461,6 +531,30 @@ def test_nothing_heavy_is_imported(folder: Path) -> None:
     assert names[0] - anyway - ours <= {"gc", "zlib", "runpy"}
 
 
+TWO = """
+import os, sys
+from urdfsync.stamping import beside, stamp
+from urdfsync.__main__ import main
+beside._may_fork, stamp._MANY, fork, made = lambda: True, 0, os.fork, []
+os.fork = lambda: made.append(process := fork()) or process
+code = main()
+assert made and "argparse" not in sys.modules
+sys.exit(code)
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs a second process")
+def test_two_processes_speak_once(folder: Path) -> None:
+    stamped_program(CHECK)
+    said = []
+    for code in (TWO, FULL):
+        with started(code, CHECK, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            said.append(process.communicate())
+        assert process.returncode == 0
+    assert said[0] == said[1]
+    assert said[0][0] == f"{IN_STEP}\n".encode()
+
+
 FULL = "import sys; from urdfsync.cli import main; sys.exit(main())"
 SHORT = "import sys; from urdfsync.__main__ import main; sys.exit(main())"
 
@@ -468,6 +562,15 @@ SHORT = "import sys; from urdfsync.__main__ import main; sys.exit(main())"
 def started(code: str, command: list[str], **options: Any) -> subprocess.Popen[bytes]:
     variables = {**os.environ, "PYTHONPATH": str(Path(cli.__file__).parents[1]), **options.pop("env", {})}
     return subprocess.Popen([sys.executable, "-c", code, *command], env=variables, **options)
+
+
+def stamped_program(command: list[str]) -> None:
+    """Let the whole program run until it has left a stamp."""
+    end = time.monotonic() + stamps.LIMIT
+    while not Path(STAMP).exists():
+        with started(FULL, command, stdout=subprocess.PIPE) as process:
+            process.communicate()
+        assert time.monotonic() < end, "no stamp"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
@@ -525,10 +628,6 @@ def _without_reader(code: str) -> tuple[int, bytes]:
 @pytest.mark.parametrize("ending", [_with_full_disk, _without_reader])
 def test_an_output_that_ends_early(folder: Path, ending: Callable[[str], tuple[int, bytes]]) -> None:
     whole = ending(FULL)
-    end = time.monotonic() + stamps.LIMIT
-    while not Path(STAMP).exists():
-        with started(FULL, CHECK, stdout=subprocess.PIPE) as process:
-            process.communicate()
-        assert time.monotonic() < end, "no stamp"
+    stamped_program(CHECK)
     assert ending(SHORT) == whole
     assert whole[0] == (2 if ending is _with_full_disk else 0)

@@ -104,10 +104,8 @@ def _unpacked(reading: stamp.Reading) -> Stamp | None:
         links, kinds = map(_kinds, reading.kinds, (False, True))
     except (OSError, ValueError):
         return None
-    facts = [*own.values(), *targets.values(), *links.values(), *kinds.values()]
-    if stamp.chain(facts) != reading.chained:
-        return None
-    return Stamp(reading.program, (own, targets), (links, kinds), reading.claims)
+    found = Stamp(reading.program, (own, targets), (links, kinds), reading.claims)
+    return found if found.numbers() == reading.numbers else None
 
 
 def _kinds(paths: Iterable[str], follow: bool) -> _Paths:

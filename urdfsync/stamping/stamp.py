@@ -13,18 +13,21 @@ from urdfsync import __version__, streams
 
 TYPE_CHECKING = False  # that of `typing`, whose import takes longer than all that a command without work does
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
 COMMANDS = ("build", "status")
 """What can be said again."""
 CONFIGURATION = "urdfsync.toml"
 
 BEGUN = time.monotonic_ns(), time.time_ns()
-_MAGIC = b"urdfsync-stamp 1 "
+_MAGIC = b"urdfsync-stamp 2 "
 _HEAD = len(_MAGIC) + 9
 _FOLDER, _NAME = ".urdfsync", "stamp"
 _FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)
 """A pipe in the place of a stamp is none; nobody waits for it."""
+_MANY = 4_000
+"""From so many files on, two processes look at them. With an idle core, that takes less time from some 1,500 files on;
+without one, the second process only costs its 2 ms, as much as 1,000 files."""
 _TYPE = 0o170000
 """The bits of a mode that `stat.S_IFMT` leaves."""
 _VARIABLES = (
@@ -52,17 +55,11 @@ class Stamp:
 
     def dumps(self, inode: int, written: int) -> bytes:
         """The content of a file of this inode and time (ns). Raises ValueError for what does not fit into it."""
-        own, targets = self.contents
-        folders: dict[str, list[str]] = {}
-        for path in own:
-            folder, _, name = path.rpartition(os.sep)
-            folders.setdefault(folder, []).append(name)
-        facts = [own[f"{folder}{os.sep}{name}"] for folder, names in folders.items() for name in names]
-        facts += [*targets.values(), *self.kinds[0].values(), *self.kinds[1].values()]
+        halves = self._halves()
         parts = [
-            [str(inode), str(written), str(chain(facts)), str(len(folders)), self.program],
-            *([folder, *names] for folder, names in folders.items()),
-            *(list(group) for group in (targets, *self.kinds)),
+            [str(inode), str(written), *map(str, self.numbers()), *(str(len(half)) for half in halves), self.program],
+            *([folder, *names] for half in halves for folder, names in half.items()),
+            *(list(group) for group in (self.contents[1], *self.kinds)),
             *([question, *answer] for question, answer in self.claims.items()),
         ]
         if any(not text or "\0" in text for part in parts for text in part):
@@ -70,15 +67,34 @@ class Stamp:
         body = "\0\0".join("\0".join(part) for part in parts).encode("utf-8", "surrogateescape")
         return b"%s%08x\n%s" % (_MAGIC, zlib.crc32(body), body)
 
+    def numbers(self) -> tuple[int, int]:
+        """One number for each half of the facts; see `chain`."""
+        own, targets = self.contents
+        first, second = (
+            [[own[f"{folder}{os.sep}{name}"] for name in names] for folder, names in half.items()]
+            for half in self._halves()
+        )
+        return chain(first), chain([*second, *(list(group.values()) for group in (targets, *self.kinds))])
 
-def chain(facts: "Iterable[Facts]") -> int:
+    def _halves(self) -> "tuple[dict[str, list[str]], dict[str, list[str]]]":
+        """Names of own files by their folders: first those of half of all paths, then those that go with the rest."""
+        own, targets = self.contents
+        middle = (len(own) + len(targets) + sum(map(len, self.kinds))) // 2
+        halves: tuple[dict[str, list[str]], dict[str, list[str]]] = {}, {}
+        for number, path in enumerate(own):
+            folder, _, name = path.rpartition(os.sep)
+            halves[number >= middle].setdefault(folder, []).append(name)
+        return halves
+
+
+def chain(groups: "Iterable[list[Facts]]") -> int:
     """One number for all facts, in this order; the same in each process of this program, as all of them are integers.
 
     Chance makes two of them alike once in 2^60 cases; nobody can choose when a file changes, to the nanosecond.
     """
     found = 0
-    for fact in facts:
-        found = hash((found, *fact))
+    for facts in groups:
+        found = hash((found, *facts))
     return found
 
 
@@ -91,53 +107,82 @@ class Reading:
         if content[:_HEAD] != b"%s%08x\n" % (_MAGIC, zlib.crc32(body)):
             raise ValueError("no stamp")
         parts = body.decode("utf-8", "surrogateescape").split("\0\0")
-        own_inode, own_time, chained, folders, self.program = parts[0].split("\0")
+        own_inode, own_time, first, second, folders, others, self.program = parts[0].split("\0")
         if (own_inode, own_time) != (str(inode), str(written)):
             raise ValueError("a copy of a stamp")  # such as one from version control, which nobody should believe
-        self.chained = int(chained)
-        end = 1 + int(folders)
-        self._folders = parts[1:end]
-        self.targets, *self.kinds = (part.split("\0") if part else [] for part in parts[end : end + 3])
-        self.claims: dict[str, list[str]] = {}
-        for part in parts[end + 3 :]:
-            question, *self.claims[question] = part.split("\0")
+        self.numbers = int(first), int(second)
+        middle = 1 + int(folders)
+        end = middle + int(others)
+        self._halves = parts[1:middle], parts[middle:end]
+        self.targets, *self.kinds = map(_unpacked, parts[end : end + 3])
+        claims = (part.partition("\0") for part in parts[end + 3 :])
+        self._claims = {question: answer for question, _, answer in claims}
 
     @property
     def own(self) -> list[str]:
         """The files that were read and are no links."""
-        groups = (folder.split("\0") for folder in self._folders)
+        groups = (folder.split("\0") for half in self._halves for folder in half)
         return [f"{folder}{os.sep}{name}" for folder, *names in groups for name in names]
+
+    @property
+    def claims(self) -> dict[str, list[str]]:
+        """All answers by their question."""
+        return {question: _unpacked(answer) for question, answer in self._claims.items()}
+
+    def claim(self, question: str) -> list[str] | None:
+        """The answer to a question; None if there is none."""
+        answer = self._claims.get(question)
+        return None if answer is None else _unpacked(answer)
 
     def stands(self) -> bool:
         """Whether all is as it was when the stamp was written. Raises OSError if there is no way back here."""
         here = os.getcwd()  # noqa: PTH109
         os.chdir(here)  # fails before it is left if nobody could come back
         try:
-            return self._chained() == self.chained
+            if sum(folder.count("\0") for half in self._halves for folder in half) < _MANY:
+                return self._first_stands() and self._second_stands()
+            from urdfsync.stamping import beside
+
+            return beside.both(self._first_stands, self._second_stands)
         except (OSError, ValueError):
             return False
         finally:
             os.chdir(here)
 
-    def _chained(self) -> int:
-        """The number of all that is there now; see `chain`. Goes to the folders: that takes two thirds of the time."""
-        found, lstat = 0, os.lstat
-        for group in self._folders:
-            folder, *names = group.split("\0")
-            os.chdir(folder)
-            for name in names:
-                s = lstat(name)
-                found = hash((found, s.st_mode, s.st_ino, s.st_dev, s.st_size, s.st_mtime_ns, s.st_ctime_ns))
-        for path in self.targets:
-            s = os.stat(path)  # noqa: PTH116
-            found = hash((found, s.st_mode, s.st_ino, s.st_dev, s.st_size, s.st_mtime_ns, s.st_ctime_ns))
+    def _first_stands(self) -> bool:
+        return chain(map(_files, self._halves[0])) == self.numbers[0]
+
+    def _second_stands(self) -> bool:
+        return chain(self._second()) == self.numbers[1]
+
+    def _second(self) -> "Iterator[list[Facts]]":
+        yield from map(_files, self._halves[1])
+        yield _facts(map(os.stat, self.targets))
         for paths, status in zip(self.kinds, (os.lstat, os.stat), strict=True):
-            for path in paths:
-                try:
-                    found = hash((found, status(path).st_mode & _TYPE))
-                except (FileNotFoundError, NotADirectoryError):
-                    found = hash((found, 0))
-        return found
+            yield [(_kind(path, status),) for path in paths]
+
+
+def _unpacked(texts: str) -> list[str]:
+    return texts.split("\0") if texts else []
+
+
+def _files(group: str) -> list[Facts]:
+    """The facts of a folder's files. Goes to the folder: otherwise, this takes half as much time again."""
+    folder, *names = group.split("\0")
+    os.chdir(folder)
+    return _facts(map(os.lstat, names))
+
+
+def _facts(found: "Iterable[os.stat_result]") -> list[Facts]:
+    """The same as of `looking.facts_of`; in one go, as there are thousands."""
+    return [(s.st_mode, s.st_ino, s.st_dev, s.st_size, s.st_mtime_ns, s.st_ctime_ns) for s in found]
+
+
+def _kind(path: str, status: "Callable[[str], os.stat_result]") -> int:
+    try:
+        return status(path).st_mode & _TYPE
+    except (FileNotFoundError, NotADirectoryError):
+        return 0
 
 
 def program() -> str:
@@ -189,7 +234,7 @@ def read(path: str) -> Reading | None:
 def answer(question: str, path: str) -> list[str] | None:
     """What a stamp says, if it says anything and all still is as it was."""
     reading = read(path)
-    claim = reading.claims.get(question) if reading else None
+    claim = reading.claim(question) if reading else None
     return claim if claim is not None and reading and reading.stands() else None
 
 
