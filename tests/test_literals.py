@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from urdfsync.literals import capitalize_first, html, matrix, real, string, vector
+from urdfsync.literals import capitalize_first, html, matrix, numbers_only, real, string, vector
 
 NUMBER = re.compile(r"-?[0-9]+(\.[0-9]*)?([eE][+-]?[0-9]+)?", re.ASCII)
 """A sign and UNSIGNED-NUMBER of the Modelica language specification 3.6, section 2.4.1."""
@@ -124,3 +124,33 @@ def test_html_shows_the_text_and_adds_no_markup(text: str) -> None:
 def test_capitalize_first_leaves_the_rest_alone() -> None:
     assert capitalize_first('link "B"') == 'Link "B"'
     assert capitalize_first("") == ""
+
+
+RECORD = """\
+record ArmParameters "Robot \\"arm\\" 1"
+  parameter Real m = 1.5e-3 "Mass";
+  parameter Real r[3] = {0, -0.1, .5};
+  parameter Real upper = Modelica.Constants.inf;
+end ArmParameters;
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "same"),
+    [
+        ("1.5e-3", "-7", True),
+        ("-0.1", "0.25E+4", True),
+        ("Modelica.Constants.inf", "-3.2", True),
+        ('"Robot \\"arm\\" 1"', '"anything; 2"', True),
+        ("{0, -0.1, .5}", "{0, -0.1}", False),
+        ("r[3]", "r2[3]", False),
+        ("upper", "lower", False),
+        ("parameter Real m = 1.5e-3", "parameter Real m", False),
+    ],
+)
+def test_texts_that_differ_in_literals_only(old: str, new: str, same: bool) -> None:
+    assert numbers_only(RECORD, RECORD.replace(old, new)) is same
+
+
+def test_line_endings_are_no_difference() -> None:
+    assert numbers_only(RECORD, RECORD.replace("\n", "\r\n"))

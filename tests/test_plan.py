@@ -24,7 +24,6 @@ from urdfsync.plan import (
     both,
     decide,
     hold,
-    numbers_only,
     plan,
     remembered,
     spare,
@@ -471,36 +470,6 @@ def test_a_choice_holds_until_one_side_changes(mine: str, generated: str, holds:
 def test_both_sides_count() -> None:
     sides = [(None, None), ("a", None), (None, "a"), ("a", "b"), ("b", "a")]
     assert len({both(*pair) for pair in sides}) == len(sides)
-
-
-RECORD = """\
-record ArmParameters "Robot \\"arm\\" 1"
-  parameter Real m = 1.5e-3 "Mass";
-  parameter Real r[3] = {0, -0.1, .5};
-  parameter Real upper = Modelica.Constants.inf;
-end ArmParameters;
-"""
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "same"),
-    [
-        ("1.5e-3", "-7", True),
-        ("-0.1", "0.25E+4", True),
-        ("Modelica.Constants.inf", "-3.2", True),
-        ('"Robot \\"arm\\" 1"', '"anything; 2"', True),
-        ("{0, -0.1, .5}", "{0, -0.1}", False),
-        ("r[3]", "r2[3]", False),
-        ("upper", "lower", False),
-        ("parameter Real m = 1.5e-3", "parameter Real m", False),
-    ],
-)
-def test_numbers_only(old: str, new: str, same: bool) -> None:
-    assert numbers_only(RECORD, RECORD.replace(old, new)) is same
-
-
-def test_line_endings_are_no_difference() -> None:
-    assert numbers_only(RECORD, RECORD.replace("\n", "\r\n"))
 
 
 def test_places_that_are_handed_on() -> None:

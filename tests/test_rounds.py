@@ -17,6 +17,7 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 
 from urdfsync import changes, moves
 from urdfsync.domain import Role
+from urdfsync.literals import numbers_only
 from urdfsync.plan import (
     CONFLICTS,
     DELETES,
@@ -29,7 +30,6 @@ from urdfsync.plan import (
     Wanted,
     after,
     hold,
-    numbers_only,
     plan,
     remembered,
     spare,

@@ -13,6 +13,16 @@ _CONTROLS = re.compile(
     "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff\ufffe\uffff]"
 )
 """What could end a line, turn the direction of text around, or can't be written as UTF-8."""
+_LITERAL = re.compile(
+    r"""
+    "(?:[^"\\]|\\.)*"                        # a string
+    | (?:[-+]\s*)?(?:
+        Modelica\.Constants\.inf\b           # stands for a limit that is absent
+        | (?<![\w.])\d+(?:\.\d*)?(?:[eE][-+]?\d+)?
+      )
+    """,
+    re.VERBOSE | re.DOTALL,
+)
 _LARGEST_INTEGER = 2**31 - 1  # what every Modelica tool takes without a decimal point
 
 
@@ -63,3 +73,12 @@ def html(value: str) -> str:
 def capitalize_first(value: str) -> str:
     """The text with its first letter as a capital."""
     return value[:1].upper() + value[1:]
+
+
+def numbers_only(old: str, new: str) -> bool:
+    """Whether two texts differ in the values of number and string literals at most."""
+    return _shape(old) == _shape(new)
+
+
+def _shape(text: str) -> str:
+    return _LITERAL.sub(lambda match: '""' if match[0].startswith('"') else "0", text.replace("\r\n", "\n"))

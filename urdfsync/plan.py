@@ -9,7 +9,6 @@ from __future__ import annotations
 import enum
 import functools
 import hashlib
-import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Self, overload
 
@@ -382,24 +381,3 @@ def remembered(recorded: Mapping[str, FileRecord], actions: Iterable[Action]) ->
         and record.choice is not None
         and record.chosen_for == both(action.mine, action.generated)
     }
-
-
-_LITERAL = re.compile(
-    r"""
-    "(?:[^"\\]|\\.)*"                        # a string
-    | (?:[-+]\s*)?(?:
-        Modelica\.Constants\.inf\b           # stands for a limit that is absent
-        | (?<![\w.])\d+(?:\.\d*)?(?:[eE][-+]?\d+)?
-      )
-    """,
-    re.VERBOSE | re.DOTALL,
-)
-
-
-def numbers_only(old: str, new: str) -> bool:
-    """Whether two texts differ in the values of number and string literals at most."""
-    return _shape(old) == _shape(new)
-
-
-def _shape(text: str) -> str:
-    return _LITERAL.sub(lambda match: '""' if match[0].startswith('"') else "0", text.replace("\r\n", "\n"))

@@ -15,6 +15,7 @@ from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.files import Tree, digest, placed, text_digest
+from urdfsync.literals import numbers_only
 from urdfsync.manifest import Manifest
 from urdfsync.plan import (
     CONFLICTS,
@@ -29,7 +30,6 @@ from urdfsync.plan import (
     after,
     hold,
     is_let_go,
-    numbers_only,
     plan,
     remembered,
     spare,
