@@ -13,7 +13,6 @@ block of a diff; every number is there, defaults too, so that a change of a numb
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from functools import partial
 from typing import Any, TypeAlias
 
 import msgspec
@@ -57,12 +56,9 @@ def from_snapshot(snapshot: Snapshot, parts: Parts | None = None) -> Robot:
         for text in texts
     ]
     robot = msgspec.convert({"name": snapshot["name"], "extensions": extensions}, Robot)
-    links, joints = Kept(parts, "links"), Kept(parts, "joints")
-    return msgspec.structs.replace(
-        robot,
-        links=tuple([links.get(name, partial(_link, name), link) for name, link in snapshot["links"].items()]),
-        joints=tuple([joints.get(name, partial(_joint, name), joint) for name, joint in snapshot["joints"].items()]),
-    )
+    kept = Kept(parts, "elements")
+    links, joints = kept.each("links", _link, snapshot["links"]), kept.each("joints", _joint, snapshot["joints"])
+    return msgspec.structs.replace(robot, links=tuple(links.values()), joints=tuple(joints.values()))
 
 
 def _link(name: str, link: Mapping[str, Any]) -> Link:
