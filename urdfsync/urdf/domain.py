@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import compress
 from pathlib import Path
 from typing import Any
 
@@ -24,9 +25,13 @@ from urdfsync.domain import (
     Target,
 )
 from urdfsync.urdf import naming
+from urdfsync.urdf.kept import Kept
 from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
+
+_MESHES: Parts = {}
+"""Which links have meshes, of the robot that was asked for last: several stages of a build ask."""
 
 
 class UrdfDomain:
@@ -72,11 +77,7 @@ class UrdfDomain:
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """See `urdfsync.domain.Domain`."""
-        names: dict[str, dict[str, str]] = {"links": {}, "joints": {}}
-        keys = [("link", name) for name in snapshot["links"]] + [("joint", name) for name in snapshot["joints"]]
-        for (kind, name), identifier in naming.identify(keys, taken=(target.name,)).items():
-            names[f"{kind}s"][name] = identifier.component
-        return names
+        return naming.components(tuple(snapshot["links"]), tuple(snapshot["joints"]), target.name)
 
     def artifacts(
         self,
@@ -173,8 +174,10 @@ def _shown(snapshot: Snapshot, options: Options) -> Robot:
         absent["collisions"] = []
     if "package" not in options.approach:
         absent["visuals"] = []
-    links = {name: {**link, **absent} for name, link in snapshot["links"].items() if _has_mesh(link)}
-    return from_snapshot({**snapshot, "links": links, "joints": {}})
+    links = snapshot["links"]
+    meshes = Kept(_MESHES, "links").each("meshes", lambda _, link: _has_mesh(link), links)
+    shown = {name: {**links[name], **absent} for name in compress(links, meshes.values())}
+    return from_snapshot({**snapshot, "links": shown, "joints": {}, "extensions": {}})
 
 
 def _has_mesh(link: Mapping[str, Any]) -> bool:
