@@ -151,11 +151,21 @@ def test_where_much_has_changed_the_rest_is_parsed_but_not_read(
     parts: Parts = {}
     for mass in (1.0, 2.0):
         read.clear()
-        text = robot(link("base"), *(link(name, mass) for name in names), *joints)
+        text = robot(link("base"), *(link(name, mass) for name in names), *joints, f"<gazebo>{mass}</gazebo>")
         assert source.read_robot(text.encode(), "a.urdf", cross_check=False, parts=parts).robot is not None
-    assert read == [f"link {name}" for name in names]
+    assert read == [*(f"link {name}" for name in names), "gazebo number 1"]
     assert len(parsed) == 2
     assert joints[-1] in parsed[1]
+
+
+def test_what_stands_at_the_end_is_not_parsed_again_however_much_has_changed(parsed: list[str]) -> None:
+    names = [f"l{number}" for number in range(50)]
+    joints = [joint(name, "fixed", "base", name) for name in names]
+    parts: Parts = {}
+    for mass in (1.0, 2.0):
+        text = robot(link("base"), *(link(name, mass) for name in names), *joints)
+        assert source.read_robot(text.encode(), "a.urdf", cross_check=False, parts=parts).robot is not None
+    assert [text.count("<joint") for text in parsed] == [50, 0]
 
 
 # What a child of the root says by itself, and what it does not
