@@ -78,13 +78,19 @@ def read(text: str, root: str, make: Make[T], last: Document[T] | None = None) -
 
     The children of a root with another tag are left out. Raises xml.Fault.
     """
-    far = any(sign in text for sign in _FAR)
-    if last is None or last.far or far:
-        return _Assembly([text], root, make, None).read(len(text), far)
-    try:
-        return _Assembly(_cut(text, last), root, make, last).read(len(text))
-    except (_DoubtError, xml.Fault):  # what is wrong, the whole tells best
-        return _Assembly([text], root, make, last).read(len(text))
+    if last is not None and not last.far:
+        pieces = _cut(text, last)
+        if not any(_is_far(piece) for piece in pieces if isinstance(piece, str)):
+            try:
+                return _Assembly(pieces, root, make, last).read(len(text))
+            except (_DoubtError, xml.Fault):  # what is wrong, the whole tells best
+                return _Assembly([text], root, make, last).read(len(text))
+    return _Assembly([text], root, make, None).read(len(text), _is_far(text))
+
+
+def _is_far(text: str) -> bool:
+    """Whether there is such a sign; none of them goes beyond the begin of a child, which is a tag."""
+    return any(sign in text for sign in _FAR)
 
 
 def _cut(text: str, last: Document[T]) -> list[str | range]:
