@@ -18,8 +18,8 @@ from urdfsync.urdf.reader import checks, chunks, xml
 from urdfsync.urdf.reader.chunks import Chunk
 from urdfsync.urdf.reader.fields import Element, Findings
 from urdfsync.urdf.reader.link import resolve_materials
-from urdfsync.urdf.reader.numbers import Last, renumbered
 from urdfsync.urdf.reader.part import MODELLED, Leftover, Part, read_part
+from urdfsync.urdf.reader.renumbering import Last, renumbered
 from urdfsync.urdf.robot import Joint, Link, Material, Robot
 
 _Document: TypeAlias = chunks.Document[Part]
