@@ -161,7 +161,7 @@ def test_an_element_may_be_none() -> None:
         assert list(found.values()) == [f"{name} None" for name in elements]
 
 
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(st.randoms(use_true_random=False))
 def test_the_files_that_a_robot_refers_to_are_those_of_a_domain_that_keeps_nothing(random: Random) -> None:
     keeping, lookup = UrdfDomain(), Lookup(Path("/cad/arm.urdf"))
