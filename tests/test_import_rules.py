@@ -162,6 +162,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "cli": ("jinja2", "deepdiff", "urdfsync.urdf", "rich"),
     "urdf/robot": ("lxml", "yourdfpy", "numpy", "pathlib", *IO),
     "urdf/reader/chunks": ("lxml", "urdfsync.urdf.robot", "pathlib", *IO, *SHELL_MODULES),
+    "urdf/reader/renumbering": ("lxml", "pathlib", *IO, *SHELL_MODULES),
     "urdf/source": ("jinja2", "urdfsync.render", "urdfsync.manifest", *SHELL_MODULES),
     "urdf/echoes": ("pathlib", "re", *IO, *HEAVY, *SHELL_MODULES),
     "urdf/modifiers": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),

@@ -55,7 +55,7 @@ class Recipe(msgspec.Struct, frozen=True):
 
 
 class Piece(msgspec.Struct, eq=False):
-    """What a part of a text is made of. As long as it is kept, that part is rendered once: see the filter `once`."""
+    """What a part of a text is made of, or its recipe. While it is kept, that part is rendered once: see `once`."""
 
     of: Any
     rendered: tuple[object, str] | None = None

@@ -7,26 +7,35 @@ that comes from a source reaches Modelica through `string` or `html`, every numb
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, MutableMapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, MutableMapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import jinja2
 
 from urdfsync import bytecode, literals
-from urdfsync.domain import Piece
+from urdfsync.domain import Piece, Recipe
 
 
-def once(piece: Any, macro: Callable[[Any], str]) -> str:
-    """What the macro makes of a piece, or of something that nobody keeps.
+def once(pieces: Iterable[Any], macro: Callable[[Any], str]) -> str:
+    """What the macro makes of some pieces, one after the other, or of something that nobody keeps.
 
     The macro must be one that is imported: the others are made anew for each text.
     """
-    if not isinstance(piece, Piece):
-        return macro(piece)
-    if piece.rendered is None or piece.rendered[0] is not macro:
-        piece.rendered = macro, macro(piece.of)
-    return piece.rendered[1]
+    texts: list[str] = []
+    for piece in pieces:
+        known = piece.rendered if type(piece) is Piece else None
+        texts.append(known[1] if known and known[0] is macro else _text(piece, macro))
+    return "".join(texts)
+
+
+def _text(piece: Any, macro: Callable[[Any], str]) -> str:
+    """What the macro makes of a piece, which keeps it, or of something else; of a recipe by what it makes."""
+    of = piece.of if isinstance(piece, Piece) else piece
+    text = macro(of.make(*of.made_of) if isinstance(of, Recipe) else of)
+    if isinstance(piece, Piece):
+        piece.rendered = macro, text
+    return text
 
 
 _FILTERS = (

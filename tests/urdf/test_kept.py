@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -14,8 +15,8 @@ from support import mutations
 from support.packages import RENDERER
 
 from urdfsync.difference import Version
-from urdfsync.domain import Artifact, Order, Parts, Piece, Snapshot, Target
-from urdfsync.urdf.domain import DOMAIN
+from urdfsync.domain import Artifact, Lookup, Order, Parts, Piece, Snapshot, Target
+from urdfsync.urdf.domain import DOMAIN, UrdfDomain
 from urdfsync.urdf.kept import Kept
 from urdfsync.urdf.options import Options
 
@@ -127,6 +128,47 @@ def test_what_is_equal_but_another_object_is_made_anew() -> None:
     parts: Parts = {}
     assert str(Kept(parts, "kind").get("a", tuple, [0.0])) == "(0.0,)"
     assert str(Kept(parts, "kind").get("a", tuple, [-0.0])) == "(-0.0,)"
+
+
+def test_of_many_elements_only_those_that_are_other_objects_are_made_anew() -> None:
+    made: list[str] = []
+
+    def make(name: str, element: list[float], common: str) -> str:
+        made.append(name)
+        return f"{common} {element}"
+
+    parts: Parts = {}
+    a, b, c = [0.0], [2.0], [3.0]
+    for elements, common, anew in (
+        ({"a": a, "b": b, "c": c}, "x", "abc"),
+        ({"c": c, "b": b}, "x", ""),
+        ({"c": c, "b": [2.0], "a": a}, "x", "ba"),
+        ({"a": [-0.0], "c": c}, "x", "a"),
+        ({"a": a, "c": c}, "y", "ac"),
+        ({}, "y", ""),
+        ({"a": a}, "y", "a"),
+    ):
+        made.clear()
+        found = Kept(parts, "kind").each("name", make, elements, common)
+        assert list(found.items()) == [(name, f"{common} {element}") for name, element in elements.items()]
+        assert made == list(anew)
+
+
+def test_an_element_may_be_none() -> None:
+    parts: Parts = {}
+    for elements in ({"a": None}, {"a": None, "b": None}):
+        found = Kept(parts, "kind").each("name", lambda name, element: f"{name} {element}", elements)
+        assert list(found.values()) == [f"{name} None" for name in elements]
+
+
+@settings(max_examples=15)
+@given(st.randoms(use_true_random=False))
+def test_the_files_that_a_robot_refers_to_are_those_of_a_domain_that_keeps_nothing(random: Random) -> None:
+    keeping, lookup = UrdfDomain(), Lookup(Path("/cad/arm.urdf"))
+    assert keeping.read(b'<robot name="r"><link name="l"/></robot>', "r", Options(cross_check=False), {}).snapshot
+    for version in histories(random):
+        found = keeping.dependencies(version.snapshot, lookup, OPTIONS[0], {})
+        assert found == UrdfDomain().dependencies(version.snapshot, lookup, OPTIONS[0], {})
 
 
 def test_without_parts_nothing_is_kept() -> None:

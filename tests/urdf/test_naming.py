@@ -148,6 +148,13 @@ def test_the_natural_order_is_total(names: list[str]) -> None:
         assert sorted(permutation, key=natural_key) == sorted(names, key=natural_key)
 
 
+def test_components_are_told_by_kind_in_the_order_of_their_names() -> None:
+    for taken, arm in (("Robot", "arm"), ("arm", "arm_link"), ("Robot", "arm")):
+        found = naming.components(("b", "arm"), ("arm",), taken)
+        assert [list(names.items()) for names in found.values()] == [[("b", "b"), ("arm", arm)], [("arm", "arm_joint")]]
+        assert list(found) == ["links", "joints"]
+
+
 def test_the_natural_order_counts() -> None:
     names = ["link10", "link9", "link09", "link", "9", "10", "link1b", "link1a2"]
     expected = ["9", "10", "link", "link1a2", "link1b", "link09", "link9", "link10"]

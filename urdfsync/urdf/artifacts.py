@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Artifact, Import, Order, Parts, Recipe, Role, Target
+from urdfsync.domain import Artifact, Import, Order, Parts, Piece, Recipe, Role, Target
 from urdfsync.urdf.kept import Kept
 from urdfsync.urdf.model import assembly, notes, shapes
 from urdfsync.urdf.model.assembly import RecordJoint, RecordLink
 from urdfsync.urdf.model.numbers import joint_numbers
 from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
-from urdfsync.urdf.naming import Identifier
+from urdfsync.urdf.naming import Identifier, Key
 from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import Inertial, Joint, JointType, Link, Robot
 from urdfsync.urdf.skeleton import Skeleton, bare
@@ -34,16 +34,16 @@ def artifacts(
 
     Raises KeyError or ValueError for what is no robot that passed all checks, or has meshes without their facts.
     """
-    context = _context(robot, imports, target, options, Kept(parts, "robot"))
-    skeleton = context.skeleton
-    files: list[Artifact | Order] = [*_package(context)]
+    kept = Kept(parts, "files")
+    context = _context(robot, imports, target, options, kept)
+    structure, target, options = context.structure, context.target, context.options
+    files: list[Artifact | Order] = [*kept.get("structure files", _of_structure, structure, target, options)]
     if "package" in options.approach:
-        files += _elements(context, Kept(parts, "files"))
-        files += _robot(context)
-    if has_bench(skeleton.joints, options):
-        bench = Recipe(assembly.generic_data, (context.structure, target, options))
-        files.append(Artifact(f"{target.name}Generic.mo", Role.MODEL, "robot/generic.mo.jinja", bench, "robot"))
-    files.append(_record(context, robot.name, Kept(parts, "record")))
+        common = structure.names, target.package
+        links = kept.each("link files", _link, context.links, *common, context.imports, options)
+        files += chain.from_iterable(links.values())
+        files += chain.from_iterable(kept.each("joint files", _joint, context.joints, *common).values())
+    files.append(_record(context, robot.name, kept))
     return files
 
 
@@ -53,7 +53,7 @@ def record(robot: Robot, target: Target, options: Options) -> Artifact:
     It says what the record in a package says, if that is called like this one, and if no mesh has a part in it.
     """
     name = target.name.removesuffix(_PARAMETERS) or target.name
-    kept = Kept(None, "")
+    kept = Kept(None, "files")
     artifact = _record(_context(robot, {}, Target(target.package, name), options, kept), robot.name, kept)
     data = {**artifact.data, "record": target.name}
     return msgspec.structs.replace(artifact, path=f"{target.name}.mo", source=data)
@@ -73,9 +73,10 @@ def has_bench(joints: Sequence[Joint], options: Options) -> bool:
 
 
 class _Context(msgspec.Struct, frozen=True):
-    skeleton: Skeleton
+    links: Mapping[str, Link]
+    joints: Mapping[str, Joint]
     structure: Skeleton
-    """The skeleton of the bare robot: all that models of the whole robot depend on."""
+    """The skeleton of the robot without numbers: all that models of the whole robot depend on."""
     imports: Mapping[str, Import]
     target: Target
     options: Options
@@ -84,22 +85,44 @@ class _Context(msgspec.Struct, frozen=True):
 def _context(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options, kept: Kept) -> _Context:
     for found in imports.values():
         _ = found.facts["bounds"], found.facts["hull"]  # here, and not when a text is rendered
-    target, options = kept.same("target", target), kept.same("options", options)
-    structure = kept.get("structure", _structure, kept.same("bare", bare(robot)), target)
-    return _Context(structure.of_numbers(robot), structure, imports, target, options)
+    links, joints = {link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}
+    imports, target, options = kept.same("imports", imports), kept.same("target", target), kept.same("options", options)
+    names = kept.same("names", tuple(links))
+    moves = kept.same("joints", tuple(kept.each("bare", lambda _, joint: bare(joint), joints).values()))
+    return _Context(links, joints, kept.get("structure", _structure, names, moves, target), imports, target, options)
 
 
-def _structure(robot: Robot, target: Target) -> Skeleton:
-    structure = Skeleton.of(robot, taken=(target.name,))
+def _structure(links: Iterable[str], joints: tuple[Joint, ...], target: Target) -> Skeleton:
+    structure = Skeleton.of(Robot("", tuple(map(Link, links)), joints), taken=(target.name,))
     if len(structure.leaders_first()) < len(structure.joints):
         raise ValueError("a joint follows one that is not there, or itself")
     return structure
 
 
-def _package(context: _Context) -> Iterator[Artifact | Order]:
-    package, name, joints = context.target.package, context.target.name, context.skeleton.joints
-    parent, _, last = package.rpartition(".")
-    whole = "package" in context.options.approach
+def _numbers(structure: Skeleton) -> tuple[Mapping[str, int], Mapping[str, int]]:
+    """The numbers of links, and of joints, in canonical order, from 1."""
+    links = {link.name: number for number, link in enumerate(structure.links, 1)}
+    return links, {joint.name: number for number, joint in enumerate(structure.joints, 1)}
+
+
+def _of_structure(structure: Skeleton, target: Target, options: Options) -> list[Artifact | Order]:
+    """The files that no number of the URDF has a part in."""
+    files = [*_package(structure, target, options)]
+    if "package" in options.approach:
+        links, joints = structure.links, structure.joints
+        files += _subpackage("Links", target, [structure.link(link.name) for link in links])
+        files += _subpackage("Joints", target, [structure.joint(joint.name) for joint in joints]) if joints else ()
+        files += _robot(structure, target, options)
+    if has_bench(structure.joints, options):
+        bench = Recipe(assembly.generic_data, (structure, target, options))
+        files.append(Artifact(f"{target.name}Generic.mo", Role.MODEL, "robot/generic.mo.jinja", bench, "robot"))
+    return files
+
+
+def _package(structure: Skeleton, target: Target, options: Options) -> Iterator[Artifact | Order]:
+    name, joints = target.name, structure.joints
+    parent, _, last = target.package.rpartition(".")
+    whole = "package" in options.approach
     yield _package_file(
         "package.mo",
         within=parent,
@@ -107,39 +130,23 @@ def _package(context: _Context) -> Iterator[Artifact | Order]:
         icon="RobotPackage",
         title=f"Robot {name}: links, joints, robot and benches" if whole else f"Robot {name} in one record",
         uses=() if parent else USES,
-        note=notes.package_note(name, bench=has_bench(joints, context.options)),
+        note=notes.package_note(name, bench=has_bench(joints, options)),
     )
-    classes = dict.fromkeys((*models(joints, context.target, context.options), f"{name}{_PARAMETERS}"))
+    classes = dict.fromkeys((*models(joints, target, options), f"{name}{_PARAMETERS}"))
     folders = ("Links", *(("Joints",) if joints else ())) if whole else ()
     yield Order("package.order", (*classes, *folders))
 
 
-def _elements(context: _Context, kept: Kept) -> Iterator[Artifact | Order]:
-    """What the package approach has of each link and joint."""
-    skeleton = context.skeleton
-    yield from _subpackage(context, "Links", [skeleton.link(link.name) for link in skeleton.links])
-    if skeleton.joints:
-        yield from _subpackage(context, "Joints", [skeleton.joint(joint.name) for joint in skeleton.joints])
-    package, options = context.target.package, context.options
-    for link in skeleton.links:
-        name = skeleton.link(link.name)
-        meshes = kept.same(("meshes", link.name), shapes.meshes((*link.visuals, *link.collisions), context.imports))
-        yield from kept.get(("link", link.name), _link, link, name, meshes, package, options)
-    for joint in skeleton.joints:
-        yield from kept.get(("joint", joint.name), _joint, joint, skeleton.joint(joint.name), package)
-
-
-def _subpackage(context: _Context, name: str, identifiers: list[Any]) -> Iterator[Artifact | Order]:
-    title = f"{name} of robot {context.target.name}"
-    note = f"One model and one record of numbers per {name[:-1].lower()}."
+def _subpackage(name: str, target: Target, identifiers: list[Identifier]) -> Iterator[Artifact | Order]:
+    """What the package approach has of all links, or of all joints."""
     yield _package_file(
         f"{name}/package.mo",
-        within=context.target.package,
+        within=target.package,
         name=name,
         icon=f"{name}Package",
-        title=title,
+        title=f"{name} of robot {target.name}",
         uses=(),
-        note=note,
+        note=f"One model and one record of numbers per {name[:-1].lower()}.",
     )
     yield Order(f"{name}/package.order", tuple(n for i in identifiers for n in (i.type, i.record)))
 
@@ -149,11 +156,13 @@ def _package_file(path: str, **data: Any) -> Artifact:
 
 
 def _link(
-    link: Link, name: Identifier, meshes: Mapping[str, Import], package: str, options: Options
+    key: str, link: Link, names: Mapping[Key, Identifier], package: str, imports: Mapping[str, Import], options: Options
 ) -> tuple[Artifact, ...]:
-    owner, looks = f"link {link.name}", shapes.looks(link, meshes, options)
+    """What the package approach has of a link."""
+    name, meshes = names["link", key], shapes.meshes((*link.visuals, *link.collisions), imports)
+    owner, looks = f"link {key}", shapes.looks(link, meshes, options)
     record = Recipe(_link_record, (name, package, link, meshes, options))
-    model = Recipe(_link_model, (name, package, link.name, looks, options))
+    model = Recipe(_link_model, (name, package, key, looks, options))
     return (
         Artifact(f"Links/{name.record}.mo", Role.RECORD, LINK_RECORD, record, owner),
         Artifact(f"Links/{name.type}.mo", Role.MODEL, LINK_MODEL, model, owner),
@@ -193,9 +202,10 @@ def link_model(visuals: Sequence[Look], collisions: Sequence[Look], options: Opt
     }
 
 
-def _joint(joint: Joint, name: Identifier, package: str) -> tuple[Artifact, ...]:
-    owner, loses = f"joint {joint.name}", joint.dynamics is not None
-    own = Joint(joint.name, joint.type, joint.parent, joint.child)
+def _joint(key: str, joint: Joint, names: Mapping[Key, Identifier], package: str) -> tuple[Artifact, ...]:
+    """What the package approach has of a joint."""
+    name, owner, loses = names["joint", key], f"joint {key}", joint.dynamics is not None
+    own = Joint(key, joint.type, joint.parent, joint.child)
     record = Recipe(_joint_record, (name, package, joint))
     model = Recipe(_joint_model, (name, package, own, loses))
     return (
@@ -233,8 +243,8 @@ def joint_template(kind: JointType) -> str:
     return f"joint/{kind}.mo.jinja"
 
 
-def _robot(context: _Context) -> Iterator[Artifact]:
-    name, made_of = context.target.name, (context.structure, context.target, context.options)
+def _robot(structure: Skeleton, target: Target, options: Options) -> Iterator[Artifact]:
+    name, made_of = target.name, (structure, target, options)
     robot, bench = Recipe(assembly.robot_data, made_of), Recipe(assembly.bench_data, made_of)
     yield Artifact(f"{name}.mo", Role.MODEL, "robot/robot.mo.jinja", robot, "robot")
     yield Artifact(f"{name}Run.mo", Role.MODEL, "robot/run.mo.jinja", bench, "robot")
@@ -242,24 +252,30 @@ def _robot(context: _Context) -> Iterator[Artifact]:
 
 
 def _record(context: _Context, urdf_name: str, kept: Kept) -> Artifact:
-    skeleton, structure, stands = context.skeleton, context.structure, context.options.base == "floating"
-    links = [
-        kept.piece(("link", link.name), partial(_record_link, number, link.name), structure, link.inertial)
-        for number, link in enumerate(skeleton.links, 1)
-    ]
-    joints = [
-        kept.piece(("joint", joint.name), partial(_record_joint, number), structure, joint)
-        for number, joint in enumerate(skeleton.joints, 1)
-    ]
-    touching = tuple([Link(link.name, collisions=link.collisions) for link in skeleton.links]) if stands else ()
-    ground = (Skeleton(touching, skeleton.joints, skeleton.names), context.imports) if stands else None
-    recipe = Recipe(assembly.record_data, (structure, links, joints, ground, context.target, urdf_name))
+    structure, stands = context.structure, context.options.base == "floating"
+    order = kept.get("numbers", _numbers, structure)
+    generic = kept.get("generic", has_tables, structure.joints)
+
+    def link(name: str, inertial: Inertial | None, structure: Skeleton) -> RecordLink | Piece:
+        return kept.piece(RecordLink(order[0][name], structure.link(name).component, name, inertial))
+
+    def joint(name: str, joint: Joint, structure: Skeleton) -> RecordJoint | Piece:
+        return kept.piece(RecordJoint(order[1][name], structure.joint(name).component, joint))
+
+    inertials = {name: context.links[name].inertial for name in order[0]}
+    joints = {name: context.joints[name] for name in order[1]}
+    pieces = (
+        kept.get("tables", lambda structure: kept.piece(Recipe(assembly.structure_data, (structure,))), structure),
+        list(kept.each("record links", link, inertials, structure).values()),
+        list(kept.each("record joints", joint, joints, structure).values()),
+    )
+    ground = (_touching(context), context.imports) if stands else None
+    recipe = Recipe(assembly.record_data, (*pieces, ground, context.target, urdf_name, generic))
     return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, recipe, "robot")
 
 
-def _record_link(number: int, name: str, structure: Skeleton, inertial: Inertial | None) -> RecordLink:
-    return RecordLink(number, structure.link(name).component, name, inertial)
-
-
-def _record_joint(number: int, structure: Skeleton, joint: Joint) -> RecordJoint:
-    return RecordJoint(number, structure.joint(joint.name).component, joint)
+def _touching(context: _Context) -> Skeleton:
+    """The robot with what may touch the ground, and no other numbers of its links."""
+    structure = context.structure
+    links = tuple([Link(link.name, collisions=context.links[link.name].collisions) for link in structure.links])
+    return Skeleton(links, tuple([context.joints[joint.name] for joint in structure.joints]), structure.names)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import compress
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from urdfsync.domain import (
     Target,
 )
 from urdfsync.urdf import naming
+from urdfsync.urdf.kept import Kept
 from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
@@ -38,6 +40,10 @@ class UrdfDomain:
     converter = 1
     uses = USES
     options = Options
+
+    def __init__(self) -> None:
+        self._meshes: Parts | None = None
+        """Which links have meshes, where readings are kept: several stages of a build ask for them."""
 
     def read(self, content: bytes, file: str, options: Options, parts: Parts | None = None) -> Reading:
         """See `urdfsync.domain.Domain`."""
@@ -54,6 +60,7 @@ class UrdfDomain:
             said += tuple(out_of_scope(reading.robot, file, reading.lines))
         snapshot = to_snapshot(reading.robot, kept.get("snapshot"))
         kept["snapshot"] = reading.robot, snapshot
+        self._meshes = None if parts is None else parts.setdefault("meshes", {})
         return Reading(snapshot, said, reading.lines)
 
     def dependencies(
@@ -62,7 +69,10 @@ class UrdfDomain:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf.meshes.lookup import dependencies
 
-        return dependencies(_shown(snapshot, options), lookup, lines) if options.meshes == "import" else ()
+        if options.meshes != "import":
+            return ()
+        meshes = Kept(self._meshes, "links").each("meshes", lambda _, link: _has_mesh(link), snapshot["links"])
+        return dependencies(_shown(snapshot, compress(meshes, meshes.values()), options), lookup, lines)
 
     def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
         """See `urdfsync.domain.Domain`."""
@@ -72,11 +82,7 @@ class UrdfDomain:
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """See `urdfsync.domain.Domain`."""
-        names: dict[str, dict[str, str]] = {"links": {}, "joints": {}}
-        keys = [("link", name) for name in snapshot["links"]] + [("joint", name) for name in snapshot["joints"]]
-        for (kind, name), identifier in naming.identify(keys, taken=(target.name,)).items():
-            names[f"{kind}s"][name] = identifier.component
-        return names
+        return naming.components(tuple(snapshot["links"]), tuple(snapshot["joints"]), target.name)
 
     def artifacts(
         self,
@@ -166,15 +172,15 @@ class UrdfDomain:
         return experiment(content, file, target, options, complete)
 
 
-def _shown(snapshot: Snapshot, options: Options) -> Robot:
-    """The links with meshes, without the shapes that nothing is made of: the record knows how high collisions stand."""
+def _shown(snapshot: Snapshot, links: Iterable[str], options: Options) -> Robot:
+    """These links, without the shapes that nothing is made of: the record knows how high collisions stand."""
     absent: dict[str, list[Any]] = {}
     if not options.collisions or ("package" not in options.approach and options.base == "fixed"):
         absent["collisions"] = []
     if "package" not in options.approach:
         absent["visuals"] = []
-    links = {name: {**link, **absent} for name, link in snapshot["links"].items() if _has_mesh(link)}
-    return from_snapshot({**snapshot, "links": links, "joints": {}})
+    shown = {name: {**snapshot["links"][name], **absent} for name in links}
+    return from_snapshot({**snapshot, "links": shown, "joints": {}, "extensions": {}})
 
 
 def _has_mesh(link: Mapping[str, Any]) -> bool:

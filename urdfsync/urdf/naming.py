@@ -100,6 +100,16 @@ def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Id
     return _identify(frozenset(names), tuple(taken))
 
 
+@functools.lru_cache(maxsize=2)
+def components(links: tuple[str, ...], joints: tuple[str, ...], taken: str) -> Mapping[str, Mapping[str, str]]:
+    """The components of links and of joints by their names; `taken` is a name that none has. Nobody changes this."""
+    identifiers = identify([*(("link", name) for name in links), *(("joint", name) for name in joints)], (taken,))
+    return {
+        "links": {name: identifiers["link", name].component for name in links},
+        "joints": {name: identifiers["joint", name].component for name in joints},
+    }
+
+
 @functools.lru_cache(maxsize=2)  # most changes of a robot leave its names as they are
 def _identify(names: frozenset[Key], taken: tuple[str, ...]) -> Mapping[Key, Identifier]:
     spelled = {key: spell(key[1], key[0]) for key in names}

@@ -42,15 +42,6 @@ class Skeleton(msgspec.Struct, frozen=True):
         keys = [("link", link.name) for link in links] + [("joint", joint.name) for joint in joints]
         return cls(links, joints, identify(keys, taken))
 
-    def of_numbers(self, robot: Robot) -> Skeleton:
-        """The same with the links and joints of a robot, whose `bare` this is the skeleton of."""
-        links, joints = {link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}
-        return Skeleton(
-            tuple([links[link.name] for link in self.links]),
-            tuple([joints[joint.name] for joint in self.joints]),
-            self.names,
-        )
-
     def link(self, name: str) -> Identifier:
         """Identifier of a link."""
         return self.names["link", name]
@@ -95,14 +86,8 @@ class Skeleton(msgspec.Struct, frozen=True):
         return order
 
 
-def bare(robot: Robot) -> Robot:
-    """What of a robot is no number: its links and joints, and which joints follow which."""
-    links = tuple([Link(link.name) for link in robot.links])
-    joints = tuple([_bare(joint) for joint in robot.joints])
-    return Robot(robot.name, links, joints)
-
-
-def _bare(joint: Joint) -> Joint:
+def bare(joint: Joint) -> Joint:
+    """What of a joint is no number: where it stands, how it moves, and which joint it follows."""
     mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
     return Joint(joint.name, joint.type, joint.parent, joint.child, mimic=mimic)
 

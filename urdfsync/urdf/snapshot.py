@@ -12,15 +12,16 @@ block of a diff; every number is there, defaults too, so that a change of a numb
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterable, Mapping
-from functools import partial
+from itertools import compress
 from typing import Any, TypeAlias
 
 import msgspec
 
 from urdfsync.domain import Parts, Snapshot
 from urdfsync.urdf.kept import Kept
-from urdfsync.urdf.robot import Joint, Link, Robot
+from urdfsync.urdf.robot import Extension, Joint, Link, Robot
 
 _ENCODER = msgspec.json.Encoder(order="sorted")
 _NULL = b"null"
@@ -32,12 +33,9 @@ def to_snapshot(robot: Robot, before: tuple[Robot, Snapshot] | None = None) -> S
 
     `before` is another robot with its snapshot: of links and joints that are the same objects, the data are so, too.
     """
-    old, known = before or (Robot(""), {"links": {}, "joints": {}})
-    extensions: dict[str, dict[str, list[str]]] = {}
-    for extension in sorted(robot.extensions, key=msgspec.structs.astuple):
-        extensions.setdefault(extension.owner, {}).setdefault(extension.tag, []).append(extension.text)
+    old, known = before or (Robot(""), {"extensions": {}, "joints": {}, "links": {}})
     return {
-        "extensions": extensions,
+        "extensions": known["extensions"] if robot.extensions == old.extensions else _extensions(robot.extensions),
         "joints": _by_name(robot.joints, old.joints, known["joints"]),
         "links": _by_name(robot.links, old.links, known["links"]),
         "name": robot.name,
@@ -57,12 +55,9 @@ def from_snapshot(snapshot: Snapshot, parts: Parts | None = None) -> Robot:
         for text in texts
     ]
     robot = msgspec.convert({"name": snapshot["name"], "extensions": extensions}, Robot)
-    links, joints = Kept(parts, "links"), Kept(parts, "joints")
-    return msgspec.structs.replace(
-        robot,
-        links=tuple([links.get(name, partial(_link, name), link) for name, link in snapshot["links"].items()]),
-        joints=tuple([joints.get(name, partial(_joint, name), joint) for name, joint in snapshot["joints"].items()]),
-    )
+    kept = Kept(parts, "elements")
+    links, joints = kept.each("links", _link, snapshot["links"]), kept.each("joints", _joint, snapshot["joints"])
+    return msgspec.structs.replace(robot, links=tuple(links.values()), joints=tuple(joints.values()))
 
 
 def _link(name: str, link: Mapping[str, Any]) -> Link:
@@ -73,8 +68,20 @@ def _joint(name: str, joint: Mapping[str, Any]) -> Joint:
     return msgspec.convert({"name": name, **joint}, Joint)
 
 
-def _by_name(elements: Iterable[_Element], old: Iterable[_Element], known: Mapping[str, Any]) -> dict[str, Any]:
+def _extensions(extensions: Iterable[Extension]) -> dict[str, dict[str, list[str]]]:
+    """The texts of extensions by owner and tag, all sorted."""
+    found: dict[str, dict[str, list[str]]] = {}
+    for extension in sorted(extensions, key=msgspec.structs.astuple):
+        found.setdefault(extension.owner, {}).setdefault(extension.tag, []).append(extension.text)
+    return found
+
+
+def _by_name(elements: tuple[_Element, ...], old: tuple[_Element, ...], known: Mapping[str, Any]) -> Mapping[str, Any]:
     """The data of the elements by their names, sorted; `known` are those of the old ones."""
+    others = list(map(operator.is_not, elements, old))
+    new, gone = list(compress(elements, others)), compress(old, others)
+    if len(elements) == len(old) and [element.name for element in new] == [element.name for element in gone]:
+        return {**known, **{element.name: _plain(element) for element in new}} if new else known
     objects = {element.name: element for element in old}
     return {
         element.name: known[element.name] if objects.get(element.name) is element else _plain(element)

@@ -19,6 +19,7 @@ from urdfsync.urdf.reader.chunks import Chunk
 from urdfsync.urdf.reader.fields import Element, Findings
 from urdfsync.urdf.reader.link import resolve_materials
 from urdfsync.urdf.reader.part import MODELLED, Leftover, Part, read_part
+from urdfsync.urdf.reader.renumbering import Last, renumbered
 from urdfsync.urdf.robot import Joint, Link, Material, Robot
 
 _Document: TypeAlias = chunks.Document[Part]
@@ -35,7 +36,7 @@ _OTHER_ROOTS = {
     "html": "a web page; download the file itself",
 }
 _KEY = "document"
-"""Where `Parts` hold what the last reading left: its document, and the robot."""
+"""Where `Parts` hold what the last reading has left."""
 
 
 class RobotReading(msgspec.Struct, frozen=True):
@@ -59,24 +60,28 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = True, parts: Pa
     again, and its links and joints are the same objects.
     """
     kept: Parts = {} if parts is None else parts
-    before: Robot | None
-    document, before = kept.get(_KEY, (None, None))
+    last: Last | None = kept.get(_KEY)
     try:
         text, said = xml.decode(content)
-        document = chunks.read(text, "robot", read_part, document)
+        document = chunks.read(text, "robot", read_part, last.document if last else None)
     except xml.Fault as fault:
         return RobotReading(None, Findings(file, [fault.diagnostic]).result(), {})
-    findings = Findings(file, [*said, *document.prefixes.values()])
-    robot = _assemble(document, before, findings) if _is_urdf(document, findings) else None
+    robot = renumbered(last, document, said) if last else None
+    if last and robot:
+        findings = last.findings
+    else:
+        findings = Findings(file, [*said, *document.prefixes.values()])
+        robot = _assemble(document, last.robot if last else None, findings) if _is_urdf(document, findings) else None
+    both = findings.copy()
     if robot is not None and cross_check and not findings.failed:
         from urdfsync.urdf.reader.cross_check import cross_check as read_again
 
         with profiling.stage("cross-check"):
-            _add(read_again(content, robot), findings)
-    if robot is None or findings.failed:
-        return RobotReading(None, findings.result(), findings.lines)
-    kept[_KEY] = document, robot
-    return RobotReading(robot, findings.result(), findings.lines)
+            _add(read_again(content, robot), both)
+    if robot is None or both.failed:
+        return RobotReading(None, both.result(), both.lines)
+    kept[_KEY] = Last(document, said, robot, findings)
+    return RobotReading(robot, both.result(), both.lines)
 
 
 def _add(found: Iterable[checks.Finding], findings: Findings) -> None:

@@ -55,7 +55,8 @@ def data(robot: Skeleton) -> dict[str, Any]:
 def record(robot: Skeleton, **options: Any) -> Mapping[str, Any]:
     files = artifacts(Robot("the robot", robot.links, robot.joints), {}, TARGET, Options(**options))
     (found,) = (file for file in files if isinstance(file, Artifact) and file.path == "ArmParameters.mo")
-    return found.data
+    structure = found.data["structure"]
+    return {**found.data, **structure.make(*structure.made_of)}
 
 
 GRIPPER = skeleton(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 
 import pytest
@@ -151,11 +152,21 @@ def test_where_much_has_changed_the_rest_is_parsed_but_not_read(
     parts: Parts = {}
     for mass in (1.0, 2.0):
         read.clear()
-        text = robot(link("base"), *(link(name, mass) for name in names), *joints)
+        text = robot(link("base"), *(link(name, mass) for name in names), *joints, f"<gazebo>{mass}</gazebo>")
         assert source.read_robot(text.encode(), "a.urdf", cross_check=False, parts=parts).robot is not None
-    assert read == [f"link {name}" for name in names]
+    assert read == [*(f"link {name}" for name in names), "gazebo number 1"]
     assert len(parsed) == 2
     assert joints[-1] in parsed[1]
+
+
+def test_what_stands_at_the_end_is_not_parsed_again_however_much_has_changed(parsed: list[str]) -> None:
+    names = [f"l{number}" for number in range(50)]
+    joints = [joint(name, "fixed", "base", name) for name in names]
+    parts: Parts = {}
+    for mass in (1.0, 2.0):
+        text = robot(link("base"), *(link(name, mass) for name in names), *joints)
+        assert source.read_robot(text.encode(), "a.urdf", cross_check=False, parts=parts).robot is not None
+    assert [text.count("<joint") for text in parsed] == [50, 0]
 
 
 # What a child of the root says by itself, and what it does not
@@ -204,6 +215,10 @@ TRICKS: dict[str, list[str]] = {
     "several definitions": [own(*BOXES, *(GREY.format(n) for n in numbers)) for numbers in ((1, 0), (0, 1), (0, 0))],
     "a joint that connects nothing": [own(A, B, AB), own(A, B, AB.replace('"b"', '"c"')), own(A, B, AB[:42] + "/>")],
     "warnings told as one": [own(*(f"<link name='{n}' nam='1'/>\n" for n in range(k))) for k in (1, 4, 5)],
+    "fewer of the same": [own(A, *["<gazebo/>"] * count, B, AB) for count in (5, 2, 3, 0)],
+    "the same at both ends": [own("<gazebo/>", A, "<gazebo/>"), own("<gazebo/>"), own("<gazebo/>", "<gazebo/>", A)],
+    "elements that change places": [own(A, B, AB, X), own(B, A, X, AB), own(X, AB, B, A)],
+    "a child less at the start": [own("<gazebo/>\n", A, B, AB), own(A, B, AB), own("\n", A, B, AB)],
     "line ends": [own(A, "\n", B, "\n", AB), own(A, "\r\n", B, "\r", AB, "<q/>")],
     "another format": [own(A), own(A, start="<sdf>", end="</sdf>"), own(A)],
 }
@@ -238,9 +253,9 @@ BODIES = st.builds(
     (
         '<link name="{0}"><inertial><mass value="{1}"/></inertial>\n<visual><geometry><sphere radius="{2}"/></geometry>'
         '<material name="{3}"/></visual></link>\n<joint name="{0}" type="{4}"><parent link="base"/><child link="{0}"/>'
-        '<axis xyz="0 0 {1}"/><sensor n="{2}"/></joint>'
+        '<axis xyz="0 0 {1}"/><mimic joint="{5}" offset="{2}"/><sensor n="{2}"/></joint>'
     ).format,
-    *(NAMES, NUMBERS, NUMBERS, NAMES, st.sampled_from(["fixed", "continuous", "revolute", "spring"])),
+    *(NAMES, NUMBERS, NUMBERS, NAMES, st.sampled_from(["fixed", "continuous", "revolute", "spring"]), NAMES),
 )
 OTHERS = st.builds(
     str.format,
@@ -288,7 +303,7 @@ def versions(draw: st.DrawFn) -> list[bytes]:
         pieces = list(draw(st.sampled_from(known)))
         for _ in range(draw(st.integers(1, 2))):
             place = draw(st.integers(0, len(pieces) - 1))
-            match draw(st.sampled_from(["insert", "replace", "remove", "repeat", "noise"])):
+            match draw(st.sampled_from(["insert", "replace", "remove", "repeat", "noise", "number", "move"])):
                 case "insert":
                     pieces.insert(place, draw(CHILDREN))
                 case "replace":
@@ -298,6 +313,10 @@ def versions(draw: st.DrawFn) -> list[bytes]:
                     pieces[place] = ""
                 case "repeat":
                     pieces.insert(draw(st.integers(0, len(pieces))), pieces[place])
+                case "number":
+                    pieces[place] = re.sub(r'(?<=value=")[^"]*|(?<=radius=")[^"]*', draw(NUMBERS), pieces[place])
+                case "move":
+                    pieces.insert(draw(st.integers(0, len(pieces) - 1)), pieces.pop(place))
                 case "noise":
                     offset = draw(st.integers(0, len(pieces[place])))
                     pieces[place] = pieces[place][:offset] + draw(NOISE) + pieces[place][offset:]

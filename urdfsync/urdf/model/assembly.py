@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Import, Piece, Target
+from urdfsync.domain import Import, Piece, Recipe, Target
 from urdfsync.urdf.diagram import layout
 from urdfsync.urdf.kinematics import compose, link_poses, lowest_point, pose, start_positions
 from urdfsync.urdf.model import notes, tables
@@ -178,19 +178,19 @@ def _model_data(structure: Skeleton, target: Target, options: Options) -> dict[s
 
 
 def record_data(
-    structure: Skeleton,
+    structure: Recipe | Piece,
     links: Sequence[RecordLink | Piece],
     joints: Sequence[RecordJoint | Piece],
     ground: tuple[Skeleton, Mapping[str, Import]] | None,
     target: Target,
     name: str,
+    generic: bool,
 ) -> dict[str, Any]:
     """Data of the record of the whole robot; a package around it names the libraries that it uses.
 
-    `ground` is what has a part in the height that a mobile robot stands at.
+    `structure` is made by `structure_data`; `ground` is what has a part in the height that a mobile robot stands at;
+    `generic` says whether the robot has tables.
     """
-    number = {link.name: k for k, link in enumerate(structure.links, 1)}
-    generic = tables.has_tables(structure.joints)
     return {
         "within": target.package,
         "record": f"{target.name}Parameters",
@@ -199,12 +199,21 @@ def record_data(
         "uses": () if target.package else USES,
         "name": name,
         "standing_height": standing_height(*ground) if ground else None,
+        "structure": structure,
+        "links": links,
+        "joints": joints,
+    }
+
+
+def structure_data(structure: Skeleton) -> dict[str, Any]:
+    """What the record says of the structure: its matrices, tables and axes."""
+    number = {link.name: k for k, link in enumerate(structure.links, 1)}
+    generic = tables.has_tables(structure.joints)
+    return {
         "connection_matrix": [(number[joint.parent], number[joint.child]) for joint in structure.joints],
         "moveable_joints": [(k, 1) for k, joint in enumerate(structure.joints, 1) if joint.type != "fixed"],
         "tables": tables.record_tables(structure) if generic else [],
         "vectors": vectors(structure) if generic else [],
-        "links": links,
-        "joints": joints,
     }
 
 

@@ -79,6 +79,16 @@ class Findings:
         for found in part._diagnostics:
             self.add(found.severity, found.code, line + found.line, found.message, found.hint)
 
+    def say_as(self, other: Findings) -> bool:
+        """Whether the other ones are the same."""
+        return self.lines == other.lines and self._diagnostics == other._diagnostics
+
+    def copy(self) -> Findings:
+        """The same, to add others; all lines are known."""
+        findings = Findings(self.file)
+        findings.lines, findings._diagnostics = self.lines, [*self._diagnostics]
+        return findings
+
     def line(self, path: str) -> int:
         """Line of the element, or of the nearest one that contains it; 0 if unknown."""
         while path not in self.lines:

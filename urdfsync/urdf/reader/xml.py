@@ -191,7 +191,8 @@ def _to_text(content: bytes, encoding: str) -> str:
     """Decode, and unify the line ends as XML asks for."""
     try:
         text = content.decode(encoding)
-        text.encode()
+        if not text.isascii():
+            text.encode()
     except UnicodeDecodeError as error:
         before = content[: error.start].decode(encoding, errors="replace")
         name = encoding.removesuffix("-sig").upper()
