@@ -153,7 +153,8 @@ def _content(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) ->
 
     profiling.count("rendered")
     try:
-        return renderer.render(artifact.template, artifact.data).replace("\r\n", "\n").encode()
+        text = renderer.render(artifact.template, artifact.data)
+        return (text.replace("\r\n", "\n") if "\r" in text else text).encode()
     except jinja2.TemplateSyntaxError as error:
         place = error.filename or error.name or artifact.template, error.lineno
         raise _template_error(str(error.message).rstrip("."), place, folders) from None
