@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import deepdiff
@@ -247,13 +247,18 @@ def test_a_change_reads_as_a_path_and_belongs_to_an_element() -> None:
     assert Changes((one, one)).by_element() == {"joint elbow": [one, one]}
 
 
+def by_path(files: Iterable[Artifact | Order]) -> dict[str, Artifact | Order]:
+    return {file.path: file for file in files}
+
+
 def test_stale_files_are_those_with_other_data_or_template() -> None:
     def artifact(path: str, template: str = "t", **data: Any) -> Artifact:
         return Artifact(path, Role.MODEL, template, data, "robot")
 
     files = [artifact("same", x=1), artifact("data", x=1), artifact("template"), artifact("gone")]
     others = [artifact("same", x=1), artifact("data", x=2), artifact("template", "u"), artifact("new")]
-    assert stale([*files, Order("order", ("a",))], [*others, Order("order", ())]) == Stale(
+    old, new = [*files, Order("order", ("a",))], [*others, Order("order", ())]
+    assert stale(by_path(old), by_path(new)) == Stale(
         frozenset({"data", "template", "new", "order"}), frozenset({"gone"})
     )
 
@@ -262,11 +267,11 @@ def test_files_with_equal_recipes_are_not_stale_and_nothing_is_made_to_find_out(
     def make(number: int) -> dict[str, int]:
         raise AssertionError(f"nobody needs the data of {number}")
 
-    def artifact(number: int) -> Artifact:
-        return Artifact("A.mo", Role.MODEL, "t", Recipe(make, (number,)), "robot")
+    def package(number: int) -> dict[str, Artifact | Order]:
+        return by_path([Artifact("A.mo", Role.MODEL, "t", Recipe(make, (number,)), "robot")])
 
-    assert stale([artifact(1)], [artifact(1)]) == Stale(frozenset(), frozenset())
-    assert stale([artifact(1)], [artifact(2)]) == Stale(frozenset({"A.mo"}), frozenset())
+    assert stale(package(1), package(1)) == Stale(frozenset(), frozenset())
+    assert stale(package(1), package(2)) == Stale(frozenset({"A.mo"}), frozenset())
 
 
 RECORD, MODEL = Role.RECORD, Role.MODEL

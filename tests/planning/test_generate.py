@@ -98,7 +98,7 @@ def test_a_text_counts_as_stale_once_its_data_is_forgotten(tmp_path: Path) -> No
         for n in (1, 2)
     )
     for _ in range(2):
-        assert changes.stale(one.artifacts.values(), two.artifacts.values()).render == {"A.mo"}
+        assert changes.stale(one.artifacts, two.artifacts).render == {"A.mo"}
         assert (one.content("A.mo"), two.content("A.mo")) == (b"1", b"2")
     assert {artifact.owner for artifact in one.artifacts.values()} == {"part"}
 

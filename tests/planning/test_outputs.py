@@ -56,7 +56,7 @@ def _outputs(
     again: bool = False,
 ) -> Outputs:
     kept = Bases({text_digest(text.encode()): text for text in bases})
-    differing = stale(last.artifacts.values() if last else (), now.artifacts.values()).render
+    differing = stale(last.artifacts if last else {}, now.artifacts).render
     return Outputs(now, last, differing, (records or {}).get, kept, aside or {}, (disk or {}).get, older, again)
 
 

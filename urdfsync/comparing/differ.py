@@ -145,7 +145,7 @@ class _Versions:
         """What would happen to the files that differ, if nobody had edited any."""
         before, after = self._package(old), self._package(new)
         found = []
-        differing = changes.stale(before.artifacts.values(), after.artifacts.values())
+        differing = changes.stale(before.artifacts, after.artifacts)
         for path in differing.render | differing.gone:
             one, two = before.artifacts.get(path), after.artifacts.get(path)
             known = two or one

@@ -147,6 +147,11 @@ class Disk:
         """SHA-256 (hex) of what `found` or `text` first saw in the place of a file; None if that was no file."""
         return self._seen[key]
 
+    def has_returns(self, key: str) -> bool:
+        """Whether there may be carriage returns in the file that `found` or `text` first saw; it need not be read."""
+        _, own, text = self.hashed.get(self._place(key), (None, "", None))
+        return own != text and self._seen[key] is not None
+
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Whether the folder of a `package.mo` has other classes than it, and than those of the files in `gone`."""
         folder = self.path(key).parent

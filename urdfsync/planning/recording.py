@@ -92,7 +92,7 @@ class Recording:
         path = key.removeprefix(self._situation.key(""))
         if role is Role.IMPORT:
             return self._imported.contents[path]
-        mine = (self._situation.disk.read(key) or b"") if self._situation.disk.seen(key) else b""
+        mine = (self._situation.disk.read(key) or b"") if self._situation.disk.has_returns(key) else b""
         if 2 * mine.count(b"\r\n") > mine.count(b"\n"):
             return self._outputs.content(path).replace(b"\n", b"\r\n")
         return self._outputs.shelved(path)

@@ -115,7 +115,7 @@ class Renewal:
     def _compared(self) -> Stale:
         """The files that may be other than those of the last build, if templates and options are the same."""
         before = self._before.artifacts if self._before else {}
-        return changes.stale(before.values(), self._generated.artifacts.values())
+        return changes.stale(before, self._generated.artifacts)
 
     def _last(self) -> Generated | None:
         """The package of the last build. Its texts are right only if the generator still is the same."""
@@ -223,7 +223,7 @@ class Renewal:
         if not known - kept:
             return frozenset()
         now = self._generated.artifacts
-        differing = changes.stale(before.artifacts.values(), now.values())
+        differing = changes.stale(before.artifacts, now)
         old = (before.content(path).decode() for path in before.artifacts.keys() & (differing.render | differing.gone))
         return vanished.names(old, (self._outputs.content(path).decode() for path in now), known - kept)
 

@@ -90,7 +90,7 @@ def test_the_class_of_random_changes_says_which_files_differ(random: Random, cou
     old, new = referenced(first, options), referenced(second, options)
     before, after = render(old, options), render(new, options)
     check(compare(old, new, urdf, options), before, after)
-    candidates = stale(artifacts(old, options), artifacts(new, options))
+    candidates = stale(*({file.path: file for file in artifacts(one, options)} for one in (old, new)))
     assert differing(before, after) <= candidates.render | candidates.gone
 
 
