@@ -257,7 +257,8 @@ def test_stale_files_are_those_with_other_data_or_template() -> None:
 
     files = [artifact("same", x=1), artifact("data", x=1), artifact("template"), artifact("gone")]
     others = [artifact("same", x=1), artifact("data", x=2), artifact("template", "u"), artifact("new")]
-    old, new = [*files, Order("order", ("a",))], [*others, Order("order", ())]
+    old: list[Artifact | Order] = [*files, Order("order", ("a",))]
+    new: list[Artifact | Order] = [*others, Order("order", ())]
     assert stale(by_path(old), by_path(new)) == Stale(
         frozenset({"data", "template", "new", "order"}), frozenset({"gone"})
     )
