@@ -88,7 +88,7 @@ class Transactions:
         if journal is None:  # cut short, so no target has changed
             self._sweep([*packages, self._folder])
             return None
-        batch = Batch(self._root, self._folder, journal, self._shown)
+        batch = Batch(self._root, self._folder, journal, self._shown, resumed=True)
         self._check_places([*batch.targets, *batch.folders], [self._root, *outputs])
         if phase is Phase.APPLY:
             phase = self._resume(batch)
@@ -112,7 +112,7 @@ class Transactions:
         try:
             if not batch.can_be_finished():
                 return Phase.UNDO
-            batch.apply(resumed=True)
+            batch.apply()
         except OSError as error:
             raise self._unfinished(error) from None
         except (SavedError, OutputError):
