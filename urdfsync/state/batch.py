@@ -54,6 +54,12 @@ class Batch:
             for place, name in zip(places, names, strict=True)
         ]
         self._undo_folder = folder / "undo"
+        self._undo = {
+            number: Path(f"{self._undo_folder}{os.sep}{number}")
+            for number, step in enumerate(journal.steps)
+            if step.old is not None
+        }
+        """What stood in the place of targets."""
         self._apart = {
             number: Path(f"{self._undo_folder}{os.sep}{names[number]}")
             for number, step in enumerate(journal.steps)
@@ -127,12 +133,12 @@ class Batch:
         for number in reversed(range(len(self._targets))):
             target, step, temporary = self._targets[number], self._step(number), self._temporaries[number]
             theirs = self._hash(temporary) not in (None, step.new, step.old)  # taken away by a run that was killed then
-            source = temporary if theirs else self._undo(number)
+            source = temporary if theirs else self._undo.get(number)
             current = self._hash(target)
-            if current is None and (theirs or step.new is None):
+            if source and current is None and (theirs or step.new is None):
                 with contextlib.suppress(FileNotFoundError, FileExistsError):
                     operations.place(source, target)
-            elif current == step.new and os.path.lexists(source):
+            elif source and current == step.new and os.path.lexists(source):
                 self._swap(source, target, functools.partial(self._has, step.new))
             elif current == step.new and step.old is None:
                 self._take(target, temporary, step.new)
@@ -186,10 +192,8 @@ class Batch:
             operations.remove(self._apart[number])
 
     def _remove_traces(self) -> None:
-        for number, step in enumerate(self.journal.steps):
-            if step.old is not None:
-                operations.remove(self._undo(number))
-        operations.remove_folder(self._undo_folder)
+        for undo in self._undo.values():
+            operations.remove(undo)
         if phase := find_phase(self._folder):
             operations.remove(self._file(phase))
         operations.remove_folder(self._folder / "journal")
@@ -216,8 +220,8 @@ class Batch:
         if step.old is None:
             operations.place(self._temporaries[number], target)
             return True
-        moves = operations.keep(target, self._undo(number))
-        if not self._is_old(number, self._undo(number)):
+        moves = operations.keep(target, self._undo[number])
+        if not self._is_old(number, self._undo[number]):
             return False
         if step.new is None:
             return self._take(target, self._temporaries[number], step.old)
@@ -257,14 +261,14 @@ class Batch:
 
     def _check_kept(self, number: int) -> None:
         """Make sure that nobody has written to the old file while the new one took its place."""
-        old = self._step(number).old
-        if old is not None and self._hash(self._undo(number)) not in (None, old):
+        if number in self._undo and self._hash(self._undo[number]) not in (None, self._step(number).old):
             raise SavedError(self._targets[number])
 
     def _is_sound(self, number: int) -> bool:
         step, current = self._step(number), self._hash(self._targets[number])
         temporary = self._hash(self._temporaries[number])
-        kept = (self._hash(self._undo(number)), temporary if temporary != step.new else None)
+        undo = self._hash(self._undo[number]) if number in self._undo else None
+        kept = (undo, temporary if temporary != step.new else None)
         if any(found not in (None, step.old) for found in kept):
             return False  # somebody saved in the instant of the change
         if current == step.new:
@@ -289,7 +293,8 @@ class Batch:
         try:
             if not stat.S_ISREG(os.lstat(path).st_mode):
                 return _OTHER
-            return digest(path.read_bytes())
+            with open(path, "rb", buffering=0) as file:  # noqa: PTH123 - half the time
+                return digest(file.read())
         except (FileNotFoundError, NotADirectoryError):
             return None
 
@@ -298,9 +303,6 @@ class Batch:
 
     def _step(self, number: int) -> Step:
         return self.journal.steps[number]
-
-    def _undo(self, number: int) -> Path:
-        return Path(f"{self._undo_folder}{os.sep}{number}")
 
     def _file(self, phase: Phase) -> Path:
         return self._folder / "journal" / f"{phase}.json"

@@ -42,7 +42,11 @@ _NO_START = {errno.EINVAL, errno.ENOSYS, errno.ENOTSUP, errno.EPERM, errno.ESPIP
 
 def make_folder(path: Path) -> None:
     """Make one folder, unless it is there."""
-    path.mkdir(exist_ok=True)
+    try:
+        os.mkdir(path)  # noqa: PTH102
+    except FileExistsError:
+        if not path.is_dir():
+            raise
 
 
 def remove_folder(path: Path) -> None:

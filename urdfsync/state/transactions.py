@@ -192,8 +192,10 @@ class Transactions:
 def _missing_folders(root: Path, paths: Iterable[Path]) -> list[Path]:
     """The folders of these files that do not exist, outermost first."""
     missing: set[Path] = set()
-    for innermost in map(Path, {os.path.dirname(path) for path in paths}):  # noqa: PTH120 - thousands of files
-        for folder in (innermost, *innermost.parents):
+    for innermost in {os.path.dirname(path) for path in paths}:  # noqa: PTH120 - thousands of files
+        if os.path.isdir(innermost):  # noqa: PTH112 - as nearly always
+            continue
+        for folder in (Path(innermost), *Path(innermost).parents):
             if folder == root or folder in missing or folder.is_dir():
                 break
             missing.add(folder)
