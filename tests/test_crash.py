@@ -494,18 +494,19 @@ def far(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, project
         monkeypatch.setattr(operations, "makes_alike", lambda folder, other: True)
     run(project)
     edit(project / "ladder.json", '"R2"', '"R3"')
-    edit(project / "ladder.json", "220.5", "330")
+    edit(project / "ladder.json", "4.7e-6", "1e-5")
     return project
 
 
 def test_killed_builds_of_files_that_nothing_can_be_moved_to(far: Path, output: Path, tmp_path: Path) -> None:
     built = crashes.copy(output, tmp_path / "built")
+    record = output / "Ladder/Elements/C2Parameters.mo"  # one of two files that are replaced in that folder
     clean = crashes.copy(far, tmp_path / "clean")
     found = recorded(clean)
     wanted = contents(clean), contents(output)
-    order = output / "Ladder/Elements/package.order"  # which is there before and after
-    start = next(one.number for one in found if one.name == "keep" and one.paths[0] == order)
-    change = [one for one in found if start <= one.number <= start + 6]
+    start = next(op.number for op in found if op.name == "keep" and op.paths[0] == record)
+    end = next(op.number for op in found if op.name == "exchange" and op.number > start)
+    change = [op for op in found if start <= op.number <= end + 1]
     for operation in found if os.environ.get(crashes.ALL) else change:
         project = crashes.copy(far, tmp_path / "work")
         crashes.copy(built, output)

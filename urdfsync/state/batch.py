@@ -178,13 +178,17 @@ class Batch:
             else:
                 operations.remove(apart)  # of a run whose journal was deleted: it would count as ours
 
-    def _bring_beside(self, number: int) -> None:
-        """Copy a temporary file to where it can be moved from; until the copy is complete, the original counts."""
-        apart, beside, target = self._temporaries[number], self._beside[number], self._targets[number]
-        operations.write(beside, apart.read_bytes(), target)
-        operations.sync([beside])
-        operations.remove(apart)
-        self._temporaries[number] = beside
+    def _bring_beside(self, folder: Path) -> None:
+        """Copy temporary files to a folder to which they can't be moved; until all copies are complete, they count."""
+        found = [n for n, apart in self._apart.items() if self._temporaries[n] == apart and n not in self._spent]
+        found = [number for number in found if self._targets[number].parent == folder]
+        for number in found:
+            operations.write(self._beside[number], self._apart[number].read_bytes(), self._targets[number])
+        if found:
+            operations.sync([self._beside[number] for number in found])
+        for number in found:
+            operations.remove(self._apart[number])
+            self._temporaries[number] = self._beside[number]
 
     def _remove_temporaries(self, number: int) -> None:
         operations.remove(self._beside[number])
@@ -225,8 +229,8 @@ class Batch:
             return False
         if step.new is None:
             return self._take(target, self._temporaries[number], step.old)
-        if not moves and self._temporaries[number] != self._beside[number]:
-            self._bring_beside(number)
+        if not moves:
+            self._bring_beside(target.parent)
         return self._swap(self._temporaries[number], target, functools.partial(self._is_old, number))
 
     def _is_old(self, number: int, path: Path) -> bool:
