@@ -100,7 +100,7 @@ class Batch:
         for number, content in enumerate(contents):
             if content is not None:
                 temporary, target = self._temporaries[number], self._targets[number]
-                with self._about(target):
+                with self._about(target if temporary is self._beside[number] else self._undo_folder):
                     operations.write(temporary, content, target if self._step(number).old is not None else None)
                 written.append(temporary)
         with self._about(self._folder):
