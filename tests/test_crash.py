@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import errno
 import functools
+import json
 import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -345,6 +346,24 @@ def test_a_save_between_plan_and_replacement_survives(
         assert contents(project) in outcomes, operation
 
 
+def test_a_save_in_the_instant_of_a_kill_survives(changed: Path, tmp_path: Path) -> None:
+    """The file has been exchanged already, and nobody has seen yet what for."""
+    exchanges = [op for op in recorded(crashes.copy(changed, tmp_path / "work")) if op.name == "exchange"]
+    for path in (RECORD, f"{LADDER}/Ladder.mo"):
+        project = crashes.copy(changed, tmp_path / "work")
+        mine = (project / path).read_bytes() + MINE
+        (number,) = (op.number for op in exchanges if op.paths[1] == project / path)
+
+        def save(found: Operation, number: int = number, target: Path = project / path, mine: bytes = mine) -> None:
+            if found.number == number:
+                by_renaming(target, mine)
+
+        assert killed(project, number + 1, earlier=save)
+        assert (project / path).read_bytes() != mine
+        assert run(project).conflicts
+        assert (project / path).read_bytes() == mine
+
+
 def test_a_file_that_is_saved_all_the_time_stops_the_build(changed: Path) -> None:
     before = contents(changed)
     target, texts = changed / RECORD, iter(range(1000))
@@ -430,33 +449,110 @@ def test_a_journal_that_the_power_failure_has_cut_short_costs_nothing(changed: P
     assert_healed(changed, wanted, prepared)
 
 
-def test_files_on_another_file_system_are_kept_by_copying(project: Path, tmp_path: Path) -> None:
+@pytest.fixture
+def output(project: Path, tmp_path: Path) -> Iterator[Path]:
+    """Where the package of the network is built to: a folder on another file system."""
     memory = Path("/dev/shm")
     if not memory.is_dir() or memory.stat().st_dev == tmp_path.stat().st_dev:
         pytest.skip("there is no second file system")
     output = memory / f"urdfsync-{os.getpid()}"
     output.mkdir()
+    edit(project / "urdfsync.toml", "[robots.ladder]", f'[robots.ladder]\noutput = "{output}"')
     try:
-        edit(project / "urdfsync.toml", "[robots.ladder]", f'[robots.ladder]\noutput = "{output}"')
-        run(project)
-        edit(project / "ladder.json", '"R2"', '"R3"')
-        swaps = [operation for operation in recorded(project) if operation.name == "exchange"]
-        edit(project / "ladder.json", '"R3"', '"R4"')
-        assert killed(project, swaps[-1].number)
-        assert [found.code for found in run(project).diagnostics] == ["recovered"]
-        assert {path.name for path in (output / "Ladder/Elements").iterdir()} >= {"R4.mo", "R4Parameters.mo"}
-        assert not (output / "Ladder/Elements/R3.mo").exists()
-        edit(project / "ladder.json", '"R4"', '"R5"')
-        before = contents(output)
-        assert killed(project, swaps[-1].number)
-        (output / "Ladder/Elements/C1.mo").write_bytes(MINE)
-        manifest = project / MANIFEST
-        manifest.write_bytes(manifest.read_bytes() + b"# mine\n")
-        with before_each(stop_at("make_folder")), pytest.raises(KeyboardInterrupt):
-            run(project)
-        assert contents(output) == {**before, "Ladder/Elements/C1.mo": MINE}
+        yield output
     finally:
         shutil.rmtree(output)
+
+
+def test_files_on_another_file_system_are_kept_by_copying(project: Path, output: Path) -> None:
+    run(project)
+    edit(project / "ladder.json", '"R2"', '"R3"')
+    swaps = [operation for operation in recorded(project) if operation.name == "exchange"]
+    edit(project / "ladder.json", '"R3"', '"R4"')
+    assert killed(project, swaps[-1].number)
+    assert [found.code for found in run(project).diagnostics] == ["recovered"]
+    assert {path.name for path in (output / "Ladder/Elements").iterdir()} >= {"R4.mo", "R4Parameters.mo"}
+    assert not (output / "Ladder/Elements/R3.mo").exists()
+    edit(project / "ladder.json", '"R4"', '"R5"')
+    before = contents(output)
+    assert killed(project, swaps[-1].number)
+    (output / "Ladder/Elements/C1.mo").write_bytes(MINE)
+    manifest = project / MANIFEST
+    manifest.write_bytes(manifest.read_bytes() + b"# mine\n")
+    with before_each(stop_at("make_folder")), pytest.raises(KeyboardInterrupt):
+        run(project)
+    assert contents(output) == {**before, "Ladder/Elements/C1.mo": MINE}
+
+
+@pytest.fixture(params=["another file system", "another mount"])
+def far(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, project: Path, output: Path) -> Path:
+    """A network that is built to a folder to which nothing can be moved, and whose source has changed then.
+
+    With a folder of the same file system that is mounted in another place, only the attempt tells.
+    """
+    if request.param == "another mount":
+        monkeypatch.setattr(operations, "makes_alike", lambda folder, other: True)
+    run(project)
+    edit(project / "ladder.json", '"R2"', '"R3"')
+    edit(project / "ladder.json", "4.7e-6", "1e-5")
+    return project
+
+
+def test_killed_builds_of_files_that_nothing_can_be_moved_to(far: Path, output: Path, tmp_path: Path) -> None:
+    built = crashes.copy(output, tmp_path / "built")
+    record = output / "Ladder/Elements/C2Parameters.mo"  # one of two files that are replaced in that folder
+    clean = crashes.copy(far, tmp_path / "clean")
+    found = recorded(clean)
+    wanted = contents(clean), contents(output)
+    start = next(op.number for op in found if op.name == "keep" and op.paths[0] == record)
+    end = next(op.number for op in found if op.name == "exchange" and op.number > start)
+    change = [op for op in found if start <= op.number <= end + 1]
+    for operation in found if os.environ.get(crashes.ALL) else change:
+        project = crashes.copy(far, tmp_path / "work")
+        crashes.copy(built, output)
+        assert killed(project, operation.number)
+        result = run(project)
+        assert not result.failed, operation
+        assert result.conflicts == [], operation
+        assert (contents(project), contents(output)) == wanted, operation
+
+
+def test_a_save_of_a_file_that_nothing_can_be_moved_to_survives(far: Path, output: Path, tmp_path: Path) -> None:
+    built, order = crashes.copy(output, tmp_path / "built"), output / "Ladder/Elements/package.order"
+    found = recorded(crashes.copy(far, tmp_path / "work"))
+    for last in [one for one in found if one.name in ("exchange", "replace") and one.paths[1] == order]:
+        project = crashes.copy(far, tmp_path / "work")
+        crashes.copy(built, output)
+
+        def meddle(found: Operation, number: int = last.number) -> None:
+            if found.number == number:
+                by_renaming(order, order.read_bytes() + b"Mine\n")
+
+        with before_each(meddle):
+            assert not run(project).failed
+        assert b"Mine" in order.read_bytes(), last
+        assert not list(output.rglob("*.urdfsync-tmp"))
+
+
+def test_what_an_older_urdfsync_has_left_is_finished(
+    changed: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It wrote each temporary file beside its target, and took no notice of what stands apart."""
+    wanted = expected(changed, tmp_path / "clean")
+    for operation, project in every(changed, tmp_path / "work", ("exchange", "place")):
+        with monkeypatch.context() as older:
+            older.setattr(operations, "makes_alike", lambda folder, other: False)
+            assert killed(project, operation.number)
+        (file,) = (project / ".urdfsync/journal").iterdir()
+        edit(file, '"format":2', '"format":1')
+        journal = json.loads(file.read_bytes())
+        names = [f".{journal['token']}-{number}.urdfsync-tmp" for number in range(len(journal["steps"]))]
+        for name in names:
+            (project / ".urdfsync/undo" / name).write_bytes(b"of another batch, whose journal was deleted")
+        assert not run(project).failed
+        for name in names:
+            (project / ".urdfsync/undo" / name).unlink()
+        assert_healed(project, wanted, operation)
 
 
 def stop_at(name: str) -> Callable[[Operation], None]:

@@ -215,6 +215,7 @@ DENIED = [
     (MODEL, 0o000, f"{MODEL}: error: "),
     (".urdfsync", 0o500, ".urdfsync"),
     (".urdfsync", 0o000, ".urdfsync"),
+    (".urdfsync/undo", 0o500, ".urdfsync/undo: error: "),
     (".urdfsync/robots", 0o500, ".urdfsync/robots/"),
     (".urdfsync/robots", 0o000, ".urdfsync/robots"),
     (MANIFEST, 0o000, f"{MANIFEST}: error: "),

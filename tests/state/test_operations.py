@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import errno
 import os
 import sys
@@ -65,8 +66,8 @@ def test_a_written_file_is_new(tmp_path: Path, old: Path) -> None:
 def test_what_is_kept_outlives_its_name(system: str, old: Path, tmp_path: Path) -> None:
     copy = tmp_path / "b" / "copy"
     copy.write_bytes(b"of a run that was killed")
-    operations.keep(old, copy)
     mode = old.stat().st_mode
+    assert operations.keep(old, copy) is (system != "other file system")
     operations.remove(old)
     assert (copy.read_bytes(), copy.stat().st_mode) == (b"old", mode)
 
@@ -105,6 +106,32 @@ def test_folders_go_only_if_they_are_empty(old: Path, tmp_path: Path) -> None:
     operations.remove(old / "below a file")
 
 
+linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells what a folder hands on")
+
+
+@linux
+def test_folders_that_hand_on_the_same_make_files_alike(old: Path, tmp_path: Path) -> None:
+    assert operations.makes_alike(tmp_path / "a", tmp_path / "b")
+    (tmp_path / "b").chmod(0o700)
+    assert operations.makes_alike(tmp_path / "a", tmp_path / "b")
+    assert not operations.makes_alike(tmp_path / "a", tmp_path / "none")
+
+
+@linux
+def test_folders_that_hand_on_a_group_or_an_attribute_make_other_files(old: Path, tmp_path: Path) -> None:
+    (tmp_path / "b").chmod(0o2755)
+    assert not operations.makes_alike(tmp_path / "a", tmp_path / "b")
+    (tmp_path / "a").chmod(0o2755)
+    assert operations.makes_alike(tmp_path / "a", tmp_path / "b")
+    try:
+        os.setxattr(tmp_path / "b", "user.label", b"x")
+    except OSError:
+        pytest.skip("this file system has no attributes")
+    assert not operations.makes_alike(tmp_path / "a", tmp_path / "b")
+    os.setxattr(tmp_path / "a", "user.label", b"x")
+    assert operations.makes_alike(tmp_path / "a", tmp_path / "b")
+
+
 @pytest.mark.parametrize("many", [False, True])
 def test_a_few_files_are_synced_alone_and_many_together(old: Path, monkeypatch: pytest.MonkeyPatch, many: bool) -> None:
     calls: list[str] = []
@@ -125,6 +152,57 @@ def test_each_of_a_few_files_is_brought_to_the_disk(
     monkeypatch.setattr(os, "fsync", lambda descriptor: synced.append(os.fstat(descriptor).st_ino))
     operations.sync(paths)
     assert sorted(synced) == sorted(path.stat().st_ino for path in paths)
+
+
+def test_all_files_are_on_their_way_before_the_first_is_waited_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calls: list[str] = []
+    monkeypatch.setattr(operations, "_beginning", lambda: lambda descriptor: calls.append("begun"))
+    monkeypatch.setattr(os, "fsync", lambda descriptor: calls.append("synced"))
+    paths = [tmp_path / str(n) for n in range(5)]
+    for path in paths:
+        path.write_bytes(b"x")
+    operations.sync(paths)
+    assert calls == ["begun"] * 5 + ["synced"] * 5
+
+
+def test_files_are_synced_without_threads_if_there_are_none_left(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise RuntimeError("can't start new thread")
+
+    paths = [tmp_path / str(n) for n in range(7)]
+    for path in paths:
+        path.write_bytes(b"x")
+    synced: list[int] = []
+    monkeypatch.setattr(_thread, "start_new_thread", refuse)
+    monkeypatch.setattr(os, "fsync", lambda descriptor: synced.append(os.fstat(descriptor).st_ino))
+    operations.sync(paths)
+    assert sorted(synced) == sorted(path.stat().st_ino for path in paths)
+
+
+@pytest.mark.parametrize("when", ["begun", "synced"])
+@pytest.mark.parametrize("number", range(5))
+def test_what_the_disk_refuses_is_an_error(
+    number: int, when: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    paths = [tmp_path / str(n) for n in range(5)]
+    for path in paths:
+        path.write_bytes(b"x")
+    bad = paths[number].stat().st_ino
+
+    def refuse(descriptor: int) -> None:
+        if os.fstat(descriptor).st_ino == bad:
+            raise OSError(errno.EIO, os.strerror(errno.EIO))
+
+    if when == "begun":
+        monkeypatch.setattr(operations, "_beginning", lambda: refuse)
+    else:
+        monkeypatch.setattr(os, "fsync", refuse)
+    with pytest.raises(OSError, match=os.strerror(errno.EIO)):
+        operations.sync(paths)
 
 
 @pytest.mark.parametrize("missing", [0, 2, 4])

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import errno
 import os
+import sys
 from pathlib import Path
 
 import pytest
 
-from urdfsync.diagnostics import OutputError
+from urdfsync.diagnostics import OutputError, StateError
 from urdfsync.files import digest
 from urdfsync.state import operations
 from urdfsync.state.batch import SavedError
+from urdfsync.state.journal import FORMAT, Journal
 from urdfsync.state.transactions import Change, Transactions, UnfinishedError
 
 
@@ -40,7 +42,7 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {
         name: b"" if path.is_dir() else path.read_bytes()
         for name, path in found.items()
-        if path.is_file() or (name != "state" and not any(path.iterdir()))
+        if path.is_file() or (name not in ("state", "state/undo") and not any(path.iterdir()))
     }
 
 
@@ -57,6 +59,50 @@ def test_folders_that_are_not_empty_stay(tmp_path: Path, transactions: Transacti
     (tmp_path / "a/mine").write_bytes(b"mine")
     transactions.apply("arm", changes, [tmp_path / "a"])
     assert contents(tmp_path) == {**DONE, "a/mine": b"mine"}
+
+
+@pytest.mark.parametrize("alike", [True, False])
+def test_a_file_that_replaces_another_stands_apart_until_then(
+    tmp_path: Path, transactions: Transactions, changes: list[Change], monkeypatch: pytest.MonkeyPatch, alike: bool
+) -> None:
+    """And has its permissions then; new files stand where they get what their folder hands on."""
+    (tmp_path / "renewed").chmod(0o640)
+    real, places = operations.write, []
+
+    def write(path: Path, content: bytes, like: Path | None = None) -> None:
+        places.append(path.relative_to(tmp_path).parent.as_posix())
+        real(path, content, like)
+
+    monkeypatch.setattr(operations, "write", write)
+    monkeypatch.setattr(operations, "makes_alike", lambda folder, other: alike)
+    transactions.apply("arm", changes, [tmp_path / "a"])
+    assert places == ["state/journal", "state/undo" if alike else ".", "b/c", "."]
+    assert contents(tmp_path) == DONE
+    assert (tmp_path / "renewed").stat().st_mode & 0o777 == 0o640
+
+
+@pytest.mark.skipif(sys.platform != "linux" or os.geteuid() != 0, reason="only root may give files to any group")
+def test_a_file_gets_the_group_of_its_folder(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
+    for folder in (tmp_path, tmp_path / "a"):
+        os.chown(folder, -1, 4321)
+        folder.chmod(0o2775)
+    (tmp_path / "state").mkdir()
+    os.chown(tmp_path / "state", -1, 0)
+    (tmp_path / "state").chmod(0o755)
+    transactions.apply("arm", changes)
+    assert {(tmp_path / name).stat().st_gid for name in DONE} == {4321}
+
+
+def test_a_journal_of_a_newer_urdfsync_is_left_alone(tmp_path: Path, transactions: Transactions) -> None:
+    """So an older one, of which the format was lower, leaves alone what stands apart."""
+    (tmp_path / "state/journal").mkdir(parents=True)
+    journal = Journal("arm", "1", (), format=FORMAT + 1)
+    (tmp_path / "state/journal/prepare.json").write_bytes(journal.dumps())
+    before = contents(tmp_path)
+    with pytest.raises(StateError) as caught:
+        transactions.recover([], [])
+    assert [found.code for found in caught.value.diagnostics] == ["newer-state"]
+    assert contents(tmp_path) == before
 
 
 @pytest.mark.parametrize("number", range(4))

@@ -92,13 +92,15 @@ def sample(found: Sequence[Operation]) -> list[Operation]:
     return sorted(chosen, key=lambda operation: operation.number)
 
 
-def killed(project: Path, number: int, half: bool = False) -> bool:
+def killed(project: Path, number: int, half: bool = False, earlier: Hook = lambda operation: None) -> bool:
     """Build in a process that kills itself before an operation, or with `half` of the content written.
 
-    Returns whether it came to that; otherwise the process has built without an error.
+    `earlier` is called before that operation and each one before it. Returns whether it came to that; otherwise the
+    process has built without an error.
     """
 
     def hook(operation: Operation) -> None:
+        earlier(operation)
         if operation.number == number:
             if half and operation.name == "write":
                 operation.paths[0].write_bytes(b'{"robot": "cut sh')
@@ -131,14 +133,15 @@ def copy(project: Path, to: Path) -> Path:
 
 
 def contents(project: Path) -> Mapping[str, bytes | None]:
-    """All files and folders of a project, but for the lock and an empty journal; folders have no content.
+    """All files and folders of a project, but for the lock and empty folders of the journal; folders have no content.
 
     Of the kept bases, those count that the recorded files need: others may be left of an earlier build.
     """
     found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
     found.pop(".urdfsync/lock", None)
-    if not any(name.startswith(".urdfsync/journal/") for name in found):
-        found.pop(".urdfsync/journal", None)
+    for folder in (".urdfsync/journal", ".urdfsync/undo"):
+        if not any(name.startswith(f"{folder}/") for name in found):
+            found.pop(folder, None)
     contents = {name: path.read_bytes() if path.is_file() else None for name, path in sorted(found.items())}
     return contents | {name: _needed(project, path) for name, path in found.items() if path.suffix == ".gz"}
 

@@ -3,6 +3,11 @@
 In the state folder, `journal/<phase>.json` says what the batch is, and `undo/<number>` is what stood
 in the place of a target. In which phase a batch is, only the disk says: it can be asked at any time,
 by the process that writes or by the next one.
+
+A temporary file that replaces another file stands in `undo/`, where nobody watches what comes and goes, and
+a new file beside its target: it gets what the folder hands on to new files. Beside their targets stand also
+those that can't be moved there from `undo/`, or would be another file then. Only the disk says where a temporary
+file is: in `undo/` if there is one, else beside the target.
 """
 
 from __future__ import annotations
@@ -17,7 +22,7 @@ from pathlib import Path
 from urdfsync import looking
 from urdfsync.files import TEMPORARY, digest, failure
 from urdfsync.state import operations
-from urdfsync.state.journal import Journal, Phase, Step
+from urdfsync.state.journal import MAY_BE_APART, Journal, Phase, Step
 
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""
@@ -34,16 +39,36 @@ class SavedError(Exception):
 class Batch:
     """The files of one journal; `root` is the configuration's folder, `folder` the state folder."""
 
-    def __init__(self, root: Path, folder: Path, journal: Journal, shown: Callable[[Path], str]) -> None:
+    def __init__(
+        self, root: Path, folder: Path, journal: Journal, shown: Callable[[Path], str], resumed: bool = False
+    ) -> None:
+        """`resumed` stands for a batch that another run has begun."""
         self._root, self._folder, self._shown = root, folder, shown
-        self.journal = journal
+        self.journal, self._resumed = journal, resumed
         places = [os.path.normpath(os.path.join(root, step.path)) for step in journal.steps]  # noqa: PTH118 - many
+        names = [f".{journal.token}-{number}{TEMPORARY}" for number in range(len(places))]
         self._targets = [Path(place) for place in places]
         self._target_folders = [Path(place) for place in sorted(set(map(os.path.dirname, places)))]
-        self._temporaries = [
-            Path(f"{os.path.dirname(place)}{os.sep}.{journal.token}-{number}{TEMPORARY}")  # noqa: PTH120
-            for number, place in enumerate(places)
+        self._beside = [
+            Path(f"{os.path.dirname(place)}{os.sep}{name}")  # noqa: PTH120
+            for place, name in zip(places, names, strict=True)
         ]
+        self._undo_folder = folder / "undo"
+        self._undo = {
+            number: Path(f"{self._undo_folder}{os.sep}{number}")
+            for number, step in enumerate(journal.steps)
+            if step.old is not None
+        }
+        """What stood in the place of targets."""
+        self._apart = {
+            number: Path(f"{self._undo_folder}{os.sep}{names[number]}")
+            for number, step in enumerate(journal.steps)
+            if step.old is not None and step.new is not None and journal.format >= MAY_BE_APART
+        }
+        """Where temporary files may stand that replace another file."""
+        self._temporaries = list(self._beside)
+        if resumed:
+            self._find_temporaries()
         self._spent: set[int] = set()
         """The targets that have changed, so that their temporary files are gone."""
         self._hashed: dict[int, tuple[int, ...] | None] = {}
@@ -61,7 +86,7 @@ class Batch:
 
     def prepare(self, contents: Iterable[bytes | None]) -> None:
         """Write the journal and all temporary files. Raises OutputError; no target has changed then."""
-        for folder in (self._folder, self._folder / "journal", self._folder / "undo"):
+        for folder in (self._folder, self._folder / "journal", self._undo_folder):
             with self._about(folder):
                 operations.make_folder(folder)
         first = self._file(Phase.PREPARE)
@@ -70,29 +95,29 @@ class Batch:
         for path in self.journal.made:
             with self._about(self._root / path):
                 operations.make_folder(self._root / path)
+        self._choose_places()
         written = [first]
         for number, content in enumerate(contents):
             if content is not None:
                 temporary, target = self._temporaries[number], self._targets[number]
-                with self._about(target):
+                with self._about(target if temporary is self._beside[number] else self._undo_folder):
                     operations.write(temporary, content, target if self._step(number).old is not None else None)
                 written.append(temporary)
         with self._about(self._folder):
             operations.sync(written)
 
-    def apply(self, resumed: bool = False) -> None:
+    def apply(self) -> None:
         """Change the targets, the last one when all others are as they should be.
 
-        `resumed` stands for a batch that another run has begun, and that can be finished. Raises SavedError
-        if somebody else changed a target, OutputError if it can't be done.
+        Raises SavedError if somebody else changed a target, OutputError if it can't be done.
         """
         self._enter(Phase.APPLY)
         *others, last = range(len(self._targets))
         for number in others:
-            self._change(number, resumed)
+            self._change(number)
         for number in others:
             self._check_kept(number)
-        self._change(last, resumed)
+        self._change(last)
         self._check_kept(last)
         with self._about(self._folder):
             operations.sync([folder for folder in self._target_folders if folder.is_dir()])
@@ -108,48 +133,81 @@ class Batch:
         for number in reversed(range(len(self._targets))):
             target, step, temporary = self._targets[number], self._step(number), self._temporaries[number]
             theirs = self._hash(temporary) not in (None, step.new, step.old)  # taken away by a run that was killed then
-            source = temporary if theirs else self._undo(number)
+            source = temporary if theirs else self._undo.get(number)
             current = self._hash(target)
-            if current is None and (theirs or step.new is None):
+            if source and current is None and (theirs or step.new is None):
                 with contextlib.suppress(FileNotFoundError, FileExistsError):
                     operations.place(source, target)
-            elif current == step.new and os.path.lexists(source):
+            elif source and current == step.new and os.path.lexists(source):
                 self._swap(source, target, functools.partial(self._has, step.new))
             elif current == step.new and step.old is None:
                 self._take(target, temporary, step.new)
 
     def discard(self) -> None:
         """Remove all traces of a batch that did not happen. Raises OSError if that can't be done."""
-        for temporary in self._temporaries:
-            operations.remove(temporary)
+        for number in range(len(self._targets)):
+            self._remove_temporaries(number)
         for path in reversed(self.journal.made):
             operations.remove_folder(self._root / path)
         self._remove_traces()
 
     def tidy(self) -> None:
         """Remove all traces of a batch that is done, and the folders it has emptied. Raises OSError if it can't."""
-        for number, temporary in enumerate(self._temporaries):
+        for number in range(len(self._targets)):
             if number not in self._spent:
-                operations.remove(temporary)
+                self._remove_temporaries(number)
         for path in self.journal.emptied:
             operations.remove_folder(self._root / path)
         self._remove_traces()
 
+    def _find_temporaries(self) -> None:
+        """See where another run has left them."""
+        for number, apart in self._apart.items():
+            if os.path.lexists(apart):
+                self._temporaries[number] = apart
+
+    def _choose_places(self) -> None:
+        """Let temporary files stand apart wherever they become what they would be beside their targets."""
+        alike: dict[Path, bool] = {}
+        for number, apart in self._apart.items():
+            folder = self._beside[number].parent
+            if folder not in alike:
+                alike[folder] = operations.makes_alike(self._undo_folder, folder)
+            if alike[folder]:
+                self._temporaries[number] = apart
+            else:
+                operations.remove(apart)  # of a run whose journal was deleted: it would count as ours
+
+    def _bring_beside(self, folder: Path) -> None:
+        """Copy temporary files to a folder to which they can't be moved; until all copies are complete, they count."""
+        found = [n for n, apart in self._apart.items() if self._temporaries[n] == apart and n not in self._spent]
+        found = [number for number in found if self._targets[number].parent == folder]
+        for number in found:
+            operations.write(self._beside[number], self._apart[number].read_bytes(), self._targets[number])
+        if found:
+            operations.sync([self._beside[number] for number in found])
+        for number in found:
+            operations.remove(self._apart[number])
+            self._temporaries[number] = self._beside[number]
+
+    def _remove_temporaries(self, number: int) -> None:
+        operations.remove(self._beside[number])
+        if number in self._apart:
+            operations.remove(self._apart[number])
+
     def _remove_traces(self) -> None:
-        for number, step in enumerate(self.journal.steps):
-            if step.old is not None:
-                operations.remove(self._undo(number))
-        operations.remove_folder(self._folder / "undo")
+        for undo in self._undo.values():
+            operations.remove(undo)
         if phase := find_phase(self._folder):
             operations.remove(self._file(phase))
         operations.remove_folder(self._folder / "journal")
 
-    def _change(self, number: int, resumed: bool) -> None:
+    def _change(self, number: int) -> None:
         target, step, temporary = self._targets[number], self._step(number), self._temporaries[number]
         with self._about(target):
             self._hashed[number] = _identity(target)
             current = self._hash(target)
-            if current == step.new or (resumed and current != step.old and self._hash(temporary) != step.new):
+            if current == step.new or (self._resumed and current != step.old and self._hash(temporary) != step.new):
                 return  # done by the run that was killed; it may have been edited since
             if current != step.old:
                 raise SavedError(target)
@@ -162,16 +220,18 @@ class Batch:
 
     def _replace(self, number: int) -> bool:
         """Change one target. Returns False, and leaves it alone, if it is not what was planned with."""
-        target, step, temporary = self._targets[number], self._step(number), self._temporaries[number]
+        target, step = self._targets[number], self._step(number)
         if step.old is None:
-            operations.place(temporary, target)
+            operations.place(self._temporaries[number], target)
             return True
-        operations.keep(target, self._undo(number))
-        if not self._is_old(number, self._undo(number)):
+        moves = operations.keep(target, self._undo[number])
+        if not self._is_old(number, self._undo[number]):
             return False
         if step.new is None:
-            return self._take(target, temporary, step.old)
-        return self._swap(temporary, target, functools.partial(self._is_old, number))
+            return self._take(target, self._temporaries[number], step.old)
+        if not moves:
+            self._bring_beside(target.parent)
+        return self._swap(self._temporaries[number], target, functools.partial(self._is_old, number))
 
     def _is_old(self, number: int, path: Path) -> bool:
         """Whether a file is what the target was when it was hashed; what is written to it, `_check_kept` will see."""
@@ -205,14 +265,14 @@ class Batch:
 
     def _check_kept(self, number: int) -> None:
         """Make sure that nobody has written to the old file while the new one took its place."""
-        old = self._step(number).old
-        if old is not None and self._hash(self._undo(number)) not in (None, old):
+        if number in self._undo and self._hash(self._undo[number]) not in (None, self._step(number).old):
             raise SavedError(self._targets[number])
 
     def _is_sound(self, number: int) -> bool:
         step, current = self._step(number), self._hash(self._targets[number])
         temporary = self._hash(self._temporaries[number])
-        kept = (self._hash(self._undo(number)), temporary if temporary != step.new else None)
+        undo = self._hash(self._undo[number]) if number in self._undo else None
+        kept = (undo, temporary if temporary != step.new else None)
         if any(found not in (None, step.old) for found in kept):
             return False  # somebody saved in the instant of the change
         if current == step.new:
@@ -237,7 +297,8 @@ class Batch:
         try:
             if not stat.S_ISREG(os.lstat(path).st_mode):
                 return _OTHER
-            return digest(path.read_bytes())
+            with open(path, "rb", buffering=0) as file:  # noqa: PTH123 - half the time
+                return digest(file.read())
         except (FileNotFoundError, NotADirectoryError):
             return None
 
@@ -246,9 +307,6 @@ class Batch:
 
     def _step(self, number: int) -> Step:
         return self.journal.steps[number]
-
-    def _undo(self, number: int) -> Path:
-        return self._folder / "undo" / str(number)
 
     def _file(self, phase: Phase) -> Path:
         return self._folder / "journal" / f"{phase}.json"

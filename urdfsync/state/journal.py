@@ -7,8 +7,10 @@ from typing import Self
 
 import msgspec
 
-FORMAT = 1
+FORMAT = 2
 """Raised when an older urdfsync could misread what a newer one writes."""
+MAY_BE_APART = 2
+"""Since this format, temporary files may stand in the state folder; before, each stood beside its target."""
 
 
 class Phase(enum.StrEnum):

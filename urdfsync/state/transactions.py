@@ -88,7 +88,7 @@ class Transactions:
         if journal is None:  # cut short, so no target has changed
             self._sweep([*packages, self._folder])
             return None
-        batch = Batch(self._root, self._folder, journal, self._shown)
+        batch = Batch(self._root, self._folder, journal, self._shown, resumed=True)
         self._check_places([*batch.targets, *batch.folders], [self._root, *outputs])
         if phase is Phase.APPLY:
             phase = self._resume(batch)
@@ -112,7 +112,7 @@ class Transactions:
         try:
             if not batch.can_be_finished():
                 return Phase.UNDO
-            batch.apply(resumed=True)
+            batch.apply()
         except OSError as error:
             raise self._unfinished(error) from None
         except (SavedError, OutputError):
@@ -192,8 +192,10 @@ class Transactions:
 def _missing_folders(root: Path, paths: Iterable[Path]) -> list[Path]:
     """The folders of these files that do not exist, outermost first."""
     missing: set[Path] = set()
-    for innermost in map(Path, {os.path.dirname(path) for path in paths}):  # noqa: PTH120 - thousands of files
-        for folder in (innermost, *innermost.parents):
+    for innermost in {os.path.dirname(path) for path in paths}:  # noqa: PTH120 - thousands of files
+        if os.path.isdir(innermost):  # noqa: PTH112 - as nearly always
+            continue
+        for folder in (Path(innermost), *Path(innermost).parents):
             if folder == root or folder in missing or folder.is_dir():
                 break
             missing.add(folder)
