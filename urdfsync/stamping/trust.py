@@ -50,6 +50,15 @@ class Clock:
         return self._is_sound and altered > 0 and newest < now - passed - margin
 
 
+def is_young(facts: Facts, now: int) -> bool:
+    """Whether a file changed so shortly before this moment (ns) of our own clock, or after it, that it may do so again.
+
+    For files on whatever file system, of which nobody reads the clock: those of the user. Clocks of different
+    machines that are further apart than a tick let a change go unseen only if it falls into the tick of the last look.
+    """
+    return max(facts[-2:]) > now - _COARSE_TICK
+
+
 def clock(folder: Path) -> Clock | None:
     """The clock of the file system that a folder is on, by a file that is made there; None if none can be made."""
     if not HAS_CHANGE_TIMES:
