@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from pathlib import Path
@@ -10,7 +11,7 @@ import msgspec
 
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError
-from urdfsync.looking import NO_FACTS
+from urdfsync.looking import NO_FACTS, facts_of
 from urdfsync.planning.decide import Disk, Hashed, Hashes
 from urdfsync.planning.memory import Memory
 from urdfsync.stamping import stamp, trust
@@ -135,14 +136,14 @@ class Robots:
         """
         if watched.built is None or not alike(watched.built, now):
             return False
-        begin = stamp.now()
-        outputs = self._outputs(watched, self._memory.seen(watched.name))
-        changed = self._changed(watched, outputs)
-        if changed:
-            watched.noticed |= changed
-            return False
+        begin, seen = stamp.now(), self._memory.seen(watched.name)
+        outputs = self._outputs(watched, seen)
+        if outputs != seen:  # else nothing had to be hashed
+            if changed := self._changed(watched, outputs):
+                watched.noticed |= changed
+                return False
+            self._memory.looked(watched.name, outputs, begin, self._clock)
         watched.built = now
-        self._memory.looked(watched.name, outputs, begin, self._clock)
         return True
 
     def is_known(self, watched: Watched) -> bool:
@@ -166,19 +167,28 @@ class Robots:
 
     def _outputs(self, watched: Watched, paths: Iterable[str]) -> Hashes:
         """Outputs as they are now; hashed is what is not known."""
-        disk = Disk(self._config, watched.robot, self._memory.seen(watched.name))
-        return {path: _look(disk, path) for path in paths}
+        seen = self._memory.seen(watched.name)
+        disk = Disk(self._config, watched.robot, seen)
+        return {path: old if (old := seen.get(path)) and _stands(path, old) else _look(disk, path) for path in paths}
 
     def _changed(self, watched: Watched, now: Hashes) -> set[str]:
         """The outputs that are not as they were seen last."""
         seen = self._memory.seen(watched.name)
-        return {path for path, entry in now.items() if not _alike(seen.get(path, _IN_THE_WAY), entry)}
+        return {path for path, entry in now.items() if _content(seen.get(path, _IN_THE_WAY)) != _content(entry)}
 
     def _clock(self) -> trust.Clock | None:
         return trust.clock(self._config.root / STATE_FOLDER)
 
     def _scope(self, robot: RobotConfig) -> Scope:
         return scope(self._config, robot, self._package_paths, self._memory)
+
+
+def _stands(path: str, seen: Hashed) -> bool:
+    """Whether the system says the same of an output as when it was seen; quickly, since there are thousands."""
+    try:
+        return facts_of(os.lstat(path)) == seen[0]
+    except OSError:
+        return False
 
 
 def _look(disk: Disk, path: str) -> Hashed | None:
@@ -189,6 +199,5 @@ def _look(disk: Disk, path: str) -> Hashed | None:
         return _IN_THE_WAY
 
 
-def _alike(one: Hashed | None, other: Hashed | None) -> bool:
-    """Whether two looks saw the same content."""
-    return one is other or (one is not None and other is not None and one[1] == other[1])
+def _content(seen: Hashed | None) -> str | None:
+    return seen[1] if seen else None
