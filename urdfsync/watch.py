@@ -229,7 +229,7 @@ class Daemon:
         """Take the sample that is due. Returns whether the robot is to be built now."""
         settler = watched.settler
         sample = self._robots.sample(watched)
-        match settler.look((sample, self._robots.noticed(watched)), time.monotonic()):
+        match settler.look((sample, self._robots.outputs(watched, watched.noticed)), time.monotonic()):
             case Verdict.PENDING:
                 return False
             case Verdict.EXPIRED:

@@ -187,12 +187,12 @@ def test_a_few_files_are_read_again_and_no_clock_is_read_for_them() -> None:
 
 def test_what_was_seen_counts_until_a_build_writes_or_another_plan_begins() -> None:
     memory = Memory()
-    for end in (memory.wrote, memory.begun):
-        assert not memory.is_current("arm")
-        look(memory, SEEN)
-        assert memory.is_current("arm")
-        end("arm")
-    assert memory.begun("arm") == SEEN
+    assert not memory.is_current("arm")
+    look(memory, SEEN)
+    assert memory.is_current("arm")
+    memory.outdated("arm")
+    assert not memory.is_current("arm")
+    assert memory.seen("arm") == SEEN
 
 
 # Builds with a memory, beside builds of processes that have none

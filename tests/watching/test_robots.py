@@ -121,16 +121,27 @@ def test_what_a_build_has_left_is_no_news(bench: Bench) -> None:
     assert bench.touched == []
 
 
-def test_what_robots_are_built_from_is_sampled_and_outputs_only_when_noticed(bench: Bench) -> None:
+def test_what_robots_are_built_from_is_sampled_and_of_outputs_only_what_is_noticed(bench: Bench) -> None:
     inputs = {str(bench.project / name) for name in ("ladder.json", "step.csv")}
     assert bench.robots.sample(bench.ladder).keys() == inputs
-    assert bench.robots.noticed(bench.ladder) == {}
+    assert bench.ladder.noticed == frozenset()
     bench.ladder.notice({str(bench.project / name) for name in (MODEL, "ladder.json")})
-    assert bench.robots.noticed(bench.ladder).keys() == {str(bench.project / MODEL)}
+    assert bench.ladder.noticed == {str(bench.project / MODEL)}
     bench.ladder.notice({str(bench.project / "modelica")})
-    assert bench.robots.noticed(bench.ladder).keys() == bench.ladder.scope.outputs
+    assert bench.ladder.noticed == bench.ladder.scope.outputs
     bench.ladder.rest()
-    assert bench.robots.noticed(bench.ladder) == {}
+    assert bench.ladder.noticed == frozenset()
+
+
+def test_an_output_that_is_being_written_has_not_settled(bench: Bench) -> None:
+    path = bench.project / MODEL
+    bench.ladder.notice({str(path)})
+    looks = [bench.robots.outputs(bench.ladder, bench.ladder.noticed)]
+    for text in ("// half", "// half and half"):
+        path.write_text(text)
+        looks.append(bench.robots.outputs(bench.ladder, bench.ladder.noticed))
+    assert looks[0] != looks[1] != looks[2]
+    assert looks[2] == bench.robots.outputs(bench.ladder, bench.ladder.noticed)
 
 
 def test_files_are_read_once_until_they_change(bench: Bench, read: list[str]) -> None:
@@ -280,7 +291,7 @@ def test_a_plan_of_another_process_is_made_sure_of_in_this_one(bench: Bench, mon
         return planner.plan(loaded, robot, here)
 
     def survey(self: Any) -> None:
-        bench.memory.begun("ladder")
+        bench.memory.outdated("ladder")
 
     monkeypatch.setattr(crew, "plan", plan)
     monkeypatch.setattr(crew.Crew, "_survey", survey)

@@ -76,13 +76,8 @@ class Memory:
         return self._seen.get(robot, {})
 
     def is_current(self, robot: str) -> bool:
-        """Whether that is what the last plan saw, and nothing was written since."""
+        """Whether that is what the last plan saw, and no build has written since."""
         return robot in self._current
-
-    def begun(self, robot: str) -> Hashes:
-        """A plan of a robot begins, and gets what was seen before."""
-        self._current.discard(robot)
-        return self.seen(robot)
 
     def looked(self, robot: str, seen: Hashes, begin: tuple[int, int], read_clock: Callable[[], Clock | None]) -> None:
         """Somebody who began at this moment (see `stamp.now`) has looked at all that matters to a robot's plan."""
@@ -95,8 +90,8 @@ class Memory:
         self._seen[robot] = {**seen, **doubtful}
         self._current.add(robot)
 
-    def wrote(self, robot: str) -> None:
-        """A build has written what the last plan of a robot wanted."""
+    def outdated(self, robot: str) -> None:
+        """What was seen is not what counts any more: a build has written, or a plan looks again."""
         self._current.discard(robot)
 
     def keep(self, robots: Collection[str]) -> None:

@@ -72,11 +72,12 @@ class Situation:
     def __init__(self, config: Config, robot: RobotConfig, request: Request) -> None:
         self.config, self.robot, self.request = config, robot, request
         self.domain = registry.domain(robot.domain)
-        known = request.memory.begun(robot.name) if request.memory else {}
-        self.disk = Disk(config, robot, None if request.full else known)
-        for path in parents.files(robot) if request.memory else ():
-            with contextlib.suppress(OutputError):  # they may be links
-                self.disk.look(path)
+        self.disk = Disk(config, robot, request.memory.seen(robot.name) if request.memory and not request.full else {})
+        if request.memory:
+            request.memory.outdated(robot.name)
+            for path in parents.files(robot):
+                with contextlib.suppress(OutputError):  # it may be a link
+                    self.disk.look(path)
         self.parents = parents.check(config, robot, self.domain.uses)
         self.store = Store(config.root, shown, request.memory)
         self.folder = self.disk.key(robot.folder)

@@ -51,10 +51,9 @@ class Clock:
 
 
 def is_young(facts: Facts, now: int) -> bool:
-    """Whether a file changed so shortly before this moment (ns) of our own clock, or after it, that it may do so again.
+    """Whether a file may change again without a trace, since it changed just before this moment (ns), or after it.
 
-    For files on whatever file system, of which nobody reads the clock: those of the user. Clocks of different
-    machines that are further apart than a tick let a change go unseen only if it falls into the tick of the last look.
+    By our own clock: sources are on whatever file systems, and nobody makes files there to read theirs.
     """
     return max(facts[-2:]) > now - _COARSE_TICK
 

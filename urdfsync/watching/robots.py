@@ -28,7 +28,7 @@ class Watched(msgspec.Struct):
 
     robot: RobotConfig
     scope: Scope
-    settler: Settler[tuple[Sample, Sample]]
+    settler: Settler[tuple[Sample, Hashes]]
     built: Sample | None = None
     """What it is built from, as it was when there was nothing left to do; None if it has to be built anyway."""
     settled: Sample = msgspec.field(default_factory=dict)
@@ -71,7 +71,8 @@ class Robots:
     def __init__(self, times: Times, package_paths: Sequence[Path], memory: Memory) -> None:
         """`package_paths` are where to look for packages beside those of the configuration.
 
-        The memory has what builds saw of outputs: they are compared with that, and sampled only while they change.
+        The memory has what builds saw of outputs, with which they are compared; only what robots are built from is
+        sampled.
         """
         self._times, self._package_paths, self._memory = times, package_paths, memory
         self._sampler = Sampler()
@@ -108,9 +109,11 @@ class Robots:
         """What a robot is built from, as it is now."""
         return self._sampler.sample(watched.scope.ingredients())
 
-    def noticed(self, watched: Watched) -> Sample:
-        """The outputs that may have changed, as they are now."""
-        return self._sampler.sample(watched.noticed)
+    def outputs(self, watched: Watched, paths: Iterable[str]) -> Hashes:
+        """Some outputs as they are now; hashed is what is not known, and what can't be trusted."""
+        seen = self._memory.seen(watched.name)
+        disk = Disk(self._config, watched.robot, seen)
+        return {path: _look(disk, path, seen.get(path)) for path in paths}
 
     def look(self, path: str) -> Sample:
         """A file that belongs to no robot, as it is now."""
@@ -127,7 +130,7 @@ class Robots:
             return True
         if any(self._sampler.may_differ(path, built[path]) for path in inputs):
             return True
-        return bool(self._changed(watched, self._outputs(watched, outputs)))
+        return bool(self._changed(watched, self.outputs(watched, outputs)))
 
     def is_as_built(self, watched: Watched, now: Sample) -> bool:
         """Whether all is as the last build saw it, if a robot is built from what is `now`; else outputs are noticed.
@@ -137,7 +140,7 @@ class Robots:
         if watched.built is None or not alike(watched.built, now):
             return False
         begin, seen = stamp.now(), self._memory.seen(watched.name)
-        outputs = self._outputs(watched, seen)
+        outputs = self.outputs(watched, seen)
         if outputs != seen:  # else nothing had to be hashed
             if changed := self._changed(watched, outputs):
                 watched.noticed |= changed
@@ -153,7 +156,7 @@ class Robots:
     def take_stock(self, watched: Watched) -> None:
         """Let the outputs be known as they are now, since a build has failed, however far it came."""
         begin = stamp.now()
-        outputs = self._outputs(watched, watched.scope.outputs)
+        outputs = self.outputs(watched, watched.scope.outputs)
         self._memory.looked(watched.name, outputs, begin, self._clock)
 
     def tidy(self, others: Iterable[str]) -> None:
@@ -164,12 +167,6 @@ class Robots:
         """Hash everything again, whatever the system says of it."""
         self._sampler.forget()
         self._memory.distrust()
-
-    def _outputs(self, watched: Watched, paths: Iterable[str]) -> Hashes:
-        """Outputs as they are now; hashed is what is not known."""
-        seen = self._memory.seen(watched.name)
-        disk = Disk(self._config, watched.robot, seen)
-        return {path: old if (old := seen.get(path)) and _stands(path, old) else _look(disk, path) for path in paths}
 
     def _changed(self, watched: Watched, now: Hashes) -> set[str]:
         """The outputs that are not as they were seen last."""
@@ -183,18 +180,12 @@ class Robots:
         return scope(self._config, robot, self._package_paths, self._memory)
 
 
-def _stands(path: str, seen: Hashed) -> bool:
-    """Whether the system says the same of an output as when it was seen; quickly, since there are thousands."""
+def _look(disk: Disk, path: str, seen: Hashed | None) -> Hashed | None:
+    """An output as plans see it; there are thousands, and nearly all are as they were seen."""
     try:
-        return facts_of(os.lstat(path)) == seen[0]
-    except OSError:
-        return False
-
-
-def _look(disk: Disk, path: str) -> Hashed | None:
-    """An output as it is now, as plans see it."""
-    try:
-        return disk.look(path)
+        return seen if seen and facts_of(os.lstat(path)) == seen[0] else disk.look(path)
+    except FileNotFoundError:
+        return None
     except (OutputError, OSError):
         return _IN_THE_WAY
 
