@@ -30,7 +30,10 @@ _Value = TypeVar("_Value")
 
 
 class Memory:
-    """The source that was read last, the files that were made last of a model, and the state that was recorded last."""
+    """The source that was read last, the files that were made last of a model, and the state that was recorded last.
+
+    And of each robot, what was seen of its files.
+    """
 
     def __init__(self) -> None:
         self.tables: Tables = {}
