@@ -11,11 +11,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.daemon import Daemons
+from support.daemon import LIMIT, Daemons
 
 from urdfsync import registry
 from urdfsync.outcome import Result
+from urdfsync.plan import Kind
 from urdfsync.watching import builder, events, observer, stash
+from urdfsync.watching.robots import Robots, Watched
 
 
 @pytest.fixture
@@ -37,6 +39,14 @@ Start = Callable[..., Daemons]
 def edit(project: Path, old: str, new: str) -> None:
     source = project / "ladder.json"
     source.write_text(source.read_text().replace(old, new))
+
+
+def until(condition: Callable[[], bool]) -> None:
+    """Wait for something that no event tells."""
+    deadline = time.monotonic() + LIMIT
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
 
 
 @pytest.mark.parametrize("place", ["read", "artifacts"])
@@ -128,6 +138,66 @@ def test_a_system_without_events(project: Path, start: Start, monkeypatch: pytes
     since = len(daemon.events)
     edit(project, "220.5", "330")
     assert daemon.wait(events.Built, since).files
+
+
+def test_an_edit_right_after_the_last_build_has_looked_is_seen_by_its_event(
+    project: Path, start: Start, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nobody looks at outputs any more then, until an event or a rescan says so."""
+    model, edited = project / "modelica/Ladder/Elements/R2.mo", threading.Event()
+    real = Robots.is_known
+
+    def is_known(self: Robots, watched: Watched) -> bool:
+        known = real(self, watched)
+        if known and not edited.is_set():
+            edited.set()
+            model.write_text(model.read_text() + "// mine\n")
+        return known
+
+    monkeypatch.setattr(Robots, "is_known", is_known)
+    daemon = start(rescan=100000)
+    result = daemon.wait(events.Built, since=3).result
+    assert [action.path for action in result.actions if action.kind is Kind.KEEP] == ["modelica/Ladder/Elements/R2.mo"]
+
+
+def test_an_edit_without_event_is_found_when_a_change_turns_out_to_be_none(
+    project: Path, start: Start, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model = project / "modelica/Ladder/Elements/R2.mo"
+    real = observer._Handler.dispatch
+
+    def dispatch(self: Any, event: Any) -> None:
+        if "modelica" not in str(event.src_path):
+            real(self, event)
+
+    monkeypatch.setattr(observer._Handler, "dispatch", dispatch)
+    daemon = start(rescan=100000)
+    daemon.wait(events.Built)
+    time.sleep(0.1)  # it makes sure that nobody else wrote
+    since = len(daemon.events)
+    model.write_text(model.read_text() + "// mine\n")
+    (project / "ladder.json").touch()
+    assert not daemon.wait(events.Built, since).files
+
+
+def test_a_change_is_built_once_and_made_sure_of_once(
+    project: Path, start: Start, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real, ended = builder.results, []
+
+    def results(*arguments: Any) -> Iterator[Result]:
+        yield from real(*arguments)
+        ended.append(time.monotonic())
+
+    monkeypatch.setattr(builder, "results", results)
+    daemon = start(rescan=0.1)
+    until(lambda: len(ended) == 2)
+    since = len(daemon.events)
+    edit(project, "220.5", "330")
+    until(lambda: len(ended) == 4)
+    time.sleep(0.3)  # events of its own writing, and some rescans
+    assert len(ended) == 4
+    assert [type(event) for event in daemon.events[since:]] == [events.Settling, events.Building, events.Built]
 
 
 @pytest.mark.slow  # 2 s

@@ -97,6 +97,8 @@ class _Builder:
                 except SavedError as error:
                     saved = error.path
                     continue
+                if self._request.memory:
+                    self._request.memory.outdated(robot.name)
             return _done(result, work)
         message = "it changes all the time while urdfsync builds"
         hint = "close what writes to it, then build again"

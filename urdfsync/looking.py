@@ -16,6 +16,8 @@ from typing import TypeAlias
 
 Facts: TypeAlias = tuple[int, int, int, int, int, int]
 """Of a file or folder: mode, inode, device, size in bytes, and the times of change of content and status in ns."""
+NO_FACTS: Facts = (0, 0, 0, 0, 0, 0)
+"""What the system says of nothing that there is."""
 
 _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
 """What the system says of a path at which nothing is; the same as for pathlib."""

@@ -1,12 +1,13 @@
 """The daemon: events of the file system, settled batches, builds.
 
 One thread does everything, in rounds: it waits for a message or for the time at which something is due, samples what
-is due, and builds what has settled. Events only say where to look. What is built is decided by samples, and by the
-build itself, so an event too many or too few costs time and nothing else.
+is due, and builds what has settled. Events only say where to look. What is built is decided by what is there, and by
+the build itself, so an event too many or too few costs time and nothing else.
 
-After a build the robot is sampled, and if anything is not as it was before, built again: that finds nothing to do
-unless somebody else was writing. So what the daemon wrote is told from what others wrote without knowing what it
-wrote: the last build of every robot wrote nothing, and later samples are compared with the one before it.
+What robots are built from is sampled; outputs are looked at by builds, and by nobody else as long as nothing is heard
+of them. A build that wrote something is followed by another: that finds nothing to do unless somebody else was
+writing. So what the daemon wrote is told from what others wrote without knowing what it wrote: the last build of every
+robot wrote nothing, and what is there later is compared with what that build saw.
 """
 
 from __future__ import annotations
@@ -146,10 +147,11 @@ class Daemon:
         if "" in concerned and settings.has_changed(self._robots.look(self._file)):
             settings.settler.touch(time.monotonic())
         affected = self._robots.named(concerned)
-        if any(watched.built is None or not concerned[watched.name] <= watched.built.keys() for watched in affected):
-            self._arm()  # a folder, or a place where a link leads to
+        if not all(watched.knows(concerned[watched.name]) for watched in affected):
+            self._arm()
         for watched in affected:
             if not watched.settler.calm or self._robots.has_news(watched, concerned[watched.name]):
+                watched.notice(concerned[watched.name])
                 self._touch(watched)
 
     def _touch(self, watched: Watched) -> None:
@@ -179,8 +181,8 @@ class Daemon:
     def _patience(self) -> float:
         """Seconds until something is due."""
         now = time.monotonic()
-        settlers = [self._settings.settler, *(watched.settler for watched in self._robots)]
-        due = [settler.deadline for settler in settlers if settler.deadline is not None]
+        deadlines = [self._settings.settler.deadline, *(watched.settler.deadline for watched in self._robots)]
+        due = [deadline for deadline in deadlines if deadline is not None]
         if self._paused:
             due = [max(deadline, now + _PAUSE) for deadline in due]
         elif not due and not self._warm:
@@ -227,25 +229,24 @@ class Daemon:
         """Take the sample that is due. Returns whether the robot is to be built now."""
         settler = watched.settler
         sample = self._robots.sample(watched)
-        match settler.look(sample, time.monotonic()):
+        match settler.look((sample, self._robots.outputs(watched, watched.noticed)), time.monotonic()):
             case Verdict.PENDING:
                 return False
             case Verdict.EXPIRED:
                 self._builds.fail(self._config, watched)
                 return False
         watched.settled = sample
-        if watched.failed is None and watched.built is not None and alike(watched.built, sample):
+        if watched.failed is None and self._robots.is_as_built(watched, sample):
             self._calm(watched)
             return False
         return sample[watched.scope.source].content == watched.scope.built or self._is_model(watched)
 
     def _calm(self, watched: Watched) -> None:
-        watched.built, watched.trouble = watched.settled, ()
+        watched.trouble = ()
         watched.settler.readable()
-        watched.settler.rest()
         if watched.announced:
             self._tell(events.Calm(watched.name))
-            watched.announced = False
+        watched.rest()
 
     def _is_model(self, watched: Watched) -> bool:
         """Whether what has settled is a model to be believed; if not, it is waited for."""
@@ -291,7 +292,7 @@ class Daemon:
         self._arm()
         self._look_at_settings()
         for watched in self._robots:
-            if watched.settler.calm and not self._robots.is_as_built(watched):
+            if watched.settler.calm and not self._robots.is_as_built(watched, self._robots.sample(watched)):
                 self._touch(watched)
             elif watched.settler.calm and watched.failed is not None:
                 watched.settler.touch(now)
@@ -302,8 +303,7 @@ class Daemon:
         self._next_poll = now + _POLL
         self._look_at_settings()
         for watched in self._robots:
-            calm = watched.settler.calm and watched.built is not None
-            if calm and self._robots.inputs_differ(watched, watched.built or {}):
+            if watched.settler.calm and not alike(watched.built or {}, self._robots.sample(watched)):
                 self._touch(watched)
 
     def _look_at_settings(self) -> None:

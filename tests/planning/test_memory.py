@@ -14,7 +14,10 @@ from urdfsync import config, registry
 from urdfsync.build import Request, build
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Artifact, Import, Order, Parts, Reading, Role, Snapshot, Target
+from urdfsync.looking import NO_FACTS, Facts
+from urdfsync.planning.decide import Hashes
 from urdfsync.planning.memory import Memory
+from urdfsync.stamping import stamp, trust
 
 SNAPSHOT: Snapshot = {"name": "n", "elements": {"R1": {"ohm": 1.0}}}
 IMPORT = Import("a.csv", "hash", "hash", 1, {"rows": 2})
@@ -130,6 +133,66 @@ def test_the_next_version_of_a_source_gets_what_the_domain_has_kept() -> None:
         memory.read(domain, content=content, **{**usual, **other})  # type: ignore[arg-type]
     assert domain.parts[0] is domain.parts[1]
     assert len({id(parts) for parts in domain.parts}) == 4, "what was kept for something else is of no use"
+
+
+# What plans saw of files
+
+FACTS = (0o100644, 1, 2, 3, 4, 5)
+SEEN = {f"/m/{number}.mo": (FACTS, "own", "text") for number in range(9)}
+
+
+class Clock(trust.Clock):
+    """Believes what the system says of files, or does not."""
+
+    def __init__(self, trusts: bool) -> None:
+        self._trusts = trusts
+
+    def trusts(self, facts: Facts, passed: int) -> bool:
+        assert facts == FACTS
+        return self._trusts
+
+
+def look(memory: Memory, seen: Hashes, trusts: bool | None = True, robot: str = "arm") -> Hashes:
+    """What is remembered of a look; without a clock if nothing is known of trust."""
+    memory.looked(robot, seen, stamp.now(), lambda: None if trusts is None else Clock(trusts))
+    return memory.seen(robot)
+
+
+def test_each_robot_has_what_was_seen_of_it_until_it_is_watched_no_more() -> None:
+    memory, missing = Memory(), {"/m/gone.mo": None}
+    assert memory.seen("arm") == {}
+    assert look(memory, SEEN) == SEEN
+    assert look(memory, missing, robot="leg") == missing
+    assert memory.seen("arm") == SEEN
+    memory.keep(["leg"])
+    assert (memory.seen("arm"), memory.seen("leg")) == ({}, missing)
+    assert not memory.is_current("arm")
+
+
+@pytest.mark.parametrize("trusts", [None, False])
+def test_a_file_that_may_change_without_a_trace_has_no_facts(trusts: bool | None) -> None:
+    memory, bare = Memory(), dict.fromkeys(SEEN, (NO_FACTS, "own", "text"))
+    assert look(memory, SEEN, trusts) == bare
+    assert look(memory, SEEN) == SEEN
+    assert look(memory, {**SEEN}, trusts) == SEEN, "what was believed before is not doubted"
+    memory.distrust()
+    assert memory.seen("arm") == bare
+
+
+def test_a_few_files_are_read_again_and_no_clock_is_read_for_them() -> None:
+    memory, few = Memory(), dict(list(SEEN.items())[:4])
+    memory.looked("arm", few, stamp.now(), lambda: pytest.fail("a clock was read"))
+    assert memory.seen("arm") == dict.fromkeys(few, (NO_FACTS, "own", "text"))
+
+
+def test_what_was_seen_counts_until_a_build_writes_or_another_plan_begins() -> None:
+    memory = Memory()
+    assert not memory.is_current("arm")
+    look(memory, SEEN)
+    assert memory.is_current("arm")
+    memory.outdated("arm")
+    assert not memory.is_current("arm")
+    assert memory.seen("arm") == SEEN
 
 
 # Builds with a memory, beside builds of processes that have none

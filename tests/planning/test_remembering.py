@@ -15,12 +15,13 @@ import pytest
 from urdfsync import config
 from urdfsync.build import build
 from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.looking import NO_FACTS
 from urdfsync.plan import Kind
 from urdfsync.planning.memory import Memory
 from urdfsync.planning.planner import plan
 from urdfsync.planning.situation import Request
 from urdfsync.planning.work import Work
-from urdfsync.stamping import trust
+from urdfsync.stamping import stamp, trust
 
 EXAMPLES = Path(__file__).parents[1] / "rcnetwork/examples"
 SETTINGS = '[robots.ladder]\nsource = "ladder.json"\npackage = "Ladder"\ndomain = "rcnetwork"\n'
@@ -146,6 +147,11 @@ def _built(project: Path, memory: Memory) -> bool:
     return not result.failed
 
 
+def _trusted(memory: Memory) -> list[str]:
+    """The files of which the memory believes what the system says."""
+    return [path for path, entry in memory.seen("ladder").items() if entry and entry[0] != NO_FACTS]
+
+
 def _follow(project: Path, random: Random, edits: Iterator[Edit]) -> int:
     """Edit, plan and build; returns how many files were known without reading them, in all."""
     memory, known = Memory(), 0
@@ -157,7 +163,7 @@ def _follow(project: Path, random: Random, edits: Iterator[Edit]) -> int:
         shutil.copytree(project, safe)
         time.sleep(AGE)
         _planned(project, memory)
-        known += len(memory.hashed)
+        known += len(_trusted(memory))
         edit(project, random)
         with_memory, without = _planned(project, memory), _planned(project, None)
         assert with_memory == without, edit.__name__
@@ -177,7 +183,7 @@ def test_a_file_that_was_changed_back_in_time_is_seen(project: Path) -> None:
     assert _built(project, memory)
     time.sleep(AGE)
     _planned(project, memory)
-    for path in list(memory.hashed):
+    for path in _trusted(memory):
         _change_back_in_time(Path(path), Random(0))
         work = _planned(project, memory)
         assert isinstance(work, Work)
@@ -196,16 +202,18 @@ def test_a_file_that_was_just_written_is_read_again(project: Path) -> None:
     """Within one tick of the clock a file can change without any difference in what the system says of it."""
     memory = Memory()
     assert _built(project, memory)
+    for path in _outputs(project):
+        path.touch()
     _planned(project, memory)
-    assert memory.hashed == {}
+    assert not _trusted(memory)
     time.sleep(AGE)
     _planned(project, memory)
-    assert {Path(path) for path in memory.hashed} <= set(_outputs(project))
-    assert len(memory.hashed) > 5
-    just = Path(next(iter(memory.hashed)))
+    assert set(map(Path, _trusted(memory))) <= set(_outputs(project))
+    assert len(_trusted(memory)) > 5
+    just = Path(_trusted(memory)[0])
     just.write_bytes(just.read_bytes() + b"// mine\n")
     _planned(project, memory)
-    assert str(just) not in memory.hashed
+    assert str(just) not in _trusted(memory)
 
 
 @pytest.mark.parametrize("why", ["on Windows", "a clock that can be set", "no place for a file"])
@@ -222,7 +230,7 @@ def test_nothing_is_remembered_where_nobody_knows_when_a_file_changed(
     else:
         (project / ".urdfsync/.clock.urdfsync-tmp").mkdir()
     _planned(project, memory)
-    assert memory.hashed == {}
+    assert not _trusted(memory)
 
 
 def test_a_full_build_reads_every_file(project: Path) -> None:
@@ -230,12 +238,13 @@ def test_a_full_build_reads_every_file(project: Path) -> None:
     assert _built(project, memory)
     time.sleep(AGE)
     _planned(project, memory)
-    for path, (facts, _, _) in memory.hashed.items():
-        memory.hashed = {**memory.hashed, path: (facts, "wrong", "wrong")}
+    seen = {path: entry and (entry[0], "wrong", "wrong") for path, entry in memory.seen("ladder").items()}
+    memory.looked("ladder", seen, stamp.now(), lambda: trust.clock(project / ".urdfsync"))
+    assert len(_trusted(memory)) > 5
     loaded = config.load(project / "urdfsync.toml")
     work = plan(loaded, loaded.robots[0], Request(memory=memory, full=True, dry=True))
     assert not any(action.writes for action in work.decision.actions)
-    assert all("wrong" not in entry for entry in memory.hashed.values())
+    assert not any(entry and "wrong" in entry for entry in memory.seen("ladder").values())
 
 
 def test_nothing_stays_of_the_look_at_the_clock(project: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,12 @@ from urdfsync.watching.samples import Sampler, alike, changed, files_below
 
 SECOND = 1_000_000_000
 OLD = 1000 * SECOND
+"""A time of change that the tests set; that of a change of status is always now."""
+
+
+def later() -> int:
+    """A clock by which all files are old."""
+    return time.time_ns() + 10 * SECOND
 
 
 def write(path: Path, content: str, moment: int = OLD) -> str:
@@ -36,7 +43,7 @@ def hashed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 def test_only_what_differs_is_hashed(tmp_path: Path, hashed: list[str]) -> None:
     one, two = write(tmp_path / "one", "1"), write(tmp_path / "two", "2")
-    sampler = Sampler()
+    sampler = Sampler(later)
     before = sampler.sample([one, two])
     assert sampler.sample([one, two]) == before
     assert hashed == [one, two]
@@ -48,7 +55,7 @@ def test_only_what_differs_is_hashed(tmp_path: Path, hashed: list[str]) -> None:
 
 def test_what_is_forgotten_is_hashed_again(tmp_path: Path, hashed: list[str]) -> None:
     path = write(tmp_path / "one", "1")
-    sampler = Sampler()
+    sampler = Sampler(later)
     sampler.sample([path])
     sampler.forget()
     sampler.sample([path])
@@ -57,14 +64,23 @@ def test_what_is_forgotten_is_hashed_again(tmp_path: Path, hashed: list[str]) ->
     assert len(hashed) == 3
 
 
-@pytest.mark.parametrize("age", [0, 1, -3600])
-def test_stat_values_of_what_is_new_or_from_the_future_are_not_trusted(tmp_path: Path, age: int) -> None:
-    sampler = Sampler(lambda: OLD + age * SECOND)
+@pytest.mark.parametrize("age", [0, 1, -3600, None])
+def test_what_is_young_or_from_the_future_is_hashed_each_time(
+    tmp_path: Path, age: int | None, hashed: list[str]
+) -> None:
     path = write(tmp_path / "one", "1")
+    sampler = Sampler(later if age is None else lambda: Path(path).stat().st_ctime_ns + age * SECOND)
     before = sampler.sample([path])
-    with Path(path).open("r+") as file:
-        file.write("2")
-    os.utime(path, ns=(OLD, OLD))
+    assert not sampler.may_differ(path, before[path])
+    assert hashed == [path] * (1 if age is None else 2)
+
+
+def test_a_file_that_was_changed_back_in_time_differs(tmp_path: Path) -> None:
+    path = write(tmp_path / "one", "1")
+    sampler = Sampler(later)
+    before = sampler.sample([path])
+    time.sleep(0.01)  # a tick of the clock
+    write(tmp_path / "one", "2")
     assert sampler.may_differ(path, before[path])
     assert not alike(before, sampler.sample([path]))
 

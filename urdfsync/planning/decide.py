@@ -68,21 +68,22 @@ class Decision(msgspec.Struct, frozen=True):
 
 Hashed: TypeAlias = tuple[looking.Facts, str, str]
 """What the system says of a file, and the SHA-256 (hex) of its bytes and of its text, line endings normalised."""
+Hashes: TypeAlias = Mapping[str, Hashed | None]
+"""Files by their absolute paths; None for what is not there."""
 
 
 class Disk:
     """The files of one robot's package, addressed by their path from the configuration's folder."""
 
-    def __init__(self, config: Config, robot: RobotConfig, known: Mapping[str, Hashed] | None = None) -> None:
-        """`known` are hashes that hold as long as the system says the same of a file, by its path."""
+    def __init__(self, config: Config, robot: RobotConfig, known: Hashes | None = None) -> None:
+        """`known` are hashes that hold as long as the system says the same of a file."""
         self._root, self._prefix = config.root, os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
         self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
         self._homes: dict[str, Tree | None] = {}
         """The trees that folders are in; None for a folder that is in none, or not there."""
-        self._seen: dict[str, str | None] = {}
-        self._known: Mapping[str, Hashed] = known or {}
-        self.hashed: dict[str, Hashed] = {}
-        """What `found` has found out, in the same way."""
+        self._known = known or {}
+        self.hashed: dict[str, Hashed | None] = {}
+        """What `look` and `text` first saw, in the same way."""
 
     def key(self, path: Path) -> str:
         """How a file is called in manifest and plan."""
@@ -107,17 +108,15 @@ class Disk:
 
     def found(self, key: str, role: Role) -> Found:
         """What is there in the place of a file."""
-        hashed = self._hashed(self._place(key))
+        hashed = self.look(self._place(key))
         if hashed is not None:
             _, own, text = hashed
-            self._seen.setdefault(key, own)
             return Found(own if role is Role.IMPORT else text)
-        self._seen.setdefault(key, None)
         return Found(as_folder=self._is_folder(key))
 
     def unchanged(self, records: Mapping[str, FileRecord]) -> dict[str, FileRecord]:
         """Those of the plain records whose files are just as they say."""
-        seen = ((key, record, self._hashed(self._place(key))) for key, record in records.items())
+        seen = ((key, record, self.look(self._place(key))) for key, record in records.items())
         return {
             key: record
             for key, record, hashed in seen
@@ -137,20 +136,19 @@ class Disk:
     def text(self, key: str) -> str | None:
         """The file as text; bytes that are not UTF-8 survive, see `encode`."""
         content = self.read(key)
-        if content is None:
-            self._seen.setdefault(key, None)
-            return None
-        self._see(key, content)
-        return content.decode(errors="surrogateescape")
+        own = None if content is None else digest(content)
+        self.hashed.setdefault(self._place(key), None if own is None else (looking.NO_FACTS, own, own))
+        return None if content is None else content.decode(errors="surrogateescape")
 
     def seen(self, key: str) -> str | None:
         """SHA-256 (hex) of what `found` or `text` first saw in the place of a file; None if that was no file."""
-        return self._seen[key]
+        hashed = self.hashed[self._place(key)]
+        return None if hashed is None else hashed[1]
 
     def has_returns(self, key: str) -> bool:
         """Whether there may be carriage returns in the file that `found` or `text` first saw; it need not be read."""
-        _, own, text = self.hashed.get(self._place(key), (None, "", None))
-        return own != text and self._seen[key] is not None
+        hashed = self.hashed[self._place(key)]
+        return hashed is not None and (hashed[1] != hashed[2] or hashed[0] == looking.NO_FACTS)
 
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Whether the folder of a `package.mo` has other classes than it, and than those of the files in `gone`."""
@@ -168,7 +166,13 @@ class Disk:
         """All Modelica files below a folder, its own and others, as far as they can be read."""
         return {self.key(path) for path in self.path(folder).rglob("*.mo") if path.is_file()}
 
-    def _hashed(self, place: str) -> Hashed | None:
+    def look(self, place: str) -> Hashed | None:
+        """What is at an absolute path without detours; None for nothing. Raises OutputError as `read`."""
+        hashed = self._look(place)
+        self.hashed.setdefault(place, hashed)
+        return hashed
+
+    def _look(self, place: str) -> Hashed | None:
         folder = place.rpartition(os.sep)[0]
         if folder not in self._homes:
             tree = self._tree(place)
@@ -185,13 +189,7 @@ class Disk:
                 return None
             own = digest(content)
             hashed = facts, own, text_digest(content) if b"\r" in content else own
-        self.hashed[place] = hashed
         return hashed
-
-    def _see(self, key: str, content: bytes) -> str:
-        found = digest(content)
-        self._seen.setdefault(key, found)
-        return found
 
     def _place(self, key: str) -> str:
         return placed(self._prefix, key)

@@ -1,24 +1,27 @@
 """What a process remembers of the robot that it built last, for one that builds again and again.
 
 Each entry stands with all that it was made of, and serves only who asks for exactly that: a memory spares work, and
-never says what is on disk. A file's hash stands with what the system said of it, where that can be believed. Of each
-kind there is one entry, so a memory is as large as one robot.
+never says what is on disk. Of each kind there is one entry, so a memory is as large as one robot. Only what plans saw
+of files is there for every robot: hashes, each with what the system said of the file, where that can be believed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import operator
+from collections.abc import Callable, Collection, Mapping, Sequence
+from itertools import compress
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import msgspec
 
 from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Reading, Snapshot, Target
+from urdfsync.looking import NO_FACTS
 from urdfsync.manifest import Tables
 from urdfsync.planning import generate
 from urdfsync.stamping import stamp
 
 if TYPE_CHECKING:
-    from urdfsync.planning.decide import Hashed
+    from urdfsync.planning.decide import Hashes
     from urdfsync.stamping.trust import Clock
     from urdfsync.state.bases import Bases
     from urdfsync.state.store import State
@@ -29,13 +32,16 @@ _Value = TypeVar("_Value")
 
 
 class Memory:
-    """The source that was read last, the files that were made last of a model, and the state that was recorded last."""
+    """The source that was read last, the files that were made last of a model, and the state that was recorded last.
+
+    And of each robot, what was seen of its files.
+    """
 
     def __init__(self) -> None:
         self.tables = Tables()
         """Of the last manifest."""
-        self.hashed: Mapping[str, Hashed] = {}
-        """The files of the last plan, by their paths, as far as a change would show in what the system says of them."""
+        self._seen: dict[str, Hashes] = {}
+        self._current: set[str] = set()
         self._reading: _Last[Reading] = _Last()
         self._parts: _Last[Parts] = _Last()
         self._artifacts: _Files | None = None
@@ -70,19 +76,39 @@ class Memory:
         """The kept texts in the content of their file."""
         return self._bases.get(content, load)
 
-    def looked(
-        self, hashed: Mapping[str, Hashed], begin: tuple[int, int], read_clock: Callable[[], Clock | None]
-    ) -> None:
-        """A plan that began at this moment (see `stamp.now`) has looked at these files."""
-        new = {path: entry for path, entry in hashed.items() if self.hashed.get(path) is not entry}
-        clock = read_clock() if len(new) > _FEW else None
-        passed = stamp.passed(begin)
-        doubtful = {path for path, (facts, _, _) in new.items() if clock is None or not clock.trusts(facts, passed)}
-        self.hashed = {path: entry for path, entry in hashed.items() if path not in doubtful}
+    def seen(self, robot: str) -> Hashes:
+        """What was seen last of a robot's outputs and recorded state; without facts where these can't be believed."""
+        return self._seen.get(robot, {})
+
+    def is_current(self, robot: str) -> bool:
+        """Whether that is what the last plan saw, and no build has written since."""
+        return robot in self._current
+
+    def looked(self, robot: str, seen: Hashes, begin: tuple[int, int], read_clock: Callable[[], Clock | None]) -> None:
+        """Somebody who began at this moment (see `stamp.now`) has looked at all that matters to a robot's plan."""
+        before = self.seen(robot)
+        others = compress(seen, map(operator.is_not, map(before.get, seen), seen.values()))  # in C: there are thousands
+        new = {path: entry for path in others if (entry := seen[path])}
+        doubtful = {path: (NO_FACTS, *entry[1:]) for path, entry in new.items() if entry[0] != NO_FACTS}
+        if len(doubtful) > _FEW and (clock := read_clock()):
+            passed = stamp.passed(begin)
+            doubtful = {path: entry for path, entry in doubtful.items() if not clock.trusts(new[path][0], passed)}
+        self._seen[robot] = {**seen, **doubtful}
+        self._current.add(robot)
+
+    def outdated(self, robot: str) -> None:
+        """What was seen is not what counts any more: a build has written, or a plan looks again."""
+        self._current.discard(robot)
+
+    def keep(self, robots: Collection[str]) -> None:
+        """Forget what was seen of all others."""
+        self._seen = {robot: seen for robot, seen in self._seen.items() if robot in robots}
+        self._current.intersection_update(robots)
 
     def distrust(self) -> None:
         """Read all files again, whatever the system says of them."""
-        self.hashed = {}
+        for robot, seen in self._seen.items():
+            self._seen[robot] = {path: entry and (NO_FACTS, *entry[1:]) for path, entry in seen.items()}
 
     def recorded(self, contents: tuple[bytes, bytes], state: State) -> None:
         """A build is about to write a state, which is what will be loaded from these contents."""

@@ -58,6 +58,12 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
     return Parents(created, entered, _is_ordered(robot.folder.parent, created), tuple(_check_uses(robot, parts, uses)))
 
 
+def files(robot: RobotConfig) -> Iterator[str]:
+    """The files of the packages around a robot's that `check` may look at, there or not."""
+    for folder in robot.folder.parents[: robot.target.package.count(".")]:
+        yield from (f"{folder}/package.mo", f"{folder}/package.order")
+
+
 def _is_ordered(package: Path, created: Mapping[Path, bytes]) -> bool:
     """Whether a package has a `package.order`, or gets one because urdfsync makes the package."""
     return package / "package.mo" in created or looking.is_file(package / "package.order")

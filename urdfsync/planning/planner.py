@@ -32,15 +32,28 @@ def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
         from urdfsync.planning.renewal import Renewal
 
         work = Renewal(situation).work()
-    if request.memory:
-        request.memory.looked(situation.disk.hashed, begin, lambda: trust.clock(situation.store.folder))
+    _remember(situation, work, begin)
     return work
 
 
 @profiling.staged("looking")
 def plan_if_unchanged(config: Config, robot: RobotConfig, request: Request) -> Work | None:
     """The same if that takes no reading and rendering, else None."""
-    return _if_unchanged(Situation(config, robot, request))
+    begin = stamp.now()
+    situation = Situation(config, robot, request)
+    work = _if_unchanged(situation)
+    if work is not None:
+        _remember(situation, work, begin)
+    return work
+
+
+def _remember(situation: Situation, work: Work, begin: tuple[int, int]) -> None:
+    """Let the memory have what a plan that began at this moment saw of outputs and recorded state."""
+    if situation.request.memory:
+        seen = dict(situation.disk.hashed)
+        for path, own in work.witness.items():
+            seen[str(path)] = None if own is None else (looking.NO_FACTS, own, own)
+        situation.request.memory.looked(situation.robot.name, seen, begin, lambda: trust.clock(situation.store.folder))
 
 
 def _if_unchanged(situation: Situation) -> Work | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import json
 from collections.abc import Callable, Mapping, Sequence
@@ -12,7 +13,7 @@ import msgspec
 
 from urdfsync import manifest, registry
 from urdfsync.config import Config, RobotConfig, shown
-from urdfsync.diagnostics import Diagnostic, Severity, StateError
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.difference import Version
 from urdfsync.domain import Dependency, Import, Lookup, Role, Snapshot
 from urdfsync.files import digest, text_digest
@@ -71,9 +72,14 @@ class Situation:
     def __init__(self, config: Config, robot: RobotConfig, request: Request) -> None:
         self.config, self.robot, self.request = config, robot, request
         self.domain = registry.domain(robot.domain)
+        self.disk = Disk(config, robot, request.memory.seen(robot.name) if request.memory and not request.full else {})
+        if request.memory:
+            request.memory.outdated(robot.name)
+            for path in parents.files(robot):
+                with contextlib.suppress(OutputError):  # it may be a link
+                    self.disk.look(path)
         self.parents = parents.check(config, robot, self.domain.uses)
         self.store = Store(config.root, shown, request.memory)
-        self.disk = Disk(config, robot, request.memory.hashed if request.memory and not request.full else None)
         self.folder = self.disk.key(robot.folder)
         self.recovered: Recovered | None = None
         """What could be saved of a state that can't be read, if that was asked for."""

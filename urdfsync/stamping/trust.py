@@ -50,6 +50,14 @@ class Clock:
         return self._is_sound and altered > 0 and newest < now - passed - margin
 
 
+def is_young(facts: Facts, now: int) -> bool:
+    """Whether a file may change again without a trace, since it changed just before this moment (ns), or after it.
+
+    By our own clock: sources are on whatever file systems, and nobody makes files there to read theirs.
+    """
+    return max(facts[-2:]) > now - _COARSE_TICK
+
+
 def clock(folder: Path) -> Clock | None:
     """The clock of the file system that a folder is on, by a file that is made there; None if none can be made."""
     if not HAS_CHANGE_TIMES:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+import msgspec
+
 from urdfsync.config import Config, RobotConfig
 from urdfsync.outcome import Result
 from urdfsync.plan import Kind
@@ -15,8 +17,6 @@ from urdfsync.watching.samples import alike, changed
 
 _ROUNDS = 3
 """So often a robot is built in a row; if it is not in step then, somebody writes all the time, and it has to settle."""
-_NOTES = (Kind.ADOPT, Kind.FORGET)
-"""Actions that only change what is recorded."""
 
 
 class Builds:
@@ -47,8 +47,10 @@ class Builds:
         for watched in settled:
             if watched.announced:
                 self._tell(events.Building(watched.name))
+        request = self._request
         for _ in range(_ROUNDS):
-            self._build_once(config, {watched.name: watched for watched in settled})
+            self._build_once(config, {watched.name: watched for watched in settled}, request)
+            request = msgspec.structs.replace(request, jobs=1)  # what other processes see, the memory does not
             settled = [watched for watched in settled if not self._rests(watched)]
             if not settled:
                 return
@@ -62,12 +64,12 @@ class Builds:
         self._say_failed(watched, builder.failure(config, watched.robot, watched.trouble))
         self._leave(watched)
 
-    def _build_once(self, config: Config, settled: dict[str, Watched]) -> None:
-        for result in builder.results(config, [watched.robot for watched in settled.values()], self._request):
+    def _build_once(self, config: Config, settled: dict[str, Watched], request: Request) -> None:
+        for result in builder.results(config, [watched.robot for watched in settled.values()], request):
             watched = settled[result.robot]
             if not result.failed:
                 self._say_built(watched, result)
-            elif not self._robots.inputs_differ(watched, watched.settled):
+            elif alike(watched.settled, self._robots.sample(watched)):
                 self._say_failed(watched, result)
         for watched in settled.values():
             self._robots.renew(watched)
@@ -76,24 +78,25 @@ class Builds:
     def _rests(self, watched: Watched) -> bool:
         """Whether there is nothing left to do for a robot at once.
 
-        What was sampled before the last build is compared with what is there after it: where inputs differ, they
-        have to settle; where outputs differ, that build or somebody else wrote them, which the next build tells.
-        A build that wrote something is never the last, since somebody else may have undone that before the sample.
+        What a robot is built from was sampled before the last build, and is compared with what is there after it:
+        where it differs, it has to settle. A build that wrote something is never the last: what it has left, and what
+        others wrote meanwhile, is known from the next one. What changes after that has an event, or is found later.
         """
         before, watched.settled = watched.settled, self._robots.sample(watched)
-        if any(watched.is_input(path) for path in changed(before, watched.settled)):
+        if any(changed(before, watched.settled)):
             self._touch(watched)
             return True
-        if watched.failed is None and (watched.busy or not alike(before, watched.settled)):
+        if watched.failed is None and not (self._robots.is_known(watched) and alike(before, watched.settled)):
             return False
         self._leave(watched)
         return True
 
     def _leave(self, watched: Watched) -> None:
-        watched.built, watched.announced = watched.settled, False
-        watched.settler.rest()
+        watched.rest()
         if watched.failed is None:
             self._done(watched.robot)
+        else:
+            self._robots.take_stock(watched)
 
     def _say_failed(self, watched: Watched, result: Result) -> None:
         again = watched.failed == result.diagnostics
@@ -106,7 +109,6 @@ class Builds:
         decided = result.actions.decided
         left = (action for action in decided if action.kind is not Kind.UNCHANGED and not action.writes)
         special = frozenset((action.path, str(action.kind)) for action in left)
-        watched.busy = any(action.writes or action.kind in _NOTES for action in decided)
         if watched.announced or files or recovered or special != watched.special:
             self._tell(events.Built(result, files, recovered))
         watched.failed, watched.announced, watched.special, watched.trouble = None, False, special, ()

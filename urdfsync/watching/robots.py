@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from pathlib import Path
 
 import msgspec
 
-from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.config import STATE_FOLDER, Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, OutputError
+from urdfsync.looking import NO_FACTS, facts_of
+from urdfsync.planning.decide import Disk, Hashed, Hashes
 from urdfsync.planning.memory import Memory
-from urdfsync.watching.samples import Sample, Sampler, alike, changed
+from urdfsync.stamping import stamp, trust
+from urdfsync.watching.samples import Sample, Sampler, alike
 from urdfsync.watching.scope import Scope, scope
 from urdfsync.watching.settling import Settler, Times
+
+_IN_THE_WAY: Hashed = (NO_FACTS, "", "")
+"""An output that is no file, or can't be read."""
 
 
 class Watched(msgspec.Struct):
@@ -20,17 +28,17 @@ class Watched(msgspec.Struct):
 
     robot: RobotConfig
     scope: Scope
-    settler: Settler[Sample]
+    settler: Settler[tuple[Sample, Hashes]]
     built: Sample | None = None
-    """What the last build saw; None if everything has to be built anyway."""
+    """What it is built from, as it was when there was nothing left to do; None if it has to be built anyway."""
     settled: Sample = msgspec.field(default_factory=dict)
     """What has settled, and is about to be built."""
+    noticed: frozenset[str] = frozenset()
+    """The outputs that may have changed since there was nothing left to do."""
     announced: bool = False
     """Whether the listener was told that something is going on."""
     trouble: tuple[Diagnostic, ...] = ()
     """What was said last of a source that is no model."""
-    busy: bool = False
-    """Whether the last build did anything but look."""
     failed: tuple[Diagnostic, ...] | None = None
     """Why the last build failed; None if it did not."""
     special: frozenset[tuple[str, str]] = frozenset()
@@ -41,19 +49,34 @@ class Watched(msgspec.Struct):
         """As in the configuration."""
         return self.robot.name
 
-    def is_input(self, path: str) -> bool:
-        """Whether the robot is built from this file of its scope."""
-        return path not in self.scope.outputs
+    def knows(self, paths: Iterable[str]) -> bool:
+        """Whether all these are files of its own, and not folders, or places where links lead to."""
+        inputs = self.built or self.scope.inputs
+        return all(path in inputs or path in self.scope.outputs for path in paths)
+
+    def notice(self, paths: AbstractSet[str]) -> None:
+        """Something may have changed at these paths: outputs there have to settle, too."""
+        outputs = self.scope.outputs
+        self.noticed |= outputs.intersection(paths) if self.knows(paths) else outputs
+
+    def rest(self) -> None:
+        """There is nothing left to do: what has settled is what it is built from."""
+        self.built, self.noticed, self.announced = self.settled, frozenset(), False
+        self.settler.rest()
 
 
 class Robots:
-    """All robots that are watched, and samples of their files."""
+    """All robots that are watched, and how their files are."""
 
-    def __init__(self, times: Times, package_paths: Sequence[Path], memory: Memory | None = None) -> None:
-        """`package_paths` are where to look for packages beside those of the configuration."""
+    def __init__(self, times: Times, package_paths: Sequence[Path], memory: Memory) -> None:
+        """`package_paths` are where to look for packages beside those of the configuration.
+
+        The memory has what builds saw of outputs, with which they are compared; only what robots are built from is
+        sampled.
+        """
         self._times, self._package_paths, self._memory = times, package_paths, memory
         self._sampler = Sampler()
-        self._config: Config | None = None
+        self._config: Config
         self._robots: dict[str, Watched] = {}
 
     def __iter__(self) -> Iterator[Watched]:
@@ -67,6 +90,7 @@ class Robots:
             watched = before.get(robot.name) or Watched(robot, self._scope(robot), Settler(self._times))
             watched.robot, watched.scope, watched.built = robot, self._scope(robot), None
             self._robots[robot.name] = watched
+        self._memory.keep(self._robots)
 
     def named(self, names: Iterable[str]) -> list[Watched]:
         """The robots of these names, without those that are watched no more."""
@@ -82,48 +106,89 @@ class Robots:
         watched.scope = self._scope(watched.robot)
 
     def sample(self, watched: Watched) -> Sample:
-        """All files of a robot as they are now."""
-        return self._sampler.sample(watched.scope.files())
+        """What a robot is built from, as it is now."""
+        return self._sampler.sample(watched.scope.ingredients())
+
+    def outputs(self, watched: Watched, paths: Iterable[str]) -> Hashes:
+        """Some outputs as they are now; hashed is what is not known, and what can't be trusted."""
+        seen = self._memory.seen(watched.name)
+        disk = Disk(self._config, watched.robot, seen)
+        return {path: _look(disk, path, seen.get(path)) for path in paths}
 
     def look(self, path: str) -> Sample:
         """A file that belongs to no robot, as it is now."""
         return self._sampler.sample([path])
 
-    def has_news(self, watched: Watched, paths: Iterable[str]) -> bool:
+    def has_news(self, watched: Watched, paths: AbstractSet[str]) -> bool:
         """Whether something is not as the last build saw it, if it may be one of these paths; at little cost."""
-        built = watched.built
+        built, outputs = watched.built, watched.scope.outputs
         if built is None:
             return True
-        if all(path in built for path in paths):
-            return any(self._sampler.may_differ(path, built[path]) for path in paths)
-        files = set(watched.scope.files())  # a folder, or a place where a link leads to
-        return files != built.keys() or any(self._sampler.may_differ(path, built[path]) for path in files)
+        if watched.knows(paths):
+            inputs, outputs = built.keys() & paths, outputs.intersection(paths)
+        elif (inputs := {*watched.scope.ingredients()}) != built.keys():
+            return True
+        if any(self._sampler.may_differ(path, built[path]) for path in inputs):
+            return True
+        return bool(self._changed(watched, self.outputs(watched, outputs)))
 
-    def inputs_differ(self, watched: Watched, before: Sample) -> bool:
-        """Whether what a robot is built from differs from what it was in a sample; hashes what may differ."""
-        now = self._sampler.sample(watched.scope.ingredients())
-        known = {path: entry for path, entry in before.items() if watched.is_input(path)}
-        return any(changed(known, now)) or bool(now.keys() - known.keys())
+    def is_as_built(self, watched: Watched, now: Sample) -> bool:
+        """Whether all is as the last build saw it, if a robot is built from what is `now`; else outputs are noticed.
 
-    def is_as_built(self, watched: Watched) -> bool:
-        """Whether all is as the last build saw it; if so, it is remembered as it is now."""
-        now = self.sample(watched)
+        If so, it is remembered as it is now.
+        """
         if watched.built is None or not alike(watched.built, now):
             return False
+        begin, seen = stamp.now(), self._memory.seen(watched.name)
+        outputs = self.outputs(watched, seen)
+        if outputs != seen:  # else nothing had to be hashed
+            if changed := self._changed(watched, outputs):
+                watched.noticed |= changed
+                return False
+            self._memory.looked(watched.name, outputs, begin, self._clock)
         watched.built = now
         return True
 
+    def is_known(self, watched: Watched) -> bool:
+        """Whether the last build saw all outputs as it has left them: it wrote nothing."""
+        return self._memory.is_current(watched.name)
+
+    def take_stock(self, watched: Watched) -> None:
+        """Let the outputs be known as they are now, since a build has failed, however far it came."""
+        begin = stamp.now()
+        outputs = self.outputs(watched, watched.scope.outputs)
+        self._memory.looked(watched.name, outputs, begin, self._clock)
+
     def tidy(self, others: Iterable[str]) -> None:
-        """Forget the hashes of files that do not matter any more, but for `others`."""
-        self._sampler.keep([*others, *(path for watched in self for path in watched.scope.files())])
+        """Forget the samples of files that do not matter any more, but for `others`."""
+        self._sampler.keep([*others, *(path for watched in self for path in watched.scope.ingredients())])
 
     def distrust(self) -> None:
-        """Hash everything again, whatever stat values say."""
+        """Hash everything again, whatever the system says of it."""
         self._sampler.forget()
-        if self._memory:
-            self._memory.distrust()
+        self._memory.distrust()
+
+    def _changed(self, watched: Watched, now: Hashes) -> set[str]:
+        """The outputs that are not as they were seen last."""
+        seen = self._memory.seen(watched.name)
+        return {path for path, entry in now.items() if _content(seen.get(path, _IN_THE_WAY)) != _content(entry)}
+
+    def _clock(self) -> trust.Clock | None:
+        return trust.clock(self._config.root / STATE_FOLDER)
 
     def _scope(self, robot: RobotConfig) -> Scope:
-        if self._config is None:
-            raise LookupError(robot.name)
         return scope(self._config, robot, self._package_paths, self._memory)
+
+
+def _look(disk: Disk, path: str, seen: Hashed | None) -> Hashed | None:
+    """An output as plans see it; there are thousands, and nearly all are as they were seen."""
+    try:
+        return seen if seen and facts_of(os.lstat(path)) == seen[0] else disk.look(path)
+    except FileNotFoundError:
+        return None
+    except (OutputError, OSError):
+        return _IN_THE_WAY
+
+
+def _content(seen: Hashed | None) -> str | None:
+    return seen[1] if seen else None

@@ -1,8 +1,6 @@
-"""What files are at one moment: their stat values and hashes. Hashed is only what differs from the last sample.
+"""What files are at one moment: what the system says of them, and their hashes.
 
-A file that was written just before it was sampled can change again without any difference in its stat values, as
-clocks of file systems are coarse. So its stat values are not trusted until it is some time old; nor are those of a
-file from the future, which a clock leaves behind that goes backwards.
+Hashed is only what differs from the last sample, and what is too young to be trusted, see `stamping/trust`.
 """
 
 from __future__ import annotations
@@ -15,15 +13,17 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeAlias
 
-_RACY = 2_000_000_000
-"""Nanoseconds after which a time of change can be told from a later one, on every file system in use."""
+from urdfsync.looking import NO_FACTS, Facts, facts_of
+from urdfsync.stamping import trust
 
 
 class Entry(NamedTuple):
     """One path at one moment."""
 
-    facts: tuple[int | str, ...]
-    """Target of the symbolic link, size (bytes), time of change (ns), inode and device; of files only."""
+    facts: Facts
+    """What the system says of a file."""
+    link: str
+    """Where it is, if the path is a symbolic link."""
     content: str
     """SHA-256 (hex) of a file; else a word that no hash is: `missing`, `folder`, `other`, or the number of an error."""
 
@@ -31,7 +31,7 @@ class Entry(NamedTuple):
 Sample: TypeAlias = Mapping[str, Entry]
 """Paths at one moment."""
 
-MISSING = Entry((), "missing")
+MISSING = Entry(NO_FACTS, "", "missing")
 
 
 class Sampler:
@@ -47,12 +47,12 @@ class Sampler:
         now = self._now()
         return {path: self._look(path, now) for path in paths}
 
-    def may_differ(self, path: str, from_: Entry | None) -> bool:
+    def may_differ(self, path: str, from_: Entry) -> bool:
         """Whether a path is not what it was, as far as can be told at little cost: a file that changes is not read."""
-        facts = _facts(path)
-        if isinstance(facts, Entry) or from_ is None:
-            return facts != from_
-        return facts != from_.facts or self._look(path, self._now()) != from_
+        found = _facts(path)
+        if isinstance(found, Entry):
+            return found != from_
+        return found != from_[:2] or self._look(path, self._now()) != from_
 
     def keep(self, paths: Iterable[str]) -> None:
         """Forget all other paths."""
@@ -63,20 +63,20 @@ class Sampler:
         self._seen.clear()
 
     def _look(self, path: str, now: int) -> Entry:
-        facts = _facts(path)
-        if isinstance(facts, Entry):
+        found = _facts(path)
+        if isinstance(found, Entry):
             self._seen.pop(path, None)
-            return facts
-        old, racy = self._seen.get(path, (None, True))
-        if old is not None and not racy and old.facts == facts:
+            return found
+        old, young = self._seen.get(path, (None, True))
+        if old is not None and not young and old[:2] == found:
             return old
         try:
-            entry = Entry(facts, _hash(path))
+            entry = Entry(*found, _hash(path))
         except OSError as error:
             entry = _error(error)
         if entry == old:
             entry = old  # one value for all samples
-        self._seen[path] = entry, int(facts[2]) > now - _RACY
+        self._seen[path] = entry, trust.is_young(found[0], now)
         return entry
 
 
@@ -96,8 +96,8 @@ def files_below(folder: str) -> Iterator[str]:
         yield from (os.path.join(current, name) for name in names)  # noqa: PTH118 - many, and often
 
 
-def _facts(path: str) -> tuple[int | str, ...] | Entry:
-    """The stat values of a file; for everything else all that there is to say of it."""
+def _facts(path: str) -> tuple[Facts, str] | Entry:
+    """What the system says of a file, and where a link leads; for everything else all that there is to say of it."""
     try:
         found, link = os.lstat(path), ""
         if stat.S_ISLNK(found.st_mode):
@@ -105,13 +105,13 @@ def _facts(path: str) -> tuple[int | str, ...] | Entry:
     except OSError as error:
         return _error(error)
     if stat.S_ISREG(found.st_mode):
-        return link, found.st_size, found.st_mtime_ns, found.st_ino, found.st_dev
-    return Entry((), "folder" if stat.S_ISDIR(found.st_mode) else "other")
+        return facts_of(found), link
+    return Entry(NO_FACTS, "", "folder" if stat.S_ISDIR(found.st_mode) else "other")
 
 
 def _error(error: OSError) -> Entry:
     gone = error.errno in (errno.ENOENT, errno.ENOTDIR)
-    return MISSING if gone else Entry((), f"error {error.errno}")
+    return MISSING if gone else Entry(NO_FACTS, "", f"error {error.errno}")
 
 
 def _hash(path: str) -> str:

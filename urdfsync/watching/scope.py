@@ -17,6 +17,7 @@ from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Dependency, Lookup
 from urdfsync.files import placed
+from urdfsync.planning import parents
 from urdfsync.planning.imports import sought
 from urdfsync.planning.memory import Memory
 from urdfsync.state.store import State, Store
@@ -53,16 +54,11 @@ class Scope(msgspec.Struct, frozen=True, dict=True):
         yield from self.inputs
         yield from files_below(self.templates) if self.templates else ()
 
-    def files(self) -> Iterator[str]:
-        """All files that matter, as they are now."""
-        yield from self.ingredients()
-        yield from self.outputs
-
 
 def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path], memory: Memory | None = None) -> Scope:
     """What matters to a robot, as far as the last build knew it; `package_paths` are those beside the robot's own."""
     state = _recorded(config, robot, memory)
-    store, outputs = Store(config.root), set(_parents(robot))
+    store, outputs = Store(config.root), set(parents.files(robot))
     outputs.update(map(str, store.paths(robot.name)))
     inputs = {str(robot.source)}
     if state:
@@ -87,12 +83,6 @@ def _recorded(config: Config, robot: RobotConfig, memory: Memory | None) -> Stat
         return Store(config.root, shown, memory).load(robot.name)
     except (UrdfsyncError, OSError):
         return None
-
-
-def _parents(robot: RobotConfig) -> Iterator[str]:
-    """Files of the packages around the robot's."""
-    for folder in robot.folder.parents[: robot.target.package.count(".")]:
-        yield from (f"{folder}/package.mo", f"{folder}/package.order")
 
 
 def _dependencies(robot: RobotConfig, state: State, package_paths: Sequence[Path]) -> Sequence[Dependency]:
