@@ -33,6 +33,8 @@ _HEADER = """\
 _ORDER = "package.order"
 _PARENT = "../package.order"
 """The parent package's order file, as it stands in the text."""
+_RECORDED = "is recorded"
+"""Marks manifests that are as they come back from their text."""
 _PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
 """What nearly all paths are: nothing that could lead elsewhere."""
 _REPAIR = "restore it from version control, or let `urdfsync build --repair` make it again"
@@ -88,9 +90,11 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     orders: Mapping[str, tuple[str, ...]] = {}
     files: Mapping[str, FileRecord] = {}
 
-    @functools.cached_property
+    @property
     def recorded(self) -> Manifest:
         """What comes back from the manifest's text: sorted, and without what lies outside of the package."""
+        if _RECORDED in vars(self):
+            return self
         inside, above = f"{self.folder}/", _order_above(self.folder)
         found = msgspec.structs.replace(
             self,
@@ -105,7 +109,7 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True, dict=True):
                 if path.startswith(inside)
             },
         )
-        vars(found)["recorded"] = found
+        vars(found)[_RECORDED] = True
         return found
 
     @functools.cached_property

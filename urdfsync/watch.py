@@ -283,6 +283,7 @@ class Daemon:
 
     def _rescan(self, now: float, guard: Guard) -> None:
         """Look at everything: events may be lost, and what failed may work now."""
+        garbage.search()
         self._next_rescan, self._next_poll = now + self._options.rescan, now + _POLL
         with contextlib.suppress(OutputError):  # as long as the folder can't be written to, nobody can take the lock
             guard.renew()

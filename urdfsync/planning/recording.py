@@ -124,10 +124,10 @@ class Recording:
         outliving, since = self._outliving(decision), self._since(decision)
         model = manifest.model_of(self._snapshot, self._imported.imports, outliving, since)
         text = manifest.dump_model(model)
-        whole = self._manifest(decision, text)
+        whole = self._manifest(decision, text).recorded
         texts = self._situation.dumps(whole), text
         if memory := self._situation.request.memory:
-            state = State(whole.recorded, model, intact=True)
+            state = State(whole, model, intact=True)
             memory.recorded((texts[0].encode(), texts[1].encode()), state)
         return texts
 
