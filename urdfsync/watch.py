@@ -38,6 +38,7 @@ from urdfsync.watching.samples import alike
 from urdfsync.watching.scope import Sight, sight
 from urdfsync.watching.settings import Loaded, Settings
 from urdfsync.watching.settling import Verdict
+from urdfsync.watching.stash import Stash
 
 _PAUSE = 0.25
 """Seconds between two looks whether a pause is over."""
@@ -79,7 +80,7 @@ class Daemon:
             options.command, options.file.absolute().parent, lambda robot, code: self._inbox.put(Ended(robot, code))
         )
         self._sight = Sight({}, {}, frozenset(), {})
-        self._store = stash.store(os.environ, Path(os.path.expanduser("~")))  # noqa: PTH111 - it can't fail
+        self._stash = Stash(stash.store(os.environ, Path(os.path.expanduser("~"))))  # noqa: PTH111 - it can't fail
         self._config: Config
         self._stopped = ""
         self._paused = self._warm = False
@@ -313,7 +314,7 @@ class Daemon:
 
     def _is_paused(self) -> bool:
         """Whether nothing must be built now; says so when that changes. What was paused has to settle again."""
-        holder = stash.holder(self._store, self._config.root)
+        holder = self._stash.holder(self._config.root)
         if holder is not None and not self._paused:
             self._tell(events.Paused(f"pre-commit (process {holder}) has stashed unstaged changes away"))
         resumed = holder is None and self._paused

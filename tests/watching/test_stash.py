@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from urdfsync.watching import stash
+from urdfsync.watching.stash import Stash
 
 linux = pytest.mark.skipif(not Path("/proc/self/cwd").exists(), reason="no /proc on this system")
 
@@ -39,10 +40,10 @@ def patch(tmp_path: Path, pid: int, moment: float | None = None) -> Path:
 
 def test_a_patch_of_a_living_process(tmp_path: Path, repository: Path, process: subprocess.Popen[bytes]) -> None:
     store = patch(tmp_path, process.pid)
-    assert stash.holder(store, repository, Path("/nothing")) == process.pid
+    assert Stash(store, Path("/nothing")).holder(repository) == process.pid
     process.kill()
     process.wait()
-    assert stash.holder(store, repository, Path("/nothing")) is None
+    assert Stash(store, Path("/nothing")).holder(repository) is None
 
 
 @linux
@@ -50,12 +51,12 @@ def test_a_patch_counts_in_its_repository_only(
     tmp_path: Path, repository: Path, process: subprocess.Popen[bytes]
 ) -> None:
     store = patch(tmp_path, process.pid)
-    assert stash.holder(store, repository) == process.pid
-    assert stash.holder(store, repository / "robots") == process.pid
-    assert stash.holder(store, tmp_path) is None
+    assert Stash(store).holder(repository) == process.pid
+    assert Stash(store).holder(repository / "robots") == process.pid
+    assert Stash(store).holder(tmp_path) is None
     link = tmp_path / "link"
     link.symlink_to(repository)
-    assert stash.holder(store, link / "robots") == process.pid
+    assert Stash(store).holder(link / "robots") == process.pid
 
 
 @linux
@@ -63,7 +64,7 @@ def test_a_process_that_is_younger_than_the_patch_has_only_its_number(
     tmp_path: Path, repository: Path, process: subprocess.Popen[bytes]
 ) -> None:
     store = patch(tmp_path, process.pid, time.time() - 3600)
-    assert stash.holder(store, repository) is None
+    assert Stash(store).holder(repository) is None
 
 
 @linux
@@ -71,8 +72,21 @@ def test_other_files_and_ended_processes_are_nothing(tmp_path: Path, repository:
     store = patch(tmp_path, 2**22 + 1)
     for name in ("patch", "patch-1", f"patch1-{os.getpid()}.txt", "db.db"):
         (store / name).write_text("")
-    assert stash.holder(store, repository) is None
-    assert stash.holder(tmp_path / "nothing", repository) is None
+    assert Stash(store).holder(repository) is None
+    assert Stash(tmp_path / "nothing").holder(repository) is None
+
+
+@pytest.mark.parametrize("processes", ["/proc", "/nothing"])
+def test_a_patch_of_a_process_that_has_ended_is_not_asked_about_again(
+    processes: str, tmp_path: Path, repository: Path, process: subprocess.Popen[bytes], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stashed = Stash(patch(tmp_path, process.pid), Path(processes))
+    assert stashed.holder(repository) == stashed.holder(repository) == process.pid
+    process.kill()
+    process.wait()
+    assert stashed.holder(repository) is None
+    monkeypatch.setattr(Stash, "_place", lambda *arguments: pytest.fail("it has ended"))
+    assert stashed.holder(repository) is None
 
 
 def test_where_pre_commit_keeps_its_files(tmp_path: Path) -> None:

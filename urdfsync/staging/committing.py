@@ -75,7 +75,7 @@ def _abandoned(path: str) -> Diagnostic:
 def _aside(index: Index) -> frozenset[str]:
     """The files of which pre-commit has stashed changes, to bring them back after us."""
     store = stash.store(os.environ, Path.home())
-    holder = stash.holder(store, index.top)
+    holder = stash.Stash(store).holder(index.top)
     patches = sorted(store.glob(f"patch*-{holder}")) if holder is not None else []
     return frozenset(index.patched(patches[-1])) if patches else frozenset()
 

@@ -23,40 +23,59 @@ def store(environment: Mapping[str, str], home: Path) -> Path:
     return Path(environment.get("PRE_COMMIT_HOME") or Path(cache) / "pre-commit")
 
 
-def holder(folder: Path, root: Path, processes: Path = Path("/proc")) -> int | None:
-    """The process that has stashed changes of the repository around `root` away; None if there is none.
+class Stash:
+    """What pre-commit has stashed away, by its store; asked again and again, while ever more patches lie there."""
 
-    `folder` is pre-commit's store. Where the system does not say what a process works on, any living one counts.
-    """
-    return next((pid for pid, age in _patches(folder) if _holds(pid, age, root, processes)), None)
+    def __init__(self, folder: Path, processes: Path = Path("/proc")) -> None:
+        self._folder, self._processes = folder, processes
+        self._over: set[str] = set()
+        """Patches of processes that have ended."""
+
+    def holder(self, root: Path) -> int | None:
+        """The process that has stashed changes of the repository around `root` away; None if there is none.
+
+        Where the system does not say what a process works on, any living one counts.
+        """
+        return next((pid for pid, place in self._living() if place is None or _is_in(root, place)), None)
+
+    def _living(self) -> Iterator[tuple[int, str | None]]:
+        """The living processes that made patches, and the folders that they work in; None for what nobody says."""
+        try:
+            names = os.listdir(self._folder)  # noqa: PTH208 - before every build
+        except OSError:
+            return
+        for name in names:
+            if name not in self._over and (match := _PATCH.fullmatch(name)):
+                pid, age = int(match[2]), time.time() - int(match[1])
+                try:
+                    yield pid, self._place(pid, age)
+                except ProcessLookupError:
+                    self._over.add(name)
+
+    def _place(self, pid: int, age: float) -> str | None:
+        """Where the process works that made a patch of this age (s). Raises ProcessLookupError if it has ended."""
+        if os.path.isdir(self._processes):  # noqa: PTH112 - patches become more and more
+            try:
+                place, started = os.readlink(f"{self._processes}/{pid}/cwd"), _age(pid, self._processes)  # noqa: PTH115
+            except PermissionError:
+                pass
+            except (OSError, ValueError, IndexError):
+                raise ProcessLookupError(pid) from None
+            else:
+                if started + _SLACK < age:
+                    raise ProcessLookupError(pid)  # another process has got the number since
+                return place
+        if not _lives(pid):
+            raise ProcessLookupError(pid)
+        return None
 
 
-def _patches(folder: Path) -> Iterator[tuple[int, float]]:
-    """The process of each patch, and the patch's age in seconds."""
-    try:
-        names = os.listdir(folder)  # noqa: PTH208 - before every build
-    except OSError:
-        return
-    for name in names:
-        if match := _PATCH.fullmatch(name):
-            yield int(match[2]), time.time() - int(match[1])
+def _is_in(root: Path, place: str) -> bool:
+    """Whether a folder is in that of a process: pre-commit works at the top of the repository."""
+    return Path(os.path.realpath(root)).is_relative_to(place)
 
 
-def _holds(pid: int, age: float, root: Path, processes: Path) -> bool:
-    if not os.path.isdir(processes):  # noqa: PTH112 - patches become more and more
-        return _lives(pid)
-    try:
-        place = os.readlink(f"{processes}/{pid}/cwd")  # noqa: PTH115 - pre-commit works at the top of the repository
-        started = _age(pid, processes)
-    except PermissionError:
-        return _lives(pid)
-    except (OSError, ValueError, IndexError):
-        return False
-    younger = started is not None and started + _SLACK < age  # another process has got the number since
-    return not younger and Path(os.path.realpath(root)).is_relative_to(place)
-
-
-def _age(pid: int, processes: Path) -> float | None:
+def _age(pid: int, processes: Path) -> float:
     """Seconds since a process has started."""
     fields = (processes / str(pid) / "stat").read_text().rpartition(")")[2].split()
     uptime = float((processes / "uptime").read_text().split()[0])
