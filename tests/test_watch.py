@@ -16,8 +16,9 @@ from support.daemon import LIMIT, Daemons
 from urdfsync import registry
 from urdfsync.outcome import Result
 from urdfsync.plan import Kind
-from urdfsync.watching import builder, events, observer, stash
+from urdfsync.watching import builder, events, observer
 from urdfsync.watching.robots import Robots, Watched
+from urdfsync.watching.stash import Stash
 
 
 @pytest.fixture
@@ -89,7 +90,7 @@ def test_a_build_is_not_made_sure_of_during_a_pause(
         yield from real(*arguments)
 
     monkeypatch.setattr(builder, "results", results)
-    monkeypatch.setattr(stash, "holder", lambda *_: 1 if stashed.is_set() else None)
+    monkeypatch.setattr(Stash, "holder", lambda *_: 1 if stashed.is_set() else None)
     daemon = start()
     daemon.wait(events.Paused)
     stashed.clear()

@@ -7,7 +7,7 @@ import errno
 import hashlib
 import os
 import stat
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync import looking, profiling
@@ -51,13 +51,24 @@ def put(file: Path, content: bytes) -> None:
             temporary.unlink(missing_ok=True)
 
 
-def templates_digest(folders: Sequence[Path]) -> str:
-    """SHA-256 (hex) over the templates in use, by name and content; an earlier folder hides names of a later one."""
+def text_digests(folder: Path) -> dict[str, str]:
+    """The `text_digest` of each file below a folder by its name in it, POSIX; hidden files are left out."""
+    above = len(str(folder)) + 1
+    found = ((path[above:].replace(os.sep, "/"), path) for path in looking.files_below(folder))
+    return {
+        name: text_digest(looking.content(path)) for name, path in found if not name.rpartition("/")[2].startswith(".")
+    }
+
+
+def templates_digest(folders: Sequence[Path], read: Callable[[Path], Mapping[str, str]] = text_digests) -> str:
+    """SHA-256 (hex) over the templates in use, by name and content; an earlier folder hides names of a later one.
+
+    `read` gives the `text_digests` of a folder.
+    """
     templates: dict[str, str] = {}
-    for folder in map(str, reversed(folders)):
-        found = ((path[len(folder) + 1 :].replace(os.sep, "/"), path) for path in looking.files_below(folder))
-        templates |= {name: path for name, path in found if not name.rpartition("/")[2].startswith(".")}
-    lines = [f"{name}\0{text_digest(looking.content(path))}\n" for name, path in sorted(templates.items())]
+    for folder in reversed(folders):
+        templates |= read(folder)
+    lines = [f"{name}\0{content}\n" for name, content in sorted(templates.items())]
     return digest("".join(lines).encode())
 
 

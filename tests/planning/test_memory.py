@@ -195,6 +195,16 @@ def test_what_was_seen_counts_until_a_build_writes_or_another_plan_begins() -> N
     assert memory.seen("arm") == SEEN
 
 
+def test_templates_of_the_program_are_read_once_until_nothing_is_trusted() -> None:
+    memory, found = Memory(), iter([{"a": "1"}, {"a": "2"}, {"a": "3"}])
+    assert [memory.shipped(folder, lambda: next(found)) for folder in "xxyx"] == [{"a": "1"}] * 2 + [
+        {"a": "2"},
+        {"a": "1"},
+    ]
+    memory.distrust()
+    assert memory.shipped("x", lambda: next(found)) == {"a": "3"}
+
+
 # Builds with a memory, beside builds of processes that have none
 
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import stat
+from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfsync import looking, profiling
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Reading, Snapshot, Templates
-from urdfsync.files import kind_of, templates_digest
+from urdfsync.files import kind_of, templates_digest, text_digests
 
 if TYPE_CHECKING:
     from urdfsync.planning.memory import Memory
@@ -29,7 +31,7 @@ def read_source(config: Config, robot: RobotConfig) -> bytes:
     raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(config.file), line, hint=hint))
 
 
-def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
+def templates(config: Config, robot: RobotConfig, domain: Domain, memory: Memory | None = None) -> Templates:
     """The robot's templates, from its own folder before the domain's. Raises ConfigError if one does not exist."""
     folders = [robot.templates] if robot.templates else []
     for folder in folders:
@@ -37,8 +39,15 @@ def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
             message = f"robot `{robot.name}`: the template folder {shown(folder)} does not exist"
             line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line, hint=hint))
-    folders.append(templates_folder(domain))
-    return Templates(tuple(folders), templates_digest(folders))
+    shipped = templates_folder(domain)
+    folders.append(shipped)
+
+    def read(folder: Path) -> Mapping[str, str]:
+        if memory and folder == shipped:
+            return memory.shipped(folder, lambda: text_digests(folder))
+        return text_digests(folder)
+
+    return Templates(tuple(folders), templates_digest(folders, read))
 
 
 @profiling.staged("reading")

@@ -8,7 +8,7 @@ of files is there for every robot: hashes, each with what the system said of the
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from itertools import compress
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
@@ -47,6 +47,7 @@ class Memory:
         self._artifacts: _Files | None = None
         self._state: _Last[State] = _Last()
         self._bases: _Last[Bases] = _Last()
+        self._shipped: dict[Hashable, Mapping[str, str]] = {}
 
     def read(self, domain: Domain, options: Any, content: bytes, name: str) -> Reading:
         """What the domain reads in a source: who judges one, and then builds it, reads it once.
@@ -67,6 +68,12 @@ class Memory:
         files = generate.artifacts(domain, snapshot, imports, target, options, parts)
         self._artifacts = _Files(domain, snapshot, _encoded((imports, target, options)), files, parts)
         return files
+
+    def shipped(self, folder: Hashable, read: Callable[[], Mapping[str, str]]) -> Mapping[str, str]:
+        """What is in a folder of templates that is part of the program, as its modules are: it is read once."""
+        if folder not in self._shipped:
+            self._shipped[folder] = read()
+        return self._shipped[folder]
 
     def state(self, contents: tuple[bytes, bytes | None], load: Callable[[], State]) -> State:
         """The recorded state in the contents of its two files."""
@@ -107,6 +114,7 @@ class Memory:
 
     def distrust(self) -> None:
         """Read all files again, whatever the system says of them."""
+        self._shipped.clear()
         for robot, seen in self._seen.items():
             self._seen[robot] = {path: entry and (NO_FACTS, *entry[1:]) for path, entry in seen.items()}
 

@@ -88,7 +88,7 @@ class Situation:
         """The name that the robot had in the last build, if it has another one now."""
         if self.former:
             self.state = self.store.load(self.former)
-        self.templates = inputs.templates(config, robot, self.domain)
+        self.templates = inputs.templates(config, robot, self.domain, request.memory)
         self.content = inputs.read_source(config, robot)
         self.generator = Generator(robot.domain, self.domain.revision, self._fingerprint())
         self._check_revision()
