@@ -375,7 +375,7 @@ def test_a_file_that_is_saved_all_the_time_stops_the_build(changed: Path) -> Non
 
     def restore(found: Operation) -> None:
         meddle(found)
-        if found.name == "remove_folder" and found.paths[0].name == "journal":
+        if found.name == "remove" and found.paths[0].parent.name == "journal":
             target.write_bytes(original)
 
     with before_each(restore):

@@ -213,7 +213,7 @@ DENIED = [
     (f"{LADDER}/Elements", 0o000, f"{LADDER}/Elements/"),
     (RECORD, 0o000, f"{RECORD}: error: "),
     (MODEL, 0o000, f"{MODEL}: error: "),
-    (".urdfsync", 0o500, ".urdfsync"),
+    (".urdfsync/journal", 0o500, ".urdfsync/journal/prepare.json: error: "),
     (".urdfsync", 0o000, ".urdfsync"),
     (".urdfsync/undo", 0o500, ".urdfsync/undo: error: "),
     (".urdfsync/robots", 0o500, ".urdfsync/robots/"),

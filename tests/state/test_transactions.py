@@ -42,7 +42,7 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {
         name: b"" if path.is_dir() else path.read_bytes()
         for name, path in found.items()
-        if path.is_file() or (name not in ("state", "state/undo") and not any(path.iterdir()))
+        if path.is_file() or (name not in ("state", "state/journal", "state/undo") and not any(path.iterdir()))
     }
 
 

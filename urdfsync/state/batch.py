@@ -200,7 +200,6 @@ class Batch:
             operations.remove(undo)
         if phase := find_phase(self._folder):
             operations.remove(self._file(phase))
-        operations.remove_folder(self._folder / "journal")
 
     def _change(self, number: int) -> None:
         target, step, temporary = self._targets[number], self._step(number), self._temporaries[number]

@@ -181,7 +181,6 @@ class Transactions:
         for path in sorted(found):
             operations.remove(path)
         operations.remove(self._folder / "journal" / f"{Phase.PREPARE}.json")
-        operations.remove_folder(self._folder / "journal")
 
     def _key(self, path: Path) -> str:
         if (place := str(path)).startswith(self._prefix):  # relpath takes ten times as long
