@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import re
+from typing import Any
 
 import msgspec
 import pytest
@@ -14,6 +16,7 @@ from urdfsync.diagnostics import StateError
 from urdfsync.domain import Import, Role
 from urdfsync.manifest import (
     DependencyRecord,
+    Elements,
     Generator,
     Manifest,
     Model,
@@ -325,6 +328,18 @@ plain_snapshots = snapshots.map(lambda snapshot: json.loads(json.dumps(snapshot,
 def test_a_model_that_comes_back_is_known_before(model: Model) -> None:
     again = load_model(dump_model(model), "arm.json")
     assert repr(again) == repr(model), "in the same order, too, and with the same kinds of numbers"
+
+
+others = plain_snapshots | snapshots.map(lambda snapshot: {**SNAPSHOT, **snapshot})
+
+
+@given(st.lists(others, min_size=1, max_size=3), st.lists(st.booleans(), min_size=6, max_size=6))
+def test_elements_of_another_model_make_no_difference(several: list[dict[str, Any]], copied: list[bool]) -> None:
+    elements = Elements()
+    for snapshot, is_other in zip([*several, *several], copied, strict=False):
+        model = model_of(copy.deepcopy(snapshot) if is_other else snapshot, IMPORTS)
+        text = msgspec.json.format(msgspec.json.encode(model, order="sorted"), indent=1).decode() + "\n"
+        assert dump_model(model, elements) == dump_model(model, elements) == dump_model(model) == text
 
 
 def test_bases_of_files_that_wait_are_recorded_with_the_model() -> None:

@@ -11,7 +11,7 @@ import functools
 import hashlib
 import posixpath
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, TypeAlias, TypeVar
 
 import msgspec
@@ -270,9 +270,47 @@ def model_of(
     return Model(dict(snapshot), facts, texts, None if since is None else dict(since))
 
 
-def dump_model(model: Model) -> str:
-    """The JSON file's text."""
-    return msgspec.json.format(msgspec.json.encode(model, order="sorted"), indent=1).decode() + "\n"
+class Elements:
+    """The text of each element of the last model, with the element: what is the same object serves again."""
+
+    def __init__(self) -> None:
+        self._parts: dict[str, dict[str, tuple[object, str]]] = {}
+
+    def text(self, part: str, elements: Any) -> str:
+        """The text of a part of a snapshot, which is a mapping of elements or something else."""
+        if not isinstance(elements, Mapping):
+            return _entry(part, elements, 2)
+        known = self._parts.get(part, {})
+        found = {
+            name: last if (last := known.get(name)) and last[0] is element else (element, _entry(name, element, 3))
+            for name, element in sorted(elements.items())
+        }
+        self._parts[part] = found
+        return _entry(part, {}, 2).removesuffix("{}") + _braced([text for _, text in found.values()], 2)
+
+
+def dump_model(model: Model, elements: Elements | None = None) -> str:
+    """The JSON file's text; `elements` are those of a model that was written before, which spares most of the work."""
+    if elements is None:
+        return _json(model) + "\n"
+    parts = [elements.text(part, value) for part, value in sorted(model.snapshot.items())]
+    rest = _json(msgspec.structs.replace(model, snapshot={}))  # which comes last
+    return rest.removesuffix("{}\n}") + _braced(parts, 1) + "\n}\n"
+
+
+def _json(value: object) -> str:
+    return msgspec.json.format(msgspec.json.encode(value, order="sorted"), indent=1).decode()
+
+
+def _entry(name: str, value: object, depth: int) -> str:
+    """An entry of an object at this depth, with its indentation."""
+    indent = depth * " "
+    return indent + f"{_json(name)}: {_json(value)}".replace("\n", f"\n{indent}")
+
+
+def _braced(entries: Sequence[str], depth: int) -> str:
+    """An object of these entries, which is an entry itself."""
+    return "{\n" + ",\n".join(entries) + f"\n{depth * ' '}}}" if entries else "{}"
 
 
 def load_model(text: str, file: str) -> Model:

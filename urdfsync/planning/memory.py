@@ -16,7 +16,7 @@ import msgspec
 
 from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Reading, Snapshot, Target
 from urdfsync.looking import NO_FACTS
-from urdfsync.manifest import Tables
+from urdfsync.manifest import Elements, Tables
 from urdfsync.planning import generate
 from urdfsync.stamping import stamp
 
@@ -40,6 +40,8 @@ class Memory:
     def __init__(self) -> None:
         self.tables = Tables()
         """Of the last manifest."""
+        self.elements = Elements()
+        """Of the last model."""
         self._seen: dict[str, Hashes] = {}
         self._current: set[str] = set()
         self._reading: _Last[Reading] = _Last()

@@ -123,10 +123,11 @@ class Recording:
         """The texts of manifest and model."""
         outliving, since = self._outliving(decision), self._since(decision)
         model = manifest.model_of(self._snapshot, self._imported.imports, outliving, since)
-        text = manifest.dump_model(model)
+        memory = self._situation.request.memory
+        text = manifest.dump_model(model, memory.elements if memory else None)
         whole = self._manifest(decision, text).recorded
         texts = self._situation.dumps(whole), text
-        if memory := self._situation.request.memory:
+        if memory:
             state = State(whole, model, intact=True)
             memory.recorded((texts[0].encode(), texts[1].encode()), state)
         return texts
