@@ -11,7 +11,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import config, manifest, registry
+from urdfsync import config, modelfile, registry
 from urdfsync.changes import compare
 from urdfsync.config import Keys
 from urdfsync.diagnostics import Severity
@@ -128,8 +128,8 @@ def test_a_snapshot_is_plain_data(case: Case) -> None:
     text = json.dumps(reading.snapshot, allow_nan=False, sort_keys=True)
     assert json.loads(text) == reading.snapshot, "a tuple becomes a list"
     assert json.dumps(reading.snapshot) == text, "a record has sorted keys"
-    model = manifest.model_of(case.snapshot, case.imports)
-    assert manifest.load_model(manifest.dump_model(model), "sample.json") == model
+    model = modelfile.of(case.snapshot, case.imports)
+    assert modelfile.loads(modelfile.dumps(model), "sample.json") == model
 
 
 def test_what_is_kept_of_a_reading_makes_no_difference(case: Case) -> None:

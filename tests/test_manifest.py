@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import copy
-import json
 import re
-from typing import Any
 
 import msgspec
 import pytest
@@ -13,20 +10,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.diagnostics import StateError
-from urdfsync.domain import Import, Role
+from urdfsync.domain import Role
 from urdfsync.manifest import (
     DependencyRecord,
-    Elements,
     Generator,
     Manifest,
-    Model,
     Source,
     Tables,
-    dump_model,
     dumps,
-    load_model,
     loads,
-    model_of,
     text_hash,
 )
 from urdfsync.plan import FileRecord, State
@@ -292,81 +284,6 @@ def test_a_source_with_control_characters_is_refused() -> None:
 def test_a_format_that_never_was_is_refused(number: int) -> None:
     text = dumps(MANIFEST).replace("format = 1", f"format = {number}")
     assert failure(text).startswith(f"arm.toml:4: error: this is no state of urdfsync: there is no format {number}")
-    with pytest.raises(StateError, match="there is no format"):
-        load_model(f'{{"snapshot": {{}}, "imports": {{}}, "format": {number}}}', "arm.json")
-
-
-SNAPSHOT = {"name": "arm", "links": {"b": {"m": 1.0}, "a": {"m": 0.1, "rgba": None}}}
-IMPORTS = {"a.stl": Import("Resources/a.stl", "1f", "2f", 4, {"size": [1, 2.5]})}
-
-
-def test_model_round_trip() -> None:
-    model = load_model(dump_model(model_of(SNAPSHOT, IMPORTS)), "arm.json")
-    assert model.snapshot == SNAPSHOT
-    facts = model.imports["a.stl"]
-    assert (facts.source_hash, facts.converter, facts.facts) == ("1f", 4, {"size": [1, 2.5]})
-
-
-data = st.recursive(
-    st.none() | st.booleans() | st.integers(-(2**53), 2**53) | st.floats(allow_nan=False, allow_infinity=False) | names,
-    lambda inner: st.lists(inner, max_size=3).map(tuple) | st.dictionaries(names, inner, max_size=3),
-    max_leaves=8,
-)
-snapshots = st.dictionaries(names, data, max_size=3)
-plain_snapshots = snapshots.map(lambda snapshot: json.loads(json.dumps(snapshot, sort_keys=True)))
-
-
-@given(
-    st.builds(
-        model_of,
-        plain_snapshots,
-        st.dictionaries(names, st.builds(Import, names, names, names, st.integers(0, 9), snapshots), max_size=2),
-        st.dictionaries(names, names, max_size=2),
-        st.none() | plain_snapshots,
-    )
-)
-def test_a_model_that_comes_back_is_known_before(model: Model) -> None:
-    again = load_model(dump_model(model), "arm.json")
-    assert repr(again) == repr(model), "in the same order, too, and with the same kinds of numbers"
-
-
-others = plain_snapshots | snapshots.map(lambda snapshot: {**SNAPSHOT, **snapshot})
-
-
-@given(st.lists(others, min_size=1, max_size=3), st.lists(st.booleans(), min_size=6, max_size=6))
-def test_elements_of_another_model_make_no_difference(several: list[dict[str, Any]], copied: list[bool]) -> None:
-    elements = Elements()
-    for snapshot, is_other in zip([*several, *several], copied, strict=False):
-        model = model_of(copy.deepcopy(snapshot) if is_other else snapshot, IMPORTS)
-        text = msgspec.json.format(msgspec.json.encode(model, order="sorted"), indent=1).decode() + "\n"
-        assert dump_model(model, elements) == dump_model(model, elements) == dump_model(model) == text
-
-
-def test_bases_of_files_that_wait_are_recorded_with_the_model() -> None:
-    texts = {"Links/B.mo": "model B\nend B;\n", "Links/A.mo": 'model A "\N{DEGREE SIGN}"\r\nend A;\n'}
-    text = dump_model(model_of(SNAPSHOT, IMPORTS, texts))
-    assert load_model(text, "arm.json").bases == texts
-    assert text == dump_model(model_of(SNAPSHOT, IMPORTS, dict(reversed(texts.items()))))
-    assert load_model(dump_model(model_of(SNAPSHOT, IMPORTS)), "arm.json").bases == {}
-
-
-def test_a_model_without_bases_is_one_of_an_older_build() -> None:
-    assert load_model('{"snapshot": {}, "imports": {}}', "arm.json").bases == {}
-
-
-@pytest.mark.parametrize("bases", ["[]", '{"a": 1}', '{"a": "\\ud800"}'], ids=["list", "number", "no character"])
-def test_broken_bases_are_refused(bases: str) -> None:
-    with pytest.raises(StateError, match="this is no state of urdfsync"):
-        load_model(f'{{"snapshot": {{}}, "imports": {{}}, "bases": {bases}}}', "arm.json")
-
-
-DEEP = '{"snapshot": {"a":' + "[" * 100_000 + "]" * 100_000 + '}, "imports": {}}'
-
-
-@pytest.mark.parametrize("text", ["", "[]", '{"snapshot": 1}', "<<<<<<< HEAD\n{}\n", DEEP], ids=lambda text: text[:9])
-def test_a_broken_model_is_refused(text: str) -> None:
-    with pytest.raises(StateError, match=r"arm\.json.*restore it"):
-        load_model(text, "arm.json")
 
 
 def test_line_endings_are_normalised_before_hashing() -> None:

@@ -17,7 +17,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, 
 from urdfsync.outcome import Result
 from urdfsync.planning import shared
 from urdfsync.planning.crew import Crew
-from urdfsync.planning.decide import Disk
+from urdfsync.planning.disk import Disk
 from urdfsync.planning.situation import Progress, Request
 from urdfsync.planning.work import Work
 from urdfsync.state import leftovers

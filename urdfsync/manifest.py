@@ -1,8 +1,7 @@
 """The recorded state of one robot, text ↔ value.
 
-Two files in `.urdfsync/robots/`, both committed: `<robot>.toml`, which people review, and
-`<robot>.json` with the snapshot and what imports found out, so that everything can be rendered
-again. Neither holds absolute paths, times or host names.
+Two files in `.urdfsync/robots/`, both committed: `<robot>.toml`, which people review and which is made here, and
+`<robot>.json` with the model (see `modelfile`). Neither holds absolute paths, times or host names.
 """
 
 from __future__ import annotations
@@ -11,7 +10,7 @@ import functools
 import hashlib
 import posixpath
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TypeAlias, TypeVar
 
 import msgspec
@@ -19,7 +18,6 @@ import tomli_w
 
 from urdfsync import tomlfile
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
-from urdfsync.domain import Import, Snapshot
 from urdfsync.plan import FileRecord
 
 FORMAT = 1
@@ -37,7 +35,8 @@ _RECORDED = "is recorded"
 """Marks manifests that are as they come back from their text."""
 _PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
 """What nearly all paths are: nothing that could lead elsewhere."""
-_REPAIR = "restore it from version control, or let `urdfsync build --repair` make it again"
+REPAIR = "restore it from version control, or let `urdfsync build --repair` make it again"
+"""What to do about a state that can't be read."""
 
 
 class Generator(msgspec.Struct, frozen=True):
@@ -123,35 +122,6 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return {path: record for path, record in self.files.items() if path not in self.plain}
 
 
-class Facts(msgspec.Struct, frozen=True):
-    """What a conversion found out, and of which bytes."""
-
-    source_hash: str
-    converter: int
-    facts: dict[str, Any]
-
-
-class _Formatted(msgspec.Struct):
-    """A JSON file of any format, as far as that is needed to know which one it is."""
-
-    format: int = FORMAT
-
-
-class Model(msgspec.Struct, frozen=True):
-    """The JSON file: the model, the facts of every import, and the base of files that wait or conflict.
-
-    Other bases follow from the model: what it would be rendered to is what was written. `bases` are texts by path
-    below the package's folder.
-    """
-
-    snapshot: dict[str, Any]
-    imports: dict[str, Facts]
-    bases: dict[str, str] = {}
-    since: dict[str, Any] | None = None
-    """The model of the last build after which nothing waited; None if nothing waits now."""
-    format: int = FORMAT
-
-
 _Keys: TypeAlias = tuple[str, ...]
 """Those of a table in the text, outermost first."""
 _Name = TypeVar("_Name")
@@ -226,11 +196,6 @@ def _texts(tables: Mapping[_Keys, object]) -> list[str]:
     return tomli_w.dumps(document).removesuffix("\n").split("\n\n") if tables else []
 
 
-def _plain(facts: Mapping[str, Any]) -> dict[str, Any]:
-    data: dict[str, Any] = msgspec.json.decode(msgspec.json.encode(facts, order="sorted"))
-    return data
-
-
 def _with_origin(record: FileRecord, prefix: str, cut: int) -> FileRecord:
     """The record with a prefix in the place of so many characters of its origin, if it has one."""
     return msgspec.structs.replace(record, origin=prefix + record.origin[cut:]) if record.origin else record
@@ -242,8 +207,8 @@ def loads(text: str, file: str) -> Manifest:
     Raises StateError with file and line for text that is no manifest, that names files outside of its package, or
     that a newer urdfsync wrote.
     """
-    data = tomlfile.parse(text, file, StateError, _REPAIR)
-    _check_format(data.get("format"), file, text)
+    data = tomlfile.parse(text, file, StateError, REPAIR)
+    check_format(data.get("format"), file, text)
     try:
         manifest = msgspec.convert(data, Manifest)
     except msgspec.ValidationError as error:
@@ -258,81 +223,14 @@ def loads(text: str, file: str) -> Manifest:
     return msgspec.structs.replace(manifest, files=files, orders=dict(sorted(orders.items())))
 
 
-def model_of(
-    snapshot: Snapshot,
-    imports: Mapping[str, Import],
-    bases: Mapping[str, str] | None = None,
-    since: Snapshot | None = None,
-) -> Model:
-    """What is recorded of a model, as it comes back from the JSON file; both snapshots are plain data already."""
-    facts = {key: Facts(i.source_hash, i.converter, _plain(i.facts)) for key, i in sorted(imports.items())}
-    texts = dict(sorted((bases or {}).items()))
-    return Model(dict(snapshot), facts, texts, None if since is None else dict(since))
-
-
-class Elements:
-    """The text of each element of the last model, with the element: what is the same object serves again."""
-
-    def __init__(self) -> None:
-        self._parts: dict[str, dict[str, tuple[object, str]]] = {}
-
-    def text(self, part: str, elements: Any) -> str:
-        """The text of a part of a snapshot, which is a mapping of elements or something else."""
-        if not isinstance(elements, Mapping):
-            return _entry(part, elements, 2)
-        known = self._parts.get(part, {})
-        found = {
-            name: last if (last := known.get(name)) and last[0] is element else (element, _entry(name, element, 3))
-            for name, element in sorted(elements.items())
-        }
-        self._parts[part] = found
-        return _entry(part, {}, 2).removesuffix("{}") + _braced([text for _, text in found.values()], 2)
-
-
-def dump_model(model: Model, elements: Elements | None = None) -> str:
-    """The JSON file's text; `elements` are those of a model that was written before, which spares most of the work."""
-    if elements is None:
-        return _json(model) + "\n"
-    parts = [elements.text(part, value) for part, value in sorted(model.snapshot.items())]
-    rest = _json(msgspec.structs.replace(model, snapshot={}))  # which comes last
-    return rest.removesuffix("{}\n}") + _braced(parts, 1) + "\n}\n"
-
-
-def _json(value: object) -> str:
-    return msgspec.json.format(msgspec.json.encode(value, order="sorted"), indent=1).decode()
-
-
-def _entry(name: str, value: object, depth: int) -> str:
-    """An entry of an object at this depth, with its indentation."""
-    indent = depth * " "
-    return indent + f"{_json(name)}: {_json(value)}".replace("\n", f"\n{indent}")
-
-
-def _braced(entries: Sequence[str], depth: int) -> str:
-    """An object of these entries, which is an entry itself."""
-    return "{\n" + ",\n".join(entries) + f"\n{depth * ' '}}}" if entries else "{}"
-
-
-def load_model(text: str, file: str) -> Model:
-    """The model in the JSON file's text. Raises StateError if it is none, or a newer urdfsync wrote it."""
-    try:
-        _check_format(msgspec.json.decode(text, type=_Formatted).format, file)
-        model = msgspec.json.decode(text, type=Model)
-    except (msgspec.DecodeError, RecursionError) as error:
-        line = tomlfile.marker_line(text)
-        message = "unresolved merge markers" if line else f"this is no state of urdfsync: {error}"
-        raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_REPAIR)) from None
-    return model
-
-
 def text_hash(text: str) -> str:
     """SHA-256 (hex) of a text with its line endings normalised, as in `files.text_digest`."""
     normalised = text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
     return hashlib.sha256(normalised.encode()).hexdigest()
 
 
-def _check_format(value: object, file: str, text: str = "") -> None:
-    """Refuse a format that this program does not know; `text` is the TOML that it is in."""
+def check_format(value: object, file: str, text: str = "") -> None:
+    """Refuse a format that this program does not know; `text` is the TOML that it is in. Raises StateError."""
     if not isinstance(value, int) or 1 <= value <= FORMAT:
         return
     line = tomlfile.nearest(tomlfile.lines(text), "format")
@@ -340,7 +238,7 @@ def _check_format(value: object, file: str, text: str = "") -> None:
         message = f"a newer urdfsync wrote this state (format {value}; this one knows {FORMAT})"
         raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, line, hint="update urdfsync"))
     message = f"this is no state of urdfsync: there is no format {value}"
-    raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_REPAIR))
+    raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=REPAIR))
 
 
 def _check_places(manifest: Manifest, text: str, file: str) -> None:
@@ -396,7 +294,7 @@ def _broken(error: str, data: Mapping[str, Any], text: str, file: str) -> Diagno
         path = [path[0], next((key for key, entry in entries.items() if not _fits(path[0], entry)), ""), *path[1:]]
     line = tomlfile.nearest(tomlfile.lines(text), *path)
     message = f"this is no state of urdfsync: {message[0].lower()}{message[1:]}"
-    return Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_REPAIR)
+    return Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=REPAIR)
 
 
 def _fits(table: str, entry: object) -> bool:

@@ -8,7 +8,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role, Spot
 from urdfsync.outcome import Result
 from urdfsync.plan import Action, Kind
-from urdfsync.planning.decide import Disk
+from urdfsync.planning.disk import Disk
 
 _EDITED = frozenset({Kind.KEEP, Kind.CONFLICT, Kind.UNOWNED, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
 _GONE = frozenset({Kind.DELETE, Kind.ORPHAN, Kind.NEEDED, Kind.LEAVE, Kind.FORGET})

@@ -15,7 +15,8 @@ from urdfsync.domain import Role
 from urdfsync.files import digest, text_digest
 from urdfsync.manifest import Generator, Manifest, Source
 from urdfsync.plan import FileRecord, Kind, State, Wanted
-from urdfsync.planning.decide import Aim, Decision, Disk, decide
+from urdfsync.planning.decide import Aim, Decision, decide
+from urdfsync.planning.disk import Disk
 from urdfsync.planning.parents import Parents
 
 FOLDER = "modelica/Arm"

@@ -11,7 +11,8 @@ from urdfsync import registry
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Dependency
 from urdfsync.files import digest
-from urdfsync.manifest import DependencyRecord, Facts
+from urdfsync.manifest import DependencyRecord
+from urdfsync.modelfile import Facts
 from urdfsync.planning import imports
 from urdfsync.planning.imports import Imported, Recorded
 

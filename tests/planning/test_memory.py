@@ -15,7 +15,7 @@ from urdfsync.build import Request, build
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Artifact, Import, Order, Parts, Reading, Role, Snapshot, Target
 from urdfsync.looking import NO_FACTS, Facts
-from urdfsync.planning.decide import Hashes
+from urdfsync.planning.disk import Hashes
 from urdfsync.planning.memory import Memory
 from urdfsync.stamping import stamp, trust
 

@@ -12,19 +12,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from urdfsync import modelfile
 from urdfsync.diagnostics import StateError
 from urdfsync.domain import Import, Role
 from urdfsync.manifest import (
     DependencyRecord,
-    Facts,
     Generator,
     Manifest,
     Source,
-    dump_model,
     dumps,
-    model_of,
     text_hash,
 )
+from urdfsync.modelfile import Facts
 from urdfsync.plan import FileRecord, Found, Kind, decide
 from urdfsync.state.repair import Recovered, choose, rebuilt, recover, sides
 
@@ -55,7 +54,7 @@ def manifest(hashes: Hashes, snapshot: str = "5a", mesh: str = "m1") -> Manifest
 
 def model(name: str, mesh: str = "m1", bases: dict[str, str] | None = None) -> str:
     imported = Import("Resources/base.stl", f"s-{mesh}", mesh, 1, {"volume": mesh})
-    return dump_model(model_of({"name": name}, {"base.stl": imported}, bases))
+    return modelfile.dumps(modelfile.of({"name": name}, {"base.stl": imported}, bases))
 
 
 OURS = manifest({BASE: "b1", GRIPPER: "g-ours", MESH: "m1"})

@@ -7,7 +7,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from urdfsync import manifest
+from urdfsync import manifest, modelfile
 from urdfsync.diagnostics import OutputError, StateError
 from urdfsync.files import digest, text_digest
 from urdfsync.manifest import Generator, Manifest, Source
@@ -15,7 +15,7 @@ from urdfsync.state import bases
 from urdfsync.state.store import Store
 from urdfsync.state.transactions import Change
 
-MODEL = manifest.dump_model(manifest.model_of({"name": "arm"}, {}))
+MODEL = modelfile.dumps(modelfile.of({"name": "arm"}, {}))
 MANIFEST = Manifest(
     package="Arm",
     class_="Arm",
@@ -102,7 +102,7 @@ def test_a_state_without_its_model_is_not_intact(built: Path) -> None:
 
 
 def test_a_model_of_another_build_is_not_intact(built: Path) -> None:
-    Store(built).paths("arm")[1].write_text(manifest.dump_model(manifest.model_of({"name": "leg"}, {})))
+    Store(built).paths("arm")[1].write_text(modelfile.dumps(modelfile.of({"name": "leg"}, {})))
     state = Store(built).load("arm")
     assert state is not None
     assert not state.intact

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import manifest
+from urdfsync import modelfile
 from urdfsync.comparing.revisions import Revision
 from urdfsync.comparing.subjects import Subject
 from urdfsync.config import shown
@@ -87,7 +87,7 @@ def known_from(read: Read, copy: Callable[[str], bytes | None]) -> imports.Recor
     contents, found = read.imported.contents, read.imported.imports
     return imports.Recorded(
         records={key: record for key, record in read.imported.records.items() if key in found},
-        facts={key: manifest.Facts(i.source_hash, i.converter, dict(i.facts)) for key, i in found.items()},
+        facts={key: modelfile.Facts(i.source_hash, i.converter, dict(i.facts)) for key, i in found.items()},
         copy=lambda target: contents.get(target) or copy(target),
         base=lambda _target: None,
     )

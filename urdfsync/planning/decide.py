@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import os
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping, Set
-from pathlib import Path
-from typing import Protocol, TypeAlias, TypeVar
+from collections.abc import Iterable, Iterator, Mapping, Set
+from typing import Protocol, TypeVar
 
 import msgspec
 
-from urdfsync import looking, order, profiling
-from urdfsync.config import Config, RobotConfig, shown
+from urdfsync import order, profiling
+from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
-from urdfsync.files import Tree, digest, placed, text_digest
+from urdfsync.files import text_digest
 from urdfsync.literals import numbers_only
 from urdfsync.manifest import Manifest
 from urdfsync.plan import (
@@ -24,7 +22,6 @@ from urdfsync.plan import (
     Action,
     Actions,
     FileRecord,
-    Found,
     Kind,
     Wanted,
     after,
@@ -34,6 +31,7 @@ from urdfsync.plan import (
     remembered,
     spare,
 )
+from urdfsync.planning.disk import Disk, encode
 from urdfsync.planning.parents import Parents
 from urdfsync.planning.shared import Shared
 from urdfsync.standoff import Choice, Standoff
@@ -64,146 +62,6 @@ class Decision(msgspec.Struct, frozen=True):
         """What to record of all files that are not unchanged."""
         unchanged = self.actions.unchanged
         return {key: record for key, record in self.files.items() if key not in unchanged}
-
-
-Hashed: TypeAlias = tuple[looking.Facts, str, str]
-"""What the system says of a file, and the SHA-256 (hex) of its bytes and of its text, line endings normalised."""
-Hashes: TypeAlias = Mapping[str, Hashed | None]
-"""Files by their absolute paths; None for what is not there."""
-
-
-class Disk:
-    """The files of one robot's package, addressed by their path from the configuration's folder."""
-
-    def __init__(self, config: Config, robot: RobotConfig, known: Hashes | None = None) -> None:
-        """`known` are hashes that hold as long as the system says the same of a file."""
-        self._root, self._prefix = config.root, os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
-        self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
-        self._homes: dict[str, Tree | None] = {}
-        """The trees that folders are in; None for a folder that is in none, or not there."""
-        self._known = known or {}
-        self.hashed: dict[str, Hashed | None] = {}
-        """What `look` and `text` first saw, in the same way."""
-
-    def key(self, path: Path) -> str:
-        """How a file is called in manifest and plan."""
-        return Path(os.path.relpath(path, self._root)).as_posix()
-
-    def path(self, key: str) -> Path:
-        """The file of this name."""
-        return Path(self._place(key))
-
-    def reaches(self, key: str) -> bool:
-        """Whether the file is one that urdfsync may touch: below the output folder, or the configuration's."""
-        return self._tree(self._place(key)) is not None
-
-    def read(self, key: str) -> bytes | None:
-        """The file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
-        return self.read_path(self._place(key))
-
-    def read_path(self, path: str | os.PathLike[str]) -> bytes | None:
-        """The content of a file, by its absolute path without detours."""
-        tree = self._tree(path)
-        return tree.read(path) if tree else None
-
-    def found(self, key: str, role: Role) -> Found:
-        """What is there in the place of a file."""
-        hashed = self.look(self._place(key))
-        if hashed is not None:
-            _, own, text = hashed
-            return Found(own if role is Role.IMPORT else text)
-        return Found(as_folder=self._is_folder(key))
-
-    def unchanged(self, records: Mapping[str, FileRecord]) -> dict[str, FileRecord]:
-        """Those of the plain records whose files are just as they say."""
-        seen = ((key, record, self.look(self._place(key))) for key, record in records.items())
-        return {
-            key: record
-            for key, record, hashed in seen
-            if hashed is not None and record.base == (hashed[1] if record.role is Role.IMPORT else hashed[2])
-        }
-
-    def _is_folder(self, key: str) -> bool:
-        """Whether the class of a file that is not there has a folder of its own."""
-        if not key.endswith(".mo") or key.endswith("/package.mo"):
-            return False
-        place = self._place(key)
-        tree = self._tree(place)
-        if tree is not None and not tree.check_folder(place.rpartition(os.sep)[0]):
-            return False
-        return looking.is_file(f"{place.removesuffix('.mo')}{os.sep}package.mo")
-
-    def text(self, key: str) -> str | None:
-        """The file as text; bytes that are not UTF-8 survive, see `encode`."""
-        content = self.read(key)
-        own = None if content is None else digest(content)
-        self.hashed.setdefault(self._place(key), None if own is None else (looking.NO_FACTS, own, own))
-        return None if content is None else content.decode(errors="surrogateescape")
-
-    def seen(self, key: str) -> str | None:
-        """SHA-256 (hex) of what `found` or `text` first saw in the place of a file; None if that was no file."""
-        hashed = self.hashed[self._place(key)]
-        return None if hashed is None else hashed[1]
-
-    def has_returns(self, key: str) -> bool:
-        """Whether there may be carriage returns in the file that `found` or `text` first saw; it need not be read."""
-        hashed = self.hashed[self._place(key)]
-        return hashed is not None and (hashed[1] != hashed[2] or hashed[0] == looking.NO_FACTS)
-
-    def has_classes(self, key: str, gone: Collection[str]) -> bool:
-        """Whether the folder of a `package.mo` has other classes than it, and than those of the files in `gone`."""
-        folder = self.path(key).parent
-        for path in map(folder.joinpath, looking.names(folder)):
-            single = path.suffix == ".mo" and path.name != "package.mo" and looking.is_file(path)
-            whole = path / "package.mo"
-            if single and self.key(path) not in gone:
-                return True
-            if not single and looking.is_file(whole) and self.key(whole) not in gone:
-                return True
-        return False
-
-    def classes(self, folder: str) -> set[str]:
-        """All Modelica files below a folder, its own and others, as far as they can be read."""
-        return {self.key(path) for path in self.path(folder).rglob("*.mo") if path.is_file()}
-
-    def look(self, place: str) -> Hashed | None:
-        """What is at an absolute path without detours; None for nothing. Raises OutputError as `read`."""
-        hashed = self._look(place)
-        self.hashed.setdefault(place, hashed)
-        return hashed
-
-    def _look(self, place: str) -> Hashed | None:
-        folder = place.rpartition(os.sep)[0]
-        if folder not in self._homes:
-            tree = self._tree(place)
-            self._homes[folder] = tree if tree and tree.check_folder(folder) else None
-        tree = self._homes[folder]
-        status = tree.status(place) if tree else None
-        if tree is None or status is None:
-            return None
-        facts = looking.facts_of(status)
-        hashed = self._known.get(place)
-        if hashed is None or hashed[0] != facts:
-            content = tree.content(place)
-            if content is None:
-                return None
-            own = digest(content)
-            hashed = facts, own, text_digest(content) if b"\r" in content else own
-        return hashed
-
-    def _place(self, key: str) -> str:
-        return placed(self._prefix, key)
-
-    def _tree(self, path: str | os.PathLike[str]) -> Tree | None:
-        for tree in self._trees:
-            if tree.covers(path):
-                return tree
-        return None
-
-
-def encode(text: str) -> bytes:
-    """The bytes of a text that `Disk.text` gave, or of a changed one."""
-    return text.encode(errors="surrogateescape")
 
 
 class Aim(msgspec.Struct, frozen=True):

@@ -13,7 +13,8 @@ from urdfsync import looking
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
 from urdfsync.files import digest
-from urdfsync.manifest import DependencyRecord, Facts
+from urdfsync.manifest import DependencyRecord
+from urdfsync.modelfile import Facts
 from urdfsync.planning import packages
 
 _POINTER = b"version https://git-lfs"

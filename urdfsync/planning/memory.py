@@ -16,12 +16,13 @@ import msgspec
 
 from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Reading, Snapshot, Target
 from urdfsync.looking import NO_FACTS
-from urdfsync.manifest import Elements, Tables
+from urdfsync.manifest import Tables
+from urdfsync.modelfile import Elements
 from urdfsync.planning import generate
 from urdfsync.stamping import stamp
 
 if TYPE_CHECKING:
-    from urdfsync.planning.decide import Hashes
+    from urdfsync.planning.disk import Hashes
     from urdfsync.stamping.trust import Clock
     from urdfsync.state.bases import Bases
     from urdfsync.state.store import State

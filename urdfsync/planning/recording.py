@@ -8,12 +8,13 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import manifest, profiling
+from urdfsync import manifest, modelfile, profiling
 from urdfsync.domain import Role, Snapshot
 from urdfsync.manifest import Manifest
 from urdfsync.plan import CONFLICTS, DELETES, FileRecord
 from urdfsync.plan import State as FileState
-from urdfsync.planning.decide import Decision, encode
+from urdfsync.planning.decide import Decision
+from urdfsync.planning.disk import encode
 from urdfsync.planning.imports import Imported
 from urdfsync.planning.outputs import Outputs
 from urdfsync.planning.situation import Situation
@@ -122,9 +123,9 @@ class Recording:
     def _state(self, decision: Decision) -> tuple[str, str]:
         """The texts of manifest and model."""
         outliving, since = self._outliving(decision), self._since(decision)
-        model = manifest.model_of(self._snapshot, self._imported.imports, outliving, since)
+        model = modelfile.of(self._snapshot, self._imported.imports, outliving, since)
         memory = self._situation.request.memory
-        text = manifest.dump_model(model, memory.elements if memory else None)
+        text = modelfile.dumps(model, memory.elements if memory else None)
         whole = self._manifest(decision, text).recorded
         texts = self._situation.dumps(whole), text
         if memory:

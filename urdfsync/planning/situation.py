@@ -17,9 +17,10 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.difference import Version
 from urdfsync.domain import Dependency, Import, Lookup, Role, Snapshot
 from urdfsync.files import digest, text_digest
-from urdfsync.manifest import Generator, Manifest, Model
+from urdfsync.manifest import Generator, Manifest
+from urdfsync.modelfile import Model
 from urdfsync.planning import imports, inputs, parents
-from urdfsync.planning.decide import Disk
+from urdfsync.planning.disk import Disk
 from urdfsync.state import leftovers
 from urdfsync.state.store import State, Store
 

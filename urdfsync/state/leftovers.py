@@ -10,7 +10,7 @@ from urdfsync.config import Config, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.manifest import Manifest
 from urdfsync.plan import DELETES, Action
-from urdfsync.planning.decide import Disk
+from urdfsync.planning.disk import Disk
 from urdfsync.state.store import Store
 
 _FEW = 3

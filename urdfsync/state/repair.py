@@ -14,11 +14,12 @@ from typing import NamedTuple, TypeVar
 
 import msgspec
 
-from urdfsync import manifest
+from urdfsync import manifest, modelfile
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Role
-from urdfsync.manifest import FORMAT, DependencyRecord, Facts, Manifest, Model
+from urdfsync.manifest import FORMAT, DependencyRecord, Manifest
 from urdfsync.merge import split_lines
+from urdfsync.modelfile import Facts, Model
 from urdfsync.plan import FileRecord
 
 _DEEPEST = 3
@@ -144,7 +145,7 @@ def recover(toml: str | None, json: str | None, file: str, beside: str) -> Recov
     _refuse_newer(json or "", _JSON_FORMAT, beside)
     readings = dict.fromkeys(reading for side in sides(toml or "") for reading in _readings(side))
     manifests = (_parsed(manifest.loads, reading, file) for reading in readings)
-    models = ((manifest.text_hash(side), _parsed(manifest.load_model, side, beside)) for side in sides(json or ""))
+    models = ((manifest.text_hash(side), _parsed(modelfile.loads, side, beside)) for side in sides(json or ""))
     return Recovered(
         tuple(side for side in manifests if side is not None),
         {key: model for key, model in models if model is not None},

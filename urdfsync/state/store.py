@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import msgspec
 
-from urdfsync import looking, manifest
+from urdfsync import looking, manifest, modelfile
 from urdfsync.config import STATE_FOLDER
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree, digest
-from urdfsync.manifest import Manifest, Model
+from urdfsync.manifest import Manifest
+from urdfsync.modelfile import Model
 from urdfsync.state.bases import Bases
 from urdfsync.state.transactions import Change
 
@@ -74,7 +75,7 @@ class Store:
         content = self._read(beside)
         if content is None:
             return State(recorded, None, intact=False)
-        model = manifest.load_model(content, self._shown(beside))
+        model = modelfile.loads(content, self._shown(beside))
         return State(recorded, model, intact=manifest.text_hash(content) == recorded.source.snapshot)
 
     def texts(self, robot: str) -> tuple[str | None, str | None]:
@@ -128,9 +129,9 @@ class Store:
             if self._bytes(file) is not None:
                 yield self._change(file, None)
         for file, text in ((beside, model), (path, recorded)):
-            old = self._bytes(file) or b""
-            if text is not None and (old.replace(b"\r\n", b"\n") if b"\r" in old else old) != text.encode():
-                yield self._change(file, text.encode())
+            old, content = self._bytes(file) or b"", None if text is None else text.encode()
+            if content is not None and content != (old.replace(b"\r\n", b"\n") if b"\r" in old else old):
+                yield self._change(file, content)
 
     def ignoring(self) -> list[Change]:
         """How version control is told what is safe to lose, unless it has been told already."""

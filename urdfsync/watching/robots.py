@@ -12,7 +12,7 @@ import msgspec
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError
 from urdfsync.looking import NO_FACTS, facts_of
-from urdfsync.planning.decide import Disk, Hashed, Hashes
+from urdfsync.planning.disk import Disk, Hashed, Hashes
 from urdfsync.planning.memory import Memory
 from urdfsync.stamping import stamp, trust
 from urdfsync.watching.samples import Sample, Sampler, alike
