@@ -148,3 +148,30 @@ def test_what_can_not_be_told_is_in_doubt(looks: looking.Looks, tmp_path: Path) 
     with pytest.raises(OSError, match="too long"):
         looking.is_file(tmp_path / ("a" * 5000))
     assert not looks.complete
+
+
+@pytest.mark.parametrize("has_descriptors", [True, False])
+def test_files_of_one_folder_are_seen_as_by_their_paths(
+    has_descriptors: bool, looks: looking.Looks, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").write_text("a")
+    (tmp_path / "link").symlink_to("file")
+    (tmp_path / "folder").mkdir()
+    if not has_descriptors:
+        monkeypatch.setattr(looking, "_FOLDER", os.O_WRONLY)  # no folder can be opened so
+    with looking.within(str(tmp_path)) as status:
+        found = {name: status(name) for name in ("file", "link", "folder", "nothing")}
+    assert found == {name: looking.status(tmp_path / name) for name in found}
+    assert found["nothing"] is None
+    assert looks.contents[False].keys() == {str(tmp_path / name) for name in ("file", "link", "folder")}
+    assert looks.kinds[False] == {str(tmp_path / "nothing"): 0}
+    assert looks.complete
+
+
+def test_a_folder_that_is_not_looked_into_is_not_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    opened: list[object] = []
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "open", lambda *arguments: opened.append(arguments))
+        with looking.within(str(tmp_path)):
+            pass
+    assert opened == []

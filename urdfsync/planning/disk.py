@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import os
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TypeAlias
 
@@ -63,12 +64,26 @@ class Disk:
 
     def unchanged(self, records: Mapping[str, FileRecord]) -> dict[str, FileRecord]:
         """Those of the plain records whose files are just as they say."""
-        found = {}
-        for key, record in records.items():
-            hashed = self.look(placed(self._prefix, key))
-            if hashed is not None and record.base == (hashed[1] if record.role is Role.IMPORT else hashed[2]):
-                found[key] = record
+        found: dict[str, FileRecord] = {}
+        for folder, entries in itertools.groupby(records.items(), lambda entry: entry[0].rpartition("/")[0]):
+            found.update(self._unchanged_in(placed(self._prefix, folder), entries))
         return found
+
+    def _unchanged_in(self, folder: str, entries: Iterable[tuple[str, FileRecord]]) -> Iterator[tuple[str, FileRecord]]:
+        """The same for files in one folder: what a file was when its hash was found, it still is, or is looked at."""
+        is_there = self._home(folder) is not None
+        with looking.within(folder) as status:
+            for key, record in entries:
+                name = key.rpartition("/")[2]
+                place = f"{folder}{os.sep}{name}"
+                hashed = self._known.get(place)
+                seen = status(name) if is_there and hashed is not None else None
+                if hashed is None or seen is None or looking.facts_of(seen) != hashed[0]:
+                    hashed = self.look(place)
+                else:
+                    self.hashed.setdefault(place, hashed)
+                if hashed is not None and record.base == (hashed[1] if record.role is Role.IMPORT else hashed[2]):
+                    yield key, record
 
     def _is_folder(self, key: str) -> bool:
         """Whether the class of a file that is not there has a folder of its own."""
@@ -115,17 +130,20 @@ class Disk:
 
     def look(self, place: str) -> Hashed | None:
         """What is at an absolute path without detours; None for nothing. Raises OutputError as `read`."""
-        folder = place.rpartition(os.sep)[0]
-        if folder not in self._homes:
-            tree = self._tree(place)
-            self._homes[folder] = tree if tree and tree.check_folder(folder) else None
-        tree, hashed = self._homes[folder], None
+        tree, hashed = self._home(place.rpartition(os.sep)[0]), None
         if tree and (status := tree.status(place)):
             facts, hashed = looking.facts_of(status), self._known.get(place)
             if hashed is None or hashed[0] != facts:
                 hashed = self._hashed(tree, place, facts)
         self.hashed.setdefault(place, hashed)
         return hashed
+
+    def _home(self, folder: str) -> Tree | None:
+        """The tree that a folder is in; None if it is in none, or not there. Raises OutputError as `Tree`."""
+        if folder not in self._homes:
+            tree = self._tree(os.path.join(folder, ""))  # noqa: PTH118 - a string
+            self._homes[folder] = tree if tree and tree.check_folder(folder) else None
+        return self._homes[folder]
 
     def _hashed(self, tree: Tree, place: str, facts: looking.Facts) -> Hashed | None:
         content = tree.content(place)
