@@ -32,7 +32,7 @@ BARS: dict[int, float] = {11: 8, 133: 15, 1000: 120}
 REFERENCE = 12.0
 ROBOTS, MEGABYTES = 50, 200
 _AT_ONCE = ("--settle", "0", "--sample", "0", "--rescan", "3600")
-_POLL = 0.0005
+_POLL = 0.0001
 _QUIET = 0.3
 """Seconds in which a daemon that has done its work uses no processor time."""
 _STEPS = 5
@@ -173,7 +173,7 @@ def _cpu(pid: int) -> float:
 
 
 def _running(pid: int) -> float:
-    """Seconds that a process has run, with its threads that have ended: its clock, as `clock_getcpuclockid` names it."""
+    """Seconds that a process has run, with threads that have ended: its clock, as `clock_getcpuclockid` names it."""
     return time.clock_gettime((~pid << 3) | 2)
 
 
