@@ -19,8 +19,8 @@ from urdfsync.checking.verdict import Verdict
 from urdfsync.checking.wishes import Wishes
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.planning.crew import cores
 from urdfsync.planning.situation import Progress
+from urdfsync.stamping.beside import cores
 
 _EXPECTED = 1.5e9
 """Bytes that the check of a robot usually takes, at most."""

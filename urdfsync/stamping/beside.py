@@ -26,10 +26,12 @@ def both(first: "Callable[[], bool]", second: "Callable[[], bool]") -> bool:
 
 def _may_fork() -> bool:
     """Whether a copy of this process works and helps: no other threads, which it would lack, and another core."""
-    if not hasattr(os, "fork") or "threading" in sys.modules:
-        return False
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return cores > 1
+    return hasattr(os, "fork") and "threading" not in sys.modules and cores() > 1
+
+
+def cores() -> int:
+    """The cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _process(question: "Callable[[], bool]") -> int | None:
