@@ -61,7 +61,7 @@ class Decision(msgspec.Struct, frozen=True):
     def others(self) -> Mapping[str, FileRecord]:
         """What to record of all files that are not unchanged."""
         unchanged = self.actions.unchanged
-        return {key: record for key, record in self.files.items() if key not in unchanged}
+        return {key: record for key, record in self.files.items() if key not in unchanged} if unchanged else self.files
 
 
 class Aim(msgspec.Struct, frozen=True):
@@ -111,7 +111,7 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     recorded = dict(_reached(disk, rest, manifest.folder)) if manifest else {}
     owned = dict(_reached(disk, manifest.orders, manifest.folder)) if manifest else {}
     again = {key: Wanted.again(record) for key, record in aim.stay.items() if key not in unchanged}
-    wanted = {**again, **aim.wanted}
+    wanted = {**again, **aim.wanted} if again else aim.wanted
     roles = {key: record.role for key, record in recorded.items()} | {key: w.role for key, w in wanted.items()}
     with profiling.stage("looking"):
         found = {key: disk.found(key, role) for key, role in roles.items()}
@@ -137,7 +137,7 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     return Decision(
         actions=Actions(held, unchanged),
         texts=order_texts | extra_texts | merged,
-        files={**unchanged, **after(held[: len(actions)])},
+        files=unchanged | after(held[: len(actions)]) if unchanged else after(held[: len(actions)]),
         orders={key: entry for key, entry in names.items() if entry},
         standoffs=tuple(standoff for path, standoff in sorted(standoffs.items()) if path in conflicts),
         shared=tuple(file for file in _shared(disk, aim, ours, around) if disk.key(file.path) not in waits),

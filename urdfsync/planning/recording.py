@@ -173,15 +173,21 @@ class Recording:
 
     def _bases(self, decision: Decision) -> bytes:
         """The content of the file with every base that is known: the one that is there and what is new, or all anew."""
+        if (more := self._more_bases(decision)) is None:
+            return bases.dumps(self._known(_keys(decision.files)))
+        if memory := self._situation.request.memory:
+            memory.kept(more)
+        return more.content
+
+    def _more_bases(self, decision: Decision) -> bases.Bases | None:
+        """The bases that are there, and what is new; None if it is time to write all of them anew."""
         kept = self._outputs.bases  # those of unchanged files are among them
         new = {digest: key for digest, key in _keys(decision.others).items() if digest not in kept}
+        if 2 * len(new) > len(decision.files):
+            return None
         recorded = self._situation.recorded.files if self._situation.recorded else {}
         before = {digest: recorded[key].base or "" for digest, key in new.items() if key in recorded}
-        if 2 * len(new) <= len(decision.files) and (more := kept.plus(dict(self._known(new)), before)) is not None:
-            if memory := self._situation.request.memory:
-                memory.kept(more)
-            return more.content
-        return bases.dumps(self._known(_keys(decision.files)))
+        return kept.plus(dict(self._known(new)), before)
 
     def _known(self, keys: Mapping[str, str]) -> Iterator[tuple[str, str]]:
         """Hash and text of bases that are not lost; one after the other, so that not all are in memory."""

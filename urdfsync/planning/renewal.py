@@ -114,8 +114,9 @@ class Renewal:
     @profiling.staged("comparing")
     def _compared(self) -> Stale:
         """The files that may be other than those of the last build, if templates and options are the same."""
-        before = self._before.artifacts if self._before else {}
-        return changes.stale(before, self._generated.artifacts)
+        if self._before is None:
+            return Stale(frozenset(), frozenset())  # nothing can be told; of a first build, there are only new ones
+        return changes.stale(self._before.artifacts, self._generated.artifacts)
 
     def _last(self) -> Generated | None:
         """The package of the last build. Its texts are right only if the generator still is the same."""
