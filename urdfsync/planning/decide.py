@@ -128,6 +128,7 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     extra, extra_texts = _plan_parents(disk, aim.parents)
     everything = (*actions, *order_actions, *extra)
     held = hold(everything, _renewable(disk, everything, texts, merged))
+    records = after(held[: len(actions)])
     waits = {action.path for action in held if action.held}
     keys = owned.keys() | aim.orders.keys()
     names = {key: owned.get(key, ()) if key in waits else aim.orders.get(key, ()) for key in keys}
@@ -137,7 +138,7 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     return Decision(
         actions=Actions(held, unchanged),
         texts=order_texts | extra_texts | merged,
-        files=unchanged | after(held[: len(actions)]) if unchanged else after(held[: len(actions)]),
+        files=unchanged | records if unchanged else records,
         orders={key: entry for key, entry in names.items() if entry},
         standoffs=tuple(standoff for path, standoff in sorted(standoffs.items()) if path in conflicts),
         shared=tuple(file for file in _shared(disk, aim, ours, around) if disk.key(file.path) not in waits),

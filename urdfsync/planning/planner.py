@@ -89,14 +89,12 @@ def _if_unchanged(situation: Situation) -> Work | None:
 
 def _kept(situation: Situation, recorded: Manifest) -> Decision | None:
     """The decision if what the manifest records is what is wanted; None if that leaves something to write."""
-    stay = recorded.plain
-    others = {key: record for key, record in recorded.files.items() if key not in stay}
     wanted = {
         key: Wanted(record.role, record.owner, record.base)
-        for key, record in others.items()
+        for key, record in recorded.special.items()
         if record.base is not None and record.state is not State.ORPHAN
     }
-    aim = Aim(wanted, recorded.orders, situation.parents, situation.folder, stay)
+    aim = Aim(wanted, recorded.orders, situation.parents, situation.folder, recorded.plain)
     decision = decide(situation.disk, recorded, aim, None)
     return None if any(a.writes or a.kind in CONFLICTS for a in decision.actions.decided) else decision
 

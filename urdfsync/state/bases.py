@@ -132,9 +132,9 @@ class Bases:
         """How a text is kept that resembles that of a hash."""
         if before is None or len(text) < _LONG:
             return text
-        kept = self._kept(before) if before != self._last[0] else None
-        digest = kept.whole if isinstance(kept, Passage) else before
-        whole = self._whole(digest)
+        digest, whole = before, self._whole(before)
+        if whole is None and isinstance(kept := self._kept(before), Passage):
+            digest, whole = kept.whole, self._whole(kept.whole)
         passage = None if whole is None else Passage.of(text, digest, whole)
         return passage if passage and 2 * len(passage.new) <= len(text) else text
 
