@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import _thread
 import errno
+import io
 import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -61,6 +63,16 @@ def test_a_written_file_is_new(tmp_path: Path, old: Path) -> None:
     assert (link.read_bytes(), old.read_bytes()) == (b"new", b"old")
     assert not link.is_symlink()
     assert link.stat().st_mode == old.stat().st_mode
+
+
+def test_a_file_that_the_system_takes_in_pieces_is_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Slow(io.FileIO):
+        def write(self, content: Any) -> int:
+            return super().write(bytes(content)[:3])
+
+    monkeypatch.setattr(operations, "open", lambda path, mode, buffering: Slow(path, mode), raising=False)
+    operations.write(tmp_path / "new", b"0123456789")
+    assert (tmp_path / "new").read_bytes() == b"0123456789"
 
 
 def test_what_is_kept_outlives_its_name(system: str, old: Path, tmp_path: Path) -> None:

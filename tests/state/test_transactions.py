@@ -119,6 +119,15 @@ def test_a_file_that_is_not_as_planned_stops_all(
     assert contents(tmp_path) == before
 
 
+def test_a_new_file_that_somebody_has_made_just_so_is_no_hindrance(
+    tmp_path: Path, transactions: Transactions, changes: list[Change]
+) -> None:
+    (tmp_path / "b/c").mkdir(parents=True)
+    (tmp_path / "b/c/made").write_bytes(b"made")
+    transactions.apply("arm", changes, [tmp_path / "a"])
+    assert contents(tmp_path) == DONE
+
+
 def test_a_folder_in_the_way_stops_all(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
     (tmp_path / "record").mkdir()
     before = contents(tmp_path)

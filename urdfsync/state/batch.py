@@ -204,6 +204,8 @@ class Batch:
     def _change(self, number: int) -> None:
         target, step, temporary = self._targets[number], self._step(number), self._temporaries[number]
         with self._about(target):
+            if step.old is None and not self._resumed and self._is_placed(number):
+                return
             self._hashed[number] = _identity(target)
             current = self._hash(target)
             if current == step.new or (self._resumed and current != step.old and self._hash(temporary) != step.new):
@@ -216,6 +218,15 @@ class Batch:
                 self._spent.add(number)
             except (FileNotFoundError, FileExistsError) as error:
                 raise SavedError(target) from error
+
+    def _is_placed(self, number: int) -> bool:
+        """Give a new file its name. Returns False if the name is not free, or something else is in the way."""
+        try:
+            operations.place(self._temporaries[number], self._targets[number])
+        except (FileNotFoundError, FileExistsError):
+            return False
+        self._spent.add(number)
+        return True
 
     def _replace(self, number: int) -> bool:
         """Change one target. Returns False, and leaves it alone, if it is not what was planned with."""
