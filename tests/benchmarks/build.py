@@ -14,7 +14,7 @@ from pathlib import Path
 
 from support import corpus
 
-from benchmarks.builds import changed, changed_by, first, first_by
+from benchmarks.builds import changed, changed_by, first, first_by, least
 from benchmarks.measuring import Cost, Quantity, measure, run
 from benchmarks.robots import chain, mesh, write_meshes, write_workspace
 from benchmarks.study import Row, Study
@@ -26,6 +26,8 @@ BARS: dict[int, float] = {11: 3.0, 100: 0.8, 1000: 0.02}
 """What a first build may take at most, times the published tool, by the number of links; a UR10e has eleven."""
 MANY = 1000
 MESHES = "11 links with meshes"
+LEAST = {"100 links, modules alone": False, "100 links, modules, Jinja and files": True}
+"""What a first build can't do without, and whether that writes files."""
 
 _Found = dict[str, Callable[[], Cost]]
 
@@ -45,12 +47,16 @@ def _first(tools: Tools) -> Study:
         found[label] = first(tools, place)
         if tools.published:
             found[_theirs(label)] = first_by(tools.published, place / "robot0.urdf", tools.folder / f"by {place.name}")
+    for label, writes in LEAST.items():
+        found[label] = least(tools, write_workspace(tools.folder / f"least{writes:d}", 1, 100), writes)
     many = f"{MANY:,} links"
     rows = [
         *(Row(f"{links:,} links", _theirs(f"{links:,} links"), bar) for links, bar in BARS.items()),
         Row(many, _theirs(many), 0.8, Quantity.PEAK),
         *(Row(label, _theirs(label), None, Quantity.CPU) for label in places),
         Row(MESHES, _theirs(MESHES)),
+        *(Row(label, _theirs("100 links")) for label in LEAST),
+        *(Row(label, _theirs("100 links"), None, Quantity.CPU) for label in LEAST),
         *(Row(label, NOTHING) for label in places),
     ]
     return Study("first build", found, rows, slow={_theirs(many)})

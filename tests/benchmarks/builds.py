@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
+import subprocess
 import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from benchmarks.measuring import Cost, UnexpectedError, measure, run
+from benchmarks.measuring import Cost, UnexpectedError, measure, run, variables
 from benchmarks.published import Published
 from benchmarks.robots import Source
 from benchmarks.tools import Tools
+
+_FLOOR = Path(__file__).with_name("floor.py")
+_MODULES = """
+import sys
+from urdfsync.__main__ import main
+main()
+print(*[name for name, module in sys.modules.items() if getattr(module, "__spec__", None)], file=sys.stderr)
+"""
+"""A command, and then the names of all modules that it has loaded, in their order."""
 
 
 def first(tools: Tools, folder: Path, arguments: Sequence[str] = ()) -> Callable[[], Cost]:
@@ -67,6 +78,32 @@ def first_by(published: Published, source: Path, folder: Path) -> Callable[[], C
         put_aside(folder)
         os.sync()
         return published.build(source, folder)
+
+    return measurement
+
+
+def least(tools: Tools, place: Path, writes: bool) -> Callable[[], Cost]:
+    """What a first build of a folder can't do without: loading its modules and, with `writes`, Jinja and the files.
+
+    The folder is built by this.
+    """
+    asked = [str(tools.scripts / "python"), "-c", _MODULES, "build", "--quiet"]
+    built = subprocess.run(asked, cwd=place, env=variables(), check=True, stderr=subprocess.PIPE, text=True)
+    packages = place / "modelica"
+    sizes = {file.relative_to(packages).as_posix(): file.stat().st_size for file in packages.rglob("*.*")}
+    template = place / "least.jinja"
+    template.write_text("<< text >>", encoding="utf-8")
+    folder, file = place / "least", place / "least.json"
+    task = {"modules": built.stderr.split(), "sizes": sizes if writes else {}}
+    file.write_text(json.dumps({**task, "template": str(template), "folder": str(folder)}), encoding="utf-8")
+
+    def measurement() -> Cost:
+        put_aside(folder)
+        os.sync()
+        cost = measure([str(tools.scripts / "python"), "-P", str(_FLOOR), str(file)], place)
+        if len(list(folder.rglob("*.*"))) != len(task["sizes"]):
+            raise UnexpectedError(f"{folder} has not all files")
+        return cost
 
     return measurement
 
