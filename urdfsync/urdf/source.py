@@ -57,7 +57,8 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = True, parts: Pa
     All faults of the model are reported, not only the first; a fault of the XML is one error.
     With `cross_check`, a robot without errors is read a second time, by yourdfpy, and compared.
     `parts` are those of an earlier reading: what has not changed since the last one without errors is not read
-    again, and its links and joints are the same objects.
+    again, and its links and joints are the same objects. yourdfpy is not asked again about names, types and the tree
+    if it has agreed on them, and the text differs from that one in numbers alone.
     """
     kept: Parts = {} if parts is None else parts
     last: Last | None = kept.get(_KEY)
@@ -66,22 +67,31 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = True, parts: Pa
         document = chunks.read(text, "robot", read_part, last.document if last else None)
     except xml.Fault as fault:
         return RobotReading(None, Findings(file, [fault.diagnostic]).result(), {})
-    robot = renumbered(last, document, said) if last else None
-    if last and robot:
+    renewed = renumbered(last, document, said) if last else None
+    if last and renewed:
+        robot: Robot | None = renewed.robot
         findings = last.findings
     else:
         findings = Findings(file, [*said, *document.prefixes.values()])
         robot = _assemble(document, last.robot if last else None, findings) if _is_urdf(document, findings) else None
-    both = findings.copy()
-    if robot is not None and cross_check and not findings.failed:
-        from urdfsync.urdf.reader.cross_check import cross_check as read_again
-
-        with profiling.stage("cross-check"):
-            _add(read_again(content, robot), both)
+    both, head = findings.copy(), text[: document.begin]
+    agreed = bool(last and renewed and renewed.children_alike and last.agreed == head)
+    if robot is not None and cross_check and not (findings.failed or agreed):
+        agreed = _agrees(content, robot, both)
     if robot is None or both.failed:
         return RobotReading(None, both.result(), both.lines)
-    kept[_KEY] = Last(document, said, robot, findings)
+    kept[_KEY] = Last(document, said, robot, findings, head if agreed else None)
     return RobotReading(robot, both.result(), both.lines)
+
+
+@profiling.staged("cross-check")
+def _agrees(content: bytes, robot: Robot, findings: Findings) -> bool:
+    """Whether the second reader agrees; if not, that is added to the findings."""
+    from urdfsync.urdf.reader.cross_check import cross_check
+
+    found = list(cross_check(content, robot))
+    _add(found, findings)
+    return not found
 
 
 def _add(found: Iterable[checks.Finding], findings: Findings) -> None:

@@ -18,7 +18,7 @@ from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.reader import part, xml
 
-OPTIONS = Options(cross_check=False)
+ONCE, TWICE = Options(cross_check=False), Options()
 
 
 def arm(elbow: float = 2.0, *more: str) -> str:
@@ -28,16 +28,16 @@ def arm(elbow: float = 2.0, *more: str) -> str:
     return robot(*links, *joints, *more)
 
 
-def fresh(content: bytes) -> Reading:
-    return DOMAIN.read(content, "a.urdf", OPTIONS)
+def fresh(content: bytes, options: Options = ONCE) -> Reading:
+    return DOMAIN.read(content, "a.urdf", options)
 
 
-def read_in_turn(contents: Sequence[bytes]) -> list[Reading]:
+def read_in_turn(contents: Sequence[bytes], options: Options = ONCE) -> list[Reading]:
     """One version after the other, each of which has to give what a fresh reading gives, down to the order of keys."""
     parts: Parts = {}
-    readings = [DOMAIN.read(content, "a.urdf", OPTIONS, parts) for content in contents]
+    readings = [DOMAIN.read(content, "a.urdf", options, parts) for content in contents]
     for content, found in zip(contents, readings, strict=True):
-        wanted = fresh(content)
+        wanted = fresh(content, options)
         assert repr(found.snapshot) == repr(wanted.snapshot)
         assert found.diagnostics == wanted.diagnostics
         assert found.lines == wanted.lines
@@ -324,10 +324,11 @@ def versions(draw: st.DrawFn) -> list[bytes]:
     return ["".join(pieces).encode() for pieces in known]
 
 
+@pytest.mark.parametrize("options", [ONCE, TWICE], ids=["one reader", "two readers"])
 @settings(deadline=None)
-@given(versions())
-def test_any_edits_of_any_robots(contents: list[bytes]) -> None:
-    read_in_turn(contents)
+@given(contents=versions())
+def test_any_edits_of_any_robots(options: Options, contents: list[bytes]) -> None:
+    read_in_turn(contents, options)
 
 
 @pytest.mark.parametrize(

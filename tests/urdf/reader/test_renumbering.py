@@ -115,3 +115,50 @@ def test_what_the_second_reader_finds_is_said_once_by_each_reading(monkeypatch: 
     told = [[found.message for found in reading.diagnostics if found.code == "doubt"] for reading in readings]
     assert told == [["1 kg?"], ["2 kg?"], ["3 kg?"]]
     assert heavy == [1, 2, 3]
+
+
+SHAPES = {
+    "a comment": (b"<visual>", b"<!-- 1 --><visual>"),
+    "a comment with a number": (b"<!--1-->", b"<!--2-->"),
+    "a digit of a name": (b"base", b"base2"),
+    "the order of attributes": (b'ixx="1" ixy="0"', b'ixy="0" ixx="1"'),
+    "a blank": (b'xyz="0.1 0', b'xyz="0.1  0'),
+    "the head": (b"<robot ", b"<!-- exported -->\n<robot "),
+    "the robot's name": (b'"own"', b'"other"'),
+}
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[bytes]:
+    """What the second reader was asked about."""
+    contents: list[bytes] = []
+    real = cross_check.cross_check
+
+    def noting(content: bytes, found: Robot) -> Iterator[Finding]:
+        contents.append(content)
+        return real(content, found)
+
+    monkeypatch.setattr(cross_check, "cross_check", noting)
+    return contents
+
+
+@pytest.mark.parametrize("others", NUMBERS.values(), ids=NUMBERS)
+def test_the_second_reader_has_answered_what_numbers_do_not_change(others: dict[str, Any], asked: list[bytes]) -> None:
+    parts: Parts = {}
+    first, second, third = (read(content, parts, twice=True) for content in (legged(), legged(**others), legged()))
+    assert asked == [legged()]
+    assert third == first
+    assert second == read(legged(**others), twice=True)
+
+
+@pytest.mark.parametrize(("old", "new"), SHAPES.values(), ids=SHAPES)
+def test_the_second_reader_is_asked_where_more_than_numbers_has_changed(
+    old: bytes, new: bytes, asked: list[bytes]
+) -> None:
+    parts: Parts = {}
+    before = legged(leg=("", 1, 'box size="1 1 1"/><!--1--><a', "grey"))
+    after = before.replace(old, new)
+    for content in (before, after, before):
+        assert read(content, parts, twice=True).robot
+    assert asked == [before, after, before]
+    assert after != before

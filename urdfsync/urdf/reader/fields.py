@@ -22,12 +22,12 @@ from urdfsync.urdf.robot import Extension, Vector
 
 Missing = TypeVar("Missing", float, None)
 
-_NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 _BLANK = r"[ \t\r\n\f\v]"
-_DECIMAL = re.compile(_NUMBER)
+_DECIMAL = re.compile(NUMBER)
 _BLANKS = re.compile(f"{_BLANK}+")
 _NUMBERS = {
-    count: re.compile(rf"{_BLANK}*(?:{_NUMBER}{_BLANK}+){{{count - 1}}}{_NUMBER}{_BLANK}*") for count in (1, 3, 4)
+    count: re.compile(rf"{_BLANK}*(?:{NUMBER}{_BLANK}+){{{count - 1}}}{NUMBER}{_BLANK}*") for count in (1, 3, 4)
 }
 """That many decimal numbers between blanks."""
 _ELEMENTS = {

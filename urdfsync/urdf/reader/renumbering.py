@@ -2,12 +2,14 @@
 
 What is to be said of a robot beyond its single elements follows from their names, from who is joined to whom and how,
 and from materials. As long as all of that is as it was, and each element says of itself what it said, so are all
-findings.
+findings. The second reader is asked about names, types and the tree: where the texts, too, differ in numbers alone, it
+has answered that.
 """
 
 from __future__ import annotations
 
 import operator
+import re
 from collections.abc import Sequence
 from itertools import compress
 from typing import TypeAlias
@@ -17,12 +19,15 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf.reader.checks import unit_axes
 from urdfsync.urdf.reader.chunks import Chunk, Document
-from urdfsync.urdf.reader.fields import Findings
+from urdfsync.urdf.reader.fields import NUMBER, Findings
 from urdfsync.urdf.reader.part import Part
 from urdfsync.urdf.robot import Joint, Link, Robot
 from urdfsync.urdf.skeleton import bare
 
 _Changes: TypeAlias = list[tuple[Chunk[Part], Chunk[Part]]]
+
+_NUMBER = rf"""(?<=[\s"'])(?:{NUMBER})(?=[\s"'])"""
+"""A regular expression; no command but the daemon needs it."""
 
 
 class Last(msgspec.Struct, frozen=True):
@@ -34,13 +39,20 @@ class Last(msgspec.Struct, frozen=True):
     robot: Robot
     findings: Findings
     """All but those of the second reader."""
+    agreed: str | None = None
+    """If the second reader has found nothing: the text before the first child of the root."""
 
 
-def renumbered(last: Last, document: Document[Part], said: Sequence[Diagnostic]) -> Robot | None:
-    """The robot of the document, if no more than numbers can have changed: then it has the last findings, too.
+class Renumbered(msgspec.Struct, frozen=True):
+    """The last robot with other numbers; links and joints that are equal to the last ones are the same objects."""
 
-    Links and joints that are equal to the last ones are the same objects.
-    """
+    robot: Robot
+    children_alike: bool
+    """Whether the texts of the root's children differ in numbers alone, too."""
+
+
+def renumbered(last: Last, document: Document[Part], said: Sequence[Diagnostic]) -> Renumbered | None:
+    """The robot of the document, if no more than numbers can have changed: then it has the last findings, too."""
     changes = _changes(last, document, said)
     if changes is None or not all(_has_other_numbers(old.made, new.made) for old, new in changes):
         return None
@@ -53,7 +65,12 @@ def renumbered(last: Last, document: Document[Part], said: Sequence[Diagnostic])
     if joints:
         moves = [_with_unit_axis(joints[old.name], old) if old.name in joints else old for old in robot.joints]
         robot = msgspec.structs.replace(robot, joints=tuple(moves))
-    return robot
+    return Renumbered(robot, not document.far and all(_are_alike(old.text, new.text) for old, new in changes))
+
+
+def _are_alike(old: str, new: str) -> bool:
+    """Whether two texts differ in numbers alone, as they stand between blanks or quotation marks."""
+    return re.sub(_NUMBER, "0", old) == re.sub(_NUMBER, "0", new)
 
 
 def _changes(last: Last, document: Document[Part], said: Sequence[Diagnostic]) -> _Changes | None:
