@@ -165,7 +165,7 @@ def test_dependencies_are_only_looked_for_by_the_core(case: Case) -> None:
     assert all(path.is_absolute() for path in dependency.candidates)
     assert dependency.line > 0
     assert dependency.noun.isidentifier()
-    generate.check_paths([dependency.target])
+    generate.check_paths((dependency.target,))
 
 
 def test_a_conversion_is_repeatable(case: Case) -> None:
@@ -180,7 +180,7 @@ def texts(package: generate.Generated) -> dict[str, bytes]:
 
 def test_artifacts_are_inside_the_package_and_apart(case: Case) -> None:
     artifacts = case.artifacts()
-    generate.check_paths([artifact.path for artifact in artifacts] + [case.dependency.target])
+    generate.check_paths((*(artifact.path for artifact in artifacts), case.dependency.target))
     assert {artifact.role for artifact in artifacts if isinstance(artifact, Artifact)} <= {
         Role.RECORD,
         Role.MODEL,

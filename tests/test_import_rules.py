@@ -91,7 +91,6 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "state/lock": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
     "state/repair": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "planning/memory": ("pathlib", "urdfsync.build", "urdfsync.config", "urdfsync.urdf", *IO, *HEAVY),
-    "garbage": ("urdfsync", "pathlib", *IO, *HEAVY),
     "spelling": ("urdfsync", "pathlib", *IO, *HEAVY),
     "planning/decide": ("rich", "watchdog", "urdfsync.build", "urdfsync.report", "urdfsync.cli"),
     "planning/disk": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import re
 
 import msgspec
@@ -288,3 +289,19 @@ def test_a_format_that_never_was_is_refused(number: int) -> None:
 
 def test_line_endings_are_normalised_before_hashing() -> None:
     assert text_hash("a\r\nb\n") == text_hash("a\nb\n") != text_hash("a\nb")
+
+
+def test_a_manifest_goes_when_nothing_refers_to_it() -> None:
+    """One per rebuild is made by the daemon, with thousands of records: so it must be in no cycle."""
+    gc.collect()
+    gc.set_debug(gc.DEBUG_SAVEALL)
+    try:
+        made = msgspec.structs.replace(MANIFEST)
+        dumps(made)
+        assert made.recorded.plain or made.special
+        del made
+        gc.collect()
+        assert not [found for found in gc.garbage if isinstance(found, Manifest)]
+    finally:
+        gc.set_debug(0)
+        gc.garbage.clear()

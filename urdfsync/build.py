@@ -11,7 +11,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import garbage, looking, profiling
+from urdfsync import looking, profiling
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.outcome import Result
@@ -56,8 +56,7 @@ class _Builder:
         """Build one robot. Whatever is wrong comes back as diagnostics, with what has become of the files."""
         result = Result(robot.name, robot.target.package, robot.folder, self._config.root, dry=self._request.dry)
         try:
-            with garbage.held_back():
-                return self._run(robot, result)
+            return self._run(robot, result)
         except UrdfsyncError as error:
             locked, unfinished = isinstance(error, LockedError), isinstance(error, UnfinishedError)
             found = error.diagnostics

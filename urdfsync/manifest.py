@@ -31,8 +31,6 @@ _HEADER = """\
 _ORDER = "package.order"
 _PARENT = "../package.order"
 """The parent package's order file, as it stands in the text."""
-_RECORDED = "is recorded"
-"""Marks manifests that are as they come back from their text."""
 _PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
 """What nearly all paths are: nothing that could lead elsewhere."""
 REPAIR = "restore it from version control, or let `urdfsync build --repair` make it again"
@@ -92,10 +90,8 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     @property
     def recorded(self) -> Manifest:
         """What comes back from the manifest's text: sorted, and without what lies outside of the package."""
-        if _RECORDED in vars(self):
-            return self
         inside, above = f"{self.folder}/", _order_above(self.folder)
-        found = msgspec.structs.replace(
+        return msgspec.structs.replace(
             self,
             names={kind: dict(sorted(names.items())) for kind, names in sorted(self.names.items()) if names},
             dependencies=dict(sorted(self.dependencies.items())),
@@ -108,8 +104,6 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True, dict=True):
                 if path.startswith(inside)
             },
         )
-        vars(found)[_RECORDED] = True
-        return found
 
     @functools.cached_property
     def plain(self) -> Mapping[str, FileRecord]:

@@ -20,7 +20,6 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import garbage
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.planning.memory import Memory
@@ -104,7 +103,7 @@ class Daemon:
             self._next_hour = time.monotonic() + _HOUR
             while not self._stopped:
                 self._receive(self._inbox.wait(self._patience()))
-                with contextlib.suppress(builder.StoppedError), garbage.held_back():
+                with contextlib.suppress(builder.StoppedError):
                     self._work(guard)
         self._tell(events.Stopping(self._stopped))
 
@@ -284,7 +283,6 @@ class Daemon:
 
     def _rescan(self, now: float, guard: Guard) -> None:
         """Look at everything: events may be lost, and what failed may work now."""
-        garbage.search()
         self._next_rescan, self._next_poll = now + self._options.rescan, now + _POLL
         with contextlib.suppress(OutputError):  # as long as the folder can't be written to, nobody can take the lock
             guard.renew()

@@ -36,7 +36,7 @@ from urdfsync.planning.generate import Generated, check_paths, generate
 )
 def test_paths_that_leave_the_package_or_are_none_everywhere(path: str) -> None:
     with pytest.raises(OutputError, match="is no path inside the package"):
-        check_paths([path])
+        check_paths((path,))
 
 
 @pytest.mark.parametrize(
@@ -51,11 +51,11 @@ def test_paths_that_leave_the_package_or_are_none_everywhere(path: str) -> None:
 )
 def test_paths_that_are_one_where_case_is_folded(paths: list[str], words: str) -> None:
     with pytest.raises(OutputError, match=words):
-        check_paths(paths)
+        check_paths(tuple(paths))
 
 
 def test_paths_of_a_usual_package() -> None:
-    check_paths(["package.mo", "Links/package.mo", "Links/A.mo", "Links/B.mo", "A.mo", "Resources/ä b.stl"])
+    check_paths(("package.mo", "Links/package.mo", "Links/A.mo", "Links/B.mo", "A.mo", "Resources/ä b.stl"))
 
 
 NETWORK = b'{"name": "n", "elements": [{"name": "R1", "between": ["in", "ground"], "ohm": 1}]}'

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Self
 
 import msgspec
 
-from urdfsync import garbage, looking, profiling
+from urdfsync import looking, profiling
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.planning.planner import plan, plan_if_unchanged
@@ -141,8 +141,7 @@ _Answer = tuple["Work | None", type[UrdfsyncError], tuple[Diagnostic, ...], "pro
 def _plan(config: Config, robot: RobotConfig, request: Request, profiled: bool) -> _Answer:
     with profiling.measured() if profiled else contextlib.nullcontext() as profile:
         try:
-            with garbage.held_back():
-                work, error, found = plan(config, robot, request), UrdfsyncError, tuple[Diagnostic, ...]()
+            work, error, found = plan(config, robot, request), UrdfsyncError, tuple[Diagnostic, ...]()
         except UrdfsyncError as problem:
             work, error, found = None, type(problem), problem.diagnostics
         return work, error, found, profile.results() if profile else None
@@ -150,11 +149,13 @@ def _plan(config: Config, robot: RobotConfig, request: Request, profiled: bool) 
 
 def _join(folder: str) -> None:
     """Prepare a process of the crew: it works in the same folder, and ends when its parent does."""
-    import signal  # most builds have no crew
+    import gc  # most builds have no crew
+    import signal
     from multiprocessing import parent_process
     from multiprocessing.connection import wait
 
     os.chdir(folder)
+    gc.set_threshold(100_000)  # as `urdfsync.__main__`
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent gets it, too, and tells the crew
     parent = parent_process()
 

@@ -80,7 +80,7 @@ def artifacts(
     They are in the order of their paths. Raises OutputError for paths that can't be.
     """
     found = sorted(domain.artifacts(snapshot, imports, target, options, parts), key=_PATH)
-    check_paths([artifact.path for artifact in found] + [entry.target for entry in imports.values()])
+    check_paths((*map(_PATH, found), *(entry.target for entry in imports.values())))
     return found
 
 
@@ -99,16 +99,12 @@ def generate(
     return Generated(artifacts(domain, snapshot, imports, target, options), templates)
 
 
-def check_paths(paths: Iterable[str]) -> None:
+@functools.lru_cache(maxsize=1)  # most changes of a model leave its paths as they are
+def check_paths(paths: tuple[str, ...]) -> None:
     """Refuse paths that leave the package, and pairs that are one file or one class where case is folded.
 
     Raises OutputError with everything that is wrong.
     """
-    _check_paths(tuple(paths))
-
-
-@functools.lru_cache(maxsize=1)  # most changes of a model leave its paths as they are
-def _check_paths(paths: Sequence[str]) -> None:
     problems: list[Diagnostic] = []
     files: dict[str, str] = {}
     folders: dict[str, str] = {}

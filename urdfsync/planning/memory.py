@@ -7,9 +7,7 @@ of files is there for every robot: hashes, each with what the system said of the
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
-from itertools import compress
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import msgspec
@@ -97,8 +95,7 @@ class Memory:
     def looked(self, robot: str, seen: Hashes, begin: tuple[int, int], read_clock: Callable[[], Clock | None]) -> None:
         """Somebody who began at this moment (see `stamp.now`) has looked at all that matters to a robot's plan."""
         before = self.seen(robot)
-        others = compress(seen, map(operator.is_not, map(before.get, seen), seen.values()))  # in C: there are thousands
-        new = {path: entry for path in others if (entry := seen[path])}
+        new = {path: entry for path, entry in seen.items() if entry and before.get(path) is not entry}
         doubtful = {path: (NO_FACTS, *entry[1:]) for path, entry in new.items() if entry[0] != NO_FACTS}
         if len(doubtful) > _FEW and (clock := read_clock()):
             passed = stamp.passed(begin)

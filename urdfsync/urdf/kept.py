@@ -1,14 +1,9 @@
-"""What one piece of work keeps for the next of its kind, in a process that does it again and again.
-
-Most elements of a large model are the same objects as the last time: finding the others is left to calls that go
-through all of them in C, and a call of ours for each is made only of those.
-"""
+"""What one piece of work keeps for the next of its kind, in a process that does it again and again."""
 
 from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Hashable, Mapping
-from itertools import compress, repeat
 from typing import Any, TypeVar
 
 from urdfsync.domain import Parts, Piece
@@ -16,12 +11,6 @@ from urdfsync.domain import Parts, Piece
 _Value = TypeVar("_Value")
 _Element = TypeVar("_Element")
 _ABSENT = object()
-
-
-def changed(last: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
-    """Names of the elements that are other objects than those of the last time, or new."""
-    before = map(last.get, now, repeat(_ABSENT))
-    return list(compress(now, map(operator.is_not, before, now.values())))
 
 
 class Kept:
@@ -48,15 +37,17 @@ class Kept:
     def each(
         self, name: Hashable, make: Callable[..., _Value], elements: Mapping[str, _Element], *common: Any
     ) -> Mapping[str, _Value]:
-        """What is made of each element, its name before it and what all have in common behind it; in their order."""
-        values: Mapping[str, _Value]
-        (last, *others), values = self._last.get(name, ((None,), {}))
-        if last is None or any(map(operator.is_not, others, common)):
-            last, values = {}, {}
-        made = {key: make(key, elements[key], *common) for key in changed(last, elements)}
-        values = {**values, **made} if made else values
-        if list(values) != list(elements):
-            values = dict(zip(elements, map(values.__getitem__, elements), strict=True))
+        """`make(name, element, *common)` of each element, by its name and in their order.
+
+        It is called for those alone that are other objects than the last time.
+        """
+        (last, *others), known = self._last.get(name, (({},), {}))
+        if len(others) != len(common) or any(map(operator.is_not, others, common)):
+            last, known = {}, {}
+        values = {
+            key: known[key] if last.get(key, _ABSENT) is element else make(key, element, *common)
+            for key, element in elements.items()
+        }
         return self._keep(name, (elements, *common), values)
 
     def piece(self, of: _Value) -> _Value | Piece:

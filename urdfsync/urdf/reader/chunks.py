@@ -12,13 +12,11 @@ at the last reading. Wherever this is in doubt, the whole is parsed.
 
 from __future__ import annotations
 
-import itertools
-import operator
 import re
 from bisect import bisect_left
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import accumulate, compress
+from itertools import accumulate
 from typing import Generic, TypeAlias, TypeVar
 
 import msgspec
@@ -116,7 +114,7 @@ def _cut(text: str, last: Document[T]) -> list[str | range]:
 
 def _leading(found: Iterable[bool], count: int) -> int:
     """How many of these `count` are true before the first that is not."""
-    return next(compress(itertools.count(), map(operator.not_, found)), count)
+    return next((number for number, true in enumerate(found) if not true), count)
 
 
 def _between(text: str, chunks: Sequence[Chunk[T]], numbers: range) -> Iterator[str | range]:
