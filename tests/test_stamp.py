@@ -274,11 +274,11 @@ def test_every_file_counts_whoever_looks_at_it(
     with pytest.MonkeyPatch.context() as patch:
         for whether in SHARING:
             share(patch, whether)
-            assert reading.stands()
+            assert reading.holds()
         data.draw(st.sampled_from(paths)).write_text("22")
         for whether in SHARING:
             share(patch, whether)
-            assert not reading.stands()
+            assert not reading.holds()
 
 
 def _reading(site: Path, own: list[Path], targets: list[Path]) -> stamp.Reading:

@@ -15,12 +15,11 @@ from urdfsync import looking, profiling
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.outcome import Result
-from urdfsync.planning import shared
+from urdfsync.planning import leftovers, shared
 from urdfsync.planning.crew import Crew
 from urdfsync.planning.disk import Disk
 from urdfsync.planning.situation import Progress, Request
 from urdfsync.planning.work import Work
-from urdfsync.state import leftovers
 from urdfsync.state.batch import SavedError
 from urdfsync.state.lock import Lock, LockedError
 from urdfsync.state.store import Store
@@ -79,7 +78,7 @@ class _Builder:
         """Plan, and write unless the run is dry; again if that has been overtaken by other builds or by the user."""
         saved = robot.folder
         for _ in range(_ATTEMPTS):
-            self._settle()
+            self._recover()
             work = self._crew.plan(robot)
             if self._request.dry:
                 if self._is_current(work):
@@ -97,7 +96,7 @@ class _Builder:
                     saved = error.path
                     continue
                 if self._request.memory:
-                    self._request.memory.outdated(robot.name)
+                    self._request.memory.invalidate(robot.name)
             return _done(result, work)
         message = "it changes all the time while urdfsync builds"
         hint = "close what writes to it, then build again"
@@ -112,13 +111,13 @@ class _Builder:
     def _is_current(self, work: Work) -> bool:
         """Whether no other build has written, or begun to, since the plan was made.
 
-        Every build that does anything writes the manifest, as the last file. The others that are about to be written
-        are looked at when they are.
+        Nearly every build writes the manifest, as its last file: so that one is looked at again here, and the others
+        when they are written.
         """
         targets = {change.path for change in work.writes[:-1]}
-        return not self._transactions.pending() and Store(self._config.root, shown).stands(work.witness, targets)
+        return not self._transactions.pending() and Store(self._config.root, shown).is_unchanged(work.witness, targets)
 
-    def _settle(self) -> None:
+    def _recover(self) -> None:
         """Wait for a build that is writing; finish or undo what one has left that was killed."""
         if not self._transactions.pending():
             return

@@ -191,7 +191,7 @@ def _texts(tables: Mapping[_Keys, object]) -> list[str]:
 
 
 def _with_origin(record: FileRecord, prefix: str, cut: int) -> FileRecord:
-    """The record with a prefix in the place of so many characters of its origin, if it has one."""
+    """The record with `prefix` in the place of the first `cut` characters of its origin, if it has one."""
     return msgspec.structs.replace(record, origin=prefix + record.origin[cut:]) if record.origin else record
 
 

@@ -17,7 +17,7 @@ from urdfsync.domain import Import, Snapshot
 from urdfsync.manifest import FORMAT, REPAIR, check_format
 
 
-class Facts(msgspec.Struct, frozen=True):
+class ConversionFacts(msgspec.Struct, frozen=True):
     """What a conversion found out, and of which bytes."""
 
     source_hash: str
@@ -39,7 +39,7 @@ class Model(msgspec.Struct, frozen=True):
     """
 
     snapshot: dict[str, Any]
-    imports: dict[str, Facts]
+    imports: dict[str, ConversionFacts]
     bases: dict[str, str] = {}
     since: dict[str, Any] | None = None
     """The model of the last build after which nothing waited; None if nothing waits now."""
@@ -53,7 +53,7 @@ def of(
     since: Snapshot | None = None,
 ) -> Model:
     """What is recorded of a model, as it comes back from the JSON file; both snapshots are plain data already."""
-    facts = {key: Facts(i.source_hash, i.converter, _plain(i.facts)) for key, i in sorted(imports.items())}
+    facts = {key: ConversionFacts(i.source_hash, i.converter, _plain(i.facts)) for key, i in sorted(imports.items())}
     texts = dict(sorted((bases or {}).items()))
     return Model(dict(snapshot), facts, texts, None if since is None else dict(since))
 

@@ -73,7 +73,7 @@ class Daemon:
             self._arm,
             self._run_command,
             self._check,
-            self._is_paused,
+            self._update_pause,
         )
         self._runner = Runner(
             options.command, options.file.absolute().parent, lambda robot, code: self._inbox.put(Ended(robot, code))
@@ -203,10 +203,10 @@ class Daemon:
             self._poll(now)
         self._settle_settings(now)
         due = [one for one in self._robots if one.settler.deadline is not None and one.settler.deadline <= now]
-        if due and self._is_paused():
+        if due and self._update_pause():
             return
-        ready = [watched for watched in due if self._has_settled(watched)]
-        if ready and self._is_paused():
+        ready = [watched for watched in due if self._take_sample(watched)]
+        if ready and self._update_pause():
             for watched in ready:
                 self._touch(watched)
         elif ready:
@@ -225,7 +225,7 @@ class Daemon:
             case trouble if trouble:
                 self._tell(events.Noted(trouble))
 
-    def _has_settled(self, watched: Watched) -> bool:
+    def _take_sample(self, watched: Watched) -> bool:
         """Take the sample that is due. Returns whether the robot is to be built now."""
         settler = watched.settler
         sample = self._robots.sample(watched)
@@ -236,10 +236,10 @@ class Daemon:
                 self._builds.fail(self._config, watched)
                 return False
         watched.settled = sample
-        if watched.failed is None and self._robots.is_as_built(watched, sample):
+        if watched.failed is None and self._robots.confirm(watched, sample):
             self._calm(watched)
             return False
-        return sample[watched.scope.source].content == watched.scope.built or self._is_model(watched)
+        return sample[watched.scope.source].content == watched.scope.built or self._judge(watched)
 
     def _calm(self, watched: Watched) -> None:
         watched.trouble = ()
@@ -248,7 +248,7 @@ class Daemon:
             self._tell(events.Calm(watched.name))
         watched.rest()
 
-    def _is_model(self, watched: Watched) -> bool:
+    def _judge(self, watched: Watched) -> bool:
         """Whether what has settled is a model to be believed; if not, it is waited for."""
         settler, source = watched.settler, watched.settled[watched.scope.source].content
         try:
@@ -292,7 +292,7 @@ class Daemon:
         self._arm()
         self._look_at_settings()
         for watched in self._robots:
-            if watched.settler.calm and not self._robots.is_as_built(watched, self._robots.sample(watched)):
+            if watched.settler.calm and not self._robots.confirm(watched, self._robots.sample(watched)):
                 self._touch(watched)
             elif watched.settler.calm and watched.failed is not None:
                 watched.settler.touch(now)
@@ -310,7 +310,7 @@ class Daemon:
         if self._settings.settler.calm and self._settings.has_changed(self._robots.look(self._file)):
             self._settings.settler.touch(time.monotonic())
 
-    def _is_paused(self) -> bool:
+    def _update_pause(self) -> bool:
         """Whether nothing must be built now; says so when that changes. What was paused has to settle again."""
         holder = self._stash.holder(self._config.root)
         if holder is not None and not self._paused:

@@ -12,7 +12,7 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Dependency
 from urdfsync.files import digest
 from urdfsync.manifest import DependencyRecord
-from urdfsync.modelfile import Facts
+from urdfsync.modelfile import ConversionFacts
 from urdfsync.planning import imports
 from urdfsync.planning.imports import Imported, Recorded
 
@@ -31,7 +31,7 @@ def bring_in(wanted: Dependency, before: Imported | None = None) -> Imported:
     copies = before.contents if before else {}
     recorded = Recorded(
         records=before.records if before else {},
-        facts={key: Facts(i.source_hash, i.converter, dict(i.facts)) for key, i in imported},
+        facts={key: ConversionFacts(i.source_hash, i.converter, dict(i.facts)) for key, i in imported},
         copy=copies.get,
         base=lambda target: digest(copies[target]) if target in copies else None,
     )

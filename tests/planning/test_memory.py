@@ -154,7 +154,7 @@ class Clock(trust.Clock):
 
 def look(memory: Memory, seen: Hashes, trusts: bool | None = True, robot: str = "arm") -> Hashes:
     """What is remembered of a look; without a clock if nothing is known of trust."""
-    memory.looked(robot, seen, stamp.now(), lambda: None if trusts is None else Clock(trusts))
+    memory.note_look(robot, seen, stamp.now(), lambda: None if trusts is None else Clock(trusts))
     return memory.seen(robot)
 
 
@@ -164,7 +164,7 @@ def test_each_robot_has_what_was_seen_of_it_until_it_is_watched_no_more() -> Non
     assert look(memory, SEEN) == SEEN
     assert look(memory, missing, robot="leg") == missing
     assert memory.seen("arm") == SEEN
-    memory.keep(["leg"])
+    memory.forget_others(["leg"])
     assert (memory.seen("arm"), memory.seen("leg")) == ({}, missing)
     assert not memory.is_current("arm")
 
@@ -181,7 +181,7 @@ def test_a_file_that_may_change_without_a_trace_has_no_facts(trusts: bool | None
 
 def test_a_few_files_are_read_again_and_no_clock_is_read_for_them() -> None:
     memory, few = Memory(), dict(list(SEEN.items())[:4])
-    memory.looked("arm", few, stamp.now(), lambda: pytest.fail("a clock was read"))
+    memory.note_look("arm", few, stamp.now(), lambda: pytest.fail("a clock was read"))
     assert memory.seen("arm") == dict.fromkeys(few, (NO_FACTS, "own", "text"))
 
 
@@ -190,7 +190,7 @@ def test_what_was_seen_counts_until_a_build_writes_or_another_plan_begins() -> N
     assert not memory.is_current("arm")
     look(memory, SEEN)
     assert memory.is_current("arm")
-    memory.outdated("arm")
+    memory.invalidate("arm")
     assert not memory.is_current("arm")
     assert memory.seen("arm") == SEEN
 

@@ -239,7 +239,7 @@ def test_a_full_build_reads_every_file(project: Path) -> None:
     time.sleep(AGE)
     _planned(project, memory)
     seen = {path: entry and (entry[0], "wrong", "wrong") for path, entry in memory.seen("ladder").items()}
-    memory.looked("ladder", seen, stamp.now(), lambda: trust.clock(project / ".urdfsync"))
+    memory.note_look("ladder", seen, stamp.now(), lambda: trust.clock(project / ".urdfsync"))
     assert len(_trusted(memory)) > 5
     loaded = config.load(project / "urdfsync.toml")
     work = plan(loaded, loaded.robots[0], Request(memory=memory, full=True, dry=True))

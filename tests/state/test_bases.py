@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.files import text_digest
-from urdfsync.state.bases import Bases, Kept, Passage, dumps
+from urdfsync.state.bases import Bases, Passage, Stored, dumps
 
 texts = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\r"), max_size=30)
 
@@ -83,7 +83,7 @@ def test_a_passage_gives_the_text_back(start: str, one: str, other: str, end: st
 @pytest.mark.parametrize("whole", ["lost", "a passage itself", "another text"])
 def test_a_passage_is_nothing_without_its_whole(whole: str) -> None:
     digest, other = text_digest(b"abc"), text_digest(b"axc")
-    there: dict[str, Kept] = {"a passage itself": Passage(other, 1, "x", 1), "another text": "ayyyc"}
+    there: dict[str, Stored] = {"a passage itself": Passage(other, 1, "x", 1), "another text": "ayyyc"}
     bases = Bases({digest: Passage(other, 1, "b", 1)} | ({other: there[whole]} if whole in there else {}))
     assert bases.get(digest) is None
     assert digest in bases

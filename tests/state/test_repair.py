@@ -23,7 +23,7 @@ from urdfsync.manifest import (
     dumps,
     text_hash,
 )
-from urdfsync.modelfile import Facts
+from urdfsync.modelfile import ConversionFacts
 from urdfsync.plan import FileRecord, Found, Kind, decide
 from urdfsync.state.repair import Recovered, choose, rebuilt, recover, sides
 
@@ -320,7 +320,7 @@ def test_facts_are_those_of_the_copy_that_is_there(mesh: str | None, volume: str
     recovered = merged(json=conflict(model("ours"), model("theirs", "m2")))
     found = rebuilt(recovered, {MESH: mesh}, {})
     assert found is not None
-    expected = {"base.stl": Facts(f"s-{volume}", 1, {"volume": volume})}
+    expected = {"base.stl": ConversionFacts(f"s-{volume}", 1, {"volume": volume})}
     united = recovered.model(found)
     assert united is not None
     assert united.imports == expected

@@ -129,20 +129,20 @@ def test_the_witness_is_what_was_loaded(built: Path) -> None:
     store = Store(built)
     store.load("arm")
     witness = store.witness()
-    assert Store(built).stands(witness)
+    assert Store(built).is_unchanged(witness)
     path, beside = store.paths("arm")
     assert witness == {path: digest(TEXT.encode()), beside: digest(MODEL.encode())}
     path.write_text(TEXT + "\n")
-    assert not Store(built).stands(witness)
+    assert not Store(built).is_unchanged(witness)
     path.unlink()
-    assert not Store(built).stands(witness)
+    assert not Store(built).is_unchanged(witness)
 
 
 def test_a_state_that_comes_later_is_noticed(tmp_path: Path) -> None:
     store = Store(tmp_path)
     store.load("arm")
     write(*Store(tmp_path).changes("arm", TEXT, None, None))
-    assert not store.stands(store.witness())
+    assert not store.is_unchanged(store.witness())
 
 
 def test_changes_rest_on_what_was_loaded_not_on_what_came_later(built: Path) -> None:

@@ -74,7 +74,7 @@ class Bench:
 
     def finds_changes(self) -> set[str] | None:
         """What a rescan finds by itself: the outputs that are not as they were; None if all is."""
-        if self.robots.is_as_built(self.ladder, self.robots.sample(self.ladder)):
+        if self.robots.confirm(self.ladder, self.robots.sample(self.ladder)):
             return None
         return {os.path.relpath(path, self.project) for path in self.ladder.noticed}
 
@@ -291,7 +291,7 @@ def test_a_plan_of_another_process_is_made_sure_of_in_this_one(bench: Bench, mon
         return planner.plan(loaded, robot, here)
 
     def survey(self: Any) -> None:
-        bench.memory.outdated("ladder")
+        bench.memory.invalidate("ladder")
 
     monkeypatch.setattr(crew, "plan", plan)
     monkeypatch.setattr(crew.Crew, "_survey", survey)

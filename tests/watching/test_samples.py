@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from urdfsync.watching import samples
-from urdfsync.watching.samples import Sampler, alike, changed, files_below
+from urdfsync.watching.samples import Sampler, alike, all_files_below, changed
 
 SECOND = 1_000_000_000
 OLD = 1000 * SECOND
@@ -139,5 +139,5 @@ def test_files_below_a_folder(tmp_path: Path) -> None:
     (tmp_path / "a/b").mkdir(parents=True)
     (tmp_path / "a/b/c").write_text("")
     (tmp_path / "a/d").write_text("")
-    assert sorted(files_below(str(tmp_path))) == [str(tmp_path / "a/b/c"), str(tmp_path / "a/d")]
-    assert list(files_below(str(tmp_path / "nothing"))) == []
+    assert sorted(all_files_below(str(tmp_path))) == [str(tmp_path / "a/b/c"), str(tmp_path / "a/d")]
+    assert list(all_files_below(str(tmp_path / "nothing"))) == []

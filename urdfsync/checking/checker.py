@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 import msgspec
 
+from urdfsync import machine
 from urdfsync.checking import child, process
 from urdfsync.checking.cache import Cache
 from urdfsync.checking.compilers import choice
@@ -20,7 +21,6 @@ from urdfsync.checking.wishes import Wishes
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.planning.situation import Progress
-from urdfsync.stamping.beside import cores
 
 _EXPECTED = 1.5e9
 """Bytes that the check of a robot usually takes, at most."""
@@ -59,8 +59,8 @@ class _Crew:
 
     def __init__(self, config: Config, robots: Sequence[RobotConfig], wishes: Wishes, command: Sequence[str]) -> None:
         self._command = command
-        self._most = min(wishes.jobs or cores(), len(robots)) or 1
-        self._wishes = msgspec.structs.replace(wishes, workers=max(1, cores() // self._most))
+        self._most = min(wishes.jobs or machine.cores(), len(robots)) or 1
+        self._wishes = msgspec.structs.replace(wishes, workers=max(1, machine.cores() // self._most))
         self._config, self._cache = config, Cache.of_user()
         self._budget = wishes.memory * 1e9 if wishes.memory else _SHARE * _free()
         self._order = [robot.name for robot in robots]

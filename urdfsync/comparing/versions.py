@@ -87,7 +87,7 @@ def known_from(read: Read, copy: Callable[[str], bytes | None]) -> imports.Recor
     contents, found = read.imported.contents, read.imported.imports
     return imports.Recorded(
         records={key: record for key, record in read.imported.records.items() if key in found},
-        facts={key: modelfile.Facts(i.source_hash, i.converter, dict(i.facts)) for key, i in found.items()},
+        facts={key: modelfile.ConversionFacts(i.source_hash, i.converter, dict(i.facts)) for key, i in found.items()},
         copy=lambda target: contents.get(target) or copy(target),
         base=lambda _target: None,
     )

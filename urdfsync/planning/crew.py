@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import os
 import threading
 from collections import deque
@@ -13,12 +14,11 @@ from typing import TYPE_CHECKING, Self
 
 import msgspec
 
-from urdfsync import looking, profiling
+from urdfsync import looking, machine, profiling
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.planning.planner import plan, plan_if_unchanged
 from urdfsync.planning.situation import Request, in_silence
-from urdfsync.stamping.beside import cores
 
 if TYPE_CHECKING:
     from concurrent.futures import Future, ProcessPoolExecutor
@@ -70,7 +70,7 @@ class Crew:
     def _survey(self) -> None:
         """Find out which robots have to be read and rendered, and start with that if they are many."""
         self._surveyed = True
-        jobs = self._request.jobs or cores()
+        jobs = self._request.jobs or machine.cores()
         if jobs < 2 or len(self._robots) < _ENOUGH:
             return
         changed = []
@@ -82,7 +82,7 @@ class Crew:
             if work is None:
                 changed.append(robot)
             else:
-                self._ahead[robot.name] = lambda work=work: work  # type: ignore[misc]
+                self._ahead[robot.name] = _known(work)
         if len(changed) >= _ENOUGH:
             looking.beyond()  # other processes look at more
             self._start(changed, jobs)
@@ -98,7 +98,7 @@ class Crew:
         self._total, self._window, self._waiting = len(robots), _AHEAD * count, deque(robots)
         self._submit()
         for robot in robots:
-            self._ahead[robot.name] = lambda robot=robot: self._result(robot)  # type: ignore[misc]
+            self._ahead[robot.name] = functools.partial(self._result, robot)
 
     def _submit(self) -> None:
         """Let others plan some robots more, but not so many that their texts and meshes fill the memory."""
@@ -132,6 +132,10 @@ class Crew:
         if work is None:
             raise error(*diagnostics)
         return work
+
+
+def _known(work: Work) -> Callable[[], Work]:
+    return lambda: work
 
 
 _Answer = tuple["Work | None", type[UrdfsyncError], tuple[Diagnostic, ...], "profiling.Elsewhere | None"]

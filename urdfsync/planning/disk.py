@@ -31,7 +31,7 @@ class Disk:
         """The trees that folders are in; None for a folder that is in none, or not there."""
         self._known = known or {}
         self.hashed: dict[str, Hashed | None] = {}
-        """What `look` and `text` first saw, in the same way."""
+        """What `look` or `text` first saw at each absolute path."""
 
     def key(self, path: Path) -> str:
         """How a file is called in manifest and plan."""
@@ -70,7 +70,10 @@ class Disk:
         return found
 
     def _unchanged_in(self, folder: str, entries: Iterable[tuple[str, FileRecord]]) -> Iterator[tuple[str, FileRecord]]:
-        """The same for files in one folder: what a file was when its hash was found, it still is, or is looked at."""
+        """As `unchanged`, for one folder.
+
+        A file keeps its known hash if the system says the same of it as then; else it is looked at.
+        """
         is_there = self._home(folder) is not None
         with looking.within(folder) as status:
             for key, record in entries:
@@ -98,8 +101,8 @@ class Disk:
     def text(self, key: str) -> str | None:
         """The file as text; bytes that are not UTF-8 survive, see `encode`."""
         content = self.read(key)
-        own = None if content is None else digest(content)
-        self.hashed.setdefault(self._place(key), None if own is None else (looking.NO_FACTS, own, own))
+        hashed = None if content is None else (looking.NO_FACTS, digest(content), text_digest(content))
+        self.hashed.setdefault(self._place(key), hashed)
         return None if content is None else content.decode(errors="surrogateescape")
 
     def seen(self, key: str) -> str | None:

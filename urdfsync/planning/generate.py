@@ -27,9 +27,9 @@ _FORBIDDEN = frozenset('\\:*?"<>|')
 class Generated:
     """The package: text files by their path, and the names for each `package.order`; POSIX, below the package.
 
-    They are in the order of their paths, and texts that were rendered stand on a shelf. What a text is made of is
-    forgotten then, since all of a large robot's takes half as much memory as the texts. What stands in its place is
-    equal to nothing else, so the text counts as stale wherever that is asked.
+    They are in the order of their paths. Once a text is rendered it stands on a shelf, and what it was made of is
+    dropped, to save memory. The recipe that takes its place equals no other, so later comparisons count the text as
+    stale.
     """
 
     def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates) -> None:

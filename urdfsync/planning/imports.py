@@ -14,7 +14,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
 from urdfsync.files import digest
 from urdfsync.manifest import DependencyRecord
-from urdfsync.modelfile import Facts
+from urdfsync.modelfile import ConversionFacts
 from urdfsync.planning import packages
 
 _POINTER = b"version https://git-lfs"
@@ -25,7 +25,7 @@ class Recorded(msgspec.Struct, frozen=True):
     """What is known of the imports of the last build, and how their copies in the package are read."""
 
     records: Mapping[str, DependencyRecord]
-    facts: Mapping[str, Facts]
+    facts: Mapping[str, ConversionFacts]
     copy: Callable[[str], bytes | None]
     """Content of an imported file, by its target."""
     base: Callable[[str], str | None]

@@ -92,8 +92,14 @@ class Memory:
         """Whether that is what the last plan saw, and no build has written since."""
         return robot in self._current
 
-    def looked(self, robot: str, seen: Hashes, begin: tuple[int, int], read_clock: Callable[[], Clock | None]) -> None:
-        """Somebody who began at this moment (see `stamp.now`) has looked at all that matters to a robot's plan."""
+    def note_look(
+        self, robot: str, seen: Hashes, begin: tuple[int, int], read_clock: Callable[[], Clock | None]
+    ) -> None:
+        """Remember what a look at all that matters to a robot's plan has found.
+
+        `begin` is when it began (`stamp.now`): files that had changed shortly before keep their hashes but no facts, so
+        they are read next time.
+        """
         before = self.seen(robot)
         new = {path: entry for path, entry in seen.items() if entry and before.get(path) is not entry}
         doubtful = {path: (NO_FACTS, *entry[1:]) for path, entry in new.items() if entry[0] != NO_FACTS}
@@ -103,11 +109,11 @@ class Memory:
         self._seen[robot] = {**seen, **doubtful}
         self._current.add(robot)
 
-    def outdated(self, robot: str) -> None:
+    def invalidate(self, robot: str) -> None:
         """What was seen is not what counts any more: a build has written, or a plan looks again."""
         self._current.discard(robot)
 
-    def keep(self, robots: Collection[str]) -> None:
+    def forget_others(self, robots: Collection[str]) -> None:
         """Forget what was seen of all others."""
         self._seen = {robot: seen for robot, seen in self._seen.items() if robot in robots}
         self._current.intersection_update(robots)
@@ -118,11 +124,11 @@ class Memory:
         for robot, seen in self._seen.items():
             self._seen[robot] = {path: entry and (NO_FACTS, *entry[1:]) for path, entry in seen.items()}
 
-    def recorded(self, contents: tuple[bytes, bytes], state: State) -> None:
+    def note_state(self, contents: tuple[bytes, bytes], state: State) -> None:
         """A build is about to write a state, which is what will be loaded from these contents."""
         self._state.put(contents, state)
 
-    def kept(self, bases: Bases) -> None:
+    def note_bases(self, bases: Bases) -> None:
         """A build is about to write these texts."""
         self._bases.put(bases.content, bases)
 

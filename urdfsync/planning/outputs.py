@@ -59,7 +59,7 @@ class Outputs:
         return self._now.content(path) if known is None else known.encode()
 
     def shelved(self, path: str) -> Shelved | bytes:
-        """The same for later, so that not all contents are in memory until then."""
+        """As `content`, but possibly as a reference, read when the file is written: so that not all are in memory."""
         known = self._known(path, self._recorded(path))
         if known is not None:
             return known.encode()

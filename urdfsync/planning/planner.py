@@ -52,8 +52,9 @@ def _remember(situation: Situation, work: Work, begin: tuple[int, int]) -> None:
     if situation.request.memory:
         seen = dict(situation.disk.hashed)
         for path, own in work.witness.items():
-            seen[str(path)] = None if own is None else (looking.NO_FACTS, own, own)
-        situation.request.memory.looked(situation.robot.name, seen, begin, lambda: trust.clock(situation.store.folder))
+            seen[str(path)] = None if own is None else (looking.NO_FACTS, own, own)  # of the state, bytes alone count
+        memory, name = situation.request.memory, situation.robot.name
+        memory.note_look(name, seen, begin, lambda: trust.clock(situation.store.folder))
 
 
 def _if_unchanged(situation: Situation) -> Work | None:

@@ -130,7 +130,7 @@ class Recording:
         texts = self._situation.dumps(whole), text
         if memory:
             state = State(whole, model, intact=True)
-            memory.recorded((texts[0].encode(), texts[1].encode()), state)
+            memory.note_state((texts[0].encode(), texts[1].encode()), state)
         return texts
 
     def _manifest(self, decision: Decision, model: str) -> Manifest:
@@ -176,7 +176,7 @@ class Recording:
         if (more := self._more_bases(decision)) is None:
             return bases.dumps(self._known(_keys(decision.files)))
         if memory := self._situation.request.memory:
-            memory.kept(more)
+            memory.note_bases(more)
         return more.content
 
     def _more_bases(self, decision: Decision) -> bases.Bases | None:

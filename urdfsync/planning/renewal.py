@@ -14,14 +14,13 @@ from urdfsync.difference import ElementKey, Version
 from urdfsync.domain import Role, Target
 from urdfsync.moves import places
 from urdfsync.plan import FileRecord, Kind, State, Wanted
-from urdfsync.planning import imports, inputs
+from urdfsync.planning import imports, inputs, leftovers
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.generate import Generated, artifacts
 from urdfsync.planning.outputs import Outputs
 from urdfsync.planning.recording import Recording
 from urdfsync.planning.situation import NO_MODEL, Situation
 from urdfsync.planning.work import Work
-from urdfsync.state import leftovers
 
 _USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
 """What happens to files that are as the user wants them."""

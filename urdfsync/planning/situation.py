@@ -19,9 +19,8 @@ from urdfsync.domain import Dependency, Import, Lookup, Role, Snapshot
 from urdfsync.files import digest, text_digest
 from urdfsync.manifest import Generator, Manifest
 from urdfsync.modelfile import Model
-from urdfsync.planning import imports, inputs, parents
+from urdfsync.planning import imports, inputs, leftovers, parents
 from urdfsync.planning.disk import Disk
-from urdfsync.state import leftovers
 from urdfsync.state.store import State, Store
 
 if TYPE_CHECKING:
@@ -75,7 +74,7 @@ class Situation:
         self.domain = registry.domain(robot.domain)
         self.disk = Disk(config, robot, request.memory.seen(robot.name) if request.memory and not request.full else {})
         if request.memory:
-            request.memory.outdated(robot.name)
+            request.memory.invalidate(robot.name)
             for path in parents.files(robot):
                 with contextlib.suppress(OutputError):  # it may be a link
                     self.disk.look(path)

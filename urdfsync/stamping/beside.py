@@ -6,6 +6,8 @@ It is for the start of the program, when nothing is loaded that a copy of the pr
 import os
 import sys
 
+from urdfsync import machine
+
 TYPE_CHECKING = False  # as in `stamp`
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -15,7 +17,10 @@ _YES, _NO = 23, 1
 
 
 def both(first: "Callable[[], bool]", second: "Callable[[], bool]") -> bool:
-    """Whether both are so. Where the first is asked meanwhile, only a yes counts: else it is asked once more, here."""
+    """Whether both questions are answered with yes.
+
+    A second process may ask the first one meanwhile; only its yes is believed, else this process asks as well.
+    """
     process = _process(first) if _may_fork() else None
     try:
         is_second = second()
@@ -26,12 +31,7 @@ def both(first: "Callable[[], bool]", second: "Callable[[], bool]") -> bool:
 
 def _may_fork() -> bool:
     """Whether a copy of this process works and helps: no other threads, which it would lack, and another core."""
-    return hasattr(os, "fork") and "threading" not in sys.modules and cores() > 1
-
-
-def cores() -> int:
-    """The cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return hasattr(os, "fork") and "threading" not in sys.modules and machine.cores() > 1
 
 
 def _process(question: "Callable[[], bool]") -> int | None:

@@ -134,25 +134,25 @@ class Reading:
         answer = self._claims.get(question)
         return None if answer is None else _unpacked(answer)
 
-    def stands(self) -> bool:
+    def holds(self) -> bool:
         """Whether all is as it was when the stamp was written. Raises OSError if there is no way back here."""
         here = os.getcwd()  # noqa: PTH109
         os.chdir(here)  # fails before it is left if nobody could come back
         try:
             if sum(folder.count("\0") for half in self._halves for folder in half) < _MANY:
-                return self._first_stands() and self._second_stands()
+                return self._first_holds() and self._second_holds()
             from urdfsync.stamping import beside
 
-            return beside.both(self._first_stands, self._second_stands)
+            return beside.both(self._first_holds, self._second_holds)
         except (OSError, ValueError):
             return False
         finally:
             os.chdir(here)
 
-    def _first_stands(self) -> bool:
+    def _first_holds(self) -> bool:
         return chain(map(_files, self._halves[0])) == self.numbers[0]
 
-    def _second_stands(self) -> bool:
+    def _second_holds(self) -> bool:
         return chain(self._second()) == self.numbers[1]
 
     def _second(self) -> "Iterator[list[Facts]]":
@@ -235,7 +235,7 @@ def answer(question: str, path: str) -> list[str] | None:
     """What a stamp says, if it says anything and all still is as it was."""
     reading = read(path)
     claim = reading.claim(question) if reading else None
-    return claim if claim is not None and reading and reading.stands() else None
+    return claim if claim is not None and reading and reading.holds() else None
 
 
 def answers(arguments: list[str]) -> bool:

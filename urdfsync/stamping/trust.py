@@ -35,7 +35,10 @@ class Clock:
 
     @classmethod
     def of(cls, descriptor: int) -> Self:
-        """The clock by which an open file was made just now; sets the file's other times to 0. Raises OSError."""
+        """The file system's clock, read from an open file that was made just now. Raises OSError.
+
+        Sets the file's times of access and change to 0, to find out whether that of its status can be set as well.
+        """
         made = os.fstat(descriptor)
         os.utime(descriptor, ns=(0, 0))
         return cls(made, os.fstat(descriptor).st_ctime_ns >= made.st_ctime_ns)

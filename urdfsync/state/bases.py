@@ -52,14 +52,14 @@ class Passage(msgspec.Struct, frozen=True, array_like=True):
         return whole[: self.start] + self.new + whole[len(whole) - self.end :]
 
 
-Kept: TypeAlias = str | Passage | msgspec.Raw
+Stored: TypeAlias = str | Passage | msgspec.Raw
 """A text, or the JSON of one."""
 
 
 class Bases:
     """The kept texts of one robot."""
 
-    def __init__(self, texts: Mapping[str, Kept], content: bytes = b"", parts: tuple[int, ...] = ()) -> None:
+    def __init__(self, texts: Mapping[str, Stored], content: bytes = b"", parts: tuple[int, ...] = ()) -> None:
         """`texts` are by their hashes; `content` is the file's, and `parts` says how long (bytes) each is."""
         self._texts, self._parts = texts, parts
         self._last: tuple[str, str] = "", ""
@@ -69,7 +69,7 @@ class Bases:
     @classmethod
     def loads(cls, content: bytes) -> Self:
         """The texts in a file's content; none if that is lost or damaged."""
-        texts: dict[str, Kept] = {}
+        texts: dict[str, Stored] = {}
         parts = []
         try:
             for size, part in _parts(content):

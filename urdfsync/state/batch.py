@@ -204,7 +204,7 @@ class Batch:
     def _change(self, number: int) -> None:
         target, step, temporary = self._targets[number], self._step(number), self._temporaries[number]
         with self._about(target):
-            if step.old is None and not self._resumed and self._is_placed(number):
+            if step.old is None and not self._resumed and self._place(number):
                 return
             self._hashed[number] = _identity(target)
             current = self._hash(target)
@@ -219,7 +219,7 @@ class Batch:
             except (FileNotFoundError, FileExistsError) as error:
                 raise SavedError(target) from error
 
-    def _is_placed(self, number: int) -> bool:
+    def _place(self, number: int) -> bool:
         """Give a new file its name. Returns False if the name is not free, or something else is in the way."""
         try:
             operations.place(self._temporaries[number], self._targets[number])

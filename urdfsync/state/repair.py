@@ -19,7 +19,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Role
 from urdfsync.manifest import FORMAT, DependencyRecord, Manifest
 from urdfsync.merge import split_lines
-from urdfsync.modelfile import Facts, Model
+from urdfsync.modelfile import ConversionFacts, Model
 from urdfsync.plan import FileRecord
 
 _DEEPEST = 3
@@ -66,7 +66,7 @@ class Recovered(msgspec.Struct, frozen=True):
         first = self.models.get(rebuilt.source.snapshot) or next(iter(self.models.values()), None)
         if first is None:
             return None
-        imports: dict[str, Facts] = {}
+        imports: dict[str, ConversionFacts] = {}
         bases: dict[str, str] = {}
         for side in self.models.values():
             for key, facts in side.imports.items():

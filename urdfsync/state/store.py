@@ -88,7 +88,7 @@ class Store:
         """What all files were when they were loaded."""
         return {path: self._hash(path) for path in self._seen}
 
-    def stands(self, witness: Witness, but: Collection[Path] = ()) -> bool:
+    def is_unchanged(self, witness: Witness, but: Collection[Path] = ()) -> bool:
         """Whether all files still are as they were then, but for some that somebody else looks at."""
         tree = Tree(self._tree.root, self._shown)  # which finds folders that have come since
         found = ((tree.read(path), before) for path, before in witness.items() if path not in but)

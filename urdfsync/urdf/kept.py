@@ -55,7 +55,10 @@ class Kept:
         return Piece(of) if self._keeps else of
 
     def same(self, name: Hashable, value: _Value) -> _Value:
-        """The value of the last time if this one is equal to it: for what gives the same texts then."""
+        """The object of the last time if it is equal to this value, so that what is made of it is found again.
+
+        For values of which equal ones give the same texts.
+        """
         known = self._last.get(name)
         if known is None or known[1] != value:
             known = (), value

@@ -51,7 +51,7 @@ class Builds:
         for _ in range(_ROUNDS):
             self._build_once(config, {watched.name: watched for watched in settled}, request)
             request = msgspec.structs.replace(request, jobs=1)  # what other processes see, the memory does not
-            settled = [watched for watched in settled if not self._rests(watched)]
+            settled = [watched for watched in settled if not self._conclude(watched)]
             if not settled:
                 return
             if self._pauses():
@@ -75,7 +75,7 @@ class Builds:
             self._robots.renew(watched)
         self._arm()
 
-    def _rests(self, watched: Watched) -> bool:
+    def _conclude(self, watched: Watched) -> bool:
         """Whether there is nothing left to do for a robot at once.
 
         What a robot is built from was sampled before the last build, and is compared with what is there after it:

@@ -90,7 +90,7 @@ class Robots:
             watched = before.get(robot.name) or Watched(robot, self._scope(robot), Settler(self._times))
             watched.robot, watched.scope, watched.built = robot, self._scope(robot), None
             self._robots[robot.name] = watched
-        self._memory.keep(self._robots)
+        self._memory.forget_others(self._robots)
 
     def named(self, names: Iterable[str]) -> list[Watched]:
         """The robots of these names, without those that are watched no more."""
@@ -132,7 +132,7 @@ class Robots:
             return True
         return bool(self._changed(watched, self.outputs(watched, outputs)))
 
-    def is_as_built(self, watched: Watched, now: Sample) -> bool:
+    def confirm(self, watched: Watched, now: Sample) -> bool:
         """Whether all is as the last build saw it, if a robot is built from what is `now`; else outputs are noticed.
 
         If so, it is remembered as it is now.
@@ -145,7 +145,7 @@ class Robots:
             if changed := self._changed(watched, outputs):
                 watched.noticed |= changed
                 return False
-            self._memory.looked(watched.name, outputs, begin, self._clock)
+            self._memory.note_look(watched.name, outputs, begin, self._clock)
         watched.built = now
         return True
 
@@ -157,7 +157,7 @@ class Robots:
         """Let the outputs be known as they are now, since a build has failed, however far it came."""
         begin = stamp.now()
         outputs = self.outputs(watched, watched.scope.outputs)
-        self._memory.looked(watched.name, outputs, begin, self._clock)
+        self._memory.note_look(watched.name, outputs, begin, self._clock)
 
     def tidy(self, others: Iterable[str]) -> None:
         """Forget the samples of files that do not matter any more, but for `others`."""

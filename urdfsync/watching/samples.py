@@ -90,8 +90,11 @@ def alike(old: Sample, new: Sample) -> bool:
     return old.keys() == new.keys() and not any(changed(old, new))
 
 
-def files_below(folder: str) -> Iterator[str]:
-    """All files in a folder and the folders in it; none if it can't be read."""
+def all_files_below(folder: str) -> Iterator[str]:
+    """All files in a folder and the folders in it; none if it can't be read.
+
+    Links to folders are not followed, and whatever stands there counts, not only what a build would read.
+    """
     for current, _, names in os.walk(folder):
         yield from (os.path.join(current, name) for name in names)  # noqa: PTH118 - many, and often
 

@@ -21,7 +21,7 @@ from urdfsync.planning import parents
 from urdfsync.planning.imports import sought
 from urdfsync.planning.memory import Memory
 from urdfsync.state.store import State, Store
-from urdfsync.watching.samples import files_below
+from urdfsync.watching.samples import all_files_below
 
 _LINKS = 40
 """So many symbolic links one path may lead through, as for the system."""
@@ -52,7 +52,7 @@ class Scope(msgspec.Struct, frozen=True, dict=True):
     def ingredients(self) -> Iterator[str]:
         """All files that the robot is built from, as they are now."""
         yield from self.inputs
-        yield from files_below(self.templates) if self.templates else ()
+        yield from all_files_below(self.templates) if self.templates else ()
 
 
 def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path], memory: Memory | None = None) -> Scope:
@@ -108,7 +108,7 @@ class Sight(msgspec.Struct, frozen=True):
     """Where changes of some scopes can be seen; without symbolic links."""
 
     robots: Mapping[str, set[str]]
-    """The robots to which a change of this name matters: an input's, that of a folder or link on the way to a file."""
+    """Robots by the paths whose change concerns them: their inputs, and each folder and link on the way there."""
     outputs: Mapping[str, Sequence[tuple[str, str, frozenset[str]]]]
     """By folder, the robots that have outputs in it, what they call it, and these outputs: there are thousands."""
     folders: frozenset[str]

@@ -133,7 +133,7 @@ class Line(msgspec.Struct, frozen=True):
 
 
 def bench_data(structure: Skeleton, target: Target, options: Options) -> dict[str, Any]:
-    """Data of the robot's benches; as in all that is a `structure` here, no number of the URDF counts."""
+    """Data of Run and Test. They depend on the structure of the robot alone, on no number of the URDF."""
     return _model_data(structure, target, options) | {
         "run_note": notes.run_note(target.name),
         "test_note": notes.test_note(target.name),

@@ -57,8 +57,8 @@ _STRICT: dict[str, Any] = {
 class Child(msgspec.Struct, eq=False):
     """Where a child of the root stands: its line, and the offset of its start tag in the text that is parsed.
 
-    Its own text goes on up to the next child. With `before` and `after`, the start and the end of the root, it is a
-    document.
+    Its own text goes on up to the next child; `before + text + after` is a document of its own: the start tag of the
+    root, this child, the end tag of the root.
     """
 
     line: int
