@@ -846,6 +846,26 @@ def test_an_edited_copy_is_kept_and_conflicts_with_a_new_source(project: Path) -
     assert exit_code([run()]) is Exit.IN_STEP
 
 
+def test_an_older_copy_serves_until_its_source_is_back(project: Path) -> None:
+    run()
+    signal, copy = project / "step.csv", project / LADDER / "Resources/step.txt"
+    original = copy.read_bytes()
+    copy.write_bytes(b"mine")
+    edit(signal, "0.1,5", "0.1,7")
+    assert kinds(run()) == {"Resources/step.txt": Kind.CONFLICT}
+    content = signal.read_bytes()
+    signal.unlink()
+    copy.write_bytes(original)
+    for request in ({}, {}, {"full": True}):
+        result = run(**request)
+        assert result.in_step
+        assert copy.read_bytes() == original
+    signal.write_bytes(content)
+    assert kinds(run()) == {"Resources/step.txt": Kind.UPDATE}
+    assert "0.1 7.0" in copy.read_text()
+    assert run().in_step
+
+
 def test_a_dependency_that_cant_be_used_is_a_warning(project: Path) -> None:
     (project / "step.csv").write_text("no numbers\n")
     result = run()

@@ -217,9 +217,10 @@ def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble:
         raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
     copied = digest(copy)
     written = copied if copied == recorded.base(record.target) else record.target_hash or copied
+    converter = facts.converter if written == record.target_hash else None  # an older copy, which was put back
     if recorded.moved or record.target != dependency.target:
         result.contents[dependency.target], written = copy, copied
-    _add(dependency, Import(dependency.target, record.source_hash, written, facts.converter, facts.facts), result)
+    _add(dependency, Import(dependency.target, record.source_hash, written, converter, facts.facts), result)
     message = f"{trouble.message}; the imported copy is kept"
     result.diagnostics.append(msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint=""))
 
