@@ -161,7 +161,8 @@ class Renewal:
         }
         for name, entry in self._imported.imports.items():
             if (place := key(entry.target)) not in stay:
-                wanted[place] = Wanted(Role.IMPORT, name, entry.target_hash)
+                at_hand = entry.target not in self._imported.hashes_only
+                wanted[place] = Wanted(Role.IMPORT, name, entry.target_hash, at_hand)
         orders = {key(path): names for path, names in self._generated.orders.items()}
         folder = situation.robot.folder
         if folder.parent != situation.robot.output and situation.parents.listed:
