@@ -20,6 +20,7 @@ from urdfsync.build import Request, build
 from urdfsync.files import text_digest
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.plan import Kind
+from urdfsync.planning import imports
 from urdfsync.state import operations
 
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
@@ -844,6 +845,43 @@ def test_an_edited_copy_is_kept_and_conflicts_with_a_new_source(project: Path) -
     assert kinds(run()) == {"Resources/step.txt": Kind.CONFLICT}
     copy.write_bytes(original)
     assert exit_code([run()]) is Exit.IN_STEP
+
+
+def test_an_older_copy_serves_until_its_source_is_back(project: Path) -> None:
+    run()
+    signal, copy = project / "step.csv", project / LADDER / "Resources/step.txt"
+    original = copy.read_bytes()
+    copy.write_bytes(b"mine")
+    edit(signal, "0.1,5", "0.1,7")
+    assert kinds(run()) == {"Resources/step.txt": Kind.CONFLICT}
+    content = signal.read_bytes()
+    signal.unlink()
+    copy.write_bytes(original)
+    for request in ({}, {}, {"full": True}):
+        result = run(**request)
+        assert result.in_step
+        assert copy.read_bytes() == original
+    signal.write_bytes(content)
+    assert kinds(run()) == {"Resources/step.txt": Kind.UPDATE}
+    assert "0.1 7.0" in copy.read_text()
+    assert run().in_step
+
+
+def test_a_copy_that_is_deleted_in_the_midst_of_a_build(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run()
+    edit(project / "ladder.json", '"ohm": 100', '"ohm": 120')
+    copy, bring_in = project / LADDER / "Resources/step.txt", imports.bring_in
+
+    def and_then_it_is_gone(*arguments: Any) -> imports.Imported:
+        found = bring_in(*arguments)
+        copy.unlink()
+        return found
+
+    with monkeypatch.context() as patch:
+        patch.setattr(imports, "bring_in", and_then_it_is_gone)
+        words = "it changed while urdfsync looked at it; build again [restless]"
+        assert failure() == f"{copy.relative_to(project)}: error: {words}"
+    assert kinds(run()) == {"Resources/step.txt": Kind.RESTORE, "Elements/R1Parameters.mo": Kind.UPDATE}
 
 
 def test_a_dependency_that_cant_be_used_is_a_warning(project: Path) -> None:

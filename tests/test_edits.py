@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import builtins
+import errno
 import gzip
 import json
+import os
 import shutil
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -602,6 +606,39 @@ def test_own_classes_that_mention_what_is_gone_are_named(project: Path) -> None:
     ]
     assert "`C1`" in found[0].message
     assert not run().diagnostics
+
+
+def test_an_own_class_behind_a_link_stops_no_build(project: Path, tmp_path: Path) -> None:
+    run()
+    (tmp_path / "Mine.mo").write_text("within Ladder.Elements;\nmodel Mine\n  extends C1;\nend Mine;\n")
+    Path(f"{LADDER}/Elements/Mine.mo").symlink_to(tmp_path / "Mine.mo")
+    drop("C1")
+    assert not run().diagnostics
+    assert not Path(f"{LADDER}/Elements/C1.mo").exists()
+
+
+@pytest.mark.parametrize(("module", "name"), [(builtins, "open"), (os, "stat")], ids=["file", "folder"])
+def test_an_own_class_that_cant_be_read_stops_no_build(
+    project: Path, monkeypatch: pytest.MonkeyPatch, module: ModuleType, name: str
+) -> None:
+    """Neither where the file is refused, nor where its folder lets nobody look at it."""
+    run()
+    mine = Path(f"{LADDER}/Elements/Mine.mo").absolute()
+    mine.write_text("within Ladder.Elements;\nmodel Mine\n  extends C1;\nend Mine;\n")
+    drop("C1")
+    real, refused = getattr(module, name), []
+
+    def refusing(path: Any, *arguments: Any, **keywords: Any) -> Any:
+        if str(path) == str(mine):
+            refused.append(path)
+            raise PermissionError(errno.EACCES, "Permission denied", str(path))
+        return real(path, *arguments, **keywords)
+
+    monkeypatch.setattr(module, name, refusing)
+    result = run()
+    assert refused
+    assert not result.diagnostics
+    assert not Path(f"{LADDER}/Elements/C1.mo").exists()
 
 
 # What waits

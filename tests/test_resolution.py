@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -193,6 +194,16 @@ def test_what_the_user_made_a_folder_cant_be_replaced() -> None:
     ]
     assert resolution.choices([folder], Choice.KEEP, shown) == {LINK: Choice.KEEP}
     assert resolution.choices([Target(ARM, conflict(MESH, Role.IMPORT))], Choice.TAKE, shown) == {MESH: Choice.TAKE}
+
+
+def test_what_is_not_at_hand_can_only_be_kept() -> None:
+    mesh = Target(ARM, msgspec.structs.replace(conflict(MESH, Role.IMPORT), at_hand=False))
+    assert refusals(Choice.TAKE, mesh) == [
+        f"{MESH}: error: it can't be taken: the file it is made from is not here; "
+        f"bring it back, or keep yours with `urdfsync resolve {MESH} --keep` [no-take]"
+    ]
+    assert refusals(Choice.MERGE, mesh)[0].endswith("and the file it is made from is not here; use --keep [no-merge]")
+    assert resolution.choices([mesh], Choice.KEEP, shown) == {MESH: Choice.KEEP}
 
 
 def test_what_is_impossible_can_be_left_out() -> None:

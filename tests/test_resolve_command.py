@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,8 @@ from typing import Any
 import pytest
 
 from urdfsync import cli
+from urdfsync.files import digest
+from urdfsync.plan import both
 from urdfsync.state.lock import Lock
 
 Capture = pytest.CaptureFixture[str]
@@ -17,6 +20,7 @@ Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
 
 LADDER = "modelica/Ladder"
 MODEL = f"{LADDER}/Ladder.mo"
+SIGNAL = f"{LADDER}/Resources/step.txt"
 MINE = '"Element R2, 1 %"'
 FRESH = '"Element R3"'
 
@@ -158,7 +162,7 @@ def several(clean: Path) -> Path:
     """One conflict that merges, one that doesn't, and an imported file that both sides changed."""
     edit(f"{LADDER}/Elements/R1Parameters.mo", "R = 100", "R = 110")
     edit("ladder.json", '"ohm": 100', '"ohm": 120')
-    edit(f"{LADDER}/Resources/step.txt", "#1", "#1 ")
+    edit(SIGNAL, "#1", "#1 ")
     edit("step.csv", "0.1,5", "0.1,7")
     return clean
 
@@ -177,7 +181,7 @@ def test_a_folder_stands_for_all_below_it(several: Path, capsys: Capture) -> Non
     assert conflicts(capsys) == ["Ladder.mo", "Resources/step.txt"]
     assert resolve(LADDER, "--take") == 0
     assert "R = 110" in Path(f"{LADDER}/Elements/R1Parameters.mo").read_text()
-    assert "0.1 7.0" in Path(f"{LADDER}/Resources/step.txt").read_text()
+    assert "0.1 7.0" in Path(SIGNAL).read_text()
 
 
 def test_several_files_are_settled_together_or_not_at_all(
@@ -212,9 +216,64 @@ def test_a_choice_that_waits_can_be_made_again(several: Path, capsys: Capture) -
 def test_all_can_be_kept_or_taken(several: Path, capsys: Capture) -> None:
     assert resolve("--all", "--keep") == 0
     assert conflicts(capsys) == []
-    assert "#1 \n" in Path(f"{LADDER}/Resources/step.txt").read_text()
+    assert "#1 \n" in Path(SIGNAL).read_text()
     assert resolve("--all", "--take") == 0
     assert capsys.readouterr().err == "note: nothing is in conflict [no-conflict]\n"
+
+
+# Imported files
+
+
+@pytest.fixture
+def unsourced(project: Path) -> Path:
+    """An imported file that both sides changed, and whose source is gone since: nobody has what it gave."""
+    assert cli.main(["build"]) == 0
+    edit(SIGNAL, "#1", "#1 ")
+    edit("step.csv", "0.1,5", "0.1,7")
+    assert cli.main(["build"]) == 3
+    Path("step.csv").rename("elsewhere.csv")
+    return project
+
+
+@pytest.mark.parametrize("options", [[], ["--dry-run"]])
+def test_what_nobody_has_cant_be_taken(
+    unsourced: Path, options: list[str], capsys: Capture, snapshot_of: Snapshot
+) -> None:
+    capsys.readouterr()
+    before = files(snapshot_of(unsourced))
+    assert resolve(SIGNAL, "--take", *options) == 2
+    assert capsys.readouterr().err == (
+        f"{Path(SIGNAL)}: error: it can't be taken: the file it is made from is not here; "
+        f"bring it back, or keep yours with `urdfsync resolve {Path(SIGNAL)} --keep` [no-take]\n"
+    )
+    assert resolve(LADDER, "--take", *options, "--json") == 2
+    assert [found["code"] for found in json.loads(capsys.readouterr().out)["diagnostics"]] == ["no-take"]
+    assert resolve("--all", "--take", *options) == 3
+    assert files(snapshot_of(unsourced)) == before
+
+
+def test_what_nobody_has_is_not_offered(unsourced: Path, capsys: Capture) -> None:
+    assert cli.main(["build"]) == 3
+    out = capsys.readouterr().out
+    assert "It is no text that could be merged, and the file it is made from is not here." in out
+    assert "--take" not in out
+    assert resolve(SIGNAL, "--keep") == 0
+    assert conflicts(capsys) == []
+    assert "#1 \n" in Path(SIGNAL).read_text()
+
+
+def test_a_choice_waits_for_what_nobody_has(unsourced: Path, capsys: Capture) -> None:
+    """Whatever has recorded it: `resolve` itself takes an imported file at once, or not at all."""
+    manifest = Path(".urdfsync/robots/ladder.toml")
+    generated = tomllib.loads(manifest.read_text())["dependencies"]["step.csv"]["target_hash"]
+    chosen_for = both(digest(Path(SIGNAL).read_bytes()), generated)
+    edit(manifest, 'state = "conflict"', f'state = "conflict"\nchoice = "take"\nchosen_for = "{chosen_for}"')
+    edit("ladder.json", '"ohm": 100', '"ohm": 120')
+    assert cli.main(["build"]) == 3
+    assert conflicts(capsys) == ["Resources/step.txt"]
+    Path("elsewhere.csv").rename("step.csv")
+    assert cli.main(["build"]) == 0
+    assert "0.1 7.0" in Path(SIGNAL).read_text()
 
 
 # What a path may be
@@ -401,7 +460,7 @@ def test_as_json(several: Path, capsys: Capture) -> None:
     assert record["merges"] is False
     assert record["reason"] == "the changes contradict each other"
     assert record["merge"] == ".urdfsync/conflicts/ladder/Elements/R1Parameters.merge.txt"
-    assert (table["path"], table["base"], table["generated"]) == (f"{LADDER}/Resources/step.txt", None, None)
+    assert (table["path"], table["base"], table["generated"]) == (SIGNAL, None, None)
     assert document("nothing.mo", "--keep")["diagnostics"][0]["code"] == "no-conflict"
     assert document("--all", "--keep")["robots"][0]["conflicts"] == []
     assert document("--all", "--keep") == {

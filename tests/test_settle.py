@@ -66,6 +66,12 @@ def test_without_a_base_nothing_is_merged(kind: Kind, choice: Choice | None) -> 
     assert settled(action, standoff, choice, merging=True).action.kind is kind
 
 
+def test_what_is_not_at_hand_cant_be_taken() -> None:
+    mesh = Action("arm.stl", Kind.CONFLICT, Role.IMPORT, "mesh arm.stl", "base", "new", mine="mine", at_hand=False)
+    kinds = {choice: settled(mesh, None, choice).action.kind for choice in Choice}
+    assert kinds == {Choice.KEEP: Kind.KEEP, Choice.TAKE: Kind.CONFLICT, Choice.MERGE: Kind.CONFLICT}
+
+
 @pytest.mark.parametrize("choice", [None, *Choice])
 def test_keep_moves_the_base_on_and_nothing_else_does(choice: Choice | None) -> None:
     action = settled(CONFLICT, texts(CONFLICT, MINE), choice).action

@@ -130,8 +130,8 @@ class Import(msgspec.Struct, frozen=True):
     """SHA-256 (hex) of the dependency's bytes."""
     target_hash: str
     """SHA-256 (hex) of the imported bytes."""
-    converter: int
-    """`Domain.converter` at the time of the import."""
+    converter: int | None
+    """`Domain.converter` at the time of the import; None for an older copy, which was not made from these bytes."""
     facts: Mapping[str, Any]
 
 

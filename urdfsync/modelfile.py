@@ -21,7 +21,7 @@ class ConversionFacts(msgspec.Struct, frozen=True):
     """What a conversion found out, and of which bytes."""
 
     source_hash: str
-    converter: int
+    converter: int | None
     facts: dict[str, Any]
 
 

@@ -124,6 +124,8 @@ class Wanted(msgspec.Struct, frozen=True):
     role: Role
     owner: str
     hash: str
+    at_hand: bool = True
+    """Whether its content can be had; else nothing but the hash is known of it."""
 
     @classmethod
     def again(cls, record: FileRecord) -> Self:
@@ -152,11 +154,18 @@ class Action(msgspec.Struct, frozen=True):
     """Hash of the text that merges the user's edits with what is new; None if nothing is merged."""
     held: bool = False
     """Put off until the robot's conflicts are resolved."""
+    at_hand: bool = True
+    """Whether what is generated can be had."""
 
     @property
     def reason(self) -> str:
         """Why, as the end of a sentence that begins with the path."""
         return _REASONS[self.kind] + ("; waits until the conflict is settled" if self.held else "")
+
+    @property
+    def replaceable(self) -> bool:
+        """Whether what is generated can take the place of what is there, which must be a file."""
+        return self.mine is not None and self.at_hand
 
     @property
     def writes(self) -> bool:
@@ -270,7 +279,8 @@ def _action(
     kind = decide(base, mine, generated)
     if kind is Kind.FORGET and base is None:
         return None
-    return Action(path, kind, role, owner, base, generated, mine=mine.hash)
+    at_hand = target is None or target.at_hand
+    return Action(path, kind, role, owner, base, generated, mine=mine.hash, at_hand=at_hand)
 
 
 def spare(actions: Iterable[Action], stays: Callable[[str, Collection[str]], bool]) -> tuple[Action, ...]:

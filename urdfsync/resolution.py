@@ -16,6 +16,7 @@ from urdfsync.standoff import Choice, Standoff
 
 FOLDER = ".urdfsync/conflicts"
 """Where the versions of conflicting files are put aside, below the configuration's folder."""
+_NOT_HERE = "the file it is made from is not here"
 _FEW = 5
 """So many conflicts are named in a message; of more, only the first ones and their number."""
 
@@ -57,8 +58,8 @@ class Target(msgspec.Struct, frozen=True):
 
     @property
     def replaceable(self) -> bool:
-        """Whether `--take` settles it: what is there must be a file."""
-        return self.settled or self.action.mine is not None
+        """Whether `--take` settles it: what is there must be a file, and what is generated at hand."""
+        return self.settled or self.action.replaceable
 
     def places(self) -> set[Path]:
         """The absolute paths by which it is known: where the user's file is, and where it is to go."""
@@ -166,7 +167,10 @@ def possible(found: Iterable[Target], choice: Choice) -> dict[str, Choice]:
 
 def _problems(target: Target, choice: Choice, shown: Callable[[Path], str]) -> Iterator[Diagnostic]:
     """Why the choice can't be had for a file."""
-    if choice is Choice.TAKE and not target.replaceable:
+    if choice is Choice.TAKE and not target.action.at_hand:
+        message = f"it can't be taken: {_NOT_HERE}"
+        hint = f"bring it back, or keep yours with `urdfsync resolve {_name(target, shown)} --keep`"
+    elif choice is Choice.TAKE and not target.replaceable:
         message, hint = f"it can't be replaced: {standing(target)}", "move it away, then build"
     elif choice is Choice.MERGE and target.orphan:
         message, hint = (
@@ -174,7 +178,8 @@ def _problems(target: Target, choice: Choice, shown: Callable[[Path], str]) -> I
             "--keep makes it yours, --take deletes it",
         )
     elif choice is Choice.MERGE and not target.merges:
-        message, hint = f"it can't be merged: {standing(target)}", "use --keep or --take"
+        message = f"it can't be merged: {standing(target)}"
+        hint = "use --keep or --take" if target.replaceable else "use --keep"
         put_aside = aside(target)
         if put_aside and put_aside.merge:
             proposal = shown(target.result.root / put_aside.merge)
@@ -188,7 +193,7 @@ def standing(target: Target) -> str:
     """How the sides stand to each other, as a clause."""
     standoff = target.standoff
     if standoff is None:
-        return "it is no text that could be merged"
+        return f"it is no text that could be merged{'' if target.action.at_hand else f', and {_NOT_HERE}'}"
     if standoff.merge is None and standoff.rejected:
         return standoff.rejected
     if standoff.merge is None:

@@ -67,7 +67,7 @@ def _settled(action: Action, standoff: Standoff | None, choice: Choice | None, m
     action = msgspec.structs.replace(action, choice=choice)
     if choice is Choice.KEEP:
         return Settled(msgspec.structs.replace(action, kind=Kind.KEEP, base=action.generated))
-    if choice is Choice.TAKE and action.mine is not None:
+    if choice is Choice.TAKE and action.replaceable:
         return Settled(_with(action, Kind.UPDATE))
     if merged is not None and (choice is Choice.MERGE or merging):
         return Settled(_with(action, Kind.MERGE), merged)

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import urdfsync
-from urdfsync import config
+from urdfsync import cli, config
 from urdfsync.build import Request, build
 from urdfsync.diagnostics import OutputError
 from urdfsync.outcome import Exit, Result, exit_code
@@ -120,6 +120,14 @@ def test_readers_wait_for_writers_only(path: Path) -> None:
         two.acquire(shared=True)
 
 
+def test_without_a_lock_file_there_is_no_writer_to_wait_for(path: Path) -> None:
+    lock = Lock(path, 0)
+    lock.acquire(shared=True)
+    assert not lock.held
+    lock.release()
+    assert not path.exists(), "who only reads makes no file"
+
+
 def test_a_lock_file_that_cant_be_one(path: Path) -> None:
     path.mkdir(parents=True)
     with pytest.raises(OutputError, match="it can't be written"):
@@ -161,6 +169,17 @@ def test_a_dry_run_waits_for_a_build_that_is_writing(project: Path) -> None:
         assert found.code == "locked"
     (found,) = run(project, dry=True).diagnostics
     assert (found.code, found.hint) == ("interrupted", "run `urdfsync build`, which finishes or undoes it")
+
+
+@pytest.mark.parametrize("arguments", [["status"], ["build", "--check"], ["build", "--dry-run"]])
+def test_an_interrupted_build_is_told_without_its_lock_file(
+    project: Path, arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    journal = project / ".urdfsync/journal/apply.json"
+    journal.parent.mkdir(parents=True)
+    journal.write_text("{}")
+    assert cli.main(arguments) == Exit.ERROR
+    assert "the last build was interrupted; run `urdfsync build`" in capsys.readouterr().err
 
 
 def test_the_lock_belongs_to_the_whole_command(project: Path) -> None:

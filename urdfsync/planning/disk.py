@@ -129,7 +129,8 @@ class Disk:
 
     def classes(self, folder: str) -> set[str]:
         """All Modelica files below a folder, its own and others, as far as they can be read."""
-        return {self.key(path) for path in self.path(folder).rglob("*.mo") if path.is_file()}
+        files = self.path(folder).rglob("*.mo")
+        return {self.key(path) for path in files if os.path.isfile(path)}  # noqa: PTH113 - a folder may let nobody in
 
     def look(self, place: str) -> Hashed | None:
         """What is at an absolute path without detours; None for nothing. Raises OutputError as `read`."""

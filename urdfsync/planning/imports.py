@@ -41,6 +41,8 @@ class Imported(msgspec.Struct):
     contents: dict[str, bytes] = msgspec.field(default_factory=dict)
     records: dict[str, DependencyRecord] = msgspec.field(default_factory=dict)
     diagnostics: list[Diagnostic] = msgspec.field(default_factory=list)
+    hashes_only: set[str] = msgspec.field(default_factory=set)
+    """Targets of which nobody has the bytes that should be there: the copy has others, and the source is gone."""
 
 
 def unchanged(dependencies: Sequence[Dependency], records: Mapping[str, DependencyRecord], converter: int) -> bool:
@@ -217,9 +219,12 @@ def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble:
         raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
     copied = digest(copy)
     written = copied if copied == recorded.base(record.target) else record.target_hash or copied
+    converter = facts.converter if written == record.target_hash else None  # an older copy, which was put back
     if recorded.moved or record.target != dependency.target:
         result.contents[dependency.target], written = copy, copied
-    _add(dependency, Import(dependency.target, record.source_hash, written, facts.converter, facts.facts), result)
+    if written != copied:
+        result.hashes_only.add(dependency.target)
+    _add(dependency, Import(dependency.target, record.source_hash, written, converter, facts.facts), result)
     message = f"{trouble.message}; the imported copy is kept"
     result.diagnostics.append(msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint=""))
 

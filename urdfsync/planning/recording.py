@@ -9,6 +9,8 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import manifest, modelfile, profiling
+from urdfsync.config import shown
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role, Snapshot
 from urdfsync.manifest import Manifest
 from urdfsync.plan import CONFLICTS, DELETES, FileRecord
@@ -92,11 +94,19 @@ class Recording:
             return encode(decision.texts[key])
         path = key.removeprefix(self._situation.key(""))
         if role is Role.IMPORT:
-            return self._imported.contents[path]
+            return self._import(key, path)
         mine = (self._situation.disk.read(key) or b"") if self._situation.disk.has_returns(key) else b""
         if 2 * mine.count(b"\r\n") > mine.count(b"\n"):
             return self._outputs.content(path).replace(b"\n", b"\r\n")
         return self._outputs.shelved(path)
+
+    def _import(self, key: str, path: str) -> bytes:
+        """The bytes of an imported file. Raises OutputError if its copy was to serve, and has changed since."""
+        content = self._imported.contents.get(path)
+        if content is None:
+            message, file = "it changed while urdfsync looked at it", shown(self._situation.disk.path(key))
+            raise OutputError(Diagnostic(Severity.ERROR, "restless", message, file, hint="build again"))
+        return content
 
     def _aside(self, decision: Decision) -> Iterator[tuple[str, bytes]]:
         """What is put aside of conflicts: path below the robot's folder, and content."""

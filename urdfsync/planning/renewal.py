@@ -9,7 +9,7 @@ from collections.abc import Mapping, Set
 from urdfsync import changes, profiling, vanished
 from urdfsync.changes import Changes, Stale
 from urdfsync.config import shown
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.difference import ElementKey, Version
 from urdfsync.domain import Role, Target
 from urdfsync.moves import places
@@ -160,7 +160,8 @@ class Renewal:
         }
         for name, entry in self._imported.imports.items():
             if (place := key(entry.target)) not in stay:
-                wanted[place] = Wanted(Role.IMPORT, name, entry.target_hash)
+                at_hand = entry.target not in self._imported.hashes_only
+                wanted[place] = Wanted(Role.IMPORT, name, entry.target_hash, at_hand)
         orders = {key(path): names for path, names in self._generated.orders.items()}
         folder = situation.robot.folder
         if folder.parent != situation.robot.output and situation.parents.listed:
@@ -235,13 +236,20 @@ class Renewal:
         edited = {action.path for action in decision.actions if action.kind in _USERS and not action.held}
         others = situation.disk.classes(situation.folder) - {action.path for action in decision.actions}
         for key in sorted(edited | others):
-            text = decision.texts.get(key) or situation.disk.text(key) or ""
+            text = decision.texts.get(key) or self._text(key)
             for name, line in vanished.mentions(text, self.vanished)[:1]:
                 message = f"`{name}` is mentioned here, but the package has no such name any more"
                 hint = "adapt your text to what the package is now"
                 file = shown(situation.disk.path(key))
                 found.append(Diagnostic(Severity.WARNING, "vanished-name", message, file, line, hint=hint))
         return found
+
+    def _text(self, key: str) -> str:
+        """What is in a file that is only searched: nothing if it can't be read, since it may be the user's own."""
+        try:
+            return self._situation.disk.text(key) or ""
+        except OutputError:
+            return ""
 
     def _old_path(self, key: str) -> str:
         """Path of a file of the last build below the folder that the package had then."""

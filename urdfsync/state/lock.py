@@ -63,6 +63,8 @@ class Lock:
     def acquire(self, shared: bool = False, waiting: Callable[[], None] = lambda: None) -> None:
         """Take the lock, unless it is held already; `shared` waits for writers only. Calls `waiting` on and on.
 
+        Where no lock file is, no writer holds it, so that `shared` takes nothing.
+
         Raises LockedError after `wait` seconds, and at once if that has happened before; OutputError if
         the file can't be used.
         """
@@ -71,6 +73,8 @@ class Lock:
         try:
             descriptor = self._open(shared)
         except OSError as error:
+            if shared and isinstance(error, FileNotFoundError):
+                return
             raise failure(error, self._shown(self._path)) from None
         try:
             self._wait_for(descriptor, shared, waiting)
