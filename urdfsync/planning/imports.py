@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -19,6 +20,9 @@ from urdfsync.planning import packages
 
 _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
+_ABSOLUTE = re.compile(r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]", re.IGNORECASE)
+"""A place on this machine, to which search paths make no difference."""
+_IN_PACKAGE = re.compile("[a-z]+://([^/]+)/", re.IGNORECASE)
 
 
 class Recorded(msgspec.Struct, frozen=True):
@@ -190,9 +194,14 @@ def _pointer(dependency: Dependency, source: str) -> Diagnostic:
 def _not_found(dependency: Dependency, source: str) -> Diagnostic:
     message = f"{dependency.noun} `{dependency.uri}` not found"
     hint = "add the folder that holds it to `package_paths`"
-    if dependency.uri.strip().lower().startswith(("http:", "https:", "ftp:")):
+    uri = dependency.uri.strip()
+    if uri.lower().startswith(("http:", "https:", "ftp:")):
         message = f"{dependency.noun} `{dependency.uri}` is on the network, where urdfsync does not look"
         hint = "download it, and let the source refer to the file"
+    elif _ABSOLUTE.match(uri):
+        hint = "put it there, or let the source refer to it by a package or a relative path"
+    elif package := _IN_PACKAGE.match(uri):
+        hint = f"add the folder that holds the folder `{package[1]}` to `package_paths`"
     return Diagnostic(Severity.WARNING, "not-found", message, source, hint=hint)
 
 
