@@ -97,7 +97,10 @@ def bring_in(
         found = _find(dependency)
         if found is None:
             _keep(dependency, recorded, result, _not_found(dependency, source))
-        elif again or not _serve(domain, dependency, digest(found[1]), recorded, result):
+            continue
+        if dependency.guessed:
+            result.diagnostics.append(_doubt(dependency, source))
+        if again or not _serve(domain, dependency, digest(found[1]), recorded, result):
             _convert(domain, dependency, found, recorded, source, result)
     return result
 
@@ -105,12 +108,27 @@ def bring_in(
 def sought(
     domain: Domain, snapshot: Snapshot, lookup: Lookup, options: Any, lines: Mapping[str, int]
 ) -> Sequence[Dependency]:
-    """The files that a model refers to; packages are searched for only if one of them is not found without."""
+    """The files that a model refers to.
+
+    Packages are searched for only if one of them is not found without; what is not found then either is guessed.
+    """
     found = domain.dependencies(snapshot, lookup, options, lines)
-    if all(any(map(_is_file, dependency.candidates)) for dependency in found):
+    if all(map(_is_found, found)):
         return found
     lookup = msgspec.structs.replace(lookup, packages=packages.find(lookup.package_paths, lookup.source))
-    return domain.dependencies(snapshot, lookup, options, lines)
+    found = domain.dependencies(snapshot, lookup, options, lines)
+    if all(map(_is_found, found)):
+        return found
+    guesses = domain.dependencies(snapshot, msgspec.structs.replace(lookup, guess=True), options, lines)
+    return [one if _is_found(one) else _guessed(guess) for one, guess in zip(found, guesses, strict=True)]
+
+
+def _is_found(dependency: Dependency) -> bool:
+    return any(map(_is_file, dependency.candidates))
+
+
+def _guessed(dependency: Dependency) -> Dependency:
+    return msgspec.structs.replace(dependency, guessed=_is_found(dependency))
 
 
 def _find(dependency: Dependency) -> tuple[Path, bytes] | None:
@@ -203,6 +221,13 @@ def _not_found(dependency: Dependency, source: str) -> Diagnostic:
     elif package := _IN_PACKAGE.match(uri):
         hint = f"add the folder that holds the folder `{package[1]}` to `package_paths`"
     return Diagnostic(Severity.WARNING, "not-found", message, source, hint=hint)
+
+
+def _doubt(dependency: Dependency, source: str) -> Diagnostic:
+    message = f"{dependency.noun} `{dependency.uri}` is taken from a folder that is not called like its package"
+    hint = "rename the folder; or, if it is another package, add the right one's folder to `package_paths`"
+    code = f"{dependency.noun}-guessed"
+    return Diagnostic(Severity.WARNING, code, message, source, dependency.line, hint=hint)
 
 
 def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble: Diagnostic) -> None:
