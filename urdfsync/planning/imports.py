@@ -225,7 +225,7 @@ def _not_found(dependency: Dependency, source: str) -> Diagnostic:
 
 def _doubt(dependency: Dependency, source: str) -> Diagnostic:
     message = f"{dependency.noun} `{dependency.uri}` is taken from a folder that is not called like its package"
-    hint = "rename the folder; or, if it is another package, add the right one's folder to `package_paths`"
+    hint = "rename the folder, or add that of the right package to `package_paths`"
     code = f"{dependency.noun}-guessed"
     return Diagnostic(Severity.WARNING, code, message, source, dependency.line, hint=hint)
 
