@@ -123,6 +123,30 @@ def test_a_package_elsewhere_in_the_workspace_is_found_by_its_name(arm: Path) ->
     assert run(arm).in_step
 
 
+def test_a_package_whose_folder_has_another_name_is_a_guess(arm: Path) -> None:
+    run(arm)
+    before = contents(arm / "modelica")
+    (arm / "ws/src/six_axis_arm").rename(arm / "ws/src/arm-main")
+    (arm / "urdfsync.toml").write_text(CONFIGURATION.replace("ws/src/six_axis_arm/", "ws/src/arm-main/"))
+    assert {found.code for found in run(arm, full=True).diagnostics} == {"mesh-guessed"}
+    assert contents(arm / "modelica") == before
+    (arm / "ws/src/arm-main/package.xml").write_text("<package><name>six_axis_arm</name></package>")
+    assert not run(arm, full=True).diagnostics
+
+
+def test_a_package_of_the_name_goes_before_a_guess(arm: Path) -> None:
+    vendor, mesh = arm / "vendor/arm-2.1", "meshes/carousel.obj"
+    (arm / "ws/src/six_axis_arm").rename(arm / "ws/src/arm-main")
+    shutil.copytree(arm / "ws/src/arm-main/meshes", vendor / "meshes")
+    (vendor / mesh).write_text((vendor / mesh).read_text().replace("\nv ", "\nv 9", 1))
+    (vendor / "package.xml").write_text("<package><name>six_axis_arm</name></package>")
+    configuration = CONFIGURATION.replace("ws/src/six_axis_arm/", "ws/src/arm-main/") + 'package_paths = ["vendor"]\n'
+    (arm / "urdfsync.toml").write_text(configuration)
+    assert not run(arm).diagnostics
+    (copy,) = (arm / "modelica/Arm/Resources").glob("carousel_*.obj")
+    assert copy.read_bytes() == (vendor / mesh).read_bytes()
+
+
 def test_an_edited_file_survives_every_build(arm: Path) -> None:
     run(arm)
     source = arm / "ws/src/six_axis_arm/six_axis_arm.urdf"

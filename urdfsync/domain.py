@@ -113,6 +113,8 @@ class Dependency(msgspec.Struct, frozen=True):
     """What it is, in one lower-case word, for messages and the codes of diagnostics."""
     line: int = 0
     """Line of the source that first refers to it; 0 if unknown."""
+    guessed: bool = False
+    """Whether it is found only in a folder that does not have the name of its package."""
 
 
 class Conversion(msgspec.Struct, frozen=True):
@@ -160,6 +162,8 @@ class Lookup(msgspec.Struct, frozen=True):
     """Folders whose children are packages, from the configuration and the environment, best first."""
     packages: Mapping[str, Path] = msgspec.field(default_factory=dict)
     """Folders of packages by their name, wherever they are; filled only if something was not found without."""
+    guess: bool = False
+    """Whether a package that is nowhere may be a folder of another name around the source."""
 
 
 class Target(msgspec.Struct, frozen=True):

@@ -93,6 +93,21 @@ def test_files_on_the_network_are_for_the_user_to_fetch(tmp_path: Path, uri: str
     )
 
 
+@pytest.mark.parametrize(
+    ("uri", "hint"),
+    [
+        ("package://ladder_data/step.csv", "add the folder that holds the folder `ladder_data` to `package_paths`"),
+        ("tables/step.csv", "add the folder that holds it to `package_paths`"),
+        ("/opt/tables/step.csv", "put it there, or let the source refer to it by a package or a relative path"),
+        ("file:///opt/step.csv", "put it there, or let the source refer to it by a package or a relative path"),
+        (r"D:\tables\step.csv", "put it there, or let the source refer to it by a package or a relative path"),
+    ],
+)
+def test_what_to_do_about_a_file_that_is_not_found_goes_by_its_reference(tmp_path: Path, uri: str, hint: str) -> None:
+    (found,) = bring_in(dependency(tmp_path / "gone", uri)).diagnostics
+    assert (found.message, found.hint) == (f"table `{uri}` not found; left out", hint)
+
+
 def test_a_pointer_of_git_lfs_is_told_as_such(tmp_path: Path) -> None:
     file = tmp_path / "step.csv"
     file.write_bytes(b"version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 12\n")

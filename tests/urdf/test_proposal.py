@@ -48,6 +48,7 @@ def robot(*children: str, root: str = "base", kind: JointType = "revolute", join
         ("l_foot", "r_foot"),
         ("LF_HIP", "RF_HIP"),
         ("leftUpperLeg", "rightUpperLeg"),
+        ("fl_lowerleg", "fr_lowerleg"),
         ("leg1", "leg2", "leg3"),
         ("MP_ANKLE1_L", "MP_ANKLE1_R"),
     ],

@@ -199,6 +199,36 @@ def test_a_wrong_xml_version_is_tolerated() -> None:
     assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [("warning", "xml-version", 1)]
 
 
+@pytest.mark.parametrize(
+    "declaration",
+    [
+        "<?xml version=1.0?>",
+        "<?XML version='1.0'?>",
+        "<?xml encoding='utf-8' version='1.0'?>",
+        "<?xml version='1.0'encoding='utf-8'?>",
+        "<?xml verison='1.0'\r\n?>",
+    ],
+)
+def test_a_declaration_that_is_not_well_formed_is_tolerated(declaration: str) -> None:
+    reading = read(f"{declaration}<robot name='cart'>\r\n<link name='body'/></robot>")
+    assert reading.robot == Robot("cart", (Link("body"),))
+    assert [(d.severity, d.code, d.line) for d in reading.diagnostics] == [(Severity.WARNING, "xml-declaration", 1)]
+
+
+def test_blanks_before_the_declaration_are_tolerated() -> None:
+    reading = read("\r\n \n" + ARM)
+    assert reading.robot == robot_of(ARM)
+    assert [(d.severity, d.code, d.line) for d in reading.diagnostics] == [(Severity.WARNING, "xml-declaration", 3)]
+    assert reading.lines["robot"] == read(ARM).lines["robot"] + 2
+
+
+def test_only_a_declaration_without_faults_names_the_encoding() -> None:
+    text = "<?xml version='1.0' encoding='iso-8859-1'?><robot name='ä'><link name='ö'/></robot>"
+    assert read_robot(text.encode("latin-1"), "a.urdf").robot == Robot("ä", (Link("ö"),))
+    (found,) = (d for d in read_robot(f"\n{text}".encode("latin-1"), "a.urdf").diagnostics if d.severity == "error")
+    assert (found.code, found.line) == ("file-encoding", 2)
+
+
 def test_undeclared_prefixes_are_tolerated_once_each() -> None:
     text = ARM.replace(' xmlns:q="urn:q"', "").replace("</robot>", '<q:b p:z="1"/>\n<p:c/></robot>')
     reading = read(text)
@@ -258,7 +288,8 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (b"<?xml version='1.0' encoding='klingon'?><robot/>", "file-encoding", 1),
         (b"<?xml version='1.0' encoding='rot13'?><robot/>", "file-encoding", 1),
         (b"<?xml version='1.0' encoding='undefined'?><robot/>", "file-encoding", 1),
-        (b"<?xml version=1.0?><robot/>", "xml-syntax", 1),
+        (b"<!-- cart -->\n<?xml version='1.0'?>\n<robot/>", "xml-syntax", 2),
+        (b"<?xml version='1.0'>\n<robot/>", "xml-syntax", 1),
         (f"{LAUGHS}<robot name='r'>&b;</robot>".encode(), "xml-entity", 1),
         (f"\n{LAUGHS}<robot name='&b;'/>".encode(), "xml-entity", 2),
         (b"<!DOCTYPE robot [<!ENTITY a SYSTEM 'file:///etc/passwd'>]><robot/>", "xml-entity", 1),
@@ -286,6 +317,29 @@ def test_a_file_that_is_no_urdf_is_one_error(content: bytes, code: str, line: in
 def test_a_syntax_error_has_its_column() -> None:
     (diagnostic,) = read("<robot>\n  <link name=a/></robot>").diagnostics
     assert (diagnostic.line, diagnostic.column) == (2, 14)
+
+
+@pytest.mark.parametrize(
+    ("text", "message", "hint"),
+    [
+        ("<link name='a & b'/>", "an `&` begins no character reference", "write `&amp;`"),
+        ("<link name='R&D'/>", "an `&` begins no character reference", "write `&amp;`"),
+        ("<mass value='&kg;'/>", "Entity 'kg' not defined", "replace the entity by its text"),
+        ("<link name='a<b'/>", "Unescaped '<' not allowed in attributes values", "write `&lt;`"),
+        ("<link name=a/>", "the value of an attribute has no quotes", "put it in quotes"),
+        ("<link name='a' name='b'/>", "an element has the same attribute twice", "remove one of them"),
+        ("<!-- wheels -- left -->", "`--` stands inside of a comment", "take it out, or close the comment"),
+        ("<link name='&#7;'/>", "a character stands here that XML does not allow", "remove it"),
+        ("<?xml version='1.0'?>", "an XML declaration comes too late", "remove what is before it"),
+        ("<a>" * 300 + "</a>" * 300, "elements stand inside of one another 256 deep", "make it less deep"),
+    ],
+)
+def test_what_is_often_wrong_in_xml_is_said_with_what_to_do(text: str, message: str, hint: str) -> None:
+    (found,) = read(f"<robot name='r'>\n{text}</robot>").diagnostics
+    assert (found.code, found.line) == ("xml-syntax", 2)
+    assert found.message.startswith(f"this is not well-formed XML: {message}")
+    assert hint in found.hint
+    assert found.hint.endswith(", or wait until the export is complete")
 
 
 def test_what_looks_like_a_fault_in_a_comment_is_none() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -19,6 +20,9 @@ from urdfsync.planning import packages
 
 _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
+_ABSOLUTE = re.compile(r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]", re.IGNORECASE)
+"""A place on this machine, to which search paths make no difference."""
+_IN_PACKAGE = re.compile("[a-z]+://([^/]+)/", re.IGNORECASE)
 
 
 class Recorded(msgspec.Struct, frozen=True):
@@ -95,7 +99,10 @@ def bring_in(
         found = _find(dependency)
         if found is None:
             _keep(dependency, recorded, result, _not_found(dependency, source))
-        elif again or not _serve(domain, dependency, digest(found[1]), recorded, result):
+            continue
+        if dependency.guessed:
+            result.diagnostics.append(_doubt(dependency, source))
+        if again or not _serve(domain, dependency, digest(found[1]), recorded, result):
             _convert(domain, dependency, found, recorded, source, result)
     return result
 
@@ -103,12 +110,27 @@ def bring_in(
 def sought(
     domain: Domain, snapshot: Snapshot, lookup: Lookup, options: Any, lines: Mapping[str, int]
 ) -> Sequence[Dependency]:
-    """The files that a model refers to; packages are searched for only if one of them is not found without."""
+    """The files that a model refers to.
+
+    Packages are searched for only if one of them is not found without; what is not found then either is guessed.
+    """
     found = domain.dependencies(snapshot, lookup, options, lines)
-    if all(any(map(_is_file, dependency.candidates)) for dependency in found):
+    if all(map(_is_found, found)):
         return found
     lookup = msgspec.structs.replace(lookup, packages=packages.find(lookup.package_paths, lookup.source))
-    return domain.dependencies(snapshot, lookup, options, lines)
+    found = domain.dependencies(snapshot, lookup, options, lines)
+    if all(map(_is_found, found)):
+        return found
+    guesses = domain.dependencies(snapshot, msgspec.structs.replace(lookup, guess=True), options, lines)
+    return [one if _is_found(one) else _guessed(guess) for one, guess in zip(found, guesses, strict=True)]
+
+
+def _is_found(dependency: Dependency) -> bool:
+    return any(map(_is_file, dependency.candidates))
+
+
+def _guessed(dependency: Dependency) -> Dependency:
+    return msgspec.structs.replace(dependency, guessed=_is_found(dependency))
 
 
 def _find(dependency: Dependency) -> tuple[Path, bytes] | None:
@@ -192,10 +214,22 @@ def _pointer(dependency: Dependency, source: str) -> Diagnostic:
 def _not_found(dependency: Dependency, source: str) -> Diagnostic:
     message = f"{dependency.noun} `{dependency.uri}` not found"
     hint = "add the folder that holds it to `package_paths`"
-    if dependency.uri.strip().lower().startswith(("http:", "https:", "ftp:")):
+    uri = dependency.uri.strip()
+    if uri.lower().startswith(("http:", "https:", "ftp:")):
         message = f"{dependency.noun} `{dependency.uri}` is on the network, where urdfsync does not look"
         hint = "download it, and let the source refer to the file"
+    elif _ABSOLUTE.match(uri):
+        hint = "put it there, or let the source refer to it by a package or a relative path"
+    elif package := _IN_PACKAGE.match(uri):
+        hint = f"add the folder that holds the folder `{package[1]}` to `package_paths`"
     return Diagnostic(Severity.WARNING, "not-found", message, source, hint=hint)
+
+
+def _doubt(dependency: Dependency, source: str) -> Diagnostic:
+    message = f"{dependency.noun} `{dependency.uri}` is taken from a folder that is not called like its package"
+    hint = "rename the folder, or add that of the right package to `package_paths`"
+    code = f"{dependency.noun}-guessed"
+    return Diagnostic(Severity.WARNING, code, message, source, dependency.line, hint=hint)
 
 
 def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble: Diagnostic) -> None:

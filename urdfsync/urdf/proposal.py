@@ -14,7 +14,10 @@ _LIMBS = (
     ("wheels", re.compile(r"wheel|caster|castor|track(?!er|ing)", re.IGNORECASE)),
     (
         "legs",
-        re.compile(r"(?<![a-z])(?:leg|foot|feet|ankle|knee|hip|thigh|calf|shank|shin|toe)s?(?![a-z])", re.IGNORECASE),
+        re.compile(
+            r"(?<![a-z])(?:(?:upper|lower)?leg|foot|feet|ankle|knee|hip|thigh|calf|shank|shin|toe)s?(?![a-z])",
+            re.IGNORECASE,
+        ),
     ),
 )
 _CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")

@@ -16,6 +16,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Parts
 from urdfsync.urdf.reader import checks, chunks, xml
 from urdfsync.urdf.reader.chunks import Chunk
+from urdfsync.urdf.reader.faults import Fault
 from urdfsync.urdf.reader.fields import Element, Findings
 from urdfsync.urdf.reader.link import resolve_materials
 from urdfsync.urdf.reader.part import MODELLED, Leftover, Part, read_part
@@ -65,7 +66,7 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = True, parts: Pa
     try:
         text, said = xml.decode(content)
         document = chunks.read(text, "robot", read_part, last.document if last else None)
-    except xml.Fault as fault:
+    except Fault as fault:
         return RobotReading(None, Findings(file, [fault.diagnostic]).result(), {})
     renewed = renumbered(last, document, said) if last else None
     if last and renewed:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import msgspec
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
@@ -25,6 +26,7 @@ scales = st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 3)
         ("package://gripper/a.stl", ["/opt/robots/gripper/a.stl", "/opt/gripper/a.stl", "/ws/src/gripper/a.stl"]),
         ("package://assets/a.stl", ["/opt/robots/assets/a.stl", "/ws/src/arm/urdf/assets/a.stl"]),
         ("package:///a.stl", ["/ws/src/arm/urdf/a.stl", "/ws/src/arm/a.stl", "/opt/robots/a.stl"]),
+        ("package:///arm/meshes/a.stl", ["/ws/src/arm/urdf/arm/meshes/a.stl", "/opt/robots/arm/meshes/a.stl"]),
         ("package://arm//meshes/a.stl", ["/ws/src/arm/meshes/a.stl"]),
         ("Package://arm/a.stl", ["/ws/src/arm/a.stl"]),
         ("package:/arm/a.stl", ["/ws/src/arm/a.stl", "/opt/robots/arm/a.stl"]),
@@ -99,6 +101,18 @@ def test_mesh_beside_a_package_of_the_source_is_found(tmp_path: Path) -> None:
     wanted.touch()
     found = candidates("package://gripper_description/meshes/finger.stl", Lookup(source))
     assert [path for path in found if path.is_file()] == [wanted]
+
+
+def test_a_guess_leaves_out_the_name_of_the_package() -> None:
+    uri, places = "package://hand/meshes/a.stl", LOOKUP.source.parents
+    plain, guess = candidates(uri, LOOKUP), candidates(uri, msgspec.structs.replace(LOOKUP, guess=True))
+    assert guess == (*plain, *(folder / "meshes/a.stl" for folder in places))
+
+
+def test_a_package_that_is_somewhere_is_not_guessed() -> None:
+    known = msgspec.structs.replace(LOOKUP, packages={"hand": Path("/opt/hand-1.2")})
+    uri = "package://hand/meshes/a.stl"
+    assert candidates(uri, msgspec.structs.replace(known, guess=True)) == candidates(uri, known)
 
 
 @given(st.text(), scales)

@@ -226,6 +226,15 @@ def test_mimic_of_a_joint_that_does_not_exist() -> None:
     assert about([joint("j", "ab", mimic=Mimic("k"))], "ab") == [("error", "unknown-mimic", "joint j / mimic")]
 
 
+def test_the_side_that_a_mimic_has_lost_is_that_of_its_own_joint() -> None:
+    names = ("left_thumb_base", "left_thumb_tip", "right_thumb_base", "right_thumb_tip")
+    fingers = [joint(name, f"a{end}") for name, end in zip(names, "bcde", strict=True)]
+    fingers[1] = msgspec.structs.replace(fingers[1], mimic=Mimic("thumb_base"))
+    fingers[3] = msgspec.structs.replace(fingers[3], mimic=Mimic("thumb_base"))
+    hints = [finding.hint for finding in check(Robot("hands", links("abcde"), tuple(fingers)))]
+    assert hints == ["perhaps 'left_thumb_base' is meant", "perhaps 'right_thumb_base' is meant"]
+
+
 @pytest.mark.parametrize(
     ("inertial", "expected"),
     [
@@ -243,6 +252,9 @@ def test_mimic_of_a_joint_that_does_not_exist() -> None:
         (Inertial(1.0, inertia=Inertia(-1.0, 0.0, 0.0, -1.0, 0.0, -1.0)),
          [("warning", "inertia-not-positive", "link a / inertial / inertia")]),
         (Inertial(1.0, inertia=Inertia(1.0, 0.0, 0.0, 1.0, 0.0, 0.0)), []),
+        (Inertial(1.0, inertia=Inertia(0.0, 2e-20, 0.0, 0.0, 0.0, 1e-18)), []),  # a point mass, but for rounding
+        (Inertial(0.0, inertia=Inertia(0.0, 2e-20, 0.0, 0.0, 0.0, 1e-18)),
+         [("warning", "inertia-not-positive", "link a / inertial / inertia")]),
     ],
 )  # fmt: skip
 def test_mass_properties(inertial: Inertial, expected: list[tuple[str, str, str]]) -> None:

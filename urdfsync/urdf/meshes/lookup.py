@@ -120,18 +120,23 @@ def _at_path(text: str, lookup: Lookup) -> Iterator[Path]:
 def _in_package(package: str, text: str, lookup: Lookup) -> Iterator[Path]:
     """A path in a package, which is a child of a search path or of a folder above the source, or is such a folder.
 
-    Exporters that know no package leave its name out (`package:///a.stl`), or name a folder beside the source.
+    Exporters that know no package leave its name out (`package:///a.stl`), or name a folder beside the source; others
+    write a slash too many. A copy of a package may have another name.
     """
     path = text.lstrip("/")
-    if not package:
+    named = bool(package)
+    if not named:
         yield from _at_path(path, lookup)
-    elif path:
+        package, _, path = path.partition("/")
+    if path:
         for folder in (*lookup.package_paths, *lookup.source.parents):
             yield folder / package / path
             if folder.name == package:
                 yield folder / path
         if package in lookup.packages:
             yield lookup.packages[package] / path
+        elif named and lookup.guess:
+            yield from (folder / path for folder in lookup.source.parents)
 
 
 def _possible(path: Path) -> bool:

@@ -42,6 +42,8 @@ LIMITED = ("revolute", "prismatic")
 _EXACT = 1e-12
 _ROUNDING = 1e-6
 _INERTIA_TOLERANCE = 1e-6
+_POINT = 1e-6
+"""Radius of gyration, in m, below which a body is a point: what its inertia says then is rounding."""
 _SWEEPS = 12
 _COMPARED = 500
 
@@ -192,7 +194,7 @@ def _check_inertial(path: str, inertial: Inertial) -> Iterator[Finding]:
         hint = "correct the mass; a massless link has none, or 0"
         yield _error("negative-mass", f"{path} / mass", f"{path}: the mass {inertial.mass:g} kg is negative", hint)
     low, middle, high = principal_moments(inertial.inertia)
-    tolerance = _INERTIA_TOLERANCE * max(abs(low), abs(high))
+    tolerance = _INERTIA_TOLERANCE * max(abs(low), abs(high)) + max(inertial.mass, 0) * _POINT**2
     if not (low < -tolerance or low + middle < high - tolerance):
         return
     moments = f"{low:.6g}, {middle:.6g} and {high:.6g} kg·m²"
@@ -323,7 +325,7 @@ def _check_mimic(path: str, joint: Joint, leader: Joint | None, names: Collectio
         yield _error("mimic-type", path, message, "remove the mimic, or change the type")
     elif leader is None:
         target = joint.mimic.joint if joint.mimic else ""
-        meant = nearest(target, names)
+        meant = _meant(target, joint.name, names)
         hint = f"perhaps {meant!r} is meant" if meant else "add the joint, or correct its name"
         yield _error("unknown-mimic", path, f"joint {joint.name!r} mimics joint {target!r}, which does not exist", hint)
     elif leader.type == "fixed":
@@ -334,6 +336,12 @@ def _check_mimic(path: str, joint: Joint, leader: Joint | None, names: Collectio
             f"joint {joint.name!r} mimics joint {leader.name!r}, which is {leader.type} and has no single position"
         )
         yield _error("mimic-type", path, message, "let it mimic a revolute, continuous or prismatic joint")
+
+
+def _meant(target: str, own: str, names: Collection[str]) -> str:
+    """The joint that `own` may be meant to mimic: if `target` lacks a prefix, that of its side; else the most alike."""
+    whole = [name for name in names if name.endswith(target) and name != own]
+    return nearest(own, whole, 0) or nearest(target, names)
 
 
 def unit_axes(robot: Robot) -> Robot:

@@ -23,6 +23,7 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf.reader import xml
+from urdfsync.urdf.reader.faults import Fault
 from urdfsync.urdf.reader.xml import Node
 
 T = TypeVar("T")
@@ -74,14 +75,14 @@ class Document(msgspec.Struct, Generic[T], frozen=True, eq=False):
 def read(text: str, root: str, make: Make[T], last: Document[T] | None = None) -> Document[T]:
     """The document that `text` is, which `xml.decode` gave; what is as in the last one is taken from there.
 
-    The children of a root with another tag are left out. Raises xml.Fault.
+    The children of a root with another tag are left out. Raises Fault.
     """
     if last is not None and not last.far:
         pieces = _cut(text, last)
         if not any(_is_far(piece) for piece in pieces if isinstance(piece, str)):
             try:
                 return _Assembly(pieces, root, make, last).read(len(text))
-            except (_DoubtError, xml.Fault):  # what is wrong, the whole tells best
+            except (_DoubtError, Fault):  # what is wrong, the whole tells best
                 return _Assembly([text], root, make, last).read(len(text))
     return _Assembly([text], root, make, None).read(len(text), _is_far(text))
 
@@ -167,7 +168,7 @@ class _Assembly(Generic[T]):
         self._excerpt = "".join(texts)
 
     def read(self, size: int, far: bool = False) -> Document[T]:
-        """Parse the excerpt of a text of this size. Raises xml.Fault, or _DoubtError if it does not tell enough."""
+        """Parse the excerpt of a text of this size. Raises Fault, or _DoubtError if it does not tell enough."""
         prefixes = xml.parse(self._excerpt, self)
         if self._waiting:
             raise _DoubtError

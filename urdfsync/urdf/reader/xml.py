@@ -1,6 +1,6 @@
 """Bytes to XML elements: strict, except for two faults that ROS's own parser does not mind either.
 
-A wrong XML version and prefixes without a namespace are accepted with a warning. All else that is not
+A faulty XML declaration and prefixes without a namespace are accepted with a warning. All else that is not
 well-formed XML is one error with its line and column. Entities are never declared, expanded or fetched.
 """
 
@@ -16,8 +16,8 @@ import msgspec
 from lxml import etree
 
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.urdf.reader.faults import WAIT, Fault, of_syntax
 
-_WAIT = "wait until the export is complete"
 _UNDECLARED = "urn:undeclared:"
 _NO_NAMESPACE = re.compile(r"Namespace prefix (?P<prefix>\S+) (?:on|for) ")
 _BYTE_ORDER_MARKS = (
@@ -35,6 +35,8 @@ _DECLARATION = re.compile(
     (?:\s+standalone\s*=\s*(["'])(?:yes|no)\5)?\s*\?>""",
     re.VERBOSE | re.ASCII,
 )
+_FAULTY_DECLARATION = re.compile(r"\s*<\?xml\s[^<>]*\?>", re.IGNORECASE | re.ASCII)
+"""One that ROS's parser takes. It says nothing of the encoding, since other parsers pass it over."""
 _MARKUP = re.compile(
     r"""<!--.*?(?:-->|\Z) | <!\[CDATA\[.*?(?:\]\]>|\Z) | <\?.*?(?:\?>|\Z)
     | <!(?P<entity>ENTITY)
@@ -122,14 +124,6 @@ class Taker(Protocol):
         """The end tag of the root."""
 
 
-class Fault(Exception):  # noqa: N818 - becomes a diagnostic
-    """The one error that makes a file unreadable: a diagnostic that does not know the file's name."""
-
-    def __init__(self, code: str, message: str, hint: str, line: int = 0, column: int = 0) -> None:
-        super().__init__(message)
-        self.diagnostic = Diagnostic(Severity.ERROR, code, message, "", line, column, hint)
-
-
 def parse(text: str, taker: Taker) -> Mapping[str, Diagnostic]:
     """Parse what `decode` gave; return a warning for each prefix that lacks a namespace. Raises Fault.
 
@@ -174,17 +168,37 @@ def decode(content: bytes) -> tuple[str, list[Diagnostic]]:
     warnings = []
     if not encoding and declared.lower().startswith(("utf-16", "utf-32", "ucs")):
         message = f"the XML declaration says {declared}, but the bytes do not; they are read as UTF-8"
-        warnings.append(Diagnostic(Severity.WARNING, "xml-declaration", message, line=1, hint="declare UTF-8"))
+        warnings.append(_warning("xml-declaration", message, "declare UTF-8"))
         declared = "utf-8"
     text = _to_text(content, encoding or declared)
     if not text.strip("\0 \t\n"):
-        raise Fault("file-empty", "the file is empty", f"export the robot again, or {_WAIT}", 1)
+        raise Fault("file-empty", "the file is empty", f"export the robot again, or {WAIT}", 1)
+    declaration = _DECLARATION.match(text) or _FAULTY_DECLARATION.match(text)
     if declaration:
-        if declaration["version"] not in ("1.0", "1.1"):
-            message = f"there is no XML version {declaration['version']!r}; the file is read as 1.0"
-            warnings.append(Diagnostic(Severity.WARNING, "xml-version", message, line=1, hint='write version="1.0"'))
+        warnings += _faults(declaration)
         text = _INK.sub(" ", text[: declaration.end()]) + text[declaration.end() :]
     return text, warnings
+
+
+def _faults(declaration: re.Match[str]) -> Iterator[Diagnostic]:
+    """What is to be said about an XML declaration."""
+    if declaration.re is _DECLARATION:
+        if declaration["version"] not in ("1.0", "1.1"):
+            message = f"there is no XML version {declaration['version']!r}; the file is read as 1.0"
+            yield _warning("xml-version", message, 'write version="1.0"')
+        return
+    plain = declaration[0].lstrip()
+    line = declaration[0].count("\n", 0, -len(plain)) + 1
+    if plain != declaration[0]:
+        message = "the XML declaration does not stand at the very beginning; the file is read as UTF-8"
+        yield _warning("xml-declaration", message, "remove the blanks before it", line)
+    if not _DECLARATION.match(plain):
+        message = "the XML declaration is not well formed; the file is read as XML 1.0 in UTF-8"
+        yield _warning("xml-declaration", message, 'write <?xml version="1.0" encoding="UTF-8"?>', line)
+
+
+def _warning(code: str, message: str, hint: str, line: int = 1) -> Diagnostic:
+    return Diagnostic(Severity.WARNING, code, message, line=line, hint=hint)
 
 
 def _to_text(content: bytes, encoding: str) -> str:
@@ -320,7 +334,7 @@ def _build(text: str, prefixes: Mapping[str, Diagnostic], builder: _Builder) -> 
     except etree.XMLSyntaxError as error:
         missing = _tree(text, prefixes)[1]
         if not missing:
-            raise _syntax_fault(error, parser.error_log) from None
+            raise of_syntax(error, parser.error_log) from None
         return missing
     if builder.deep or "xml:id" in text or parser.error_log.filter_from_errors():
         return _tree(text, prefixes)[1]
@@ -336,7 +350,7 @@ def _tree(text: str, prefixes: Mapping[str, Diagnostic]) -> tuple[etree._Element
     except etree.XMLSyntaxError as error:
         missing = _undeclared_prefixes(parser.error_log)
         if missing is None or not missing.keys() - prefixes.keys():
-            raise _syntax_fault(error, parser.error_log) from None
+            raise of_syntax(error, parser.error_log) from None
         return None, missing
     _refuse_entities(parser.error_log)
     return root, {}
@@ -361,13 +375,3 @@ def _undeclared_prefixes(log: etree._ListErrorLog) -> dict[str, Diagnostic] | No
         hint = f"add xmlns:{prefix}=… to the root element"
         found.setdefault(prefix, Diagnostic(Severity.WARNING, "xml-prefix", message, line=entry.line, hint=hint))
     return found or None
-
-
-def _syntax_fault(error: etree.XMLSyntaxError, log: etree._ListErrorLog) -> Fault:
-    """The gravest entry of the parser's log, of several the first, as an error."""
-    hint = f"correct the XML, or {_WAIT}"
-    found = log.filter_from_fatals() or log.filter_from_errors()
-    if not found:
-        return Fault("xml-syntax", f"this is not well-formed XML: {error.msg}", hint, error.lineno or 1)
-    entry = found[0]
-    return Fault("xml-syntax", f"this is not well-formed XML: {entry.message}", hint, entry.line, entry.column)
