@@ -264,14 +264,23 @@ def assert_names_are_known(file: str, folder: Path) -> None:
 
 def unknown_names(folder: Path, robot: str = "Bot.Bot") -> list[str]:
     """Types, base classes and functions that robot and benches refer to, and that no file has."""
-    session = rumoca.Session(roots=[str(folder), str(URDFSYNC)])
     components = "".join(f"  {robot}{suffix} part{suffix};\n" for suffix in ("", "Run", "Test"))
-    with pytest.raises(rumoca.CompileError) as caught:
-        session.loads(f"model Probe_\n  import UrdfSync;\n{components}end Probe_;\n", model="Probe_", filename="P.mo")
-    message = str(caught.value)
+    message = complaint([folder, URDFSYNC], f"model Probe_\n  import UrdfSync;\n{components}end Probe_;\n", "Probe_")
     assert "Failed to load source root" not in message, message
     lines = [line for line in message.splitlines() if "unresolved" in line and "component reference" not in line]
     return [line.split("'")[1] for line in lines]
+
+
+def complaint(roots: Sequence[Path], source: str, model: str) -> str:
+    """What the compiler says of a model that it can't compile.
+
+    Its session must go in the thread that made it, so no exception may stay that refers to it: `pytest.raises` would.
+    """
+    try:
+        rumoca.Session(roots=list(map(str, roots))).loads(source, model=model, filename="P.mo")
+    except rumoca.CompileError as error:
+        return str(error)
+    raise AssertionError(f"{model} compiles")
 
 
 SMALL = generate(robot(link("arm")).encode(), BOT)
