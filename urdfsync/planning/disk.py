@@ -111,9 +111,9 @@ class Disk:
         return None if hashed is None else hashed[1]
 
     def has_returns(self, key: str) -> bool:
-        """Whether there may be carriage returns in the file that `found` or `text` first saw; it need not be read."""
+        """Whether there are carriage returns in the file that `found` or `text` first saw; it need not be read."""
         hashed = self.hashed[self._place(key)]
-        return hashed is not None and (hashed[1] != hashed[2] or hashed[0] == looking.NO_FACTS)
+        return hashed is not None and hashed[1] != hashed[2]
 
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Whether the folder of a `package.mo` has other classes than it, and than those of the files in `gone`."""

@@ -20,9 +20,9 @@ from urdfsync.planning import packages
 
 _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
-_ABSOLUTE = re.compile(r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]", re.IGNORECASE)
+_ABSOLUTE = r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]"
 """A place on this machine, to which search paths make no difference."""
-_IN_PACKAGE = re.compile("[a-z]+://([^/]+)/", re.IGNORECASE)
+_IN_PACKAGE = "[a-z]+://([^/]+)/"
 
 
 class Recorded(msgspec.Struct, frozen=True):
@@ -218,9 +218,9 @@ def _not_found(dependency: Dependency, source: str) -> Diagnostic:
     if uri.lower().startswith(("http:", "https:", "ftp:")):
         message = f"{dependency.noun} `{dependency.uri}` is on the network, where urdfsync does not look"
         hint = "download it, and let the source refer to the file"
-    elif _ABSOLUTE.match(uri):
+    elif re.match(_ABSOLUTE, uri, re.IGNORECASE):
         hint = "put it there, or let the source refer to it by a package or a relative path"
-    elif package := _IN_PACKAGE.match(uri):
+    elif package := re.match(_IN_PACKAGE, uri, re.IGNORECASE):
         hint = f"add the folder that holds the folder `{package[1]}` to `package_paths`"
     return Diagnostic(Severity.WARNING, "not-found", message, source, hint=hint)
 

@@ -68,15 +68,15 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = True, parts: Pa
         document = chunks.read(text, "robot", read_part, last.document if last else None)
     except Fault as fault:
         return RobotReading(None, Findings(file, [fault.diagnostic]).result(), {})
-    renewed = renumbered(last, document, said) if last else None
+    head = text[: document.begin]
+    renewed = renumbered(last, document, said, head) if last else None
     if last and renewed:
         robot: Robot | None = renewed.robot
         findings = last.findings
     else:
         findings = Findings(file, [*said, *document.prefixes.values()])
         robot = _assemble(document, last.robot if last else None, findings) if _is_urdf(document, findings) else None
-    both, head = findings.copy(), text[: document.begin]
-    agreed = bool(last and renewed and renewed.children_alike and last.agreed == head)
+    both, agreed = findings.copy(), renewed is not None and renewed.agreed
     if robot is not None and cross_check and not (findings.failed or agreed):
         agreed = _agrees(content, robot, both)
     if robot is None or both.failed:

@@ -47,12 +47,15 @@ class Renumbered(msgspec.Struct, frozen=True):
     """The last robot with other numbers; links and joints that are equal to the last ones are the same objects."""
 
     robot: Robot
-    children_alike: bool
-    """Whether the texts of the root's children differ in numbers alone, too."""
+    agreed: bool
+    """Whether the second reader has found nothing in a text that differs in numbers alone."""
 
 
-def renumbered(last: Last, document: Document[Part], said: Sequence[Diagnostic]) -> Renumbered | None:
-    """The robot of the document, if no more than numbers can have changed: then it has the last findings, too."""
+def renumbered(last: Last, document: Document[Part], said: Sequence[Diagnostic], head: str) -> Renumbered | None:
+    """The robot of the document, if no more than numbers can have changed: then it has the last findings, too.
+
+    `head` is the text before the first child of the root.
+    """
     changes = _changes(last, document, said)
     if changes is None or not all(_has_other_numbers(old.made, new.made) for old, new in changes):
         return None
@@ -65,7 +68,8 @@ def renumbered(last: Last, document: Document[Part], said: Sequence[Diagnostic])
     if joints:
         moves = [_with_unit_axis(joints[old.name], old) if old.name in joints else old for old in robot.joints]
         robot = msgspec.structs.replace(robot, joints=tuple(moves))
-    return Renumbered(robot, not document.far and all(_are_alike(old.text, new.text) for old, new in changes))
+    same = last.agreed == head and not document.far
+    return Renumbered(robot, same and all(_are_alike(old.text, new.text) for old, new in changes))
 
 
 def _are_alike(old: str, new: str) -> bool:
