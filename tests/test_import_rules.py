@@ -204,9 +204,12 @@ LIGHT = (
 )
 """Modules on the way of a build that has nothing to do: no heavy library, not even through others."""
 
-FIRST = ("__main__", "hook", "stamping/stamp", "stamping/beside", "machine", "staging/listing", "streams")
+FIRST = (
+    *("__main__", "hook", "program", "machine", "streams"),
+    *("stamping/stamp", "stamping/beside", "staging/listing"),
+)
 """What is loaded before anybody knows that there is something to do."""
-AT_ONCE = {"errno", "gc", "os", "sys", "time", "zlib"}
+AT_ONCE = {"atexit", "errno", "gc", "os", "sys", "time", "zlib"}
 """Modules of Python's that take no time to load, or have been loaded at its start."""
 
 NO_IO_CALLS = {

@@ -1,32 +1,34 @@
 """The program's start: `urdfsync`, or `python -m urdfsync`."""
 
-import gc
 import sys
 
-_OBJECTS = 100_000
-"""So many new objects until Python looks for reference cycles: a command and its modules have some 40,000."""
+from urdfsync import program
+
+TYPE_CHECKING = False  # that of `typing`, whose import takes longer than all that a command without work does
+if TYPE_CHECKING:
+    from typing import NoReturn
+
+
+def start() -> "NoReturn":
+    """Run the command line as a process of its own."""
+    program.end(main())
 
 
 def main() -> int:
-    """Run the command line; an interruption while it is still being loaded leaves no traceback either.
+    """Run the command line; returns the exit code."""
+    return program.carry_out(_run)
 
-    Nobody looks for reference cycles in the end, since what is left goes with the process.
-    """
-    try:
-        from urdfsync.stamping import stamp
 
-        code = stamp.repeat(sys.argv[1:])
-        if code is None:
-            gc.set_threshold(_OBJECTS)
-            from urdfsync.cli import main as run
+def _run() -> int:
+    from urdfsync.stamping import stamp  # here, where an interruption leaves no traceback
 
-            code = run()
-    except KeyboardInterrupt:
-        return 130
-    finally:
-        gc.freeze()
+    code = stamp.repeat(sys.argv[1:])
+    if code is None:
+        from urdfsync.cli import main as run
+
+        code = run()
     return code
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    start()

@@ -1,30 +1,25 @@
 """`urdfsync-hook`: `urdfsync hook` for runners of git hooks. Says nothing, and soon, if nothing is to be done."""
 
-import gc
 import os
 import sys
 
+from urdfsync import program
 from urdfsync.staging import listing
 from urdfsync.stamping import stamp
 
 TYPE_CHECKING = False  # that of `typing`, whose import takes longer than all that a hook without work does
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from typing import NoReturn
 
     from urdfsync.staging.staged import Index
 
 _MODES = (["build"], ["check"])
 
 
-def main() -> int:
-    """Run the hook as a process of its own; returns the exit code."""
-    gc.set_threshold(100_000)  # reference cycles are left alone, as in `__main__`
-    try:
-        return run(sys.argv[1:])
-    except KeyboardInterrupt:
-        return 130
-    finally:
-        gc.freeze()
+def start() -> "NoReturn":
+    """Run the hook as a process of its own."""
+    program.end(program.carry_out(lambda: run(sys.argv[1:])))
 
 
 def run(arguments: "Sequence[str]") -> int:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Self
 
 import msgspec
 
-from urdfsync import looking, machine, profiling
+from urdfsync import looking, machine, profiling, program
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.planning.planner import plan, plan_if_unchanged
@@ -159,7 +159,7 @@ def _join(folder: str) -> None:
     from multiprocessing.connection import wait
 
     os.chdir(folder)
-    gc.set_threshold(100_000)  # as `urdfsync.__main__`
+    gc.set_threshold(program.OBJECTS)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent gets it, too, and tells the crew
     parent = parent_process()
 
