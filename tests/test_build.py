@@ -625,9 +625,9 @@ def test_a_disk_that_refuses_changes_nothing(
     edit(project / "ladder.json", '"R2"', '"R3"')
     real = operations.place
 
-    def refuse(path: Path, target: Path) -> None:
-        if target.name == "R3.mo":
-            raise OSError(error, os.strerror(error), str(path), None, str(target))
+    def refuse(path: str, target: str) -> None:
+        if Path(target).name == "R3.mo":
+            raise OSError(error, os.strerror(error), path, None, target)
         real(path, target)
 
     monkeypatch.setattr(operations, "place", refuse)

@@ -69,8 +69,8 @@ def test_a_file_that_replaces_another_stands_apart_until_then(
     (tmp_path / "renewed").chmod(0o640)
     real, places = operations.write, []
 
-    def write(path: Path, content: bytes, like: Path | None = None) -> None:
-        places.append(path.relative_to(tmp_path).parent.as_posix())
+    def write(path: str, content: bytes, like: str | None = None) -> None:
+        places.append(Path(path).relative_to(tmp_path).parent.as_posix())
         real(path, content, like)
 
     monkeypatch.setattr(operations, "write", write)
@@ -154,9 +154,9 @@ def test_what_cant_be_put_back_is_put_back_later(
     before = contents(tmp_path)
     real = operations.place
 
-    def fail(path: Path, target: Path) -> None:
-        if target.name in ("record", "deleted"):
-            raise OSError(errno.EACCES, os.strerror(errno.EACCES), str(target))
+    def fail(path: str, target: str) -> None:
+        if Path(target).name in ("record", "deleted"):
+            raise OSError(errno.EACCES, os.strerror(errno.EACCES), target)
         real(path, target)
 
     monkeypatch.setattr(operations, "place", fail)

@@ -52,7 +52,7 @@ def before_each(hook: Hook) -> Iterator[None]:
         def call(*arguments: Any) -> Any:
             nonlocal count
             count += 1
-            hook(Operation(count, name, tuple(path for path in arguments if isinstance(path, Path))))
+            hook(Operation(count, name, tuple(Path(path) for path in arguments if isinstance(path, str | Path))))
             return real[name](*arguments)
 
         return call

@@ -31,9 +31,9 @@ _OTHER = "no regular file"
 class SavedError(Exception):
     """Somebody else changed a target after it was planned; nothing of that is lost."""
 
-    def __init__(self, path: Path) -> None:
-        super().__init__(str(path))
-        self.path = path
+    def __init__(self, path: str) -> None:
+        super().__init__(path)
+        self.path = Path(path)
 
 
 class Batch:
@@ -43,25 +43,21 @@ class Batch:
         self, root: Path, folder: Path, journal: Journal, shown: Callable[[Path], str], resumed: bool = False
     ) -> None:
         """`resumed` stands for a batch that another run has begun."""
-        self._root, self._folder, self._shown = root, folder, shown
+        self._root, self._folder, self._shown = root, str(folder), shown
         self.journal, self._resumed = journal, resumed
-        places = [os.path.normpath(os.path.join(root, step.path)) for step in journal.steps]  # noqa: PTH118 - many
-        names = [f".{journal.token}-{number}{TEMPORARY}" for number in range(len(places))]
-        self._targets = [Path(place) for place in places]
-        self._target_folders = [Path(place) for place in sorted(set(map(os.path.dirname, places)))]
-        self._beside = [
-            Path(f"{os.path.dirname(place)}{os.sep}{name}")  # noqa: PTH120
-            for place, name in zip(places, names, strict=True)
-        ]
-        self._undo_folder = folder / "undo"
+        self._targets = [self._place(step.path) for step in journal.steps]
+        self._target_folders = sorted(set(map(os.path.dirname, self._targets)))
+        names = [f".{journal.token}-{number}{TEMPORARY}" for number in range(len(self._targets))]
+        self._beside = [f"{os.path.dirname(t)}{os.sep}{name}" for t, name in zip(self._targets, names, strict=True)]
+        self._undo_folder = f"{folder}{os.sep}undo"
         self._undo = {
-            number: Path(f"{self._undo_folder}{os.sep}{number}")
+            number: f"{self._undo_folder}{os.sep}{number}"
             for number, step in enumerate(journal.steps)
             if step.old is not None
         }
         """What stood in the place of targets."""
         self._apart = {
-            number: Path(f"{self._undo_folder}{os.sep}{names[number]}")
+            number: f"{self._undo_folder}{os.sep}{names[number]}"
             for number, step in enumerate(journal.steps)
             if step.old is not None and step.new is not None and journal.format >= MAY_BE_APART
         }
@@ -77,24 +73,24 @@ class Batch:
     @property
     def targets(self) -> Sequence[Path]:
         """The files that change, in the order of the steps."""
-        return self._targets
+        return list(map(Path, self._targets))
 
     @property
     def folders(self) -> Sequence[Path]:
         """The folders that come or go."""
-        return [Path(os.path.normpath(self._root / path)) for path in (*self.journal.made, *self.journal.emptied)]
+        return [Path(self._place(path)) for path in (*self.journal.made, *self.journal.emptied)]
 
     def prepare(self, contents: Iterable[bytes | None]) -> None:
         """Write the journal and all temporary files. Raises OutputError; no target has changed then."""
-        for folder in (self._folder, self._folder / "journal", self._undo_folder):
+        for folder in (self._folder, os.path.dirname(self._file(Phase.PREPARE)), self._undo_folder):
             with self._about(folder):
                 operations.make_folder(folder)
         first = self._file(Phase.PREPARE)
         with self._about(first):
             operations.write(first, self.journal.dumps())
         for path in self.journal.made:
-            with self._about(self._root / path):
-                operations.make_folder(self._root / path)
+            with self._about(self._place(path)):
+                operations.make_folder(self._place(path))
         self._choose_places()
         written = [first]
         for number, content in enumerate(contents):
@@ -120,7 +116,7 @@ class Batch:
         self._change(last)
         self._check_kept(last)
         with self._about(self._folder):
-            operations.sync([folder for folder in self._target_folders if folder.is_dir()])
+            operations.sync([folder for folder in self._target_folders if os.path.isdir(folder)])
         self._enter(Phase.DONE)
 
     def can_be_finished(self) -> bool:
@@ -148,7 +144,7 @@ class Batch:
         for number in range(len(self._targets)):
             self._remove_temporaries(number)
         for path in reversed(self.journal.made):
-            operations.remove_folder(self._root / path)
+            operations.remove_folder(self._place(path))
         self._remove_traces()
 
     def tidy(self) -> None:
@@ -157,7 +153,7 @@ class Batch:
             if number not in self._spent:
                 self._remove_temporaries(number)
         for path in self.journal.emptied:
-            operations.remove_folder(self._root / path)
+            operations.remove_folder(self._place(path))
         self._remove_traces()
 
     def _find_temporaries(self) -> None:
@@ -168,9 +164,9 @@ class Batch:
 
     def _choose_places(self) -> None:
         """Let temporary files stand apart wherever they become what they would be beside their targets."""
-        alike: dict[Path, bool] = {}
+        alike: dict[str, bool] = {}
         for number, apart in self._apart.items():
-            folder = self._beside[number].parent
+            folder = os.path.dirname(self._targets[number])
             if folder not in alike:
                 alike[folder] = operations.makes_alike(self._undo_folder, folder)
             if alike[folder]:
@@ -178,12 +174,13 @@ class Batch:
             else:
                 operations.remove(apart)  # of a run whose journal was deleted: it would count as ours
 
-    def _bring_beside(self, folder: Path) -> None:
+    def _bring_beside(self, folder: str) -> None:
         """Copy temporary files to a folder to which they can't be moved; until all copies are complete, they count."""
         found = [n for n, apart in self._apart.items() if self._temporaries[n] == apart and n not in self._spent]
-        found = [number for number in found if self._targets[number].parent == folder]
+        found = [number for number in found if os.path.dirname(self._targets[number]) == folder]
         for number in found:
-            operations.write(self._beside[number], self._apart[number].read_bytes(), self._targets[number])
+            with open(self._apart[number], "rb") as file:
+                operations.write(self._beside[number], file.read(), self._targets[number])
         if found:
             operations.sync([self._beside[number] for number in found])
         for number in found:
@@ -204,7 +201,7 @@ class Batch:
     def _change(self, number: int) -> None:
         target, step, temporary = self._targets[number], self._step(number), self._temporaries[number]
         with self._about(target):
-            if step.old is None and not self._resumed and self._place(number):
+            if step.old is None and self._place_new(number):
                 return
             self._hashed[number] = _identity(target)
             current = self._hash(target)
@@ -213,13 +210,13 @@ class Batch:
             if current != step.old:
                 raise SavedError(target)
             try:
-                if not self._replace(number):
+                if step.old is None or not self._replace(number):
                     raise SavedError(target)
                 self._spent.add(number)
             except (FileNotFoundError, FileExistsError) as error:
                 raise SavedError(target) from error
 
-    def _place(self, number: int) -> bool:
+    def _place_new(self, number: int) -> bool:
         """Give a new file its name. Returns False if the name is not free, or something else is in the way."""
         try:
             operations.place(self._temporaries[number], self._targets[number])
@@ -231,24 +228,21 @@ class Batch:
     def _replace(self, number: int) -> bool:
         """Change one target. Returns False, and leaves it alone, if it is not what was planned with."""
         target, step = self._targets[number], self._step(number)
-        if step.old is None:
-            operations.place(self._temporaries[number], target)
-            return True
         moves = operations.keep(target, self._undo[number])
         if not self._is_old(number, self._undo[number]):
             return False
         if step.new is None:
             return self._take(target, self._temporaries[number], step.old)
         if not moves:
-            self._bring_beside(target.parent)
+            self._bring_beside(os.path.dirname(target))
         return self._swap(self._temporaries[number], target, functools.partial(self._is_old, number))
 
-    def _is_old(self, number: int, path: Path) -> bool:
+    def _is_old(self, number: int, path: str) -> bool:
         """Whether a file is what the target was when it was hashed; what is written to it, `_check_kept` will see."""
         found = _identity(path)
         return found is not None and (found == self._hashed[number] or self._hash(path) == self._step(number).old)
 
-    def _swap(self, source: Path, target: Path, is_expected: Callable[[Path], bool]) -> bool:
+    def _swap(self, source: str, target: str, is_expected: Callable[[str], bool]) -> bool:
         """Put a file in the place of another. Returns False, and leaves both, if the other is not as expected.
 
         Where files can't be swapped, a save within the microseconds after the last look is lost.
@@ -264,7 +258,7 @@ class Batch:
         operations.remove(source)
         return True
 
-    def _take(self, target: Path, aside: Path, expected: str | None) -> bool:
+    def _take(self, target: str, aside: str, expected: str | None) -> bool:
         """Remove a file by way of another name. Returns False, and leaves it, if it is not as expected."""
         operations.replace(target, aside)
         if self._hash(aside) != expected:
@@ -301,36 +295,40 @@ class Batch:
         with self._about(target):
             operations.replace(self._file(now), target)
             if phase is Phase.APPLY:
-                operations.sync([target.parent])
+                operations.sync([os.path.dirname(target)])
 
-    def _hash(self, path: Path) -> str | None:
+    def _hash(self, path: str) -> str | None:
         try:
             if not stat.S_ISREG(os.lstat(path).st_mode):
                 return _OTHER
-            with open(path, "rb", buffering=0) as file:  # noqa: PTH123 - half the time
+            with open(path, "rb", buffering=0) as file:
                 return digest(file.read())
         except (FileNotFoundError, NotADirectoryError):
             return None
 
-    def _has(self, expected: str | None, path: Path) -> bool:
+    def _has(self, expected: str | None, path: str) -> bool:
         return self._hash(path) == expected
 
     def _step(self, number: int) -> Step:
         return self.journal.steps[number]
 
-    def _file(self, phase: Phase) -> Path:
-        return self._folder / "journal" / f"{phase}.json"
+    def _place(self, path: str) -> str:
+        """Where something of the journal is."""
+        return os.path.normpath(os.path.join(self._root, path))
+
+    def _file(self, phase: Phase) -> str:
+        return f"{self._folder}{os.sep}journal{os.sep}{phase}.json"
 
     @contextlib.contextmanager
-    def _about(self, path: Path) -> Iterator[None]:
+    def _about(self, path: str) -> Iterator[None]:
         """Turn what the system says into an error about a file."""
         try:
             yield
         except OSError as error:
-            raise failure(error, self._shown(path)) from None
+            raise failure(error, self._shown(Path(path))) from None
 
 
-def _identity(path: Path) -> tuple[int, ...] | None:
+def _identity(path: str) -> tuple[int, ...] | None:
     """What tells a file from another one, by whatever name; None if there is none."""
     try:
         status = os.lstat(path)
@@ -339,10 +337,10 @@ def _identity(path: Path) -> tuple[int, ...] | None:
     return status.st_mode, status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
 
 
-def find_phase(folder: Path) -> Phase | None:
+def find_phase(folder: operations.Place) -> Phase | None:
     """The phase of the batch that a state folder has, None if it has none."""
     try:
-        names = looking.names(folder / "journal")
+        names = looking.names(f"{os.fspath(folder)}{os.sep}journal")
     except (FileNotFoundError, NotADirectoryError):
         return None
     return next((phase for phase in reversed(Phase) if f"{phase}.json" in names), None)

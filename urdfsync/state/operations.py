@@ -14,10 +14,12 @@ import os
 import stat
 import sys
 from collections.abc import Callable, Sequence
-from pathlib import Path
 
 from urdfsync import profiling
 from urdfsync.files import TEMPORARY
+
+Place = str | os.PathLike[str]
+"""A path; a string takes less time where there are thousands."""
 
 FEW = 32
 """Up to so many files are synced each by itself, more with one call for the whole machine."""
@@ -40,22 +42,22 @@ _NO_START = {errno.EINVAL, errno.ENOSYS, errno.ENOTSUP, errno.EPERM, errno.ESPIP
 """What the system says where it can't do that, or not for such a file: then the sync alone has to do."""
 
 
-def make_folder(path: Path) -> None:
+def make_folder(path: Place) -> None:
     """Make one folder, unless it is there."""
     try:
-        os.mkdir(path)  # noqa: PTH102
+        os.mkdir(path)
     except FileExistsError:
-        if not path.is_dir():
+        if not os.path.isdir(path):
             raise
 
 
-def remove_folder(path: Path) -> None:
+def remove_folder(path: Place) -> None:
     """Remove a folder if it is empty."""
     with contextlib.suppress(OSError):  # it is not empty, gone already, or not ours to remove: all fine
-        path.rmdir()
+        os.rmdir(path)
 
 
-def makes_alike(folder: Path, other: Path) -> bool:
+def makes_alike(folder: Place, other: Place) -> bool:
     """Whether a file made in one folder is what it would be if it were made in the other: by a move it gets there.
 
     That is so if they are on one file system and hand on the same: a group, an access control list, a security label.
@@ -67,13 +69,13 @@ def makes_alike(folder: Path, other: Path) -> bool:
         return False
 
 
-def write(path: Path, content: bytes, like: Path | None = None) -> None:
+def write(path: Place, content: bytes, like: Place | None = None) -> None:
     """Write a new file, in place of what a killed run left under its name, with the permissions of `like`."""
     try:
-        file = open(path, "xb", buffering=0)  # noqa: PTH123, SIM115 - half of the time
+        file = open(path, "xb", buffering=0)  # noqa: SIM115
     except FileExistsError:
-        os.unlink(path)  # noqa: PTH108
-        file = open(path, "xb", buffering=0)  # noqa: PTH123, SIM115
+        os.unlink(path)
+        file = open(path, "xb", buffering=0)  # noqa: SIM115
     with file:
         written = file.write(content)
         while written < len(content):
@@ -81,12 +83,12 @@ def write(path: Path, content: bytes, like: Path | None = None) -> None:
         made = os.fstat(file.fileno()).st_mode
     if like is not None:
         with contextlib.suppress(FileNotFoundError):
-            wanted = os.stat(like).st_mode  # noqa: PTH116
+            wanted = os.stat(like).st_mode
             if stat.S_IMODE(wanted) != stat.S_IMODE(made):
-                os.chmod(path, stat.S_IMODE(wanted))  # noqa: PTH101
+                os.chmod(path, stat.S_IMODE(wanted))
 
 
-def keep(path: Path, copy: Path) -> bool:
+def keep(path: Place, copy: Place) -> bool:
     """Give a file a second name, so that it outlives the first; where that can't be, copy it.
 
     Returns False where no file can be moved from the one folder to the other either.
@@ -96,30 +98,30 @@ def keep(path: Path, copy: Path) -> bool:
     except OSError as error:
         if error.errno not in _NO_LINKS:
             raise
-        write(copy, path.read_bytes(), path)
+        write(copy, _content(path), path)
         return error.errno != errno.EXDEV
     return True
 
 
-def exchange(path: Path, target: Path) -> bool:
+def exchange(path: Place, target: Place) -> bool:
     """Swap two files at one stroke. Returns False, and does nothing, where the system can't do that."""
     return _rename(path, target, _SWAP)
 
 
-def replace(path: Path, target: Path) -> None:
+def replace(path: Place, target: Place) -> None:
     """Move a file over another one, or to a free name; from one file system to another by a copy."""
     try:
-        path.replace(target)
+        os.replace(path, target)
     except OSError as error:
         if error.errno != errno.EXDEV:
             raise
-        beside = target.with_name(f".{os.getpid()}-{path.name}{TEMPORARY}")
-        write(beside, path.read_bytes(), path)
-        beside.replace(target)
-        path.unlink()
+        beside = os.path.join(os.path.dirname(target), f".{os.getpid()}-{os.path.basename(path)}{TEMPORARY}")
+        write(beside, _content(path), path)
+        os.replace(beside, target)
+        os.unlink(path)
 
 
-def place(path: Path, target: Path) -> None:
+def place(path: Place, target: Place) -> None:
     """Move a file to a name that must be free. Raises FileExistsError if it is not."""
     if _rename(path, target, _KEEP):
         return
@@ -132,17 +134,17 @@ def place(path: Path, target: Path) -> None:
             raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), str(target)) from None
         replace(path, target)
     else:
-        path.unlink()
+        os.unlink(path)
 
 
-def remove(path: Path) -> None:
+def remove(path: Place) -> None:
     """Remove a file, if it is there."""
     with contextlib.suppress(FileNotFoundError, NotADirectoryError):
-        os.unlink(path)  # noqa: PTH108
+        os.unlink(path)
 
 
 @profiling.staged("syncing")
-def sync(paths: Sequence[Path]) -> None:
+def sync(paths: Sequence[Place]) -> None:
     """Bring files and folders to the disk, so that they outlive a power failure.
 
     A few are synced each by itself, since the one call for all waits for everything that any program has
@@ -152,7 +154,7 @@ def sync(paths: Sequence[Path]) -> None:
         os.sync()
         return
     if os.name == "nt":
-        paths = [path for path in paths if not path.is_dir()]  # can't be opened there, and need no sync
+        paths = [path for path in paths if not os.path.isdir(path)]  # can't be opened there, and need no sync
     with contextlib.ExitStack() as stack:
         descriptors = []
         for path in paths:
@@ -199,18 +201,23 @@ def _sync_some(descriptors: Sequence[int], failed: list[OSError], done: Callable
         done()
 
 
-def _link(path: Path, copy: Path) -> None:
+def _content(path: Place) -> bytes:
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def _link(path: Place, copy: Place) -> None:
     """Give a file a second name, in place of what a killed run left there."""
     try:
         os.link(path, copy, **_NOFOLLOW)
     except FileExistsError:
-        os.unlink(copy)  # noqa: PTH108
+        os.unlink(copy)
         os.link(path, copy, **_NOFOLLOW)
 
 
-def _handed_on(folder: Path) -> tuple[object, ...]:
+def _handed_on(folder: Place) -> tuple[object, ...]:
     """What the files that are made in a folder get from it."""
-    status = folder.stat()
+    status = os.stat(folder)
     attributes: dict[str, bytes] = {}
     if sys.platform == "linux":
         try:
@@ -221,7 +228,7 @@ def _handed_on(folder: Path) -> tuple[object, ...]:
     return status.st_dev, status.st_gid, status.st_mode & stat.S_ISGID, attributes
 
 
-def _rename(path: Path, target: Path, flag: int) -> bool:
+def _rename(path: Place, target: Place, flag: int) -> bool:
     """Rename a file in this way, at one stroke. Returns False, and does nothing, where the system can't do that."""
     number = _renaming()(os.fsencode(path), os.fsencode(target), flag)
     if number and number not in _NO_RENAMES:
