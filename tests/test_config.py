@@ -412,13 +412,21 @@ def test_a_working_folder_that_is_gone_is_said_clearly(tmp_path: Path, monkeypat
     monkeypatch.chdir(tmp_path)
     assert config.working_folder() == Path.cwd()
 
-    def gone() -> Path:
+    def gone() -> str:
         raise FileNotFoundError(2, "No such file or directory")
 
-    monkeypatch.setattr(Path, "cwd", gone)
+    monkeypatch.setattr(os, "getcwd", gone)
     with pytest.raises(ConfigError, match="the working folder does not exist any more; change to a folder"):
         config.working_folder()
     assert config.shown(tmp_path) == str(tmp_path)
+
+
+def test_paths_are_shown_as_they_are_seen_from_the_working_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    inside, beside = tmp_path / "cad" / "arm.urdf", tmp_path.with_name(f"{tmp_path.name}-2") / "arm.urdf"
+    assert [config.shown(path) for path in (tmp_path, inside, beside)] == [".", str(Path("cad/arm.urdf")), str(beside)]
 
 
 def test_select() -> None:

@@ -349,11 +349,12 @@ def _folded(path: Path) -> str:
 
 def shown(path: Path) -> str:
     """A path as people see it: relative to the working folder if it is inside it."""
+    text = str(path)
     try:
-        current = Path.cwd()
+        current = os.getcwd()  # noqa: PTH109 - every message asks, and a Path takes five times as long
     except FileNotFoundError:  # somebody has deleted it
-        return str(path)
-    return str(path.relative_to(current) if path.is_relative_to(current) else path)
+        return text
+    return "." if text == current else text.removeprefix(os.path.join(current, ""))  # noqa: PTH118
 
 
 def ros_package_path(environment: Mapping[str, str]) -> tuple[Path, ...]:

@@ -82,30 +82,31 @@ def first_by(published: Published, source: Path, folder: Path) -> Callable[[], C
     return measurement
 
 
-def least(tools: Tools, place: Path, writes: bool) -> Callable[[], Cost]:
-    """What a first build of a folder can't do without: loading its modules and, with `writes`, Jinja and the files.
-
-    The folder is built by this.
-    """
+def least(tools: Tools, place: Path, part: str) -> Callable[[], Cost]:
+    """A part of what a first build of the only robot of a folder can't do without (see `floor`); this builds it."""
     asked = [str(tools.scripts / "python"), "-c", _MODULES, "build", "--quiet"]
     built = subprocess.run(asked, cwd=place, env=variables(), check=True, stderr=subprocess.PIPE, text=True)
-    packages = place / "modelica"
-    sizes = {file.relative_to(packages).as_posix(): file.stat().st_size for file in packages.rglob("*.*")}
-    template = place / "least.jinja"
+    sizes = _sizes(place / "modelica")
+    template, folder, file = place / "least.jinja", place / "least", place / "least.json"
     template.write_text("<< text >>", encoding="utf-8")
-    folder, file = place / "least", place / "least.json"
-    task = {"modules": built.stderr.split(), "sizes": sizes if writes else {}}
-    file.write_text(json.dumps({**task, "template": str(template), "folder": str(folder)}), encoding="utf-8")
+    (source,) = place.glob("*.urdf")
+    places = {"template": str(template), "folder": str(folder), "source": str(source)}
+    file.write_text(json.dumps({"modules": built.stderr.split(), "sizes": sizes, **places}), encoding="utf-8")
 
     def measurement() -> Cost:
         put_aside(folder)
         os.sync()
-        cost = measure([str(tools.scripts / "python"), "-P", str(_FLOOR), str(file)], place)
-        if len(list(folder.rglob("*.*"))) != len(task["sizes"]):
-            raise UnexpectedError(f"{folder} has not all files")
+        cost = measure([str(tools.scripts / "python"), "-P", str(_FLOOR), part, str(file)], place)
+        if part != "modules" and _sizes(folder) != sizes:
+            raise UnexpectedError(f"{folder} is not what was built")
         return cost
 
     return measurement
+
+
+def _sizes(folder: Path) -> dict[str, int]:
+    """The files below a folder, by their paths there, and their sizes."""
+    return {file.relative_to(folder).as_posix(): file.stat().st_size for file in folder.rglob("*.*")}
 
 
 def changed_by(published: Published, original: Path, folder: Path) -> Callable[[], Cost]:
