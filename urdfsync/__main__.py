@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def start() -> "NoReturn":
-    """Run the command line as a process of its own."""
+    """Run the command line as the only thing in this process: what the console script does."""
     program.end(main())
 
 
@@ -31,4 +31,4 @@ def _run() -> int:
 
 
 if __name__ == "__main__":
-    start()
+    sys.exit(main())  # maybe on behalf of another module, such as `cProfile`, that goes on

@@ -354,7 +354,10 @@ def shown(path: Path) -> str:
         current = os.getcwd()  # noqa: PTH109 - every message asks, and a Path takes five times as long
     except FileNotFoundError:  # somebody has deleted it
         return text
-    return "." if text == current else text.removeprefix(os.path.join(current, ""))  # noqa: PTH118
+    inside = os.path.join(current, "")  # noqa: PTH118
+    if os.path.normcase(text).startswith(os.path.normcase(inside)):
+        return text[len(inside) :]
+    return "." if text == current else text
 
 
 def ros_package_path(environment: Mapping[str, str]) -> tuple[Path, ...]:

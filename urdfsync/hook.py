@@ -18,7 +18,7 @@ _MODES = (["build"], ["check"])
 
 
 def start() -> "NoReturn":
-    """Run the hook as a process of its own."""
+    """Run the hook as the only thing in this process: what the console script does."""
     program.end(program.carry_out(lambda: run(sys.argv[1:])))
 
 

@@ -16,7 +16,7 @@ _INTERRUPTED = 130
 
 
 def carry_out(command: "Callable[[], int]") -> int:
-    """Carry out a command; returns its exit code. No interruption leaves a traceback, even while it is being loaded."""
+    """Carry out a command, with few searches for cycles; returns its exit code, that of an interruption as well."""
     gc.set_threshold(OBJECTS)
     try:
         return command()
@@ -25,12 +25,33 @@ def carry_out(command: "Callable[[], int]") -> int:
 
 
 def end(code: int) -> "NoReturn":
-    """End this process. What a command has said is with the system by now (`streams`), what it has written too.
+    """End this process. What a command has written is with the system by now.
 
-    Python's own end takes down module after module, and every tenth of the time that a command without work
-    takes: that is only waited for if somebody asked to be told of it, or is still at work.
+    Python's own end takes down module after module, which takes a tenth of the time of a command without work. It is
+    only waited for if somebody has asked to be told of it, is still at work, or looks on.
     """
-    if atexit._ncallbacks() or ("threading" in sys.modules and sys.modules["threading"].active_count() > 1):
+    if _is_awaited() or not _has_said_all():
         gc.freeze()  # what is left goes with the process
         sys.exit(code)
     os._exit(code)
+
+
+def _is_awaited() -> bool:
+    """Whether anybody else in this process waits for its end: functions, threads, profilers, debuggers, a prompt."""
+    at_work = "threading" in sys.modules and sys.modules["threading"].active_count() > 1
+    watched = sys.getprofile() or sys.gettrace() or sys.flags.inspect
+    monitoring = getattr(sys, "monitoring", None)  # from Python 3.12 on
+    if monitoring and any(map(monitoring.get_tool, range(6))):
+        watched = True
+    return bool(atexit._ncallbacks() or at_work or watched)  # of CPython; nobody else counts them
+
+
+def _has_said_all() -> bool:
+    """Whether both streams have passed on everything; if they can't, Python says so at its own end."""
+    try:
+        for stream in (sys.stdout, sys.stderr):
+            if stream is not None:
+                stream.flush()
+    except (OSError, ValueError):
+        return False
+    return True

@@ -45,7 +45,7 @@ class Batch:
         """`resumed` stands for a batch that another run has begun."""
         self._root, self._folder, self._shown = root, str(folder), shown
         self.journal, self._resumed = journal, resumed
-        self._targets = [self._place(step.path) for step in journal.steps]
+        self._targets = [self._path(step.path) for step in journal.steps]
         self._target_folders = sorted(set(map(os.path.dirname, self._targets)))
         names = [f".{journal.token}-{number}{TEMPORARY}" for number in range(len(self._targets))]
         self._beside = [f"{os.path.dirname(t)}{os.sep}{name}" for t, name in zip(self._targets, names, strict=True)]
@@ -78,7 +78,7 @@ class Batch:
     @property
     def folders(self) -> Sequence[Path]:
         """The folders that come or go."""
-        return [Path(self._place(path)) for path in (*self.journal.made, *self.journal.emptied)]
+        return [Path(self._path(path)) for path in (*self.journal.made, *self.journal.emptied)]
 
     def prepare(self, contents: Iterable[bytes | None]) -> None:
         """Write the journal and all temporary files. Raises OutputError; no target has changed then."""
@@ -89,8 +89,8 @@ class Batch:
         with self._about(first):
             operations.write(first, self.journal.dumps())
         for path in self.journal.made:
-            with self._about(self._place(path)):
-                operations.make_folder(self._place(path))
+            with self._about(self._path(path)):
+                operations.make_folder(self._path(path))
         self._choose_places()
         written = [first]
         for number, content in enumerate(contents):
@@ -144,7 +144,7 @@ class Batch:
         for number in range(len(self._targets)):
             self._remove_temporaries(number)
         for path in reversed(self.journal.made):
-            operations.remove_folder(self._place(path))
+            operations.remove_folder(self._path(path))
         self._remove_traces()
 
     def tidy(self) -> None:
@@ -153,7 +153,7 @@ class Batch:
             if number not in self._spent:
                 self._remove_temporaries(number)
         for path in self.journal.emptied:
-            operations.remove_folder(self._place(path))
+            operations.remove_folder(self._path(path))
         self._remove_traces()
 
     def _find_temporaries(self) -> None:
@@ -312,7 +312,7 @@ class Batch:
     def _step(self, number: int) -> Step:
         return self.journal.steps[number]
 
-    def _place(self, path: str) -> str:
+    def _path(self, path: str) -> str:
         """Where something of the journal is."""
         return os.path.normpath(os.path.join(self._root, path))
 
@@ -337,7 +337,7 @@ def _identity(path: str) -> tuple[int, ...] | None:
     return status.st_mode, status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
 
 
-def find_phase(folder: operations.Place) -> Phase | None:
+def find_phase(folder: operations.AnyPath) -> Phase | None:
     """The phase of the batch that a state folder has, None if it has none."""
     try:
         names = looking.names(f"{os.fspath(folder)}{os.sep}journal")

@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from urdfsync import profiling
 from urdfsync.files import TEMPORARY
 
-Place = str | os.PathLike[str]
+AnyPath = str | os.PathLike[str]
 """A path; a string takes less time where there are thousands."""
 
 FEW = 32
@@ -42,7 +42,7 @@ _NO_START = {errno.EINVAL, errno.ENOSYS, errno.ENOTSUP, errno.EPERM, errno.ESPIP
 """What the system says where it can't do that, or not for such a file: then the sync alone has to do."""
 
 
-def make_folder(path: Place) -> None:
+def make_folder(path: AnyPath) -> None:
     """Make one folder, unless it is there."""
     try:
         os.mkdir(path)
@@ -51,13 +51,13 @@ def make_folder(path: Place) -> None:
             raise
 
 
-def remove_folder(path: Place) -> None:
+def remove_folder(path: AnyPath) -> None:
     """Remove a folder if it is empty."""
     with contextlib.suppress(OSError):  # it is not empty, gone already, or not ours to remove: all fine
         os.rmdir(path)
 
 
-def makes_alike(folder: Place, other: Place) -> bool:
+def makes_alike(folder: AnyPath, other: AnyPath) -> bool:
     """Whether a file made in one folder is what it would be if it were made in the other: by a move it gets there.
 
     That is so if they are on one file system and hand on the same: a group, an access control list, a security label.
@@ -69,7 +69,7 @@ def makes_alike(folder: Place, other: Place) -> bool:
         return False
 
 
-def write(path: Place, content: bytes, like: Place | None = None) -> None:
+def write(path: AnyPath, content: bytes, like: AnyPath | None = None) -> None:
     """Write a new file, in place of what a killed run left under its name, with the permissions of `like`."""
     try:
         file = open(path, "xb", buffering=0)  # noqa: SIM115
@@ -88,7 +88,7 @@ def write(path: Place, content: bytes, like: Place | None = None) -> None:
                 os.chmod(path, stat.S_IMODE(wanted))
 
 
-def keep(path: Place, copy: Place) -> bool:
+def keep(path: AnyPath, copy: AnyPath) -> bool:
     """Give a file a second name, so that it outlives the first; where that can't be, copy it.
 
     Returns False where no file can be moved from the one folder to the other either.
@@ -103,12 +103,12 @@ def keep(path: Place, copy: Place) -> bool:
     return True
 
 
-def exchange(path: Place, target: Place) -> bool:
+def exchange(path: AnyPath, target: AnyPath) -> bool:
     """Swap two files at one stroke. Returns False, and does nothing, where the system can't do that."""
     return _rename(path, target, _SWAP)
 
 
-def replace(path: Place, target: Place) -> None:
+def replace(path: AnyPath, target: AnyPath) -> None:
     """Move a file over another one, or to a free name; from one file system to another by a copy."""
     try:
         os.replace(path, target)
@@ -121,7 +121,7 @@ def replace(path: Place, target: Place) -> None:
         os.unlink(path)
 
 
-def place(path: Place, target: Place) -> None:
+def place(path: AnyPath, target: AnyPath) -> None:
     """Move a file to a name that must be free. Raises FileExistsError if it is not."""
     if _rename(path, target, _KEEP):
         return
@@ -137,14 +137,14 @@ def place(path: Place, target: Place) -> None:
         os.unlink(path)
 
 
-def remove(path: Place) -> None:
+def remove(path: AnyPath) -> None:
     """Remove a file, if it is there."""
     with contextlib.suppress(FileNotFoundError, NotADirectoryError):
         os.unlink(path)
 
 
 @profiling.staged("syncing")
-def sync(paths: Sequence[Place]) -> None:
+def sync(paths: Sequence[AnyPath]) -> None:
     """Bring files and folders to the disk, so that they outlive a power failure.
 
     A few are synced each by itself, since the one call for all waits for everything that any program has
@@ -201,12 +201,12 @@ def _sync_some(descriptors: Sequence[int], failed: list[OSError], done: Callable
         done()
 
 
-def _content(path: Place) -> bytes:
+def _content(path: AnyPath) -> bytes:
     with open(path, "rb") as file:
         return file.read()
 
 
-def _link(path: Place, copy: Place) -> None:
+def _link(path: AnyPath, copy: AnyPath) -> None:
     """Give a file a second name, in place of what a killed run left there."""
     try:
         os.link(path, copy, **_NOFOLLOW)
@@ -215,7 +215,7 @@ def _link(path: Place, copy: Place) -> None:
         os.link(path, copy, **_NOFOLLOW)
 
 
-def _handed_on(folder: Place) -> tuple[object, ...]:
+def _handed_on(folder: AnyPath) -> tuple[object, ...]:
     """What the files that are made in a folder get from it."""
     status = os.stat(folder)
     attributes: dict[str, bytes] = {}
@@ -228,7 +228,7 @@ def _handed_on(folder: Place) -> tuple[object, ...]:
     return status.st_dev, status.st_gid, status.st_mode & stat.S_ISGID, attributes
 
 
-def _rename(path: Place, target: Place, flag: int) -> bool:
+def _rename(path: AnyPath, target: AnyPath, flag: int) -> bool:
     """Rename a file in this way, at one stroke. Returns False, and does nothing, where the system can't do that."""
     number = _renaming()(os.fsencode(path), os.fsencode(target), flag)
     if number and number not in _NO_RENAMES:
