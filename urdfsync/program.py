@@ -16,12 +16,17 @@ _INTERRUPTED = 130
 
 
 def carry_out(command: "Callable[[], int]") -> int:
-    """Carry out a command, with few searches for cycles; returns its exit code, that of an interruption as well."""
+    """Carry out a command; returns its exit code, that of an interruption as well.
+
+    Few searches for cycles begin meanwhile, and none in the end, since what is left goes with the process.
+    """
     gc.set_threshold(OBJECTS)
     try:
         return command()
     except KeyboardInterrupt:
         return _INTERRUPTED
+    finally:
+        gc.freeze()
 
 
 def end(code: int) -> "NoReturn":
@@ -31,19 +36,17 @@ def end(code: int) -> "NoReturn":
     only waited for if somebody has asked to be told of it, is still at work, or looks on.
     """
     if _is_awaited() or not _has_said_all():
-        gc.freeze()  # what is left goes with the process
         sys.exit(code)
     os._exit(code)
 
 
 def _is_awaited() -> bool:
     """Whether anybody else in this process waits for its end: functions, threads, profilers, debuggers, a prompt."""
+    told = atexit._ncallbacks()  # of CPython, which alone counts them
     at_work = "threading" in sys.modules and sys.modules["threading"].active_count() > 1
-    watched = sys.getprofile() or sys.gettrace() or sys.flags.inspect
     monitoring = getattr(sys, "monitoring", None)  # from Python 3.12 on
-    if monitoring and any(map(monitoring.get_tool, range(6))):
-        watched = True
-    return bool(atexit._ncallbacks() or at_work or watched)  # of CPython; nobody else counts them
+    monitored = monitoring is not None and any(map(monitoring.get_tool, range(6)))
+    return bool(told or at_work or monitored or sys.getprofile() or sys.gettrace() or sys.flags.inspect)
 
 
 def _has_said_all() -> bool:

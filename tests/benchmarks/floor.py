@@ -18,10 +18,11 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
+from urdfsync import program
+
 
 def main(part: str, file: str) -> None:
     """Carry out a part of a task."""
-    gc.set_threshold(100_000)  # as `urdfsync` does
     with open(file, encoding="utf-8") as opened:  # noqa: PTH123 - here and below: what is not needed is not loaded
         task = json.load(opened)
     if part == "package":
@@ -78,5 +79,6 @@ def _write(folder: str, texts: Mapping[str, bytes]) -> None:
 
 
 if __name__ == "__main__":
+    gc.set_threshold(program.OBJECTS)
     main(*sys.argv[1:])
-    os._exit(0)
+    program.end(0)

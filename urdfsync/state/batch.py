@@ -179,8 +179,7 @@ class Batch:
         found = [n for n, apart in self._apart.items() if self._temporaries[n] == apart and n not in self._spent]
         found = [number for number in found if os.path.dirname(self._targets[number]) == folder]
         for number in found:
-            with open(self._apart[number], "rb") as file:
-                operations.write(self._beside[number], file.read(), self._targets[number])
+            operations.write(self._beside[number], operations.read(self._apart[number]), self._targets[number])
         if found:
             operations.sync([self._beside[number] for number in found])
         for number in found:
@@ -301,8 +300,7 @@ class Batch:
         try:
             if not stat.S_ISREG(os.lstat(path).st_mode):
                 return _OTHER
-            with open(path, "rb", buffering=0) as file:
-                return digest(file.read())
+            return digest(operations.read(path))
         except (FileNotFoundError, NotADirectoryError):
             return None
 
@@ -313,7 +311,7 @@ class Batch:
         return self.journal.steps[number]
 
     def _path(self, path: str) -> str:
-        """Where something of the journal is."""
+        """Where a path of the journal leads."""
         return os.path.normpath(os.path.join(self._root, path))
 
     def _file(self, phase: Phase) -> str:

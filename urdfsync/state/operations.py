@@ -69,10 +69,16 @@ def makes_alike(folder: AnyPath, other: AnyPath) -> bool:
         return False
 
 
+def read(path: AnyPath) -> bytes:
+    """The content of a file."""
+    with open(path, "rb", buffering=0) as file:  # a buffer would take as long again
+        return file.read()
+
+
 def write(path: AnyPath, content: bytes, like: AnyPath | None = None) -> None:
     """Write a new file, in place of what a killed run left under its name, with the permissions of `like`."""
     try:
-        file = open(path, "xb", buffering=0)  # noqa: SIM115
+        file = open(path, "xb", buffering=0)  # noqa: SIM115 - a buffer would take as long again
     except FileExistsError:
         os.unlink(path)
         file = open(path, "xb", buffering=0)  # noqa: SIM115
@@ -98,7 +104,7 @@ def keep(path: AnyPath, copy: AnyPath) -> bool:
     except OSError as error:
         if error.errno not in _NO_LINKS:
             raise
-        write(copy, _content(path), path)
+        write(copy, read(path), path)
         return error.errno != errno.EXDEV
     return True
 
@@ -116,7 +122,7 @@ def replace(path: AnyPath, target: AnyPath) -> None:
         if error.errno != errno.EXDEV:
             raise
         beside = os.path.join(os.path.dirname(target), f".{os.getpid()}-{os.path.basename(path)}{TEMPORARY}")
-        write(beside, _content(path), path)
+        write(beside, read(path), path)
         os.replace(beside, target)
         os.unlink(path)
 
@@ -199,11 +205,6 @@ def _sync_some(descriptors: Sequence[int], failed: list[OSError], done: Callable
         failed.append(error)
     finally:
         done()
-
-
-def _content(path: AnyPath) -> bytes:
-    with open(path, "rb") as file:
-        return file.read()
 
 
 def _link(path: AnyPath, copy: AnyPath) -> None:
