@@ -183,25 +183,6 @@ class Proposal(msgspec.Struct, frozen=True):
     reason: str
 
 
-class Spot(msgspec.Struct, frozen=True):
-    """A place in a record at which a value stands, or could."""
-
-    path: str
-    """The record's file, below the package folder."""
-    line: int
-    name: str
-    """What the record calls it, for example `elbow.limits.lower`."""
-    value: str | None
-    """As it is written; None if the record does not say."""
-
-
-class Echo(msgspec.Struct, frozen=True):
-    """One quantity that two records both give, and of which they say different things."""
-
-    one: Spot
-    other: Spot
-
-
 class Quantity(enum.StrEnum):
     """What is compared with a reference."""
 
@@ -353,13 +334,6 @@ class Domain(Protocol):
 
     def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
         """What the differences do to the model as a whole; the versions are as read, not comparable ones."""
-        ...
-
-    def echoes(self, records: Mapping[str, str], target: Target) -> Sequence[Echo]:
-        """Where records repeat each other's values and differ; `records` has texts by path, as on disk. Pure.
-
-        The texts may have been edited: what can't be understood is left out.
-        """
         ...
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:

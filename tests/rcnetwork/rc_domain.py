@@ -22,7 +22,6 @@ from urdfsync.domain import (
     Artifact,
     Conversion,
     Dependency,
-    Echo,
     Import,
     Lookup,
     Order,
@@ -160,9 +159,6 @@ class RcNetwork:
 
     def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
         return ()
-
-    def echoes(self, records: Mapping[str, str], target: Target) -> Sequence[Echo]:
-        return ()  # each number is in one record only
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         nodes = {node for element in snapshot["elements"].values() for node in element["between"]}

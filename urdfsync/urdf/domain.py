@@ -12,7 +12,6 @@ from urdfsync.domain import (
     Artifact,
     Conversion,
     Dependency,
-    Echo,
     Experiment,
     Import,
     Lookup,
@@ -36,7 +35,7 @@ class UrdfDomain:
 
     name = "urdf"
     templates: Path | None = None
-    revision = 3
+    revision = 4
     converter = 1
     uses = USES
     options = Options
@@ -123,12 +122,6 @@ class UrdfDomain:
 
         return changes.effects(old, new, renames)
 
-    def echoes(self, records: Mapping[str, str], target: Target) -> Sequence[Echo]:
-        """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf.echoes import echoes
-
-        return tuple(echoes(records, target))
-
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf.proposal import propose_base
@@ -145,7 +138,7 @@ class UrdfDomain:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf.diagram.picture import draw
 
-        return draw(from_snapshot(snapshot), target) if "package" in options.approach else None
+        return draw(from_snapshot(snapshot), target, options) if "package" in options.approach else None
 
     def models(self, snapshot: Snapshot, target: Target, options: Options) -> Sequence[str]:
         """See `urdfsync.domain.Domain`."""
