@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from urdfsync.planning.memory import Memory
 
 MAX_TEMPLATE = 10_000_000
-"""Bytes of a file in a template folder of the user's; the longest template of urdfsync has 6,000."""
+"""Bytes of a file in a template folder of the user's; the longest template of urdfsync has 5,000."""
 
 
 def read_source(config: Config, robot: RobotConfig) -> bytes:
