@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -101,7 +100,7 @@ def _watch(folder: Path, word: str) -> str:
 
 
 @pytest.fixture
-def modules(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+def modules(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Many robots to build, beside a module of the name of each that Python and urdfsync import. The folder of marks.
 
     A module leaves a mark, and is otherwise empty: so whoever imports it also breaks.
@@ -116,7 +115,7 @@ def modules(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
         text = f"open({str(marks / name)!r}, 'w').close()\n"
         (folder / f"{name}.py").write_text(text)
     repository.git("add", "-A")
-    yield marks
+    return marks
 
 
 def _assert_unmarked(marks: Path) -> None:

@@ -74,9 +74,9 @@ _FILTERS = (
 
 
 MAX_SECONDS = 60.0
-"""Time for one text. The longest text of a robot with 10,000 links takes a few seconds."""
+"""Time for one text. A whole build of 3,000 links, with 12,000 texts, takes 7 s."""
 MAX_OUTPUT = 200_000_000
-"""Characters of one text. The longest text of a robot with 10,000 links has a few million."""
+"""Characters of one text."""
 MAX_BITS = 10_000
 """Bits of an integer that a template multiplies or raises to a power: one such step can't be interrupted."""
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from urdfsync.planning.memory import Memory
 
 MAX_TEMPLATE = 10_000_000
-"""Bytes of a file in a template folder of the user's; the longest template of urdfsync has 6,000."""
+"""Bytes of a file in a template folder of the user's; the longest template of urdfsync has 5,000."""
 
 
 def read_source(config: Config, robot: RobotConfig) -> bytes:
@@ -60,10 +60,9 @@ def _check_templates(folder: Path) -> None:
 
     The files may be a stranger's. Raises ConfigError.
     """
-    inside = folder.resolve()
     for place, folders, files in os.walk(folder):
         for path in (Path(place, name) for name in (*folders, *files)):
-            if path.is_symlink() and not path.resolve().is_relative_to(inside):
+            if path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
                 message = "the link leads out of the template folder"
                 hint = "put a copy of what it leads to in its place"
             elif path.is_file() and path.stat().st_size > MAX_TEMPLATE:
