@@ -125,6 +125,12 @@ class Connector:
     kind: str
     corners: tuple[Point, Point]
 
+    @property
+    def middle(self) -> Point:
+        """The point at which connection lines end."""
+        (x1, y1), (x2, y2) = self.corners
+        return (x1 + x2) / 2, (y1 + y2) / 2
+
 
 @dataclasses.dataclass(frozen=True)
 class Icon:
