@@ -162,6 +162,8 @@ class Lookup(msgspec.Struct, frozen=True):
     """Folders whose children are packages, from the configuration and the environment, best first."""
     packages: Mapping[str, Path] = msgspec.field(default_factory=dict)
     """Folders of packages by their name, wherever they are; filled only if something was not found without."""
+    libraries: Mapping[str, Path] = msgspec.field(default_factory=dict)
+    """Folders of the Modelica libraries on MODELICAPATH by their name; filled only if the source refers to one."""
     guess: bool = False
     """Whether a package that is nowhere may be a folder of another name around the source."""
 
