@@ -223,8 +223,8 @@ def test_only_a_package_at_the_top_says_what_it_uses() -> None:
     ("approach", "named"), [(["package"], True), (["package", "record"], True), (["record"], False)]
 )
 def test_only_a_package_with_such_shapes_uses_visualization2(approach: list[str], named: bool) -> None:
-    options = {"visualizer": "visualization2", "approach": tuple(approach)}
-    used = "".join(package_of(urdfs.link("a"), **options).texts["package.mo"].split())
+    package = package_of(urdfs.link("a"), visualizer="visualization2", approach=tuple(approach))
+    used = "".join(package.texts["package.mo"].split())
     assert ('Visualization2(version="' in used) == named
 
 
