@@ -202,7 +202,9 @@ def _joints(skeleton: Skeleton, names: Connectors) -> list[JointPart]:
             notes.joint_title(joint),
             names.axes.get(joint.name),
             _following(skeleton, joint, types, names),
-            tuple(names.couplings[follower.name] for follower, _ in followers.get(joint.name, ()) if joint.type in MOTIONS),
+            tuple(
+                names.couplings[follower.name] for follower, _ in followers.get(joint.name, ()) if joint.type in MOTIONS
+            ),
         )
         for joint in skeleton.joints
     ]
