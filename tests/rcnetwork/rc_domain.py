@@ -111,6 +111,10 @@ class RcNetwork:
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         return {"elements": {name: name for name in snapshot["elements"]}}
 
+    def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
+        if not options.prefix:
+            yield "prefix", Diagnostic(Severity.ERROR, "no-prefix", "`prefix` is empty", hint="write one")
+
     def artifacts(
         self,
         snapshot: Snapshot,

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
+
 from urdfsync import looking, profiling
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
@@ -48,6 +50,25 @@ def templates(config: Config, robot: RobotConfig, domain: Domain, memory: Memory
         return text_digests(folder)
 
     return Templates(tuple(folders), templates_digest(folders, read))
+
+
+def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: Snapshot) -> tuple[Diagnostic, ...]:
+    """What the domain says of the robot's options, now that there is a model, at their lines in the configuration.
+
+    Raises ConfigError if one of them does not suit the model.
+    """
+    found = tuple(
+        msgspec.structs.replace(
+            said,
+            message=f"robot `{robot.name}`: {said.message}",
+            file=shown(config.file),
+            line=robot.lines.get(option, robot.lines[""]),
+        )
+        for option, said in domain.check_options(snapshot, robot.options)
+    )
+    if any(said.severity is Severity.ERROR for said in found):
+        raise ConfigError(*found)
+    return found
 
 
 @profiling.staged("reading")
