@@ -241,6 +241,10 @@ def test_records_as_generated_agree_with_each_other(case: Case) -> None:
     assert list(case.domain.echoes(dict.fromkeys(found, "record"), TARGET)) == []
 
 
+def test_defaults_suit_every_model(case: Case) -> None:
+    assert list(case.domain.check_options(case.snapshot, case.options)) == []
+
+
 def test_proposals_are_options(case: Case) -> None:
     values = {proposal.option: proposal.value for proposal in case.domain.propose(case.snapshot)}
     options = {field.encode_name for field in msgspec.structs.fields(case.domain.options)}

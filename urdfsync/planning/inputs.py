@@ -55,7 +55,7 @@ def templates(config: Config, robot: RobotConfig, domain: Domain, memory: Memory
 def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: Snapshot) -> tuple[Diagnostic, ...]:
     """What the domain says of the robot's options, now that there is a model, at their lines in the configuration.
 
-    Raises ConfigError if one of them does not suit the model.
+    Raises ConfigError with every option that does not suit the model.
     """
     found = tuple(
         msgspec.structs.replace(
@@ -66,8 +66,8 @@ def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: 
         )
         for option, said in domain.check_options(snapshot, robot.options)
     )
-    if any(said.severity is Severity.ERROR for said in found):
-        raise ConfigError(*found)
+    if errors := [said for said in found if said.severity is Severity.ERROR]:
+        raise ConfigError(*sorted(errors, key=lambda error: error.line))
     return found
 
 

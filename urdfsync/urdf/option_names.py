@@ -24,15 +24,15 @@ def check_options(
 ) -> Iterator[tuple[str, Diagnostic]]:
     """What there is to say of a robot's options, each with the option that it is about; without file and line.
 
-    `links` are the names of all links.
+    `links` are the names of all links. The record approach has no use for these options.
     """
+    if "package" not in options.approach:
+        return
     by_name = {joint.name: joint for joint in joints}
     if isinstance(options.frames, tuple):
         for name in dict.fromkeys(options.frames):
             if name not in links:
                 yield "frames", _no_link(name, links, by_name)
-    if "package" not in options.approach:
-        return
     if options.driven is None:
         if passive := passive_joints(joints):
             yield "driven", _passive(passive)
@@ -77,13 +77,12 @@ def _meant(name: str, known: Collection[str]) -> str:
 
 
 def _passive(names: Collection[str]) -> Diagnostic:
+    """The note that some joints are not driven, and how to change that."""
     ordered = sorted(names, key=natural_key)
     shown = ", ".join(f"`{name}`" for name in ordered[:_SHOWN])
     more = f" and {len(ordered) - _SHOWN} more" if len(ordered) > _SHOWN else ""
-    verb = "is" if len(ordered) == 1 else "are"
     message = (
-        f"{shown}{more} {verb} not driven in Run and Test: other joints have a transmission or a command interface, "
-        "and a continuous joint with neither of them nor a limit counts as passive"
+        f"Run and Test do not drive {shown}{more}: others have a transmission or ros2_control, these not even a limit"
     )
     hint = "if that is wrong, list all joints to drive in `driven`"
     return Diagnostic(Severity.NOTE, "passive-joints", message, hint=hint)

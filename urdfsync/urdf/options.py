@@ -26,11 +26,11 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     approach: tuple[Literal["package", "record"], ...] = ("package",)
     """`package`: a model per link and joint; `record`: a bench for the generic robot. Both have the robot's record."""
     driven: tuple[str, ...] | None = None
-    """URDF names of the joints that Run and Test drive; None for those that the source lets expect: see `drives`."""
+    """URDF names of the joints that Run and Test drive; None to go by the source: see `urdfsync.urdf.drives`."""
     frames: Literal["leaves", "all"] | tuple[str, ...] = "leaves"
-    """Links that have a frame in the robot model, by URDF names: leaves always have one, `all` or others beside them."""
+    """URDF names of the links that have a frame in the robot model beside the leaves, which always have one."""
     inputs: Literal["names", "vector"] = "names"
-    """Position inputs of Run: `names`: one per driven joint; `vector`: one vector of them, in the order of the chain."""
+    """`names`: Run has a position input per driven joint; `vector`: one for all, in the order of the chain."""
 
     def __post_init__(self) -> None:
         """Raise ValueError for a choice that leaves nothing to write."""

@@ -109,7 +109,7 @@ class _Meanings(msgspec.Struct, frozen=True, dict=True):
         return Meaning(words, max(classes, key=lambda c: c.rank), unit)
 
     def _drive(self, name: str, kind: Kind) -> Meaning | None:
-        """A joint that begins or ceases to be driven; None where its type or its mimic says so, or an option decides."""
+        """A joint that begins or ceases to be driven; None if its type or mimic says so, or if an option decides."""
         if kind is not Kind.CHANGED or self.options.driven is not None or "package" not in self.options.approach:
             return None
         return Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL)
