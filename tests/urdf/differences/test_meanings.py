@@ -318,3 +318,11 @@ def test_a_renamed_joint_keeps_its_drive() -> None:
     found = drives((*CASTERS, WHEEL), renamed)
     assert "joint wheel" in found
     assert not [path for path in found if path.endswith("drive") and path.startswith("joint")]
+
+
+def test_a_rename_that_the_transmission_has_missed_is_one_still() -> None:
+    renamed = [element.replace('"wheel"', '"tyre"') for element in CASTERS]
+    assert drives((*CASTERS, WHEEL), (*renamed, WHEEL)) == {
+        "joint wheel": (None, None, STRUCTURAL),
+        "joint caster / drive": DRIVEN,
+    }
