@@ -14,12 +14,14 @@ from urdfsync.urdf.options import Options
 
 TRANSMISSION = '<transmission name="t"><joint name="wheel"/></transmission>'
 CART = urdfs.robot(
-    *map(urdfs.link, ("base", "tyre", "roller", "mast", "camera", "plate", "kite")),
+    *map(urdfs.link, ("base", "tyre", "roller", "mast", "camera", "plate", "kite", "cover", "bolt")),
     urdfs.joint("wheel", "continuous", "base", "tyre"),
     urdfs.joint("caster", "continuous", "base", "roller"),
     urdfs.joint("lift", "prismatic", "base", "mast", inside=[urdfs.limit(), urdfs.mimic("wheel")]),
     urdfs.joint("camera", "fixed", "mast", "camera"),
     urdfs.joint("glide", "planar", "base", "plate"),
+    urdfs.joint("lid", "fixed", "base", "cover", inside=[urdfs.mimic("wheel")]),
+    urdfs.joint("latch", "continuous", "base", "bolt", inside=[urdfs.mimic("lift")]),
     urdfs.joint("fly", "floating", "base", "kite"),
 )
 WITH_DRIVE = CART.replace("</robot>", f"{TRANSMISSION}</robot>")
@@ -56,6 +58,9 @@ def test_a_frame_of_no_link(name: str, words: str) -> None:
         ("fly", "which is floating and has no single axis; take it out [drive-of-no-joint]"),
         ("tyre", "which is a link and no joint; name the joint that moves it, `wheel` [drive-of-no-joint]"),
         ("base", "which is a link and no joint; name a joint [drive-of-no-joint]"),
+        ("plate", "which is a link and no joint; name a joint [drive-of-no-joint]"),
+        ("lid", "which is fixed; take it out [drive-of-no-joint]"),
+        ("latch", "which follows joint `lift`; take it out [drive-of-no-joint]"),
     ],
 )
 def test_a_drive_of_no_joint_that_can_be_driven(name: str, words: str) -> None:

@@ -50,25 +50,26 @@ def _no_link(name: str, links: Collection[str], joints: Mapping[str, Joint]) -> 
 
 
 def _no_drive(name: str, links: Collection[str], joints: Mapping[str, Joint]) -> Diagnostic:
-    joint = joints.get(name)
+    joint, can = joints.get(name), [other.name for other in joints.values() if can_be_driven(other)]
     if joint is not None:
         message = f"`driven` names `{name}`, which {_hindrance(joint)}"
-        hint = f"name `{joint.mimic.joint}`, or take it out" if joint.mimic else "take it out"
+        leader = joint.mimic.joint if joint.mimic and joint.type != "fixed" else ""
+        hint = f"name `{leader}`, or take it out" if leader in can else "take it out"
     elif name in links:
         above = next((joint.name for joint in joints.values() if joint.child == name), "")
         message = f"`driven` names `{name}`, which is a link and no joint"
-        hint = f"name the joint that moves it, `{above}`" if above else "name a joint"
+        hint = f"name the joint that moves it, `{above}`" if above in can else "name a joint"
     else:
         message = f"`driven` names `{name}`, but the robot has no such joint"
-        hint = _meant(name, [joint.name for joint in joints.values() if can_be_driven(joint)])
+        hint = _meant(name, can)
     return _error("drive-of-no-joint", message, hint)
 
 
 def _hindrance(joint: Joint) -> str:
     """Why a joint can't be driven."""
-    if joint.mimic is not None:
-        return f"follows joint `{joint.mimic.joint}`"
-    return "is fixed" if joint.type == "fixed" else f"is {joint.type} and has no single axis"
+    if joint.type == "fixed":
+        return "is fixed"
+    return f"follows joint `{joint.mimic.joint}`" if joint.mimic else f"is {joint.type} and has no single axis"
 
 
 def _meant(name: str, known: Collection[str]) -> str:
