@@ -22,7 +22,6 @@ from urdfsync.domain import (
     Artifact,
     Conversion,
     Dependency,
-    Echo,
     Import,
     Lookup,
     Order,
@@ -70,9 +69,11 @@ class RcNetwork:
     name = "rcnetwork"
     templates: Path | None = Path(__file__).parent / "templates"
     revision = 1
-    uses = (("Modelica", "4.0.0"),)
     converter = 1
     options = Options
+
+    def uses(self, options: Options) -> Sequence[tuple[str, str]]:
+        return (("Modelica", "4.0.0"),)
 
     def read(self, content: bytes, file: str, options: Options, parts: Parts | None = None) -> Reading:
         text = content.decode(errors="replace")
@@ -168,9 +169,6 @@ class RcNetwork:
 
     def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
         return ()
-
-    def echoes(self, records: Mapping[str, str], target: Target) -> Sequence[Echo]:
-        return ()  # each number is in one record only
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         nodes = {node for element in snapshot["elements"].values() for node in element["between"]}

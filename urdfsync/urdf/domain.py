@@ -13,7 +13,6 @@ from urdfsync.domain import (
     Artifact,
     Conversion,
     Dependency,
-    Echo,
     Experiment,
     Import,
     Lookup,
@@ -27,7 +26,7 @@ from urdfsync.domain import (
 )
 from urdfsync.urdf import naming
 from urdfsync.urdf.kept import Kept
-from urdfsync.urdf.options import USES, Options
+from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
 
@@ -37,14 +36,17 @@ class UrdfDomain:
 
     name = "urdf"
     templates: Path | None = None
-    revision = 3
+    revision = 5
     converter = 1
-    uses = USES
     options = Options
 
     def __init__(self) -> None:
         self._meshes: Parts | None = None
         """Which links have meshes, where readings are kept: several stages of a build ask for them."""
+
+    def uses(self, options: Options) -> Sequence[tuple[str, str]]:
+        """See `urdfsync.domain.Domain`."""
+        return options.uses
 
     def read(self, content: bytes, file: str, options: Options, parts: Parts | None = None) -> Reading:
         """See `urdfsync.domain.Domain`."""
@@ -130,12 +132,6 @@ class UrdfDomain:
 
         return changes.effects(old, new, renames)
 
-    def echoes(self, records: Mapping[str, str], target: Target) -> Sequence[Echo]:
-        """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf.echoes import echoes
-
-        return tuple(echoes(records, target))
-
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf.proposal import propose_base
@@ -152,7 +148,7 @@ class UrdfDomain:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf.diagram.picture import draw
 
-        return draw(from_snapshot(snapshot), target) if "package" in options.approach else None
+        return draw(from_snapshot(snapshot), target, options) if "package" in options.approach else None
 
     def models(self, snapshot: Snapshot, target: Target, options: Options) -> Sequence[str]:
         """See `urdfsync.domain.Domain`."""

@@ -13,7 +13,7 @@ from support.trees import robots
 from urdfsync.domain import Artifact, Import, Target
 from urdfsync.urdf.artifacts import artifacts
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.assembly import couplings, robot_data, standing_height, tree, vectors
+from urdfsync.urdf.model.assembly import standing_height, vectors
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,
@@ -48,12 +48,9 @@ def body(name: str, *shapes: Geometry) -> Link:
     return Link(name, Inertial(1.0), collisions=tuple(map(Collision, shapes)))
 
 
-def data(robot: Skeleton) -> dict[str, Any]:
-    return robot_data(robot, TARGET, Options())
-
-
 def record(robot: Skeleton, **options: Any) -> Mapping[str, Any]:
-    files = artifacts(Robot("the robot", robot.links, robot.joints), {}, TARGET, Options(**options))
+    chosen = Options(approach=("record",), **options)
+    files = artifacts(Robot("the robot", robot.links, robot.joints), {}, TARGET, chosen)
     (found,) = (file for file in files if isinstance(file, Artifact) and file.path == "ArmParameters.mo")
     structure = found.data["structure"]
     return {**found.data, **structure.make(*structure.made_of)}
@@ -94,75 +91,6 @@ def test_only_joints_that_follow_nothing_can_be_driven() -> None:
     assert [(axis.name, axis.number) for axis in rotational["axes"]] == [("turn", 1)]
     assert [(axis.name, axis.number) for axis in translational["axes"]] == [("slide", 1)]
     assert vectors(skeleton(Joint("j", "fixed", "a", "b"))) == []
-
-
-def test_a_range_respects_all_that_follow() -> None:
-    _, translational = vectors(GRIPPER)
-    (axis,) = translational["axes"]
-    assert axis.range.count("leaderRange") == 2
-    assert axis.range.index("slide.") < axis.range.index("other.") < axis.range.index("pinion.")
-
-
-def test_every_pairing_has_its_coupling() -> None:
-    found = {entry.follower: (entry.component, entry.type, entry.leader) for entry in couplings(GRIPPER)}
-    assert found == {
-        "other": ("otherMimic", "TranslationalToTranslational", "slide"),
-        "pinion": ("pinionMimic", "TranslationalToRotational", "other"),
-        "lock": ("lockMimic", "HeldRotational", None),
-    }
-
-
-def test_joints_are_told_their_axis_and_followers_where_to_start() -> None:
-    modifiers = {joint.component: joint.modifiers for joint in data(GRIPPER)["joints"]}
-    assert "axisNumber = 1" in modifiers["slide"]
-    assert "s_start = s_start[1]" in modifiers["slide"]
-    assert modifiers["mount"] == []
-    assert (
-        modifiers["other"][-1]
-        == "s_start = other.parameters.mimic.multiplier*slide.s_start + other.parameters.mimic.offset"
-    )
-    assert "phi_start = pinion.parameters.mimic.multiplier*other.s_start" in modifiers["pinion"][-1]
-    assert modifiers["lock"][-1] == "phi_start = lock.parameters.mimic.offset"
-
-
-@pytest.mark.parametrize("kind", ["fixed", "planar", "floating"])
-def test_joints_without_an_axis_have_nothing_to_be_told(kind: JointType) -> None:
-    assert data(skeleton(Joint("j", kind, "a", "b")))["joints"][0].modifiers == []
-
-
-@given(robots())
-def test_the_robot_model_has_every_element_once_and_a_place_for_each(robot: Robot) -> None:
-    found = data(Skeleton.of(robot))
-    names = [entry.component for kind in ("links", "joints", "couplings") for entry in found[kind]]
-    assert len(set(names)) == len(robot.links) + len(robot.joints) + sum(
-        joint.mimic is not None and joint.type in MOTIONS for joint in robot.joints
-    )
-    flanges = [vector[end] for vector in found["vectors"] for end in ("axis", "support")]
-    assert sorted(found["diagram"]) == sorted([*names, *flanges, "frame_a", "frame_b"])
-    assert len(found["leaves"]) == len(robot.links) - len({joint.parent for joint in robot.joints})
-
-
-def test_a_link_may_be_named_as_what_templates_say_of_diagrams() -> None:
-    found = data(skeleton(Joint("items", "fixed", "extent", "keys")))
-    assert found["extent"] != found["diagram"]["extent"]
-    assert {"extent", "items", "keys"} < found["diagram"].keys()
-
-
-def test_numbers_of_the_urdf_are_in_records_only() -> None:
-    numbers = Joint(
-        "j", "revolute", "a", "b", Origin((0.123456, 0.123456, 0.123456)), limit=Limit(-0.123456, 0.123456, 0.123456)
-    )
-    robot = skeleton(numbers, links=(Link("a", Inertial(0.123456)), Link("b", Inertial(0.123456))))
-    assert "123456" not in repr(data(robot))
-    assert repr(record(robot)).count("0.123456") == 8
-
-
-def test_the_tree_of_the_diagram_is_that_of_the_robot() -> None:
-    shown = tree(GRIPPER)
-    assert shown.root == "base"
-    assert [joint.name for joint in shown.children["palm"]] == ["mount", "other", "slide"]
-    assert [joint.axis for joint in shown.children["palm"]] == [None, None, 1]
-    assert shown.leaves == {"lens": 1, "right": 2, "gear": 3}
 
 
 @pytest.mark.parametrize(("shape", "height"), [(Sphere(0.3), 0.3), (Box((1, 1, 0.5)), 0.25), (Cylinder(0.2, 0.6), 0.3)])

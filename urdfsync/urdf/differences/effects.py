@@ -1,4 +1,4 @@
-"""What differences do to the robot as a whole: mass, centre of mass, numbers of flanges and frames."""
+"""What differences do to the robot as a whole: mass, centre of mass, connectors."""
 
 from __future__ import annotations
 
@@ -7,26 +7,27 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from urdfsync.difference import Effect, ElementKey, Version
 from urdfsync.urdf.kinematics import compose, link_poses, pose
-from urdfsync.urdf.model.assembly import axis_numbers
+from urdfsync.urdf.model.connectors import Connectors, connectors
 from urdfsync.urdf.naming import natural_key
 from urdfsync.urdf.robot import Vector
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
+from urdfsync.urdf.skeleton import Skeleton
 from urdfsync.urdf.snapshot import from_snapshot
 
 
 def effects(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
-    """Mass and centre of mass of both versions, and the numbers of axes and frames that changed.
+    """Mass and centre of mass of both versions, and the connectors that have another name.
 
     The centre of mass is in metres, in the frame of the root link, with all joints at zero; it is None for a robot
     without mass.
     """
     before, after = (Skeleton.of(from_snapshot(snapshot)) for snapshot in (old.snapshot, new.snapshot))
+    old_names, new_names = _connectors(before), _connectors(after)
     (old_mass, old_centre), (new_mass, new_centre) = _mass(before), _mass(after)
     return [
         Effect(("robot", "mass"), old_mass, new_mass, "kg"),
         Effect(("robot", "centre of mass"), old_centre, new_centre, "m"),
-        *_renumbered("joint", _axes(before), _axes(after), renames),
-        *_renumbered("link", _frames(before), _frames(after), renames),
+        *_renamed("joint", old_names.axes, new_names.axes, renames),
+        *_renamed("link", old_names.frames, new_names.frames, renames),
     ]
 
 
@@ -46,18 +47,11 @@ def _mass(skeleton: Skeleton) -> tuple[float, Vector | None]:
     return total, (x, y, z)
 
 
-def _axes(skeleton: Skeleton) -> Mapping[str, str]:
-    """Per driven joint, its flange in the robot model."""
-    motions = {joint.name: MOTIONS[joint.type] for joint in skeleton.joints if joint.type in MOTIONS}
-    return {name: f"{motions[name]}Axis[{number}]" for name, number in axis_numbers(skeleton).items()}
+def _connectors(skeleton: Skeleton) -> Connectors:
+    return connectors(skeleton, (link.name for link in skeleton.leaves()))
 
 
-def _frames(skeleton: Skeleton) -> Mapping[str, str]:
-    """Per link without children, its frame in the robot model."""
-    return {link.name: f"frame_b[{number}]" for number, link in enumerate(skeleton.leaves(), 1)}
-
-
-def _renumbered(
+def _renamed(
     kind: str, old: Mapping[str, str], new: Mapping[str, str], renames: Mapping[ElementKey, str]
 ) -> Iterator[Effect]:
     """Connectors of elements that both versions connect, where they are not the same."""

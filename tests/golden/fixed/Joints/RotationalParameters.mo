@@ -1,6 +1,6 @@
 within Zoo.Menagerie.Joints;
 
-record Rotational_jointParameters "Numbers of continuous joint \"rotational\" from link \"chassis\" to link \"CON\""
+record RotationalParameters "Numbers of continuous joint \"rotational\" from link \"chassis\" to link \"CON\""
   extends UrdfSync.Records.ContinuousJoint(
     name = "rotational",
     origin(
@@ -29,4 +29,4 @@ record Rotational_jointParameters "Numbers of continuous joint \"rotational\" fr
 Numbers of continuous joint &quot;rotational&quot; from link &quot;chassis&quot; to link &quot;CON&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
 </html>"));
-end Rotational_jointParameters;
+end RotationalParameters;
