@@ -9,6 +9,7 @@ import msgspec
 
 from urdfsync.domain import Target
 from urdfsync.urdf.diagram import layout
+from urdfsync.urdf.frames import frame_links
 from urdfsync.urdf.model import notes
 from urdfsync.urdf.model.connectors import Connectors, connectors
 from urdfsync.urdf.options import Options
@@ -121,7 +122,7 @@ def robot_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str
 
 def connector_names(skeleton: Skeleton, options: Options) -> Connectors:
     """The names of a robot's connectors."""
-    return connectors(skeleton, (link.name for link in skeleton.leaves()))
+    return connectors(skeleton, (link.name for link in frame_links(skeleton, options)))
 
 
 def drive_rows(skeleton: Skeleton, names: Connectors) -> list[Drive]:
