@@ -21,7 +21,9 @@ def interface(old: Version, new: Version, renames: Mapping[ElementKey, str], opt
         return ()
     before, after = (Skeleton.of(from_snapshot(version.snapshot)) for version in (old, new))
     one, other = connector_names(before, options), connector_names(after, options)
-    links, joints = ({item.name for item in items} for items in (after.links, after.joints))
+    links = {renames.get(("link", link.name), link.name) for link in before.links} & {link.name for link in after.links}
+    joints = {renames.get(("joint", joint.name), joint.name) for joint in before.joints}
+    joints &= {joint.name for joint in after.joints}
     return [
         *_differing("link", "frame", one.frames, other.frames, links, renames),
         *_differing("joint", "axis", one.axes, other.axes, joints, renames),
