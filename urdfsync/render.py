@@ -13,8 +13,9 @@ from typing import Any
 
 import jinja2
 
-from urdfsync import bytecode, literals
+from urdfsync import bytecode
 from urdfsync.domain import Piece, Recipe
+from urdfsync.modelica import literals
 
 
 def once(pieces: Iterable[Any], macro: Callable[[Any], str]) -> str:

@@ -14,9 +14,9 @@ import shutil
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from urdfsync import modelica
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.modelica.names import within
 
 _NOT_CLASSES = frozenset({"Resources"})
 """Folders of a package that hold no classes, whatever is in them."""
@@ -59,7 +59,7 @@ def surroundings(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
     for name in _parents(robot.target.package):
         path = f"{name.replace('.', '/')}/package.mo"
         last = name.rpartition(".")[2]
-        found.setdefault(path, f"{modelica.within(name)}\npackage {last}\nend {last};\n".encode())
+        found.setdefault(path, f"{within(name)}\npackage {last}\nend {last};\n".encode())
     return found
 
 

@@ -13,8 +13,8 @@ from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.files import text_digest
-from urdfsync.literals import numbers_only
 from urdfsync.manifest import Manifest
+from urdfsync.modelica.literals import numbers_only
 from urdfsync.plan import (
     CONFLICTS,
     DELETES,

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from urdfsync.merging.tokens import NEWLINE, is_trivia, tokens
-from urdfsync.modelica import KEYWORDS
+from urdfsync.modelica.names import KEYWORDS
 
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?", re.ASCII)
 _OPEN, _CLOSE = frozenset("({["), frozenset(")}]")

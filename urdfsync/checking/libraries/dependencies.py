@@ -12,12 +12,12 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import modelica
 from urdfsync.checking import workspace
 from urdfsync.checking.libraries import library, references
 from urdfsync.config import RobotConfig
+from urdfsync.modelica.names import LIBRARY
 
-_KNOWN = frozenset((*library.PARTS, modelica.LIBRARY))
+_KNOWN = frozenset((*library.PARTS, LIBRARY))
 """Libraries that are found in other ways."""
 
 

@@ -9,7 +9,7 @@ from typing import TypeAlias, TypeVar
 import msgspec
 
 from urdfsync.domain import Import
-from urdfsync.literals import real, string, vector
+from urdfsync.modelica.literals import real, string, vector
 from urdfsync.urdf.meshes import lookup as mesh_lookup
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
