@@ -75,7 +75,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     **{f"modelica/{name}": ("urdfsync", *IO, *HEAVY) for name in ("names", "literals")},
     **{
         f"modelica/{name}": ("pathlib", "urdfsync.manifest", "urdfsync.merging", *SHELL_MODULES, *IO, *HEAVY)
-        for name in ("lexer", "syntax", "reader", "expressions", "parser", "scopes", "lint")
+        for name in ("lexer", "syntax", "reader", "expressions", "parser", "scopes", "unresolved")
     },
     "merge": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "merging/soundness": ("pathlib", "urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY),

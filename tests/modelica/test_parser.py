@@ -112,8 +112,8 @@ def test_classes_come_in_several_forms() -> None:
     ]
     short, _, medium, extension, *_ = found.classes
     assert short.alias == Extends(name("Real", 2), (Modifier(name("min", 2), uses=(name("a", 2),)),))
-    assert (medium.constraint, medium.prefixes) == (Extends(name("C", 4)), {"replaceable"})
-    assert (extension.arguments, extension.prefixes) == ((Modifier(name("k", 5)),), {"redeclare"})
+    assert (medium.constraint, medium.prefixes) == (Extends(name("C", 4)), frozenset({"replaceable"}))
+    assert (extension.arguments, extension.prefixes) == ((Modifier(name("k", 5)),), frozenset({"redeclare"}))
 
 
 def test_imports() -> None:

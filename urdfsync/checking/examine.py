@@ -5,9 +5,9 @@ from __future__ import annotations
 import contextlib
 import functools
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import msgspec
 
@@ -15,11 +15,13 @@ from urdfsync.checking import loading, workspace
 from urdfsync.checking.cache import Cache
 from urdfsync.checking.compilers import choice
 from urdfsync.checking.compilers.tasks import Outcome, Task, compiling
-from urdfsync.checking.diagnosis import layout, problems
+from urdfsync.checking.diagnosis import layout, names, problems
+from urdfsync.checking.diagnosis.package import holds_class
 from urdfsync.checking.diagnosis.problems import Case
 from urdfsync.checking.findings import Findings
 from urdfsync.checking.loading import Loaded, Loader
 from urdfsync.checking.process import Limits
+from urdfsync.checking.sources import DiskSources
 from urdfsync.checking.subject import Subject
 from urdfsync.checking.toolbox import Toolbox
 from urdfsync.checking.trials import Trials
@@ -50,6 +52,11 @@ def examine(
         findings.say(found)
         if any(one.severity is Severity.ERROR for one in found):
             findings.miss("nothing was compiled, since the files are not in order")
+            return findings.verdict
+        own, others = _names(subject)
+        findings.say([*own, *others])
+        if any(one.severity is Severity.ERROR for one in own):
+            findings.miss("nothing was compiled, since names in the package mean nothing")
         else:
             cache = Cache.of_user()
             with loading.bench(cache, config, robot) as folder:
@@ -64,6 +71,26 @@ def _files(subject: Subject) -> list[Diagnostic]:
     files = {robot.output / path: content for path, content in subject.around.items()}
     odd = [_odd(path) for path in workspace.oddities(robot.folder)] if subject.built else []
     return [*layout.check(subject.package), *layout.check_around(files, shown), *odd]
+
+
+def _names(subject: Subject) -> tuple[list[Diagnostic], list[Diagnostic]]:
+    """What is wrong with names in the package, and in the user's files outside of it."""
+    robot = subject.robot
+    package = {robot.folder / path: text for path, text in subject.texts.items() if holds_class(PurePosixPath(path))}
+    around = {robot.output / path: text for path, text in subject.around.items() if path.endswith(".mo")}
+    sources = DiskSources(subject.config, robot, {**around, **subject.users_files, **package})
+
+    def found(files: Collection[Path]) -> list[Diagnostic]:
+        classes = [name for name, one in sources.classes.items() if Path(one.file) in files]
+        return list(names.check(subject.package, classes, sources))
+
+    unread = [path for path in sources.unread if path in subject.users_files and path not in around]
+    return found(package), [*map(_unread, unread), *found(subject.users_files)]
+
+
+def _unread(path: Path) -> Diagnostic:
+    message, hint = "this file can't be read as Modelica, so its names were not checked", "open it in a Modelica tool"
+    return Diagnostic(Severity.WARNING, "names-unread", message, shown(path), hint=hint)
 
 
 def _odd(path: Path) -> Diagnostic:

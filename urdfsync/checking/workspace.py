@@ -63,6 +63,24 @@ def surroundings(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
     return found
 
 
+def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
+    """The Modelica files below the output folder, in no robot's package, that have to do with the robot's package.
+
+    They mention the package, or the class in another such file. Raises OutputError for a file that can't be read.
+    """
+    folders = frozenset(other.folder for other in config.robots)
+    read = _read(robot.output, robot.output, folders) if robot.output not in folders else {}
+    waiting = {path: content for path, content in read.items() if path.endswith(".mo")}
+    names, found = [_name(robot)], {}
+    while names:
+        name = names.pop()
+        for path in [path for path, content in waiting.items() if mentions(content, name)]:
+            found[robot.output / path] = waiting.pop(path)
+            file = Path(path)
+            names.append((file.parent.name if file.name == "package.mo" else file.stem).encode())
+    return dict(sorted(found.items()))
+
+
 def write(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: Mapping[str, bytes]) -> Path:
     """Make `folder` hold the package in `texts` with what is around it, and nothing else; gives the top-level package.
 
