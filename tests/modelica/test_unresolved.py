@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
 
-from urdfsync.checking.sources import DiskSources
-from urdfsync.checking.workspace import package_texts
-from urdfsync.config import load
+from urdfsync.checking.libraries import library
+from urdfsync.classfiles import StoredClasses
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.scopes import UNKNOWN, Element, Missing, Node, Scopes, Stored, Unknown
 from urdfsync.modelica.syntax import Name
@@ -253,19 +253,17 @@ def test_every_misspelled_use_is_found(text: str) -> None:
         assert (line, name) in [(one.line, one.part) for one in found(damaged, *others)]
 
 
-def stored_below(sources: DiskSources, name: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
+def stored_below(sources: StoredClasses, name: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
     yield name
     for inner in sources.names_in(name):
         yield from stored_below(sources, (*name, inner))
 
 
 def faults_in(top: str) -> list[str]:
-    config = load(REPOSITORY / "urdfsync.toml")
-    robot = config.robots[0]
-    texts = {robot.folder / path: text for path, text in package_texts(robot.folder).items() if path.endswith(".mo")}
-    sources = DiskSources(config, robot, texts)
-    if sources.stored((top,)) is None:
+    places = [REPOSITORY / "modelica", *library.folders(os.environ, library.home())]
+    if library.find(top, places) is None:
         pytest.skip(f"there is no library {top}")
+    sources = StoredClasses("None", Path("None"), {}, {}, lambda name: library.find(name, places))
     scopes, count, faults = Scopes(sources), 0, []
     for name in stored_below(sources, (top,)):
         node = scopes.node(name)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import os
 import threading
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 import msgspec
 
@@ -16,19 +17,21 @@ from urdfsync.checking.cache import Cache
 from urdfsync.checking.compilers import choice
 from urdfsync.checking.compilers.tasks import Outcome, Task, compiling
 from urdfsync.checking.diagnosis import layout, names, problems
-from urdfsync.checking.diagnosis.package import holds_class
 from urdfsync.checking.diagnosis.problems import Case
 from urdfsync.checking.findings import Findings
+from urdfsync.checking.libraries import dependencies, library
+from urdfsync.checking.libraries.library import LibraryError
 from urdfsync.checking.loading import Loaded, Loader
 from urdfsync.checking.process import Limits
-from urdfsync.checking.sources import DiskSources
 from urdfsync.checking.subject import Subject
 from urdfsync.checking.toolbox import Toolbox
 from urdfsync.checking.trials import Trials
 from urdfsync.checking.verdict import Compiled, Verdict
 from urdfsync.checking.wishes import Wishes
-from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.classfiles import StoredClasses
+from urdfsync.config import Config, RobotConfig, library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.modelica.names import LIBRARY
 from urdfsync.planning.situation import Progress, Request
 
 
@@ -75,17 +78,28 @@ def _files(subject: Subject) -> list[Diagnostic]:
 
 def _names(subject: Subject) -> tuple[list[Diagnostic], list[Diagnostic]]:
     """What is wrong with names in the package, and in the user's files outside of it."""
-    robot = subject.robot
-    package = {robot.folder / path: text for path, text in subject.texts.items() if holds_class(PurePosixPath(path))}
+    robot, places = subject.robot, dependencies.search_path(subject.robot)
     around = {robot.output / path: text for path, text in subject.around.items() if path.endswith(".mo")}
-    sources = DiskSources(subject.config, robot, {**around, **subject.users_files, **package})
-
-    def found(files: Collection[Path]) -> list[Diagnostic]:
-        classes = [name for name, one in sources.classes.items() if Path(one.file) in files]
-        return list(names.check(subject.package, classes, sources))
-
+    find = functools.partial(_library, subject.config, places, robot.target.package.partition(".")[0])
+    others = {**around, **subject.users_files}
+    sources = StoredClasses(robot.target.package, robot.folder, subject.texts, others, find)
+    users = [name for name, one in sources.users.items() if Path(one.file) in subject.users_files]
     unread = [path for path in sources.unread if path in subject.users_files and path not in around]
-    return found(package), [*map(_unread, unread), *found(subject.users_files)]
+    own = names.check(subject.package, sources.own, sources)
+    return list(own), [*map(_unread, unread), *names.check(subject.package, users, sources)]
+
+
+def _library(config: Config, places: Sequence[Path], top: str, name: str) -> Path | None:
+    """Where a library is; `top` is the top-level package that is checked, `places` are the folders of others."""
+    if name == LIBRARY != top:
+        return library_folder() / LIBRARY
+    if name not in library.PARTS:
+        return library.find(name, places)
+    try:
+        found = library.standard(os.environ, library.home(), config.check.library)
+    except LibraryError:
+        return None
+    return dict(zip(library.PARTS, (found.modelica, found.services, found.complex), strict=True))[name].path
 
 
 def _unread(path: Path) -> Diagnostic:

@@ -9,11 +9,11 @@ from __future__ import annotations
 import codecs
 import contextlib
 import os
-import re
 import shutil
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from urdfsync.classfiles import mentions, related
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.modelica.names import within
@@ -70,15 +70,8 @@ def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
     """
     folders = frozenset(other.folder for other in config.robots)
     read = _read(robot.output, robot.output, folders) if robot.output not in folders else {}
-    waiting = {path: content for path, content in read.items() if path.endswith(".mo")}
-    names, found = [_name(robot)], {}
-    while names:
-        name = names.pop()
-        for path in [path for path, content in waiting.items() if mentions(content, name)]:
-            found[robot.output / path] = waiting.pop(path)
-            file = Path(path)
-            names.append((file.parent.name if file.name == "package.mo" else file.stem).encode())
-    return dict(sorted(found.items()))
+    files = {robot.output / path: content for path, content in read.items() if path.endswith(".mo")}
+    return related(files, robot.target.package.rpartition(".")[2])
 
 
 def write(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: Mapping[str, bytes]) -> Path:
@@ -159,11 +152,6 @@ def _reading() -> Iterator[None]:
 
 def _name(other: RobotConfig) -> bytes:
     return other.target.package.rpartition(".")[2].encode()
-
-
-def mentions(text: bytes, name: bytes) -> bool:
-    """Whether a name stands in a text as a word of its own."""
-    return name in text and re.search(rb"\b" + re.escape(name) + rb"\b", text) is not None
 
 
 def _parents(package: str) -> Iterator[str]:
