@@ -5,11 +5,15 @@ Files of libraries are read when a name needs them.
 
 from __future__ import annotations
 
+import contextlib
 import functools
+import os
 import re
-from collections.abc import Callable, Iterable, Mapping
+import stat
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 
+from urdfsync import looking
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.scopes import UNKNOWN, Stored, Unknown
 from urdfsync.modelica.syntax import StoredText
@@ -28,18 +32,20 @@ class StoredClasses:
         texts: Mapping[str, bytes],
         others: Mapping[Path, bytes],
         find: Callable[[str], Path | None],
+        gone: str = "",
     ) -> None:
         """`texts` are the files of the robot's package by their path below `folder`, `others` files of the user's.
 
-        `find` gives the folder or file of any other top-level class, None if there is none.
+        `find` gives the folder or file of any other top-level class, None if there is none. `gone` is a package of
+        which nothing counts that is on disk.
         """
         self._package, self._folder, self._texts = tuple(package.split(".")), folder, texts
-        self._find = functools.cache(find)
+        self._find, self._gone = functools.cache(find), tuple(gone.split(".")) if gone else ()
         self._read: dict[tuple[str, ...], Stored | Unknown | None] = {}
         self.users: dict[tuple[str, ...], Stored] = {}
         """The classes of the user's files, by their full names."""
         self.unread: list[Path] = []
-        """Files of the user that are no Modelica, or not where their class belongs. Nothing is known of their classes."""
+        """Files of the user that are no Modelica, or not where their class belongs: its classes are unknown."""
         for path, content in others.items():
             self._add(path, content, others)
 
@@ -78,6 +84,8 @@ class StoredClasses:
                 if path in self._texts:
                     return _class_in(_parsed(self._texts[path]), name[-1], self._folder / path)
             return None
+        if self._gone and name[: len(self._gone)] == self._gone:
+            return None
         if any(_may_hold(path, name[-1]) for path in self.unread):
             return UNKNOWN
         file = self._file(name)
@@ -110,14 +118,37 @@ class StoredClasses:
         return next((path for path in (folder / _PACKAGE, Path(f"{folder}.mo")) if path.is_file()), None)
 
 
-def related(files: Mapping[Path, bytes], name: str) -> dict[Path, bytes]:
-    """The files that mention a name, or the class of another such file; files are known as their classes."""
-    waiting, names, found = dict(files), [name], {}
-    while names:
-        word = names.pop().encode()
+def modelica_files(folder: Path) -> Iterator[str]:
+    """All files of Modelica below a folder, but for links, hidden folders and `Resources`.
+
+    What is looked at is recorded as a dependency. What can't be looked at is left out.
+    """
+    waiting = [str(folder)]
+    while waiting:
+        current = waiting.pop()
+        inside: list[str] = []
+        with contextlib.suppress(OSError):
+            inside = sorted(looking.names(current))
+        for name in inside:
+            path, found = f"{current}{os.sep}{name}", 0
+            if name.startswith(".") or name == _NOT_CLASSES:
+                continue
+            with contextlib.suppress(OSError):
+                found = looking.kind(path, follow=False)
+            if found == stat.S_IFDIR:
+                waiting.append(path)
+            elif found == stat.S_IFREG and name.endswith(".mo"):
+                yield path
+
+
+def related(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:
+    """The files that mention one of these names, or the class of another such file, which is called like that file."""
+    waiting, unused, found = dict(files), list(names), {}
+    while unused:
+        word = unused.pop().encode()
         for path in [path for path, content in waiting.items() if mentions(content, word)]:
             found[path] = waiting.pop(path)
-            names.append(path.parent.name if path.name == _PACKAGE else path.stem)
+            unused.append(path.parent.name if path.name == _PACKAGE else path.stem)
     return dict(sorted(found.items()))
 
 

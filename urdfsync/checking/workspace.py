@@ -71,7 +71,7 @@ def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
     folders = frozenset(other.folder for other in config.robots)
     read = _read(robot.output, robot.output, folders) if robot.output not in folders else {}
     files = {robot.output / path: content for path, content in read.items() if path.endswith(".mo")}
-    return related(files, robot.target.package.rpartition(".")[2])
+    return related(files, [robot.target.package.rpartition(".")[2]])
 
 
 def write(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: Mapping[str, bytes]) -> Path:

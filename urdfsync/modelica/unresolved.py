@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 from urdfsync.modelica.scopes import UNKNOWN, Element, Missing, Node, Scopes, Type, Types
@@ -54,17 +54,18 @@ class Unresolved(NamedTuple):
         return ".".join(self.near.name if part == self.part else part for part in parts)
 
 
-def unresolved(node: Node, scopes: Scopes) -> Iterator[Unresolved]:
+def unresolved(node: Node, scopes: Scopes, doubtful: Collection[str] = ()) -> Iterator[Unresolved]:
     """All that is wrong with names in a class and in the classes inside of it.
 
-    Nothing is said of what can't be told, nor of what seems to be in a library that is not at hand.
+    Nothing is said of what can't be told, nor of what seems to be in a library that is not at hand, unless a part of it
+    is one of the `doubtful` names.
     """
-    yield from _Walk(scopes)._class(node)
+    yield from _Walk(scopes, doubtful)._class(node)
 
 
 class _Walk:
-    def __init__(self, scopes: Scopes) -> None:
-        self._scopes = scopes
+    def __init__(self, scopes: Scopes, doubtful: Collection[str]) -> None:
+        self._scopes, self._doubtful = scopes, doubtful
 
     def _class(self, node: Node) -> Iterator[Unresolved]:
         scopes, definition = self._scopes, node.definition
@@ -139,6 +140,10 @@ class _Walk:
     def _missing(
         self, name: Name, found: object, scope: Node | None, kind: Kind, *, is_part: bool = False
     ) -> Iterator[Unresolved]:
+        if found is UNKNOWN:
+            part = next((part for part in name.parts if part in self._doubtful), "")
+            if part:
+                yield Unresolved(kind, str(name), part, "", name.line)
         if not isinstance(found, Missing):
             return
         if found.types:
@@ -155,7 +160,7 @@ class _Walk:
             known = {key: element for key, element in known.items() if isinstance(element.declaration, Class)}
         is_library = not found.types and len(name.parts) > 1 and found.part[:1].isupper()
         near = known.get(nearest(found.part, known.keys() - {found.part}, _ALIKE if is_library else _RATHER_ALIKE))
-        if is_library and near is None:
+        if is_library and near is None and found.part not in self._doubtful:
             return  # it may be a library that is not at hand: a compiler says so
         yield Unresolved(kind, str(name), found.part, owner, name.line, near, is_field, is_part)
 

@@ -4,17 +4,23 @@ from __future__ import annotations
 
 import contextlib
 import functools
-from collections.abc import Mapping, Set
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 
-from urdfsync import changes, profiling, vanished
+from urdfsync import changes, profiling
 from urdfsync.changes import Changes, Stale
-from urdfsync.config import shown
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.classfiles import StoredClasses
+from urdfsync.config import library_folder, shown
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.difference import ElementKey, Version
 from urdfsync.domain import Role, Target
+from urdfsync.modelica.names import LIBRARY
+from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.unresolved import Unresolved
 from urdfsync.moves import places
 from urdfsync.plan import FileRecord, Kind, State, Wanted
 from urdfsync.planning import imports, inputs, leftovers
+from urdfsync.planning.dangling import find_uses, lost_names, words
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.generate import Generated, artifacts
 from urdfsync.planning.outputs import Outputs
@@ -210,46 +216,112 @@ class Renewal:
         return next((text for text in found if text is not None), None)
 
     @functools.cached_property
-    def vanished(self) -> Set[str]:
-        """Names of elements that the package had and has no more."""
+    def _lost(self) -> dict[str, str]:
+        """The names that the package loses, with their new names."""
+        recorded, situation = self._situation.recorded, self._situation
+        if recorded is None or self._situation.recovered is not None:
+            return {}
+        now, before = self._generated.artifacts, dict[str, str]()
+        for key, record in recorded.files.items():
+            path = self._old_path(key)
+            stays = path in now and (path not in self._outputs.stale or record.role is Role.RECORD)
+            text_role = record.role in (Role.MODEL, Role.RECORD, Role.PACKAGE)
+            if text_role and record.base is not None and record.state is not State.ORPHAN and not stays:
+                before[path] = self.base(key, record.base) or ""
+        if not before:
+            return {}
+        differing = self._outputs.stale | self._differing.render
+        texts = {path: self._outputs.content(path).decode() for path in now if path in differing}
+        old, new = recorded.package.rpartition(".")[2], situation.robot.target.package
+        moved = {old: new} if recorded.package != new else {}
+        return {**lost_names(before, texts, self._renamed()), **moved}
+
+    def _renamed(self) -> dict[str, str]:
+        """Old and new identifiers of elements."""
         situation, settled, recorded = self._situation, self._situation.settled, self._situation.recorded
-        if settled is None or recorded is None or self._before is None:
-            return frozenset()
-        target = Target(recorded.package, recorded.class_)
-        before = self._before if settled is situation.last else self._generate(settled, target)
-        known, kept = (
-            {identifier for kind in situation.domain.names(*version).values() for identifier in kind.values()}
-            for version in ((settled.snapshot, target), (self._snapshot, situation.robot.target))
+        if settled is None or recorded is None:
+            return {}
+        found = self._changes(settled)
+        renames = found.renames if found else {}
+        domain, target = situation.domain, Target(recorded.package, recorded.class_)
+        try:
+            old = domain.names(settled.snapshot, target)
+        except NO_MODEL:
+            return {}  # what is recorded is no model of the domain
+        new = domain.names(self._snapshot, situation.robot.target)
+        pairs = (
+            (identifier, new.get(kind, {}).get(renames.get((kind.removesuffix("s"), name), name), identifier))
+            for kind, identifiers in old.items()
+            for name, identifier in identifiers.items()
         )
-        if not known - kept:
-            return frozenset()
-        now = self._generated.artifacts
-        differing = changes.stale(before.artifacts, now)
-        old = (before.content(path).decode() for path in before.artifacts.keys() & (differing.render | differing.gone))
-        return vanished.names(old, (self._outputs.content(path).decode() for path in now), known - kept)
+        return {before: after for before, after in pairs if before != after}
+
+    def lost_use(self, key: str, text: str) -> tuple[str, int] | None:
+        """The first name in a text for a file that the package loses, with its line."""
+        if self._lost.keys().isdisjoint(words(text) if self._lost else ()):
+            return None
+        sources = self._planned({key: text}, {})
+        use = next(find_uses(self._class_name(key), Scopes(sources), self._lost), None)
+        return (use.part, use.line) if use else None
+
+    def _planned(self, texts: Mapping[str, str], others: Mapping[Path, bytes]) -> StoredClasses:
+        """The classes of the package as they will be, with other texts in some files, and those of the user's files."""
+        situation, prefix = self._situation, self._situation.key("")
+        found = {path: self._outputs.content(path) for path in self._generated.artifacts}
+        own = situation.disk.classes(situation.folder) - {
+            *(situation.recorded.files if situation.recorded else ()),
+            *map(situation.key, found),
+        }
+        found |= {key.removeprefix(prefix): situation.disk.any_text(key).encode(errors="replace") for key in own}
+        found |= {key.removeprefix(prefix): text.encode(errors="replace") for key, text in texts.items()}
+        robot = situation.robot
+
+        def find(name: str) -> Path | None:
+            if name == LIBRARY != robot.target.package.partition(".")[0]:
+                return library_folder() / LIBRARY
+            places = (robot.output / name, robot.output / f"{name}.mo")
+            return next((path for path in places if path.is_file() or (path / "package.mo").is_file()), None)
+
+        recorded, package = situation.recorded, robot.target.package
+        gone = recorded.package if recorded and recorded.package != package else ""
+        return StoredClasses(package, robot.folder, found, others, find, gone)
+
+    def _class_name(self, key: str) -> tuple[str, ...]:
+        path = key.removeprefix(self._situation.key("")).removesuffix(".mo").removesuffix("/package")
+        return (*self._situation.robot.target.package.split("."), *path.split("/"))
 
     def _mentions(self, decision: Decision) -> list[Diagnostic]:
-        """Warnings about texts of the user's that mention names that have vanished."""
-        if not self.vanished:
+        """Warnings about texts of the user's that use names that the package loses."""
+        if not self._lost:
             return []
-        situation, found = self._situation, []
-        edited = {action.path for action in decision.actions if action.kind in _USERS and not action.held}
-        others = situation.disk.classes(situation.folder) - {action.path for action in decision.actions}
-        for key in sorted(edited | others):
-            text = decision.texts.get(key) or self._text(key)
-            for name, line in vanished.mentions(text, self.vanished)[:1]:
-                message = f"`{name}` is mentioned here, but the package has no such name any more"
-                hint = "adapt your text to what the package is now"
-                file = shown(situation.disk.path(key))
-                found.append(Diagnostic(Severity.WARNING, "vanished-name", message, file, line, hint=hint))
+        situation = self._situation
+        kept = {a.path for a in decision.actions.decided if a.kind in (Kind.NEEDED, Kind.ORPHAN)}
+        edited = {a.path for a in decision.actions.decided if a.kind in _USERS and not a.held}
+        own = situation.disk.classes(situation.folder) - {action.path for action in decision.actions}
+        texts = {key: decision.texts.get(key) or situation.disk.any_text(key) for key in sorted(edited | own | kept)}
+        folders = {situation.folder, situation.recorded.folder if situation.recorded else situation.folder}
+        others = situation.disk.users_files(folders)
+        sources = self._planned(texts, others)
+        users = {name: Path(one.file) for name, one in sources.users.items()}
+        classes = {**{self._class_name(key): situation.disk.path(key) for key in sorted(edited | own)}, **users}
+        still_there = {path.rpartition("/")[2].removesuffix(".mo") for path in kept}
+        lost, scopes, found = self._lost.keys() - still_there, Scopes(sources), list[Diagnostic]()
+        for name, file in classes.items():
+            uses: dict[str, list[Unresolved]] = {}
+            for use in find_uses(name, scopes, lost):
+                uses.setdefault(use.part, []).append(use)
+            found += [self._dangling(file, one) for one in uses.values()]
         return found
 
-    def _text(self, key: str) -> str:
-        """What is in a file that is only searched: nothing if it can't be read, since it may be the user's own."""
-        try:
-            return self._situation.disk.text(key) or ""
-        except OutputError:
-            return ""
+    def _dangling(self, file: Path, uses: Sequence[Unresolved]) -> Diagnostic:
+        """A warning about the uses of one name in one file."""
+        name, first = uses[0].part, uses[0].line
+        new, lines = self._lost[name], sorted({use.line for use in uses} - {first})
+        message = f"`{uses[0].name}` is used here, but the package has no `{name}` any more"
+        hints = [f"it is `{new}` now" if new else "adapt your text to what the package is now"]
+        if lines:
+            hints.append(f"also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines))}")
+        return Diagnostic(Severity.WARNING, "vanished-name", message, shown(file), first, hint="; ".join(hints))
 
     def _old_path(self, key: str) -> str:
         """Path of a file of the last build below the folder that the package had then."""
