@@ -139,7 +139,7 @@ class Scopes:
 
     def node(self, name: Sequence[str]) -> Node | Unknown | None:
         """The class with this full name, not an inherited one."""
-        found = self._top(name[0])
+        found = self._top(name[0]) if name else None
         for part in name[1:]:
             if not isinstance(found, Node):
                 break

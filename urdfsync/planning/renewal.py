@@ -4,32 +4,24 @@ from __future__ import annotations
 
 import contextlib
 import functools
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping
 
 from urdfsync import changes, profiling
 from urdfsync.changes import Changes, Stale
-from urdfsync.classfiles import StoredClasses
-from urdfsync.config import library_folder, shown
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.config import shown
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.difference import ElementKey, Version
 from urdfsync.domain import Role, Target
-from urdfsync.modelica.names import LIBRARY
-from urdfsync.modelica.scopes import Scopes
-from urdfsync.modelica.unresolved import Unresolved
 from urdfsync.moves import places
-from urdfsync.plan import FileRecord, Kind, State, Wanted
+from urdfsync.plan import FileRecord, State, Wanted
 from urdfsync.planning import imports, inputs, leftovers
-from urdfsync.planning.dangling import find_uses, lost_names, words
+from urdfsync.planning.dangling import DanglingNames, lost_names
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.generate import Generated, artifacts
 from urdfsync.planning.outputs import Outputs
 from urdfsync.planning.recording import Recording
 from urdfsync.planning.situation import NO_MODEL, Situation
 from urdfsync.planning.work import Work
-
-_USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
-"""What happens to files that are as the user wants them."""
 
 
 class Renewal:
@@ -59,7 +51,7 @@ class Renewal:
         decision = self._decide(found.renames if found else {})
         found = found if settled is last else self._changes(settled)
         said = [*self._said, *self._imported.diagnostics, *situation.parents.diagnostics]
-        said += [*self._moved(decision), *self._mentions(decision)]
+        said += [*self._moved(decision), *self._uses(decision)]
         said.sort(key=lambda diagnostic: (diagnostic.file, diagnostic.line))
         news = found if found and (found.changes or found.generator) else None
         if situation.request.dry:
@@ -256,72 +248,18 @@ class Renewal:
         )
         return {before: after for before, after in pairs if before != after}
 
+    @functools.cached_property
+    def _dangling(self) -> DanglingNames:
+        """Finds uses of the names that the package loses."""
+        return DanglingNames(self._situation, self._lost, list(self._generated.artifacts), self._outputs.content)
+
+    def _uses(self, decision: Decision) -> list[Diagnostic]:
+        """Warnings about texts of the user's that use names that the package loses."""
+        return self._dangling.warnings(decision.actions, decision.texts) if self._lost else []
+
     def lost_use(self, key: str, text: str) -> tuple[str, int] | None:
         """The first name in a text for a file that the package loses, with its line."""
-        if self._lost.keys().isdisjoint(words(text) if self._lost else ()):
-            return None
-        sources = self._planned({key: text}, {})
-        use = next(find_uses(self._class_name(key), Scopes(sources), self._lost), None)
-        return (use.part, use.line) if use else None
-
-    def _planned(self, texts: Mapping[str, str], others: Mapping[Path, bytes]) -> StoredClasses:
-        """The classes of the package as they will be, with other texts in some files, and those of the user's files."""
-        situation, prefix = self._situation, self._situation.key("")
-        found = {path: self._outputs.content(path) for path in self._generated.artifacts}
-        own = situation.disk.classes(situation.folder) - {
-            *(situation.recorded.files if situation.recorded else ()),
-            *map(situation.key, found),
-        }
-        found |= {key.removeprefix(prefix): situation.disk.any_text(key).encode(errors="replace") for key in own}
-        found |= {key.removeprefix(prefix): text.encode(errors="replace") for key, text in texts.items()}
-        robot = situation.robot
-
-        def find(name: str) -> Path | None:
-            if name == LIBRARY != robot.target.package.partition(".")[0]:
-                return library_folder() / LIBRARY
-            places = (robot.output / name, robot.output / f"{name}.mo")
-            return next((path for path in places if path.is_file() or (path / "package.mo").is_file()), None)
-
-        recorded, package = situation.recorded, robot.target.package
-        gone = recorded.package if recorded and recorded.package != package else ""
-        return StoredClasses(package, robot.folder, found, others, find, gone)
-
-    def _class_name(self, key: str) -> tuple[str, ...]:
-        path = key.removeprefix(self._situation.key("")).removesuffix(".mo").removesuffix("/package")
-        return (*self._situation.robot.target.package.split("."), *path.split("/"))
-
-    def _mentions(self, decision: Decision) -> list[Diagnostic]:
-        """Warnings about texts of the user's that use names that the package loses."""
-        if not self._lost:
-            return []
-        situation = self._situation
-        kept = {a.path for a in decision.actions.decided if a.kind in (Kind.NEEDED, Kind.ORPHAN)}
-        edited = {a.path for a in decision.actions.decided if a.kind in _USERS and not a.held}
-        own = situation.disk.classes(situation.folder) - {action.path for action in decision.actions}
-        texts = {key: decision.texts.get(key) or situation.disk.any_text(key) for key in sorted(edited | own | kept)}
-        folders = {situation.folder, situation.recorded.folder if situation.recorded else situation.folder}
-        others = situation.disk.users_files(folders)
-        sources = self._planned(texts, others)
-        users = {name: Path(one.file) for name, one in sources.users.items()}
-        classes = {**{self._class_name(key): situation.disk.path(key) for key in sorted(edited | own)}, **users}
-        still_there = {path.rpartition("/")[2].removesuffix(".mo") for path in kept}
-        lost, scopes, found = self._lost.keys() - still_there, Scopes(sources), list[Diagnostic]()
-        for name, file in classes.items():
-            uses: dict[str, list[Unresolved]] = {}
-            for use in find_uses(name, scopes, lost):
-                uses.setdefault(use.part, []).append(use)
-            found += [self._dangling(file, one) for one in uses.values()]
-        return found
-
-    def _dangling(self, file: Path, uses: Sequence[Unresolved]) -> Diagnostic:
-        """A warning about the uses of one name in one file."""
-        name, first = uses[0].part, uses[0].line
-        new, lines = self._lost[name], sorted({use.line for use in uses} - {first})
-        message = f"`{uses[0].name}` is used here, but the package has no `{name}` any more"
-        hints = [f"it is `{new}` now" if new else "adapt your text to what the package is now"]
-        if lines:
-            hints.append(f"also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines))}")
-        return Diagnostic(Severity.WARNING, "vanished-name", message, shown(file), first, hint="; ".join(hints))
+        return self._dangling.first_use(key, text) if self._lost else None
 
     def _old_path(self, key: str) -> str:
         """Path of a file of the last build below the folder that the package had then."""
