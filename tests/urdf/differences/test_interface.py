@@ -95,7 +95,9 @@ def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:
     )
     assert changed(old, new) == {}
     assert changed(old, new, inputs="vector") == {"robot / positions": ("jb, jc", "ja, jb, jc")}
-    behind = version(*STAR, *(joint(f"j{n}", "continuous", "base", child) for n, child in zip("bcd", "abc", strict=True)))
+    behind = version(
+        *STAR, *(joint(f"j{n}", "continuous", "base", child) for n, child in zip("bcd", "abc", strict=True))
+    )
     assert changed(old, behind, inputs="vector") == {}
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfsync.literals import html
+from urdfsync.modelica.literals import html
 from urdfsync.urdf.robot import Joint
 
 _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
