@@ -1,4 +1,4 @@
-"""Template data of the models of a whole robot: `<Robot>.mo`, `<Robot>Run.mo`, `<Robot>Test.mo` and its record."""
+"""Template data of the models of a whole robot: `<Robot>.mo`, `<Robot>Run.mo` and `<Robot>Test.mo`."""
 
 from __future__ import annotations
 
@@ -8,14 +8,13 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Import, Piece, Recipe, Target
+from urdfsync.domain import Import, Target
 from urdfsync.urdf.diagram import layout
 from urdfsync.urdf.kinematics import compose, link_poses, lowest_point, pose, start_positions
-from urdfsync.urdf.model import notes, tables
-from urdfsync.urdf.model.numbers import JointNumbers, joint_numbers
+from urdfsync.urdf.model import notes
 from urdfsync.urdf.model.shapes import hull
-from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.robot import Inertial, Joint
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Joint
 from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 
 _WORDS: Mapping[Motion, Mapping[str, Any]] = {
@@ -78,28 +77,6 @@ class Leaf(msgspec.Struct, frozen=True):
     name: str
 
 
-class RecordLink(msgspec.Struct, frozen=True):
-    """A link in the record of the whole robot; `number` counts from 1."""
-
-    number: int
-    component: str
-    name: str
-    inertial: Inertial | None
-
-
-class RecordJoint(msgspec.Struct, frozen=True):
-    """A joint in the record of the whole robot; `number` counts from 1."""
-
-    number: int
-    component: str
-    joint: Joint
-
-    @property
-    def numbers(self) -> JointNumbers:
-        """What the record says of it."""
-        return joint_numbers(self.joint)
-
-
 class Axis(msgspec.Struct, frozen=True):
     """An axis that can be driven, with the number that it has in the flange vectors of its kind."""
 
@@ -160,11 +137,6 @@ def robot_data(structure: Skeleton, target: Target, options: Options) -> dict[st
     }
 
 
-def generic_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str, Any]:
-    """Data of the bench in which the generic robot reads the record: structure only."""
-    return _model_data(skeleton, target, options) | {"note": notes.generic_note(target.name, options.base)}
-
-
 def _model_data(structure: Skeleton, target: Target, options: Options) -> dict[str, Any]:
     """What all models of the whole robot need."""
     return {
@@ -174,46 +146,6 @@ def _model_data(structure: Skeleton, target: Target, options: Options) -> dict[s
         "title": f"robot {target.name}",
         "base": options.base,
         "vectors": vectors(structure),
-    }
-
-
-def record_data(
-    structure: Recipe | Piece,
-    links: Sequence[RecordLink | Piece],
-    joints: Sequence[RecordJoint | Piece],
-    ground: tuple[Skeleton, Mapping[str, Import]] | None,
-    target: Target,
-    name: str,
-    generic: bool,
-) -> dict[str, Any]:
-    """Data of the record of the whole robot; a package around it names the libraries that it uses.
-
-    `structure` is made by `structure_data`; `ground` is what has a part in the height that a mobile robot stands at;
-    `generic` says whether the robot has tables.
-    """
-    return {
-        "within": target.package,
-        "record": f"{target.name}Parameters",
-        "title": f"robot {target.name}",
-        "note": notes.record_note(target.name, generic),
-        "uses": () if target.package else USES,
-        "name": name,
-        "standing_height": standing_height(*ground) if ground else None,
-        "structure": structure,
-        "links": links,
-        "joints": joints,
-    }
-
-
-def structure_data(structure: Skeleton) -> dict[str, Any]:
-    """What the record says of the structure: its matrices, tables and axes."""
-    number = {link.name: k for k, link in enumerate(structure.links, 1)}
-    generic = tables.has_tables(structure.joints)
-    return {
-        "connection_matrix": [(number[joint.parent], number[joint.child]) for joint in structure.joints],
-        "moveable_joints": [(k, 1) for k, joint in enumerate(structure.joints, 1) if joint.type != "fixed"],
-        "tables": tables.record_tables(structure) if generic else [],
-        "vectors": vectors(structure) if generic else [],
     }
 
 
