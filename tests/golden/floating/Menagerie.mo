@@ -41,27 +41,27 @@ model Menagerie "Robot Menagerie"
 
   Modelica.Mechanics.Translational.Interfaces.Flange_a liftAxis
     "Axis of joint \"lift\""
-    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-105, 275}, {-95, 285}})));
+    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-104, 276}, {-96, 284}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_b liftSupport
     "Housing of the drive of joint \"lift\""
-    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-105, 265}, {-95, 275}})));
+    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-104, 266}, {-96, 274}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis_2
     "Axis of joint \"rotational\""
-    annotation (Placement(transformation(extent={{-52, -334}, {-40, -322}}), iconTransformation(extent={{-105, 255}, {-95, 265}})));
+    annotation (Placement(transformation(extent={{-52, -334}, {-40, -322}}), iconTransformation(extent={{-104, 256}, {-96, 264}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b rotationalSupport_2
     "Housing of the drive of joint \"rotational\""
-    annotation (Placement(transformation(extent={{-66, -334}, {-54, -322}}), iconTransformation(extent={{-105, 245}, {-95, 255}})));
+    annotation (Placement(transformation(extent={{-66, -334}, {-54, -322}}), iconTransformation(extent={{-104, 246}, {-96, 254}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a shoulderAxis
     "Axis of joint \"shoulder\""
-    annotation (Placement(transformation(extent={{-52, -444}, {-40, -432}}), iconTransformation(extent={{-105, 235}, {-95, 245}})));
+    annotation (Placement(transformation(extent={{-52, -444}, {-40, -432}}), iconTransformation(extent={{-104, 236}, {-96, 244}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b shoulderSupport
     "Housing of the drive of joint \"shoulder\""
-    annotation (Placement(transformation(extent={{-66, -444}, {-54, -432}}), iconTransformation(extent={{-105, 225}, {-95, 235}})));
+    annotation (Placement(transformation(extent={{-66, -444}, {-54, -432}}), iconTransformation(extent={{-104, 226}, {-96, 234}})));
 
   final parameter Modelica.Units.SI.Mass m =
     chassis.m +

@@ -9,11 +9,11 @@ model PlanarPlatform "Robot PlanarPlatform"
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a boom_swingAxis
     "Axis of joint \"boom_swing\""
-    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-105, 115}, {-95, 125}})));
+    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-104, 116}, {-96, 124}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b boom_swingSupport
     "Housing of the drive of joint \"boom_swing\""
-    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-105, 105}, {-95, 115}})));
+    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-104, 106}, {-96, 114}})));
 
   final parameter Modelica.Units.SI.Mass m =
     world_link.m +

@@ -25,67 +25,67 @@ model WheeledRobot "Robot WheeledRobot"
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a caster_swivelAxis
     "Axis of joint \"caster_swivel\""
-    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-105, 255}, {-95, 265}})));
+    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-104, 256}, {-96, 264}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b caster_swivelSupport
     "Housing of the drive of joint \"caster_swivel\""
-    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-105, 245}, {-95, 255}})));
+    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-104, 246}, {-96, 254}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a caster_rollAxis
     "Axis of joint \"caster_roll\""
-    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-105, 235}, {-95, 245}})));
+    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-104, 236}, {-96, 244}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b caster_rollSupport
     "Housing of the drive of joint \"caster_roll\""
-    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-105, 225}, {-95, 235}})));
+    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-104, 226}, {-96, 234}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a drive_leftAxis
     "Axis of joint \"drive_left\""
-    annotation (Placement(transformation(extent={{-52, -64}, {-40, -52}}), iconTransformation(extent={{-105, 215}, {-95, 225}})));
+    annotation (Placement(transformation(extent={{-52, -64}, {-40, -52}}), iconTransformation(extent={{-104, 216}, {-96, 224}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b drive_leftSupport
     "Housing of the drive of joint \"drive_left\""
-    annotation (Placement(transformation(extent={{-66, -64}, {-54, -52}}), iconTransformation(extent={{-105, 205}, {-95, 215}})));
+    annotation (Placement(transformation(extent={{-66, -64}, {-54, -52}}), iconTransformation(extent={{-104, 206}, {-96, 214}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a drive_rightAxis
     "Axis of joint \"drive_right\""
-    annotation (Placement(transformation(extent={{-52, -142}, {-40, -130}}), iconTransformation(extent={{-105, 195}, {-95, 205}})));
+    annotation (Placement(transformation(extent={{-52, -142}, {-40, -130}}), iconTransformation(extent={{-104, 196}, {-96, 204}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b drive_rightSupport
     "Housing of the drive of joint \"drive_right\""
-    annotation (Placement(transformation(extent={{-66, -142}, {-54, -130}}), iconTransformation(extent={{-105, 185}, {-95, 195}})));
+    annotation (Placement(transformation(extent={{-66, -142}, {-54, -130}}), iconTransformation(extent={{-104, 186}, {-96, 194}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_a liftAxis
     "Axis of joint \"lift\""
-    annotation (Placement(transformation(extent={{-4, -220}, {8, -208}}), iconTransformation(extent={{-105, 175}, {-95, 185}})));
+    annotation (Placement(transformation(extent={{-4, -220}, {8, -208}}), iconTransformation(extent={{-104, 176}, {-96, 184}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_b liftSupport
     "Housing of the drive of joint \"lift\""
-    annotation (Placement(transformation(extent={{-18, -220}, {-6, -208}}), iconTransformation(extent={{-105, 165}, {-95, 175}})));
+    annotation (Placement(transformation(extent={{-18, -220}, {-6, -208}}), iconTransformation(extent={{-104, 166}, {-96, 174}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a head_panAxis
     "Axis of joint \"head_pan\""
-    annotation (Placement(transformation(extent={{44, -220}, {56, -208}}), iconTransformation(extent={{-105, 155}, {-95, 165}})));
+    annotation (Placement(transformation(extent={{44, -220}, {56, -208}}), iconTransformation(extent={{-104, 156}, {-96, 164}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b head_panSupport
     "Housing of the drive of joint \"head_pan\""
-    annotation (Placement(transformation(extent={{30, -220}, {42, -208}}), iconTransformation(extent={{-105, 145}, {-95, 155}})));
+    annotation (Placement(transformation(extent={{30, -220}, {42, -208}}), iconTransformation(extent={{-104, 146}, {-96, 154}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a head_tiltAxis
     "Axis of joint \"head_tilt\""
-    annotation (Placement(transformation(extent={{92, -220}, {104, -208}}), iconTransformation(extent={{-105, 135}, {-95, 145}})));
+    annotation (Placement(transformation(extent={{92, -220}, {104, -208}}), iconTransformation(extent={{-104, 136}, {-96, 144}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b head_tiltSupport
     "Housing of the drive of joint \"head_tilt\""
-    annotation (Placement(transformation(extent={{78, -220}, {90, -208}}), iconTransformation(extent={{-105, 125}, {-95, 135}})));
+    annotation (Placement(transformation(extent={{78, -220}, {90, -208}}), iconTransformation(extent={{-104, 126}, {-96, 134}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a lidar_spinAxis
     "Axis of joint \"lidar_spin\""
-    annotation (Placement(transformation(extent={{-4, -298}, {8, -286}}), iconTransformation(extent={{-105, 115}, {-95, 125}})));
+    annotation (Placement(transformation(extent={{-4, -298}, {8, -286}}), iconTransformation(extent={{-104, 116}, {-96, 124}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b lidar_spinSupport
     "Housing of the drive of joint \"lidar_spin\""
-    annotation (Placement(transformation(extent={{-18, -298}, {-6, -286}}), iconTransformation(extent={{-105, 105}, {-95, 115}})));
+    annotation (Placement(transformation(extent={{-18, -298}, {-6, -286}}), iconTransformation(extent={{-104, 106}, {-96, 114}})));
 
   final parameter Modelica.Units.SI.Mass m =
     base_link.m +
