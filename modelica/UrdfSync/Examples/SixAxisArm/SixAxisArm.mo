@@ -362,17 +362,17 @@ equation
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 250}}), graphics={
       Rectangle(extent={{-100, 100}, {100, 250}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
-      Text(extent={{-90, 226}, {20, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="turret"),
-      Text(extent={{-90, 206}, {20, 224}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="shoulder"),
-      Text(extent={{-90, 186}, {20, 204}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="elbow"),
-      Text(extent={{-90, 166}, {20, 184}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="forearm_roll"),
-      Text(extent={{-90, 146}, {20, 164}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="wrist_pitch"),
-      Text(extent={{-90, 126}, {20, 144}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="flange_roll"),
-      Text(extent={{-90, 106}, {20, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="gripper_stroke"),
-      Text(extent={{20, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_right"),
-      Text(extent={{20, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="grasp_point"),
-      Text(extent={{20, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_left"),
-      Text(extent={{20, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="drive_pinion")}),
+      Text(extent={{-90, 226}, {0, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="turret"),
+      Text(extent={{-90, 206}, {0, 224}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="shoulder"),
+      Text(extent={{-90, 186}, {0, 204}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="elbow"),
+      Text(extent={{-90, 166}, {0, 184}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="forearm_roll"),
+      Text(extent={{-90, 146}, {0, 164}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="wrist_pitch"),
+      Text(extent={{-90, 126}, {0, 144}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="flange_roll"),
+      Text(extent={{-90, 106}, {0, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="gripper_stroke"),
+      Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_right"),
+      Text(extent={{0, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="grasp_point"),
+      Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_left"),
+      Text(extent={{0, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="drive_pinion")}),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -278}, {420, 62}})),
     Documentation(info="<html>
 <p>
