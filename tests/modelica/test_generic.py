@@ -317,7 +317,7 @@ def dropped(file: str, changes: Sequence[tuple[str, str]]) -> tuple[Array, Array
     own.reference.model.gravity.linear = np.array([0, 0, -9.80665])
     positions = start_positions(own.skeleton)
     start = [motion.Course(positions[name], 0.0, 0.0) for name in own.reference.axes]
-    end = generic.free_motion(own, start, MOMENT, 400)
+    end = generic.free_motion(own, start, MOMENT, 2000)
     return generic.link_place(own, np.array(start)[:, 0], TOOLS[file]), generic.link_place(own, end, TOOLS[file])
 
 

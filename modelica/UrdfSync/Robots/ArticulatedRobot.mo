@@ -134,8 +134,8 @@ equation
     J_A[i, :, :] = J[i, :, :] + [J_s1[data.firstJoints[i], 1], J_s1[data.firstJoints[i], 2], J_s1[data.firstJoints[i], 3]; J_s2[data.firstJoints[i], 1], J_s2[data.firstJoints[i], 2], J_s2[data.firstJoints[i], 3]; J_s3[data.firstJoints[i], 1], J_s3[data.firstJoints[i], 2], J_s3[data.firstJoints[i], 3]];
     H_A[i, :, :] = [0, -h[i, 3], h[i, 2]; h[i, 3], 0, -h[i, 1]; -h[i, 2], h[i, 1], 0] + [H_s1[data.firstJoints[i], 1], H_s1[data.firstJoints[i], 2], H_s1[data.firstJoints[i], 3]; H_s2[data.firstJoints[i], 1], H_s2[data.firstJoints[i], 2], H_s2[data.firstJoints[i], 3]; H_s3[data.firstJoints[i], 1], H_s3[data.firstJoints[i], 2], H_s3[data.firstJoints[i], 3]];
     M_A[i, :, :] = [m_b[i], 0, 0; 0, m_b[i], 0; 0, 0, m_b[i]] + [M_s1[data.firstJoints[i], 1], M_s1[data.firstJoints[i], 2], M_s1[data.firstJoints[i], 3]; M_s2[data.firstJoints[i], 1], M_s2[data.firstJoints[i], 2], M_s2[data.firstJoints[i], 3]; M_s3[data.firstJoints[i], 1], M_s3[data.firstJoints[i], 2], M_s3[data.firstJoints[i], 3]];
-    t_A[i, :] = cross(w[i, :], J[i, :, :]*w[i, :]) + t_s[data.firstJoints[i], :];
-    f_A[i, :] = cross(w[i, :], cross(w[i, :], h[i, :])) + f_s[data.firstJoints[i], :];
+    t_A[i, :] = cross(w[i, :], J[i, :, :]*w[i, :]) - t_tool[i, :] + t_s[data.firstJoints[i], :];
+    f_A[i, :] = cross(w[i, :], cross(w[i, :], h[i, :])) - f_tool[i, :] + f_s[data.firstJoints[i], :];
   end for;
 
   for i in 1:n loop
