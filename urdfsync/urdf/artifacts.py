@@ -11,8 +11,8 @@ import msgspec
 from urdfsync.domain import Artifact, Import, Order, Parts, Piece, Recipe, Role, Target
 from urdfsync.urdf.kept import Kept
 from urdfsync.urdf.model import assembly, notes, records, shapes
-from urdfsync.urdf.model.records import RecordJoint, RecordLink
 from urdfsync.urdf.model.numbers import joint_numbers
+from urdfsync.urdf.model.records import RecordJoint, RecordLink
 from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.naming import Identifier, Key

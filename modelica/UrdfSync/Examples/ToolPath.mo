@@ -3,7 +3,7 @@ within UrdfSync.Examples;
 model ToolPath "A tool that goes round in a circle, pulled by forces that the Jacobian turns into torques"
   extends Modelica.Icons.Example;
 
-  parameter Modelica.Units.SI.Time period = 0.001
+  parameter Modelica.Units.SI.Time period = 0.002
     "Sampling period of the controller";
 
   parameter Modelica.Units.SI.Length radius = 0.1
@@ -15,10 +15,10 @@ model ToolPath "A tool that goes round in a circle, pulled by forces that the Ja
   parameter Integer tool = 7
     "Number of the link that is moved: mounting_flange";
 
-  parameter Modelica.Units.SI.TranslationalSpringConstant c = 5000
+  parameter Modelica.Units.SI.TranslationalSpringConstant c = 20000
     "Stiffness against displacement";
 
-  parameter Modelica.Units.SI.TranslationalDampingConstant d = 300
+  parameter Modelica.Units.SI.TranslationalDampingConstant d = 800
     "Damping against displacement";
 
   parameter Modelica.Units.SI.RotationalSpringConstant c_r = 100

@@ -194,6 +194,15 @@ The articulated-body algorithm (Featherstone: The calculation of robot dynamics 
 solve a system of equations where all axes move freely. Mimic joints join axes, and are solved as a small system. It takes about three times as many
 equations as <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a>, and gives the same motion.
 </p>
+<pre>
+U = I_A*e,   D = e'*U,   u = effort - e'*p_A
+a = (u - U'*a_p)/D
+I_A of the carrier += X*(I_A - U*U'/D)*X'
+</pre>
+<p>
+for each joint, with its axis <code>e = {e_t, e_s}</code>, the articulated inertia <code>I_A</code> and the bias force <code>p_A</code> of its body, and the spatial acceleration <code>a_p</code> that comes
+from its carrier. <code>D</code> is in kg.m2, <code>u</code> in N.m, <code>a</code> in 1/s2: see <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a>.
+</p>
 <p>
 Symmetric 6 x 6 inertias are kept as three matrices: torque per angular acceleration <code>J</code>, torque per acceleration <code>H</code> (force per angular
 acceleration is its transpose) and force per acceleration <code>M</code>. The equations divide by

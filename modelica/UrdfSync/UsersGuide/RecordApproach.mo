@@ -77,7 +77,7 @@ All of them have flanges for the driven axes, damping and dry friction, mimic jo
 <tr><td>30 moving joints, free</td><td>16.4 + 81.6 s</td><td>3.0 + 4.2 s (7 %)</td></tr>
 <tr><td>joint types</td><td>all six</td><td>revolute, continuous, prismatic, fixed</td></tr>
 <tr><td>shapes, contact with the ground</td><td>yes</td><td>no</td></tr>
-<tr><td>frames to connect parts to</td><td>of all links, by editing</td><td>of the root link</td></tr>
+<tr><td>frames to connect parts to</td><td>of all links, by editing</td><td>of the root link and of one that the parameter <code>tool</code> names</td></tr>
 <tr><td>what can be edited by hand</td><td>every link, every joint and their connections</td><td>numbers; the bench around the robot</td></tr>
 <tr><td>the structure changes</td><td>models are generated again, edits are kept or merged</td><td>the record is generated again</td></tr>
 <tr><td>numbers change</td><td>records are written, models are not</td><td>the record is written</td></tr>
@@ -115,6 +115,7 @@ where it extends a generic robot.</li>
 their defaults, silently: give all of them, as <a href=\"modelica://UrdfSync.Examples.RobotStudy.LongArmParameters\">LongArmParameters</a> does. Modifiers in the
 declaration of the robot are followed as they stand.</li>
 <li>Drives beside the robot need literal numbers as sizes.</li>
+<li>Forces can act at <code>frame_b</code>. A body or a sensor that differentiates its position or rotation is refused there (<em>structurally singular system</em>).</li>
 <li>A function in an equation is evaluated anew for each element of its result: the functions of <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a> take more
 than a minute for 12 joints. In an algorithm, as in <code>when sample(0, 0.01) then M := UrdfSync.Dynamics.massMatrix(data.tree, q); end when;</code>, it is evaluated once, also for
 30 joints. <code>M</code> is a discrete variable then. Assign it as a whole: Jacobians that were assigned to parts of one array were silently zero.</li>

@@ -356,7 +356,7 @@ record MenagerieParameters "Numbers of robot Menagerie as a whole"
 
   annotation (Documentation(info="<html>
 <p>
-All numbers of robot Menagerie in one record, for studies that need them all. <code>UrdfSync.Robots.GenericRobot</code> can't take it, since a joint is planar or floating.
+All numbers of robot Menagerie in one record, for studies that need them all. <code>UrdfSync.Robots.GenericRobot</code> can't take it, since a joint is planar or floating. Where the package has models of the links and joints, these read the records of their elements, and the numbers here are a copy: an edit here changes no such model.
 </p>
 </html>"));
 end MenagerieParameters;
