@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import marshal
+import os
+import stat
 from pathlib import Path
 
 import jinja2
@@ -98,11 +100,53 @@ def test_without_a_folder_templates_are_compiled_all_the_same(home: Path, templa
     assert render(templates) == "a 1\n"
 
 
-def test_code_that_others_may_have_written_is_not_run(home: Path, templates: Path) -> None:
+@pytest.mark.parametrize("mode", [0o777, 0o775, 0o702])
+@pytest.mark.parametrize("place", ["urdfsync/templates", "urdfsync", "."])
+def test_a_folder_that_others_may_write_to_is_not_used(home: Path, templates: Path, place: str, mode: int) -> None:
     render(templates)
-    (home / "urdfsync/templates").chmod(0o777)
+    (home / place).chmod(mode)
     assert bytecode.of_user() is None
     assert render(templates) == "a 1\n"
+
+
+@pytest.mark.parametrize("place", ["urdfsync/templates", "urdfsync", "."])
+def test_a_folder_of_another_user_is_not_used(
+    home: Path, templates: Path, place: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    render(templates)
+    foreign, real = (home / place).stat(), bytecode._is_own
+    monkeypatch.setattr(bytecode, "_is_own", lambda status: not os.path.samestat(status, foreign) and real(status))
+    assert bytecode.of_user() is None
+
+
+def test_a_file_that_others_may_write_to_is_not_run(home: Path, templates: Path, compiled: list[str]) -> None:
+    render(templates)
+    kept(home)[0].chmod(0o664)
+    assert render(templates) == "a 1\n"
+    assert compiled == ["t.jinja"] * 2
+
+
+def test_folders_are_made_for_this_user_alone(home: Path, templates: Path) -> None:
+    before = os.umask(0o002)
+    try:
+        render(templates)
+    finally:
+        os.umask(before)
+    modes = [stat.S_IMODE((home / place).stat().st_mode) for place in ("urdfsync", "urdfsync/templates")]
+    assert modes == [0o700, 0o700]
+    assert bytecode.of_user() is not None
+
+
+def test_code_without_a_sandbox_is_not_run_in_one(home: Path, templates: Path, compiled: list[str]) -> None:
+    (templates / "t.jinja").write_text("<< x.__class__.__name__ >>")
+    marks = {"variable_start_string": "<<", "variable_end_string": ">>"}
+    loader = jinja2.FileSystemLoader(str(templates))
+    plain = jinja2.Environment(loader=loader, bytecode_cache=bytecode.of_user(), **marks)  # type: ignore[arg-type]
+    assert plain.get_template("t.jinja").render(x=1) == "int"
+    assert len(kept(home)) == 1
+    with pytest.raises(jinja2.exceptions.SecurityError):
+        render(templates)
+    assert compiled == ["t.jinja"] * 2
 
 
 @pytest.mark.parametrize("place", ["", "relative/folder"])

@@ -232,13 +232,8 @@ def test_names_are_identifiers_and_reversible(case: Case) -> None:
         assert len(set(names.values())) == len(names)
 
 
-def test_records_as_generated_agree_with_each_other(case: Case) -> None:
-    generated = case.generated()
-    found = [artifact.path for artifact in generated.artifacts.values() if artifact.role is Role.RECORD]
-    assert found
-    records = {path: generated.content(path).decode() for path in found}
-    assert list(case.domain.echoes(records, TARGET)) == []
-    assert list(case.domain.echoes(dict.fromkeys(found, "record"), TARGET)) == []
+def test_defaults_suit_every_model(case: Case) -> None:
+    assert list(case.domain.check_options(case.snapshot, case.options)) == []
 
 
 def test_proposals_are_options(case: Case) -> None:

@@ -165,8 +165,6 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "urdf/reader/chunks": ("lxml", "urdfsync.urdf.robot", "pathlib", *IO, *SHELL_MODULES),
     "urdf/reader/renumbering": ("lxml", "pathlib", *IO, *SHELL_MODULES),
     "urdf/source": ("jinja2", "urdfsync.render", "urdfsync.manifest", *SHELL_MODULES),
-    "urdf/echoes": ("pathlib", "re", *IO, *HEAVY, *SHELL_MODULES),
-    "urdf/modifiers": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
     "urdf/naming": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
     "urdf/artifacts": ("jinja2", "pathlib", *IO, *SHELL_MODULES),
 }

@@ -178,44 +178,6 @@ def test_a_build_that_is_writing_is_waited_for(built: Path, capsys: Capture) -> 
 # Records
 
 
-def test_an_edited_record_that_differs_from_the_whole(arm: Path, capsys: Capture) -> None:
-    edit(arm / "Links/ForearmParameters.mo", "mass = 4.2", "mass = 4.5")
-    (line,) = warned(capsys)
-    assert line.startswith(
-        "modelica/Arm/Links/ForearmParameters.mo:10: warning: inertial.mass = 4.5, but ArmParameters.mo:"
-    )
-    assert " has 4.2; make them equal, unless they are meant to differ [records-differ]" in line
-    (robot,) = document(capsys)["robots"]
-    assert "records-differ" in [found["code"] for found in robot["diagnostics"]]
-    edit(arm / "ArmParameters.mo", "mass = 4.2", "mass = 4.50")
-    assert warned(capsys) == []
-    assert shown(capsys)[0].endswith("files: 2 edited")
-
-
-def test_an_edited_whole_record_is_the_one_that_is_named(arm: Path, capsys: Capture) -> None:
-    edit(arm / "ArmParameters.mo", "      upper = 1.222,\n", "")
-    (line,) = warned(capsys)
-    assert line.startswith("modelica/Arm/ArmParameters.mo:")
-    assert "warning: elbow.limits.upper is not given, but Joints/ElbowParameters.mo:" in line
-    assert " has 1.222;" in line
-
-
-def test_records_that_only_wait_to_be_written_are_no_difference(arm: Path, capsys: Capture) -> None:
-    edit(Path("arm.urdf"), 'mass value="4.2"', 'mass value="4.4"')
-    edit(arm / "Links/WristParameters.mo", "mass = 1.3", "mass = 1.30")
-    (arm / "ArmParameters.mo").unlink()
-    assert warned(capsys) == []
-
-
-def test_records_are_read_only_if_one_was_edited(arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("urdfsync.records.Disk", None)
-    edit(arm / "Arm.mo", "end Arm;", "// mine\nend Arm;")
-    assert shown(capsys)[0].endswith(": 1 edited")
-    edit(arm / "Links/WristParameters.mo", "mass = 1.3", "mass = 1.4")
-    with pytest.raises(TypeError, match="not callable"):
-        cli.main(["status"])
-
-
 # The process
 
 

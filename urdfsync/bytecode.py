@@ -1,6 +1,7 @@
 """Compiled templates, kept in the user's cache folder: compiling one takes longer than rendering it a hundred times.
 
-What is kept counts only for the very text, Python, Jinja and filters that it was made of, and only if it is whole.
+What is kept counts only for the very text, Python, Jinja, filters and sandbox that it was made of, and only if it is
+whole. It is code that is run, so nobody but this user may be able to write to it, or to a folder around it.
 Whatever is wrong with the folder or with a file in it, the template is compiled again.
 """
 
@@ -28,12 +29,17 @@ def of_user() -> Bytecode | None:
     base = _base()
     if base is None or not base.is_absolute():
         return None
-    folder = base / "urdfsync" / ("Cache" if sys.platform == "win32" else "") / "templates"
-    return Bytecode(folder) if _is_own(folder) else None
+    folders = [base, base / "urdfsync", base / "urdfsync" / ("Cache" if sys.platform == "win32" else "") / "templates"]
+    with contextlib.suppress(OSError):
+        for folder in folders:
+            folder.mkdir(mode=0o700, exist_ok=True)
+        if all(_is_own(folder.stat()) for folder in folders):
+            return Bytecode(folders[-1])
+    return None
 
 
 class Bytecode(bccache.BytecodeCache):
-    """The compiled templates in a folder, which need not exist; several processes may use it at once."""
+    """The compiled templates in a folder; several processes may use it at once."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = str(folder)
@@ -43,7 +49,7 @@ class Bytecode(bccache.BytecodeCache):
         """Give the bucket its code, if that is kept."""
         try:
             with open(self._file(bucket), "rb") as file:  # noqa: PTH123 - without a Path for each template
-                content = file.read()
+                content = file.read() if _is_own(os.fstat(file.fileno())) else b""
         except OSError:
             return
         if content[:_SIZE] == self._seal(bucket, content[_SIZE:]):
@@ -53,7 +59,6 @@ class Bytecode(bccache.BytecodeCache):
         """Keep the bucket's code, if that is possible."""
         code, file = marshal.dumps(bucket.code), Path(self._file(bucket))
         with contextlib.suppress(OSError):  # a cache that can't be written to is none
-            file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
             put(file, self._seal(bucket, code) + code)
 
     def _file(self, bucket: bccache.Bucket) -> str:
@@ -61,7 +66,8 @@ class Bytecode(bccache.BytecodeCache):
 
     def _seal(self, bucket: bccache.Bucket, code: bytes) -> bytes:
         """What a file begins with if this code is right for the bucket."""
-        return hashlib.sha256(b"%s\0%s\0%s" % (self._maker, bucket.checksum.encode(), code)).digest()
+        facts = self._maker, _sandbox(bucket.environment), bucket.checksum.encode(), code
+        return hashlib.sha256(b"\0".join(facts)).digest()
 
 
 def _maker() -> bytes:
@@ -70,6 +76,13 @@ def _maker() -> bytes:
     stats = [os.stat(file) for file in files]  # noqa: PTH116
     facts = [f"{file} {status.st_size} {status.st_mtime_ns}" for file, status in zip(files, stats, strict=True)]
     return "\0".join([importlib.util.MAGIC_NUMBER.hex(), sys.version, *facts]).encode()
+
+
+def _sandbox(environment: jinja2.Environment) -> bytes:
+    """What an environment compiles calls, loops and operators to: code for another one might go round the sandbox."""
+    operators = sorted(getattr(environment, "intercepted_binops", ()))
+    kinds = type(environment), environment.code_generator_class
+    return repr((environment.sandboxed, [f"{one.__module__}.{one.__qualname__}" for one in kinds], operators)).encode()
 
 
 def _base() -> Path | None:
@@ -81,15 +94,8 @@ def _base() -> Path | None:
     return Path(os.path.expanduser("~")) / ("Library/Caches" if sys.platform == "darwin" else ".cache")  # noqa: PTH111
 
 
-def _is_own(folder: Path) -> bool:
-    """Whether nobody but this user can have written to a folder, or to the first above it that exists."""
+def _is_own(status: os.stat_result) -> bool:
+    """Whether nobody but this user can write to a file or folder."""
     if not hasattr(os, "getuid"):
         return True  # there, other users can't write to it anyway
-    for place in (folder, *folder.parents):
-        with contextlib.suppress(FileNotFoundError):
-            try:
-                status = place.stat()
-            except (NotADirectoryError, PermissionError):
-                return False
-            return status.st_uid == os.getuid() and not status.st_mode & 0o002
-    return False
+    return status.st_uid == os.getuid() and not status.st_mode & 0o022

@@ -9,7 +9,7 @@ nothing in here does IO.
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, TypeAlias
 
@@ -162,6 +162,8 @@ class Lookup(msgspec.Struct, frozen=True):
     """Folders whose children are packages, from the configuration and the environment, best first."""
     packages: Mapping[str, Path] = msgspec.field(default_factory=dict)
     """Folders of packages by their name, wherever they are; filled only if something was not found without."""
+    libraries: Mapping[str, Path] = msgspec.field(default_factory=dict)
+    """Folders of the Modelica libraries on MODELICAPATH by their name; filled only if the source refers to one."""
     guess: bool = False
     """Whether a package that is nowhere may be a folder of another name around the source."""
 
@@ -181,25 +183,6 @@ class Proposal(msgspec.Struct, frozen=True):
     option: str
     value: Any
     reason: str
-
-
-class Spot(msgspec.Struct, frozen=True):
-    """A place in a record at which a value stands, or could."""
-
-    path: str
-    """The record's file, below the package folder."""
-    line: int
-    name: str
-    """What the record calls it, for example `elbow.limits.lower`."""
-    value: str | None
-    """As it is written; None if the record does not say."""
-
-
-class Echo(msgspec.Struct, frozen=True):
-    """One quantity that two records both give, and of which they say different things."""
-
-    one: Spot
-    other: Spot
 
 
 class Quantity(enum.StrEnum):
@@ -290,10 +273,12 @@ class Domain(Protocol):
     """Raised whenever the same snapshot, options and templates give other text."""
     converter: int
     """Raised whenever `convert` gives other bytes for the same input."""
-    uses: Sequence[tuple[str, str]]
-    """Libraries that generated packages need, with their versions: what a top-level package's `uses` names."""
     options: type[Any]
     """A frozen msgspec.Struct with the domain's options and their defaults; unknown keys are refused by the core."""
+
+    def uses(self, options: Any) -> Sequence[tuple[str, str]]:
+        """Return the libraries that a generated package needs, with their versions: what a top-level `uses` names."""
+        ...
 
     def read(self, content: bytes, file: str, options: Any, parts: Parts | None = None) -> Reading:
         """Read a source; `file` is how diagnostics name it. Raises nothing for bad input: see `Reading`.
@@ -315,6 +300,13 @@ class Domain(Protocol):
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """Per kind of element: name in the source → identifier in Modelica."""
+        ...
+
+    def check_options(self, snapshot: Snapshot, options: Any) -> Iterable[tuple[str, Diagnostic]]:
+        """Which options do not suit the model, and what to know of others: the option, and a diagnostic without place.
+
+        An error stops the build of the robot. Pure: the core adds the line of the configuration.
+        """
         ...
 
     def artifacts(
@@ -351,15 +343,14 @@ class Domain(Protocol):
         """The meaning of each difference of two comparable versions; None if another difference says the same."""
         ...
 
-    def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
+    def effects(self, old: Version, new: Version) -> Sequence[Effect]:
         """What the differences do to the model as a whole; the versions are as read, not comparable ones."""
         ...
 
-    def echoes(self, records: Mapping[str, str], target: Target) -> Sequence[Echo]:
-        """Where records repeat each other's values and differ; `records` has texts by path, as on disk. Pure.
-
-        The texts may have been edited: what can't be understood is left out.
-        """
+    def interface(
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Any
+    ) -> Sequence[Effect]:
+        """What users may have connected to, and what is there by another name now, or no more; old is None for new."""
         ...
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:

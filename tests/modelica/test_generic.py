@@ -345,7 +345,7 @@ def in_library(library: Path, name: str) -> bool:
 def test_the_multibody_form_names_what_the_standard_library_has(modelica_library: Path) -> None:
     """No tool of ours translates it: modifiers and connectors of its components are looked up."""
     text = (URDFSYNC / "Robots" / "MultiBodyGenericRobot.mo").read_text("utf-8")
-    components = re.findall(r"^  (Modelica\.\S+) (\w+)\[\w+\]\((.*?)\)\n    \"", text, re.MULTILINE | re.DOTALL)
+    components = re.findall(r"^  (Modelica\.\S+) (\w+)\[[\w.]+\]\((.*?)\)\n    \"", text, re.MULTILINE | re.DOTALL)
     assert len(components) == 6
     full = set(re.findall(r"\bModelica(?:\.\w+)+", text))
     assert "Modelica.Units.Conversions.to_deg" in full

@@ -127,7 +127,7 @@ def own(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     [
         ("<% include 'element/model.mo.jinja' %>", 1, "it includes or calls itself without end"),
         ("<% macro a() %><< a() >><% endmacro %>\n<< a() >>", 1, "it includes or calls itself without end"),
-        ("one\n<< 'x' * 10**15 >>", 2, "it needs more memory than there is"),
+        ("one\n<< 'x' * 10**15 >>", 2, "it needs more memory than it may take"),
         ("one\n<< '\\ud800' >>", 0, "it gives '/ud800', which is no character"),
         ("\n\n<< element.nme >>", 3, "has no attribute 'nme'"),
         ("<< 1 | nofilter >>", 1, "No filter named 'nofilter'; correct"),

@@ -22,7 +22,6 @@ from urdfsync.domain import (
     Artifact,
     Conversion,
     Dependency,
-    Echo,
     Import,
     Lookup,
     Order,
@@ -70,9 +69,11 @@ class RcNetwork:
     name = "rcnetwork"
     templates: Path | None = Path(__file__).parent / "templates"
     revision = 1
-    uses = (("Modelica", "4.0.0"),)
     converter = 1
     options = Options
+
+    def uses(self, options: Options) -> Sequence[tuple[str, str]]:
+        return (("Modelica", "4.0.0"),)
 
     def read(self, content: bytes, file: str, options: Options, parts: Parts | None = None) -> Reading:
         text = content.decode(errors="replace")
@@ -110,6 +111,14 @@ class RcNetwork:
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         return {"elements": {name: name for name in snapshot["elements"]}}
+
+    def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
+        nodes = {node for element in snapshot["elements"].values() for node in element["between"]}
+        if options.prefix in nodes:
+            message, hint = f"`prefix` names `{options.prefix}`, which is a node", "choose another one"
+            yield "prefix", Diagnostic(Severity.ERROR, "prefix-is-node", message, hint=hint)
+        if options.ground and GROUND not in nodes:
+            yield "ground", Diagnostic(Severity.NOTE, "no-ground", "no node is called `ground`")
 
     def artifacts(
         self,
@@ -158,11 +167,13 @@ class RcNetwork:
             meanings.append(Meaning(tuple(fields) or ("network",), reach, units[fields[-1]] if is_number else ""))
         return meanings
 
-    def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
+    def effects(self, old: Version, new: Version) -> Sequence[Effect]:
         return ()
 
-    def echoes(self, records: Mapping[str, str], target: Target) -> Sequence[Echo]:
-        return ()  # each number is in one record only
+    def interface(
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Options
+    ) -> Sequence[Effect]:
+        return ()
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         nodes = {node for element in snapshot["elements"].values() for node in element["between"]}

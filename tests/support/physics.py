@@ -94,7 +94,7 @@ def _values(skeleton: Skeleton, instant: Instant) -> dict[str, float]:
     mass, centre = instant.mass_and_centre()
     called = variables.variables(skeleton, Target("Bot", "Bot"), Options())
     pairs: list[tuple[Sequence[str], Any]] = [
-        (probe.effort_names(skeleton), instant.efforts),
+        (probe.effort_names(skeleton, called), instant.efforts),
         (probe.FORCE, -instant.force),
         (probe.TORQUE, -instant.torque),
         (probe.MASS, [mass]),

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 from urdfsync.modelica.names import KEYWORDS
 from urdfsync.urdf import naming
-from urdfsync.urdf.modifiers import clauses
 from urdfsync.urdf.naming import Identifier, Key, identify, natural_key, spell
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "naming.md"
@@ -34,13 +33,15 @@ ROBOT_MODEL = {
     *("translationalaxis", "translationalsupport", "translationalrange", "s_start", "v_start"),
 }
 RECORD = Path(__file__).resolve().parents[2] / "modelica" / "UrdfSync" / "Records" / "Robot.mo"
-ROBOT_RECORD = {clause.name.partition("[")[0].lower() for clause in clauses(RECORD.read_text(encoding="utf-8"))} - {""}
+ROBOT_RECORD = {
+    name.lower() for name in re.findall(r"^  [\w. ]+ (\w+)[\[( =\n]", RECORD.read_text("utf-8"), re.MULTILINE)
+} - {"annotation"}
 DEVICES = {"con", "prn", "aux", "nul", "com1", "com9", "lpt1", "lpt9"}
 
 
 def names_in_robot_model(identifier: Identifier) -> Iterator[str]:
-    """Every name in the robot model that a link or joint may bring along, folded."""
-    yield from (f"{identifier.component}{suffix}".lower() for suffix in ("", "Axis", "Frame", "Mimic"))
+    """The name of a link or joint in the robot model, folded."""
+    yield identifier.component.lower()
 
 
 def components(identifiers: Mapping[Key, Identifier]) -> dict[Key, str]:
@@ -109,11 +110,6 @@ def test_a_name_that_is_free_and_right_is_kept(names: frozenset[Key]) -> None:
 @pytest.mark.parametrize("kind", ["link", "joint"])
 def test_reserved_names_give_way(name: str, kind: str) -> None:
     assert identify([(kind, name)])[kind, name].component == f"{name}_{kind}"
-
-
-@pytest.mark.parametrize("name", ["rotational", "translational"])
-def test_a_name_gives_way_if_what_is_made_of_it_is_reserved(name: str) -> None:
-    assert identify([("joint", name)])["joint", name].component == f"{name}_joint"
 
 
 @given(st.text(min_size=50, max_size=400) | st.text("ab", min_size=95, max_size=105))

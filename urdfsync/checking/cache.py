@@ -79,7 +79,7 @@ class Cache:
     def prepare(self) -> None:
         """Make the folder; raises CacheError if that can't be."""
         with writing(self.folder):
-            self.folder.mkdir(parents=True, exist_ok=True)
+            self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # `bytecode` takes no other
             tag = self.folder / "CACHEDIR.TAG"  # backup programs leave such a folder out
             if not tag.is_file():
                 tag.write_text(_TAG, encoding="utf-8")

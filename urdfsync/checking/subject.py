@@ -6,7 +6,6 @@ import functools
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from urdfsync import records
 from urdfsync.build import build
 from urdfsync.checking import edits, workspace
 from urdfsync.checking.diagnosis.package import Package
@@ -99,6 +98,5 @@ class Subject:
 
     @property
     def findings(self) -> list[Diagnostic]:
-        """Errors that a build would report, and where edited records no longer agree."""
-        found = [one for one in self.result.diagnostics if one.severity is Severity.ERROR]
-        return found + records.differing(self.config, self.robot, self.result)
+        """Errors that a build would report."""
+        return [one for one in self.result.diagnostics if one.severity is Severity.ERROR]

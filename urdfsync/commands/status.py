@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
 
-import msgspec
-
-from urdfsync import advice, records, status
+from urdfsync import advice, status
 from urdfsync.build import build
 from urdfsync.commands import common
-from urdfsync.config import Config, RobotConfig, shown
-from urdfsync.outcome import Result, exit_code
-from urdfsync.planning.situation import Request
+from urdfsync.config import shown
+from urdfsync.outcome import exit_code
 from urdfsync.report import Report
 
 
@@ -21,8 +17,8 @@ def add(commands: common.Commands) -> None:
     parser = commands.add_parser(
         "status",
         help="say which files are stale, edited, missing or in conflict",
-        description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict, and "
-        "where edited records no longer agree. Nothing is written.",
+        description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
+        "Nothing is written.",
         epilog="example: urdfsync status arm --verbose\n\n"
         "exit codes: 0 it is told, in step or not; 2 error, 3 conflict, 4 locked, 130 interrupted",
     )
@@ -37,21 +33,11 @@ def _run(options: argparse.Namespace, report: Report) -> int:
     configuration = common.configuration(options)
     robots = configuration.select([*options.robots, *(options.robot or [])])
     report.warnings(advice.warnings(configuration, robots))
+    sources = {robot.name: shown(robot.source) for robot in robots}
     results = []
-    for robot, result in _results(configuration, robots, common.request(options, report, dry=True)):
-        report.status(status.of(result, shown(robot.source)))
+    for result in build(configuration, robots, common.request(options, report, dry=True)):
+        report.status(status.of(result, sources[result.robot]))
         results.append(result)
     code = exit_code(results)
     report.finish("status", code)
     return code
-
-
-def _results(
-    configuration: Config, robots: tuple[RobotConfig, ...], request: Request
-) -> Iterator[tuple[RobotConfig, Result]]:
-    """What a build would do with each robot, and what its edited records no longer agree on."""
-    by_name = {robot.name: robot for robot in robots}
-    for result in build(configuration, robots, request):
-        robot = by_name[result.robot]
-        said = records.differing(configuration, robot, result)
-        yield robot, msgspec.structs.replace(result, diagnostics=(*result.diagnostics, *said)) if said else result

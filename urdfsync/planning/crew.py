@@ -7,7 +7,7 @@ import functools
 import os
 import threading
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
@@ -94,7 +94,8 @@ class Crew:
         # not a plain fork: the thread of a progress bar may hold a lock at that moment
         method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
         count, context = min(jobs, len(robots)), get_context(method)
-        self._pool = ProcessPoolExecutor(count, context, initializer=_join, initargs=(str(Path.cwd()),))
+        with _safe_path():
+            self._pool = ProcessPoolExecutor(count, context, initializer=_join, initargs=(str(Path.cwd()),))
         self._total, self._window, self._waiting = len(robots), _AHEAD * count, deque(robots)
         self._submit()
         for robot in robots:
@@ -106,7 +107,8 @@ class Crew:
         while self._pool is not None and self._waiting and len(self._futures) < self._window:
             robot = self._waiting.popleft()
             profiled = profiling.current() is not None
-            self._futures[robot.name] = self._pool.submit(_plan, self._config, robot, request, profiled)
+            with _safe_path():
+                self._futures[robot.name] = self._pool.submit(_plan, self._config, robot, request, profiled)
 
     @profiling.staged("waiting")
     def _result(self, robot: RobotConfig) -> Work:
@@ -149,6 +151,24 @@ def _plan(config: Config, robot: RobotConfig, request: Request, profiled: bool) 
         except UrdfsyncError as problem:
             work, error, found = None, type(problem), problem.diagnostics
         return work, error, found, profile.results() if profile else None
+
+
+@contextlib.contextmanager
+def _safe_path() -> Iterator[None]:
+    """Start Python processes such that they import nothing from the working folder; a repository may be there.
+
+    A pool starts some when it is made, for its locks, and others when work is submitted.
+    The variable is gone afterwards: a command of the user's that runs later may want its own folder on the path.
+    """
+    before = os.environ.get("PYTHONSAFEPATH")
+    os.environ["PYTHONSAFEPATH"] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ["PYTHONSAFEPATH"]
+        else:
+            os.environ["PYTHONSAFEPATH"] = before
 
 
 def _join(folder: str) -> None:

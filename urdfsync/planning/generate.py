@@ -164,7 +164,7 @@ def _content(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) ->
         message = f"the template can't be rendered for `{artifact.path}`: {_reason(error)}"
         raise _template_error(message, _place(error, artifact.template, folders), folders) from None
     except jinja2.TemplateError as error:
-        message = f"the template can't be rendered for `{artifact.path}`: {error}"
+        message = f"the template can't be rendered for `{artifact.path}`: {_reason(error)}"
         raise _template_error(message, _place(error, artifact.template, folders), folders) from None
 
 
@@ -179,10 +179,10 @@ def _reason(error: Exception) -> str:
     if isinstance(error, RecursionError):
         return "it includes or calls itself without end"
     if isinstance(error, MemoryError):
-        return "it needs more memory than there is"
+        return "it needs more memory than it may take"
     if isinstance(error, UnicodeEncodeError):
         return f"it gives {error.object[error.start]!r}, which is no character"
-    return str(error) or type(error).__name__
+    return str(error).rstrip(".") or type(error).__name__
 
 
 def _template_error(message: str, place: tuple[str, int], folders: Sequence[Path]) -> ConfigError:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import stat
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import msgspec
 
 from urdfsync import looking, profiling
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
@@ -15,6 +18,9 @@ from urdfsync.files import kind_of, templates_digest, text_digests
 
 if TYPE_CHECKING:
     from urdfsync.planning.memory import Memory
+
+MAX_TEMPLATE = 10_000_000
+"""Bytes of a file in a template folder of the user's; the longest template of urdfsync has 5,000."""
 
 
 def read_source(config: Config, robot: RobotConfig) -> bytes:
@@ -32,13 +38,14 @@ def read_source(config: Config, robot: RobotConfig) -> bytes:
 
 
 def templates(config: Config, robot: RobotConfig, domain: Domain, memory: Memory | None = None) -> Templates:
-    """The robot's templates, from its own folder before the domain's. Raises ConfigError if one does not exist."""
+    """The robot's templates, from its own folder before the domain's. Raises ConfigError for a folder that can't be."""
     folders = [robot.templates] if robot.templates else []
     for folder in folders:
         if not looking.is_folder(folder):
             message = f"robot `{robot.name}`: the template folder {shown(folder)} does not exist"
             line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line, hint=hint))
+        _check_templates(folder)
     shipped = templates_folder(domain)
     folders.append(shipped)
 
@@ -48,6 +55,43 @@ def templates(config: Config, robot: RobotConfig, domain: Domain, memory: Memory
         return text_digests(folder)
 
     return Templates(tuple(folders), templates_digest(folders, read))
+
+
+def _check_templates(folder: Path) -> None:
+    """Refuse links that lead out of a template folder, and files that are too large to be templates.
+
+    The files may be a stranger's. Raises ConfigError.
+    """
+    for place, folders, files in os.walk(folder):
+        for path in (Path(place, name) for name in (*folders, *files)):
+            if path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
+                message = "the link leads out of the template folder"
+                hint = "put a copy of what it leads to in its place"
+            elif path.is_file() and path.stat().st_size > MAX_TEMPLATE:
+                message = f"the file has more than {MAX_TEMPLATE:,} bytes, which is too large for a template"
+                hint = "move it out of the template folder"
+            else:
+                continue
+            raise ConfigError(Diagnostic(Severity.ERROR, "template", message, shown(path), hint=hint))
+
+
+def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: Snapshot) -> tuple[Diagnostic, ...]:
+    """What the domain says of the robot's options, now that there is a model, at their lines in the configuration.
+
+    Raises ConfigError with every option that does not suit the model.
+    """
+    found = tuple(
+        msgspec.structs.replace(
+            said,
+            message=f"robot `{robot.name}`: {said.message}",
+            file=shown(config.file),
+            line=robot.lines.get(option, robot.lines[""]),
+        )
+        for option, said in domain.check_options(snapshot, robot.options)
+    )
+    if errors := [said for said in found if said.severity is Severity.ERROR]:
+        raise ConfigError(*sorted(errors, key=lambda error: error.line))
+    return found
 
 
 @profiling.staged("reading")

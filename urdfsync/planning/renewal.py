@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from urdfsync import changes, profiling
 from urdfsync.changes import Changes, Stale
 from urdfsync.config import shown
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.difference import ElementKey, Version
 from urdfsync.domain import Role, Target
 from urdfsync.moves import places
@@ -34,6 +34,7 @@ class Renewal:
             situation.domain, robot.options, situation.content, shown(robot.source), situation.request.memory
         )
         self._said, self._lines = reading.diagnostics, reading.lines  # and not another snapshot
+        self._said += inputs.check_options(situation.config, robot, situation.domain, self._snapshot)
         del reading
         self._imported = self._import()
         self.now = Version(self._snapshot, self._imported.imports, situation.generator.fingerprint)
@@ -51,7 +52,7 @@ class Renewal:
         decision = self._decide(found.renames if found else {})
         found = found if settled is last else self._changes(settled)
         said = [*self._said, *self._imported.diagnostics, *situation.parents.diagnostics]
-        said += [*self._moved(decision), *self._uses(decision)]
+        said += [*self._moved(decision), *self._uses(decision), *self._lost_connectors(found)]
         said.sort(key=lambda diagnostic: (diagnostic.file, diagnostic.line))
         news = found if found and (found.changes or found.generator) else None
         if situation.request.dry:
@@ -264,6 +265,22 @@ class Renewal:
     def _dangling(self) -> DanglingNames:
         """Finds uses of the names that the package loses."""
         return DanglingNames(self._situation, list(self._generated.artifacts), self._outputs.content)
+
+    def _lost_connectors(self, found: Changes | None) -> list[Diagnostic]:
+        """Notes on what users may have connected to, and what has another name now, or none."""
+        situation, settled = self._situation, self._situation.settled
+        if settled is None or found is None or not found.is_structural:
+            return []
+        notes = []
+        robot = situation.robot
+        for one in situation.domain.interface(settled, self.now, found.renames, robot.target, robot.options):
+            element, connector = one.path
+            if one.old is not None:
+                now = f"is now `{one.new}`" if one.new else "is gone"
+                message = f"{element}: its {connector} `{one.old}` {now}"
+                place = shown(situation.robot.source), self._lines.get(element, 0)
+                notes.append(Diagnostic(Severity.NOTE, "connector-changed", message, *place, hint=one.hint))
+        return notes
 
     def _uses(self, decision: Decision) -> list[Diagnostic]:
         """Warnings about texts of the user's that use names that the package loses."""

@@ -10,21 +10,21 @@ import msgspec
 
 from urdfsync.domain import Artifact, Import, Order, Parts, Piece, Recipe, Role, Target
 from urdfsync.urdf.kept import Kept
-from urdfsync.urdf.model import assembly, notes, shapes
-from urdfsync.urdf.model.assembly import RecordJoint, RecordLink
-from urdfsync.urdf.model.numbers import joint_numbers
+from urdfsync.urdf.model import bench, notes, records, shapes, stance
+from urdfsync.urdf.model.records import RecordJoint, RecordLink
+from urdfsync.urdf.model.robot import robot_data
 from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.naming import Identifier, Key
-from urdfsync.urdf.options import USES, Options
+from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Inertial, Joint, JointType, Link, Robot
 from urdfsync.urdf.skeleton import Skeleton, bare
 
 LINK_MODEL = "link/model.mo.jinja"
 LINK_RECORD = "link/record.mo.jinja"
-JOINT_RECORD = "joint/record.mo.jinja"
 ROBOT_RECORD = "robot/record.mo.jinja"
 _PARAMETERS = "Parameters"
+_UNLIMITED = {"lower": None, "upper": None, "velocity": None, "effort": None}
 
 
 def artifacts(
@@ -43,7 +43,10 @@ def artifacts(
         links = kept.each("link files", _link, context.links, *common, context.imports, options)
         files += chain.from_iterable(links.values())
         files += chain.from_iterable(kept.each("joint files", _joint, context.joints, *common).values())
-    files.append(_record(context, robot.name, kept))
+        if options.base == "floating":
+            files.append(_stance(context))
+    if "record" in options.approach:
+        files.append(_record(context, robot.name, kept))
     return files
 
 
@@ -114,7 +117,7 @@ def _of_structure(structure: Skeleton, target: Target, options: Options) -> list
         files += _subpackage("Joints", target, [structure.joint(joint.name) for joint in joints]) if joints else ()
         files += _robot(structure, target, options)
     if has_bench(structure.joints, options):
-        bench = Recipe(assembly.generic_data, (structure, target, options))
+        bench = Recipe(records.generic_data, (structure, target, options))
         files.append(Artifact(f"{target.name}Generic.mo", Role.MODEL, "robot/generic.mo.jinja", bench, "robot"))
     return files
 
@@ -122,37 +125,40 @@ def _of_structure(structure: Skeleton, target: Target, options: Options) -> list
 def _package(structure: Skeleton, target: Target, options: Options) -> Iterator[Artifact | Order]:
     name, joints = target.name, structure.joints
     parent, _, last = target.package.rpartition(".")
-    whole = "package" in options.approach
+    whole, record = "package" in options.approach, "record" in options.approach
     yield _package_file(
         "package.mo",
+        "package/robot.mo.jinja",
         within=parent,
         name=last,
-        icon="RobotPackage",
         title=f"Robot {name}: links, joints, robot and benches" if whole else f"Robot {name} in one record",
-        uses=() if parent else USES,
+        uses=() if parent else options.uses,
         note=notes.package_note(name, bench=has_bench(joints, options)),
     )
-    classes = dict.fromkeys((*models(joints, target, options), f"{name}{_PARAMETERS}"))
+    classes = [
+        *models(joints, target, options),
+        *([f"{name}Stance"] if whole and options.base == "floating" else []),
+        *([f"{name}{_PARAMETERS}"] if record else []),
+    ]
     folders = ("Links", *(("Joints",) if joints else ())) if whole else ()
-    yield Order("package.order", (*classes, *folders))
+    yield Order("package.order", (*dict.fromkeys(classes), *folders))
 
 
 def _subpackage(name: str, target: Target, identifiers: list[Identifier]) -> Iterator[Artifact | Order]:
     """What the package approach has of all links, or of all joints."""
     yield _package_file(
         f"{name}/package.mo",
+        f"package/{name.lower()}.mo.jinja",
         within=target.package,
         name=name,
-        icon=f"{name}Package",
         title=f"{name} of robot {target.name}",
-        uses=(),
         note=f"One model and one record of numbers per {name[:-1].lower()}.",
     )
     yield Order(f"{name}/package.order", tuple(n for i in identifiers for n in (i.type, i.record)))
 
 
-def _package_file(path: str, **data: Any) -> Artifact:
-    return Artifact(path, Role.PACKAGE, "package/package.mo.jinja", data, "robot")
+def _package_file(path: str, template: str, **data: Any) -> Artifact:
+    return Artifact(path, Role.PACKAGE, template, data, "robot")
 
 
 def _link(
@@ -209,7 +215,7 @@ def _joint(key: str, joint: Joint, names: Mapping[Key, Identifier], package: str
     record = Recipe(_joint_record, (name, package, joint))
     model = Recipe(_joint_model, (name, package, own, loses))
     return (
-        Artifact(f"Joints/{name.record}.mo", Role.RECORD, JOINT_RECORD, record, owner),
+        Artifact(f"Joints/{name.record}.mo", Role.RECORD, joint_record_template(joint.type), record, owner),
         Artifact(f"Joints/{name.type}.mo", Role.MODEL, joint_template(joint.type), model, owner),
     )
 
@@ -220,12 +226,11 @@ def _joint_names(name: Identifier, package: str, joint: Joint) -> dict[str, Any]
         "type": name.type,
         "record": name.record,
         "title": notes.joint_title(joint),
-        "kind": joint.type.capitalize(),
     }
 
 
 def _joint_record(name: Identifier, package: str, joint: Joint) -> dict[str, Any]:
-    return _joint_names(name, package, joint) | {"joint": joint_numbers(joint)}
+    return _joint_names(name, package, joint) | {"joint": joint, "limits": joint.limit or _UNLIMITED}
 
 
 def _joint_model(name: Identifier, package: str, joint: Joint, loses: bool) -> dict[str, Any]:
@@ -235,7 +240,7 @@ def _joint_model(name: Identifier, package: str, joint: Joint, loses: bool) -> d
 
 def joint_model(loses: bool) -> dict[str, Any]:
     """The structure of a joint, for its model; one that `loses` has damping or friction."""
-    return {"dynamics": loses, "assertion_level": "warning"}
+    return {"dynamics": loses}
 
 
 def joint_template(kind: JointType) -> str:
@@ -243,12 +248,23 @@ def joint_template(kind: JointType) -> str:
     return f"joint/{kind}.mo.jinja"
 
 
+def joint_record_template(kind: JointType) -> str:
+    """The template of the record of such a joint."""
+    return f"joint/{kind}_parameters.mo.jinja"
+
+
 def _robot(structure: Skeleton, target: Target, options: Options) -> Iterator[Artifact]:
     name, made_of = target.name, (structure, target, options)
-    robot, bench = Recipe(assembly.robot_data, made_of), Recipe(assembly.bench_data, made_of)
+    robot, benches = Recipe(robot_data, made_of), Recipe(bench.bench_data, made_of)
     yield Artifact(f"{name}.mo", Role.MODEL, "robot/robot.mo.jinja", robot, "robot")
-    yield Artifact(f"{name}Run.mo", Role.MODEL, "robot/run.mo.jinja", bench, "robot")
-    yield Artifact(f"{name}Test.mo", Role.MODEL, "robot/test.mo.jinja", bench, "robot")
+    yield Artifact(f"{name}Run.mo", Role.MODEL, "robot/run.mo.jinja", benches, "robot")
+    yield Artifact(f"{name}Test.mo", Role.MODEL, "robot/test.mo.jinja", benches, "robot")
+
+
+def _stance(context: _Context) -> Artifact:
+    made_of = (_touching(context), context.imports, context.target)
+    record = Recipe(stance.stance_data, made_of)
+    return Artifact(f"{context.target.name}Stance.mo", Role.RECORD, "robot/stance.mo.jinja", record, "robot")
 
 
 def _record(context: _Context, urdf_name: str, kept: Kept) -> Artifact:
@@ -265,12 +281,12 @@ def _record(context: _Context, urdf_name: str, kept: Kept) -> Artifact:
     inertials = {name: context.links[name].inertial for name in order[0]}
     joints = {name: context.joints[name] for name in order[1]}
     pieces = (
-        kept.get("tables", lambda structure: kept.piece(Recipe(assembly.structure_data, (structure,))), structure),
+        kept.get("tables", lambda structure: kept.piece(Recipe(records.structure_data, (structure,))), structure),
         list(kept.each("record links", link, inertials, structure).values()),
         list(kept.each("record joints", joint, joints, structure).values()),
     )
     ground = (_touching(context), context.imports) if stands else None
-    recipe = Recipe(assembly.record_data, (*pieces, ground, context.target, urdf_name, generic))
+    recipe = Recipe(records.record_data, (*pieces, ground, context.target, urdf_name, generic))
     return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, recipe, "robot")
 
 

@@ -7,12 +7,12 @@ from itertools import compress
 from pathlib import Path
 from typing import Any
 
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.difference import Difference, Effect, ElementKey, Meaning, Version
 from urdfsync.domain import (
     Artifact,
     Conversion,
     Dependency,
-    Echo,
     Experiment,
     Import,
     Lookup,
@@ -26,9 +26,9 @@ from urdfsync.domain import (
 )
 from urdfsync.urdf import naming
 from urdfsync.urdf.kept import Kept
-from urdfsync.urdf.options import USES, Options
+from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
+from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
 
 
 class UrdfDomain:
@@ -36,14 +36,17 @@ class UrdfDomain:
 
     name = "urdf"
     templates: Path | None = None
-    revision = 3
+    revision = 5
     converter = 1
-    uses = USES
     options = Options
 
     def __init__(self) -> None:
         self._meshes: Parts | None = None
         """Which links have meshes, where readings are kept: several stages of a build ask for them."""
+
+    def uses(self, options: Options) -> Sequence[tuple[str, str]]:
+        """See `urdfsync.domain.Domain`."""
+        return options.uses
 
     def read(self, content: bytes, file: str, options: Options, parts: Parts | None = None) -> Reading:
         """See `urdfsync.domain.Domain`."""
@@ -84,6 +87,12 @@ class UrdfDomain:
         """See `urdfsync.domain.Domain`."""
         return naming.components(tuple(snapshot["links"]), tuple(snapshot["joints"]), target.name)
 
+    def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf.option_names import check_options
+
+        return check_options(snapshot["links"], joints_of(snapshot["joints"]), options)
+
     def artifacts(
         self,
         snapshot: Snapshot,
@@ -117,17 +126,19 @@ class UrdfDomain:
 
         return changes.describe(differences, old, new, options)
 
-    def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
+    def effects(self, old: Version, new: Version) -> Sequence[Effect]:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf import changes
 
-        return changes.effects(old, new, renames)
+        return changes.effects(old, new)
 
-    def echoes(self, records: Mapping[str, str], target: Target) -> Sequence[Echo]:
+    def interface(
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Options
+    ) -> Sequence[Effect]:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf.echoes import echoes
+        from urdfsync.urdf import changes
 
-        return tuple(echoes(records, target))
+        return changes.interface(old, new, renames, target, options)
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         """See `urdfsync.domain.Domain`."""
@@ -145,7 +156,7 @@ class UrdfDomain:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf.diagram.picture import draw
 
-        return draw(from_snapshot(snapshot), target) if "package" in options.approach else None
+        return draw(from_snapshot(snapshot), target, options) if "package" in options.approach else None
 
     def models(self, snapshot: Snapshot, target: Target, options: Options) -> Sequence[str]:
         """See `urdfsync.domain.Domain`."""

@@ -79,7 +79,7 @@ def _joint(kind: JointType, note: str) -> Artifact:
     name = kind.capitalize()
     moving = kind in MOTIONS or kind == "planar"
     data = joint_model(loses=moving) | _names("Joints", name, f"UrdfSync.Records.{name}Joint")
-    data |= {"kind": name, "replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
+    data |= {"replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
     return Artifact(f"Joints/{name}.mo", Role.MODEL, joint_template(kind), data, name)
 
 

@@ -20,12 +20,14 @@ Key = tuple[str, str]
 """Kind (`link` or `joint`) and URDF name."""
 
 GENERATED = frozenset(
-    "animation checklimits connectionmatrix firstjoints fixedstart followerratios followers frame_a frame_b ground "
-    "inertialangles jointangles jointaxes jointlimits jointlosses jointnames jointpositions joints jointtree "
-    "linkbodies linkcenters linkinertias linkmasses links m moveablejoints movingjoints name nextjoints parameters "
-    "phi_start resources rotationalaxes rotationalaxis rotationaljoints rotationalrange rotationalsupport s_start "
-    "showcollisions standingheight translationalaxes translationalaxis translationaljoints translationalrange "
-    "translationalsupport v_start visualizationsetup w_start world".split()
+    "animation bodyinertias bodymasses bodymoments checklimits connectionmatrix firstjoints fixedstart "
+    "followerangles followerlengths followermultipliers followers frame_a frame_b ground inertialangles jointangles "
+    "jointaxes jointnames jointorigins jointpositions jointrotations joints jointtree linkbodies linkcenters "
+    "linkinertias linkmasses linkpositions linkrotations links m moveablejoints movingjoints name nextjoints "
+    "parameters phi_start resources rotationalaxes rotationalaxis rotationaljoints rotationalrange rotationalsupport "
+    "s_start showcollisions slideaxes sliding slidingjoints slidinglimits slidinglosses standingheight "
+    "translationalaxes translationalaxis translationaljoints translationalrange translationalsupport tree turnaxes "
+    "turning turningjoints turninglimits turninglosses v_start visualizationsetup w_start world".split()
 )
 """Names, folded to lower case, that models and records of robots use beside those of links and joints."""
 
@@ -34,9 +36,6 @@ LONGEST = 100
 
 RESERVED_SUFFIXES = ("parameters", "run", "test")
 """Endings, folded to lower case, by which class names are made from other class names."""
-
-DERIVED_SUFFIXES = ("", "axis", "frame", "mimic")
-"""Endings, folded to lower case, of the names in the robot model that come with a link or joint."""
 
 _UNFIT = re.compile(r"[^A-Za-z0-9_]")
 _PARTS = re.compile(r"[0-9]+|[^0-9]+")
@@ -64,7 +63,7 @@ class Identifier(msgspec.Struct, frozen=True):
 def is_reserved(spelling: str) -> bool:
     """Whether an identifier would collide with the language, a library or generated text."""
     folded = spelling.lower()
-    return folded in _RESERVED or folded.endswith(RESERVED_SUFFIXES) or not GENERATED.isdisjoint(_derived(folded))
+    return folded in _RESERVED or folded.endswith(RESERVED_SUFFIXES) or folded in GENERATED
 
 
 def spell(name: str, kind: str) -> str:
@@ -127,16 +126,12 @@ def _identify(names: frozenset[Key], taken: tuple[str, ...]) -> Mapping[Key, Ide
 
 
 def _is_free(spelled: str, used: set[str]) -> bool:
-    return used.isdisjoint(_derived(spelled.lower())) and not is_reserved(spelled)
+    return spelled.lower() not in used and not is_reserved(spelled)
 
 
 def _take(spelled: str, used: set[str]) -> Identifier:
-    used.update(_derived(spelled.lower()))
+    used.add(spelled.lower())
     return Identifier(spelled)
-
-
-def _derived(folded: str) -> list[str]:
-    return [folded + suffix for suffix in DERIVED_SUFFIXES]
 
 
 def _give_way(spelled: str, used: set[str], counts: dict[str, int]) -> str:

@@ -7,7 +7,10 @@ from typing import Literal
 import msgspec
 
 USES = (("Modelica", "4.0.0"), ("UrdfSync", "0.1.0"))
-"""Libraries that generated packages are written for."""
+"""Libraries that all generated packages are written for."""
+# No release notes of this library are public. The version is that of the published URDFModelica_Tutorial.
+VISUALIZATION2 = ("Visualization2", "1.1")
+"""The library that packages with the visualizer `visualization2` are written for, too."""
 
 
 class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -25,8 +28,20 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Whether yourdfpy reads each changed source, too, and has to agree."""
     approach: tuple[Literal["package", "record"], ...] = ("package",)
     """`package`: a model per link and joint; `record`: a bench for the generic robot. Both have the robot's record."""
+    driven: tuple[str, ...] | None = None
+    """URDF names of the joints that Run and Test drive; None to go by the source: see `urdfsync.urdf.drives`."""
+    frames: Literal["leaves", "all"] | tuple[str, ...] = "leaves"
+    """URDF names of the links that have a frame in the robot model beside the leaves, which always have one."""
+    inputs: Literal["names", "vector"] = "names"
+    """`names`: Run has a position input per driven joint; `vector`: one for all, in the order of the chain."""
 
     def __post_init__(self) -> None:
         """Raise ValueError for a choice that leaves nothing to write."""
         if not self.approach:
             raise ValueError('`approach` is empty: name "package", "record" or both')
+
+    @property
+    def uses(self) -> tuple[tuple[str, str], ...]:
+        """Libraries that a package with these options needs, with their versions. Only link models have shapes."""
+        drawn = self.visualizer == "visualization2" and "package" in self.approach
+        return (*USES, VISUALIZATION2) if drawn else USES

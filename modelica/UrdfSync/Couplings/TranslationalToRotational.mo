@@ -6,6 +6,32 @@ model TranslationalToRotational "A turning joint follows a sliding joint"
   parameter UrdfSync.Records.RotationalMimic parameters
     "Multiplier and offset";
 
+  parameter Modelica.Units.SI.Angle phi_min = -Modelica.Constants.inf
+    "Smallest position of the joint that follows";
+
+  parameter Modelica.Units.SI.Angle phi_max = Modelica.Constants.inf
+    "Largest position of the joint that follows";
+
+  parameter Modelica.Units.SI.AngularVelocity w_max = Modelica.Constants.inf
+    "Largest speed of the joint that follows";
+
+  final parameter Boolean narrows = abs(parameters.multiplier) > Modelica.Constants.eps
+    "= true, if the joint that follows moves at all, and so narrows the range of its leader";
+
+  final parameter Modelica.Units.SI.Position leader_min = if not narrows then -Modelica.Constants.inf else min(
+    UrdfSync.Functions.leaderPosition(parameters.multiplier, parameters.offset, phi_min),
+    UrdfSync.Functions.leaderPosition(parameters.multiplier, parameters.offset, phi_max))
+    "Smallest position of the leader at which the joint that follows keeps its range";
+
+  final parameter Modelica.Units.SI.Position leader_max = if not narrows then Modelica.Constants.inf else max(
+    UrdfSync.Functions.leaderPosition(parameters.multiplier, parameters.offset, phi_min),
+    UrdfSync.Functions.leaderPosition(parameters.multiplier, parameters.offset, phi_max))
+    "Largest position of the leader at which the joint that follows keeps its range";
+
+  final parameter Modelica.Units.SI.Velocity leaderSpeed_max = if not narrows then Modelica.Constants.inf else abs(
+    UrdfSync.Functions.leaderPosition(parameters.multiplier, 0, w_max))
+    "Largest speed of the leader at which the joint that follows keeps its own";
+
   Modelica.Mechanics.Translational.Interfaces.Flange_a leader
     "Axis of the joint that is followed"
     annotation (Placement(transformation(extent={{-110, -10}, {-90, 10}})));

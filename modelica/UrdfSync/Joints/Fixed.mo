@@ -2,11 +2,8 @@ within UrdfSync.Joints;
 
 model Fixed "Fixed joint"
   extends UrdfSync.Icons.FixedJoint;
-  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
-
-  replaceable parameter UrdfSync.Records.FixedJoint parameters
-    "Numbers of the joint"
-    annotation (choicesAllMatching=true, Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+  extends UrdfSync.Interfaces.PartialFixedJoint(
+    redeclare replaceable UrdfSync.Records.FixedJoint parameters);
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
     animation = false,

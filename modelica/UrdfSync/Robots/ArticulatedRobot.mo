@@ -10,13 +10,13 @@ protected
   Modelica.Units.SI.Acceleration b[n + 1, 3]
     "Accelerations of their origins minus gravity, resolved in them";
 
-  Real J_A[n + 1, 3, 3]
+  Real J_A[n + 1, 3, 3](each unit = "kg.m2")
     "Articulated inertias: torque per angular acceleration";
 
-  Real H_A[n + 1, 3, 3]
+  Real H_A[n + 1, 3, 3](each unit = "kg.m")
     "Articulated inertias: torque per acceleration";
 
-  Real M_A[n + 1, 3, 3]
+  Real M_A[n + 1, 3, 3](each unit = "kg")
     "Articulated inertias: force per acceleration";
 
   Modelica.Units.SI.Torque t_A[n + 1, 3]
@@ -25,16 +25,16 @@ protected
   Modelica.Units.SI.Force f_A[n + 1, 3]
     "Forces of the articulated bodies at acceleration zero";
 
-  Real U_t[n, 3]
+  Real U_t[n, 3](each unit = "kg.m2")
     "Torque per acceleration of the joint";
 
-  Real U_f[n, 3]
+  Real U_f[n, 3](each unit = "kg.m")
     "Force per acceleration of the joint";
 
-  Real D[n]
+  Real D[n](each unit = "kg.m2")
     "Effort per acceleration of the joint, all behind it free to move";
 
-  Real u[n]
+  Real u[n](each unit = "N.m")
     "Effort that is left to accelerate the joint";
 
   Modelica.Units.SI.AngularAcceleration z_v[n, 3]
@@ -43,13 +43,13 @@ protected
   Modelica.Units.SI.Acceleration b_v[n, 3]
     "Accelerations that speeds cause";
 
-  Real J_r[n, 3, 3]
+  Real J_r[n, 3, 3](each unit = "kg.m2")
     "Of J_A, what the joint hands on";
 
-  Real H_r[n, 3, 3]
+  Real H_r[n, 3, 3](each unit = "kg.m")
     "Of H_A, what the joint hands on";
 
-  Real M_r[n, 3, 3]
+  Real M_r[n, 3, 3](each unit = "kg")
     "Of M_A, what the joint hands on";
 
   Modelica.Units.SI.Torque t_r[n, 3]
@@ -64,22 +64,22 @@ protected
   Modelica.Units.SI.Acceleration b_c[n, 3]
     "Accelerations without that of the joint";
 
-  Real J_c[n, 3, 3]
+  Real J_c[n, 3, 3](each unit = "kg.m2")
     "J_r, resolved in the carrier";
 
-  Real H_c[n, 3, 3]
+  Real H_c[n, 3, 3](each unit = "kg.m")
     "H_r, resolved in the carrier";
 
-  Real M_c[n, 3, 3]
+  Real M_c[n, 3, 3](each unit = "kg")
     "M_r, resolved in the carrier";
 
-  Real H_o[n, 3, 3]
+  Real H_o[n, 3, 3](each unit = "kg.m")
     "The same about the origin of the carrier: torque per acceleration";
 
-  Real J_o[n, 3, 3]
+  Real J_o[n, 3, 3](each unit = "kg.m2")
     "Likewise: torque per angular acceleration";
 
-  Real S[n, 3, 3]
+  Real S[n, 3, 3](each unit = "m")
     "Cross product with the origin of the body";
 
   Modelica.Units.SI.Torque t_s[n + 1, 3]
@@ -88,31 +88,31 @@ protected
   Modelica.Units.SI.Force f_s[n + 1, 3]
     "Sums likewise: force";
 
-  Real J_s1[n + 1, 3]
+  Real J_s1[n + 1, 3](each unit = "kg.m2")
     "Sums likewise: first row of torque per angular acceleration";
 
-  Real J_s2[n + 1, 3]
+  Real J_s2[n + 1, 3](each unit = "kg.m2")
     "Sums likewise: second row of torque per angular acceleration";
 
-  Real J_s3[n + 1, 3]
+  Real J_s3[n + 1, 3](each unit = "kg.m2")
     "Sums likewise: third row of torque per angular acceleration";
 
-  Real H_s1[n + 1, 3]
+  Real H_s1[n + 1, 3](each unit = "kg.m")
     "Sums likewise: first row of torque per acceleration";
 
-  Real H_s2[n + 1, 3]
+  Real H_s2[n + 1, 3](each unit = "kg.m")
     "Sums likewise: second row of torque per acceleration";
 
-  Real H_s3[n + 1, 3]
+  Real H_s3[n + 1, 3](each unit = "kg.m")
     "Sums likewise: third row of torque per acceleration";
 
-  Real M_s1[n + 1, 3]
+  Real M_s1[n + 1, 3](each unit = "kg")
     "Sums likewise: first row of force per acceleration";
 
-  Real M_s2[n + 1, 3]
+  Real M_s2[n + 1, 3](each unit = "kg")
     "Sums likewise: second row of force per acceleration";
 
-  Real M_s3[n + 1, 3]
+  Real M_s3[n + 1, 3](each unit = "kg")
     "Sums likewise: third row of force per acceleration";
 
 equation
@@ -132,10 +132,10 @@ equation
 
   for i in 1:n + 1 loop
     J_A[i, :, :] = J[i, :, :] + [J_s1[data.firstJoints[i], 1], J_s1[data.firstJoints[i], 2], J_s1[data.firstJoints[i], 3]; J_s2[data.firstJoints[i], 1], J_s2[data.firstJoints[i], 2], J_s2[data.firstJoints[i], 3]; J_s3[data.firstJoints[i], 1], J_s3[data.firstJoints[i], 2], J_s3[data.firstJoints[i], 3]];
-    H_A[i, :, :] = [0, -bodies[i, 4], bodies[i, 3]; bodies[i, 4], 0, -bodies[i, 2]; -bodies[i, 3], bodies[i, 2], 0] + [H_s1[data.firstJoints[i], 1], H_s1[data.firstJoints[i], 2], H_s1[data.firstJoints[i], 3]; H_s2[data.firstJoints[i], 1], H_s2[data.firstJoints[i], 2], H_s2[data.firstJoints[i], 3]; H_s3[data.firstJoints[i], 1], H_s3[data.firstJoints[i], 2], H_s3[data.firstJoints[i], 3]];
-    M_A[i, :, :] = [bodies[i, 1], 0, 0; 0, bodies[i, 1], 0; 0, 0, bodies[i, 1]] + [M_s1[data.firstJoints[i], 1], M_s1[data.firstJoints[i], 2], M_s1[data.firstJoints[i], 3]; M_s2[data.firstJoints[i], 1], M_s2[data.firstJoints[i], 2], M_s2[data.firstJoints[i], 3]; M_s3[data.firstJoints[i], 1], M_s3[data.firstJoints[i], 2], M_s3[data.firstJoints[i], 3]];
+    H_A[i, :, :] = [0, -h[i, 3], h[i, 2]; h[i, 3], 0, -h[i, 1]; -h[i, 2], h[i, 1], 0] + [H_s1[data.firstJoints[i], 1], H_s1[data.firstJoints[i], 2], H_s1[data.firstJoints[i], 3]; H_s2[data.firstJoints[i], 1], H_s2[data.firstJoints[i], 2], H_s2[data.firstJoints[i], 3]; H_s3[data.firstJoints[i], 1], H_s3[data.firstJoints[i], 2], H_s3[data.firstJoints[i], 3]];
+    M_A[i, :, :] = [m_b[i], 0, 0; 0, m_b[i], 0; 0, 0, m_b[i]] + [M_s1[data.firstJoints[i], 1], M_s1[data.firstJoints[i], 2], M_s1[data.firstJoints[i], 3]; M_s2[data.firstJoints[i], 1], M_s2[data.firstJoints[i], 2], M_s2[data.firstJoints[i], 3]; M_s3[data.firstJoints[i], 1], M_s3[data.firstJoints[i], 2], M_s3[data.firstJoints[i], 3]];
     t_A[i, :] = cross(w[i, :], J[i, :, :]*w[i, :]) + t_s[data.firstJoints[i], :];
-    f_A[i, :] = cross(w[i, :], cross(w[i, :], bodies[i, 2:4])) + f_s[data.firstJoints[i], :];
+    f_A[i, :] = cross(w[i, :], cross(w[i, :], h[i, :])) + f_s[data.firstJoints[i], :];
   end for;
 
   for i in 1:n loop

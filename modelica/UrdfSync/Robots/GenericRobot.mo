@@ -38,8 +38,8 @@ equation
   end for;
 
   for i in 1:n + 1 loop
-    f[i, :] = bodies[i, 1]*b[i, :] + cross(z[i, :], bodies[i, 2:4]) + cross(w[i, :], cross(w[i, :], bodies[i, 2:4])) + f_c[data.firstJoints[i], :];
-    t[i, :] = J[i, :, :]*z[i, :] + cross(w[i, :], J[i, :, :]*w[i, :]) + cross(bodies[i, 2:4], b[i, :]) + t_c[data.firstJoints[i], :];
+    f[i, :] = m_b[i]*b[i, :] + cross(z[i, :], h[i, :]) + cross(w[i, :], cross(w[i, :], h[i, :])) + f_c[data.firstJoints[i], :];
+    t[i, :] = J[i, :, :]*z[i, :] + cross(w[i, :], J[i, :, :]*w[i, :]) + cross(h[i, :], b[i, :]) + t_c[data.firstJoints[i], :];
   end for;
 
   frame_a.f = f[1, :];

@@ -7,40 +7,40 @@ protected
   outer Modelica.Mechanics.MultiBody.World world
     "Gravity";
 
-  parameter Real R_j[n, 3, 3] = {{{jointFrames[i, 3*j + k] for k in 1:3} for j in 0:2} for i in 1:n}
-    "Rotations of the joints at position zero in the bodies that carry them";
+  parameter Real e_t[n, 3](each unit = "1") = data.turnAxes
+    "Turns of the bodies per motion of their joints";
 
-  parameter Real R_l[nLinks, 3, 3] = {{{linkFrames[i, 3*j + k] for k in 1:3} for j in 0:2} for i in 1:nLinks}
-    "Rotations of the links in their bodies";
+  parameter Modelica.Units.SI.Position e_s[n, 3] = data.slideAxes
+    "Displacements of the bodies per motion of their joints";
 
-  parameter Real e_t[n, 3] = {(if data.jointTree[i, 2] == 1 then {jointFrames[i, 13], jointFrames[i, 14], jointFrames[i, 15]} else {0, 0, 0}) for i in 1:n}
-    "Axes of the joints that turn; zero for the others";
+  parameter Modelica.Units.SI.Mass m_b[n + 1] = data.bodyMasses
+    "Masses of the bodies";
 
-  parameter Real e_s[n, 3] = {(if data.jointTree[i, 2] == 2 then {jointFrames[i, 13], jointFrames[i, 14], jointFrames[i, 15]} else {0, 0, 0}) for i in 1:n}
-    "Axes of the joints that slide; zero for the others";
+  parameter Real h[n + 1, 3](each unit = "kg.m") = data.bodyMoments
+    "First moments of mass of the bodies about their origins";
 
-  parameter Real J[n + 1, 3, 3] = {[bodies[i, 5], bodies[i, 8], bodies[i, 9]; bodies[i, 8], bodies[i, 6], bodies[i, 10]; bodies[i, 9], bodies[i, 10], bodies[i, 7]] for i in 1:n + 1}
+  parameter Modelica.Units.SI.MomentOfInertia J[n + 1, 3, 3](each min = -Modelica.Constants.inf) = data.bodyInertias
     "Inertia tensors of the bodies about their origins";
 
-  Real cosine[n]
+  Real cosine[n](each unit = "1")
     "Of the angle; 1 for joints that slide";
 
-  Real sine[n]
+  Real sine[n](each unit = "1")
     "Of the angle; 0 for joints that slide";
 
-  Real R[n, 3, 3]
+  Real R[n, 3, 3](each unit = "1")
     "Rotations of the bodies in those that carry them: v_carrier = R[i, :, :]*v_body";
 
   Modelica.Units.SI.Position r[n, 3]
     "Origins of the bodies in those that carry them";
 
-  Real x_b[n + 1, 3]
+  Real x_b[n + 1, 3](each unit = "1")
     "x axis of the world, resolved in the bodies";
 
-  Real y_b[n + 1, 3]
+  Real y_b[n + 1, 3](each unit = "1")
     "y axis of the world, resolved in the bodies";
 
-  Real z_b[n + 1, 3]
+  Real z_b[n + 1, 3](each unit = "1")
     "z axis of the world, resolved in the bodies";
 
   Modelica.Units.SI.Position r_b[n + 1, 3]
@@ -79,11 +79,11 @@ equation
   for i in 1:n loop
     cosine[i] = if data.jointTree[i, 2] == 1 then cos(q[i]) else 1;
     sine[i] = if data.jointTree[i, 2] == 1 then sin(q[i]) else 0;
-    R[i, :, :] = R_j[i, :, :]*[
+    R[i, :, :] = data.jointRotations[i, :, :]*[
       cosine[i] + e_t[i, 1]*e_t[i, 1]*(1 - cosine[i]), e_t[i, 1]*e_t[i, 2]*(1 - cosine[i]) - e_t[i, 3]*sine[i], e_t[i, 1]*e_t[i, 3]*(1 - cosine[i]) + e_t[i, 2]*sine[i];
       e_t[i, 2]*e_t[i, 1]*(1 - cosine[i]) + e_t[i, 3]*sine[i], cosine[i] + e_t[i, 2]*e_t[i, 2]*(1 - cosine[i]), e_t[i, 2]*e_t[i, 3]*(1 - cosine[i]) - e_t[i, 1]*sine[i];
       e_t[i, 3]*e_t[i, 1]*(1 - cosine[i]) - e_t[i, 2]*sine[i], e_t[i, 3]*e_t[i, 2]*(1 - cosine[i]) + e_t[i, 1]*sine[i], cosine[i] + e_t[i, 3]*e_t[i, 3]*(1 - cosine[i])];
-    r[i, :] = {jointFrames[i, 10], jointFrames[i, 11], jointFrames[i, 12]} + R_j[i, :, :]*e_s[i, :]*q[i];
+    r[i, :] = data.jointOrigins[i, :] + data.jointRotations[i, :, :]*e_s[i, :]*q[i];
     x_b[i + 1, :] = x_b[data.jointTree[i, 1], :]*R[i, :, :];
     y_b[i + 1, :] = y_b[data.jointTree[i, 1], :]*R[i, :, :];
     z_b[i + 1, :] = z_b[data.jointTree[i, 1], :]*R[i, :, :];
@@ -92,10 +92,10 @@ equation
   end for;
 
   for k in 1:nLinks loop
-    R_0[k, 1, :] = x_b[data.linkBodies[k], :]*R_l[k, :, :];
-    R_0[k, 2, :] = y_b[data.linkBodies[k], :]*R_l[k, :, :];
-    R_0[k, 3, :] = z_b[data.linkBodies[k], :]*R_l[k, :, :];
-    r_0[k, :] = r_b[data.linkBodies[k], :] + {x_b[data.linkBodies[k], :]*linkFrames[k, 10:12], y_b[data.linkBodies[k], :]*linkFrames[k, 10:12], z_b[data.linkBodies[k], :]*linkFrames[k, 10:12]};
+    R_0[k, 1, :] = x_b[data.linkBodies[k], :]*data.linkRotations[k, :, :];
+    R_0[k, 2, :] = y_b[data.linkBodies[k], :]*data.linkRotations[k, :, :];
+    R_0[k, 3, :] = z_b[data.linkBodies[k], :]*data.linkRotations[k, :, :];
+    r_0[k, :] = r_b[data.linkBodies[k], :] + {x_b[data.linkBodies[k], :]*data.linkPositions[k, :], y_b[data.linkBodies[k], :]*data.linkPositions[k, :], z_b[data.linkBodies[k], :]*data.linkPositions[k, :]};
   end for;
 
   annotation (Documentation(info="<html>

@@ -3,7 +3,11 @@ within UrdfSync.Robots;
 partial model PartialMobileBench "World, ground, and six degrees of freedom for a mobile robot"
   extends UrdfSync.Robots.PartialBench;
 
-  parameter Modelica.Units.SI.Position r_start[3] = {0, 0, 1}
+  replaceable parameter UrdfSync.Records.Stance stance
+    "How the robot stands at the beginning"
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -100}, {0, -80}})));
+
+  parameter Modelica.Units.SI.Position r_start[3] = {0, 0, stance.height}
     "Where the root frame begins, resolved in the world frame"
     annotation (Dialog(tab="Initialization"));
 

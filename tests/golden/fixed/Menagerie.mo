@@ -3,69 +3,65 @@ within Zoo.Menagerie;
 model Menagerie "Robot Menagerie"
   extends UrdfSync.Robots.PartialStationaryRobot;
 
-  constant Integer rotational_jointAxis = 1
-    "Number of joint \"rotational\" in rotationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b end_linkFrame
+    "Frame of link \"end\""
+    annotation (Placement(transformation(extent={{68, -10}, {88, 10}}), iconTransformation(extent={{92, 272}, {108, 288}})));
 
-  constant Integer shoulderAxis = 2
-    "Number of joint \"shoulder\" in rotationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b pinionFrame
+    "Frame of link \"pinion\""
+    annotation (Placement(transformation(extent={{68, -100}, {88, -80}}), iconTransformation(extent={{92, 252}, {108, 268}})));
 
-  constant Integer liftAxis = 1
-    "Number of joint \"lift\" in translationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b gelenk__Frame
+    "Frame of link \"Gelenk_ä\""
+    annotation (Placement(transformation(extent={{68, -190}, {88, -170}}), iconTransformation(extent={{92, 232}, {108, 248}})));
 
-  constant Integer end_linkFrame = 1
-    "Number of link \"end\" in frame_b";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b time_linkFrame
+    "Frame of link \"time\""
+    annotation (Placement(transformation(extent={{68, -280}, {88, -260}}), iconTransformation(extent={{92, 212}, {108, 228}})));
 
-  constant Integer pinionFrame = 2
-    "Number of link \"pinion\" in frame_b";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b cON_linkFrame
+    "Frame of link \"CON\""
+    annotation (Placement(transformation(extent={{68, -358}, {88, -338}}), iconTransformation(extent={{92, 192}, {108, 208}})));
 
-  constant Integer gelenk__Frame = 3
-    "Number of link \"Gelenk_ä\" in frame_b";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b l_arm_linkFrame
+    "Frame of link \"L_arm\""
+    annotation (Placement(transformation(extent={{68, -468}, {88, -448}}), iconTransformation(extent={{92, 172}, {108, 188}})));
 
-  constant Integer time_linkFrame = 4
-    "Number of link \"time\" in frame_b";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b nutFrame
+    "Frame of link \"nut\""
+    annotation (Placement(transformation(extent={{68, -558}, {88, -538}}), iconTransformation(extent={{92, 152}, {108, 168}})));
 
-  constant Integer cON_linkFrame = 5
-    "Number of link \"CON\" in frame_b";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b a_b___c_______1_0______d____eFrame
+    "Frame of link \"a\"b\\ <c> & << 1/0 >> {{d}} %e\""
+    annotation (Placement(transformation(extent={{68, -620}, {88, -600}}), iconTransformation(extent={{92, 132}, {108, 148}})));
 
-  constant Integer l_arm_linkFrame = 6
-    "Number of link \"L_arm\" in frame_b";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b balloonFrame
+    "Frame of link \"balloon\""
+    annotation (Placement(transformation(extent={{68, -682}, {88, -662}}), iconTransformation(extent={{92, 112}, {108, 128}})));
 
-  constant Integer nutFrame = 7
-    "Number of link \"nut\" in frame_b";
+  Modelica.Mechanics.Translational.Interfaces.Flange_a liftAxis
+    "Axis of joint \"lift\""
+    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-104, 276}, {-96, 284}})));
 
-  constant Integer a_b___c_______1_0______d____eFrame = 8
-    "Number of link \"a\"b\\ <c> & << 1/0 >> {{d}} %e\" in frame_b";
+  Modelica.Mechanics.Translational.Interfaces.Flange_b liftSupport
+    "Housing of the drive of joint \"lift\""
+    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-104, 266}, {-96, 274}})));
 
-  constant Integer balloonFrame = 9
-    "Number of link \"balloon\" in frame_b";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis_2
+    "Axis of joint \"rotational\""
+    annotation (Placement(transformation(extent={{-52, -334}, {-40, -322}}), iconTransformation(extent={{-104, 256}, {-96, 264}})));
 
-  final parameter Real rotationalRange[2, 3] = {
-    {-Modelica.Constants.inf, Modelica.Constants.inf, rotational_joint.parameters.limits.velocity},
-    UrdfSync.Functions.leaderRange(UrdfSync.Functions.leaderRange({shoulder.parameters.limits.lower, shoulder.parameters.limits.upper, shoulder.parameters.limits.velocity}, elbow.parameters.mimic.multiplier, elbow.parameters.mimic.offset, {elbow.parameters.limits.lower, elbow.parameters.limits.upper, elbow.parameters.limits.velocity}), lead_screw.parameters.mimic.multiplier, lead_screw.parameters.mimic.offset, {lead_screw.parameters.limits.lower, lead_screw.parameters.limits.upper, lead_screw.parameters.limits.velocity})}
-    "Ranges of rotationalAxis, those of joints that follow an axis included: {lower, upper, velocity}";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b rotationalSupport_2
+    "Housing of the drive of joint \"rotational\""
+    annotation (Placement(transformation(extent={{-66, -334}, {-54, -322}}), iconTransformation(extent={{-104, 246}, {-96, 254}})));
 
-  parameter Modelica.Units.SI.Angle phi_start[2] = {
-    UrdfSync.Functions.closestToZero(rotationalRange[1, 1], rotationalRange[1, 2]),
-    UrdfSync.Functions.closestToZero(rotationalRange[2, 1], rotationalRange[2, 2])}
-    "Start values of the positions"
-    annotation (Dialog(tab="Initialization"));
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a shoulderAxis
+    "Axis of joint \"shoulder\""
+    annotation (Placement(transformation(extent={{-52, -444}, {-40, -432}}), iconTransformation(extent={{-104, 236}, {-96, 244}})));
 
-  parameter Modelica.Units.SI.AngularVelocity w_start[2] = zeros(2)
-    "Start values of the speeds"
-    annotation (Dialog(tab="Initialization"));
-
-  final parameter Real translationalRange[1, 3] = {
-    UrdfSync.Functions.leaderRange({lift.parameters.limits.lower, lift.parameters.limits.upper, lift.parameters.limits.velocity}, end_joint.parameters.mimic.multiplier, end_joint.parameters.mimic.offset, UrdfSync.Functions.leaderRange({end_joint.parameters.limits.lower, end_joint.parameters.limits.upper, end_joint.parameters.limits.velocity}, pinion_joint.parameters.mimic.multiplier, pinion_joint.parameters.mimic.offset, {-Modelica.Constants.inf, Modelica.Constants.inf, pinion_joint.parameters.limits.velocity}))}
-    "Ranges of translationalAxis, those of joints that follow an axis included: {lower, upper, velocity}";
-
-  parameter Modelica.Units.SI.Position s_start[1] = {
-    UrdfSync.Functions.closestToZero(translationalRange[1, 1], translationalRange[1, 2])}
-    "Start values of the positions"
-    annotation (Dialog(tab="Initialization"));
-
-  parameter Modelica.Units.SI.Velocity v_start[1] = zeros(1)
-    "Start values of the speeds"
-    annotation (Dialog(tab="Initialization"));
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b shoulderSupport
+    "Housing of the drive of joint \"shoulder\""
+    annotation (Placement(transformation(extent={{-66, -444}, {-54, -432}}), iconTransformation(extent={{-104, 226}, {-96, 234}})));
 
   final parameter Modelica.Units.SI.Mass m =
     chassis.m +
@@ -84,238 +80,236 @@ model Menagerie "Robot Menagerie"
     balloon.m
     "Mass of the whole robot";
 
-  Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis[2]
-    "Drives"
-    annotation (Placement(transformation(extent={{-78, 70}, {-58, 90}}), iconTransformation(extent={{-70, 90}, {-50, 110}})));
-
-  Modelica.Mechanics.Rotational.Interfaces.Flange_b rotationalSupport[2]
-    "Housings of the drives"
-    annotation (Placement(transformation(extent={{-26, 70}, {-6, 90}}), iconTransformation(extent={{-40, 90}, {-20, 110}})));
-
-  Modelica.Mechanics.Translational.Interfaces.Flange_a translationalAxis[1]
-    "Drives"
-    annotation (Placement(transformation(extent={{22, 70}, {42, 90}}), iconTransformation(extent={{20, 90}, {40, 110}})));
-
-  Modelica.Mechanics.Translational.Interfaces.Flange_b translationalSupport[1]
-    "Housings of the drives"
-    annotation (Placement(transformation(extent={{70, 70}, {90, 90}}), iconTransformation(extent={{50, 90}, {70, 110}})));
-
-  Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b[9]
-    "Frames of the links without children"
-    annotation (Placement(transformation(extent={{134, -16}, {166, 16}}), iconTransformation(extent={{84, -16}, {116, 16}})));
-
-  Links.Chassis chassis(
+  replaceable Links.Chassis chassis constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"chassis\""
-    annotation (Placement(transformation(extent={{-72, -36}, {-52, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-72, -36}, {-52, -16}})));
 
-  Links.L_arm l_arm(
+  replaceable Links.L_arm l_arm constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"l_arm\""
-    annotation (Placement(transformation(extent={{-20, -36}, {0, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -36}, {0, -16}})));
 
-  Links.End_link end_link(
+  replaceable Links.End_link end_link constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"end\""
-    annotation (Placement(transformation(extent={{28, -36}, {48, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -36}, {48, -16}})));
 
-  Links.Pinion pinion(
+  replaceable Links.Pinion pinion constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"pinion\""
-    annotation (Placement(transformation(extent={{28, -126}, {48, -106}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -126}, {48, -106}})));
 
-  Links.Name_link name_link(
+  replaceable Links.Name_link name_link constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"name\""
-    annotation (Placement(transformation(extent={{-20, -216}, {0, -196}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -216}, {0, -196}})));
 
-  Links.Gelenk__ gelenk__(
+  replaceable Links.Gelenk__ gelenk__ constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"Gelenk_ä\""
-    annotation (Placement(transformation(extent={{28, -216}, {48, -196}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -216}, {48, -196}})));
 
-  Links.Time_link time_link(
+  replaceable Links.Time_link time_link constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"time\""
-    annotation (Placement(transformation(extent={{28, -306}, {48, -286}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -306}, {48, -286}})));
 
-  Links.CON_link cON_link(
+  replaceable Links.CON_link cON_link constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"CON\""
-    annotation (Placement(transformation(extent={{-20, -376}, {0, -356}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -384}, {0, -364}})));
 
-  Links.Upper_arm upper_arm(
+  replaceable Links.Upper_arm upper_arm constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"upper arm\""
-    annotation (Placement(transformation(extent={{-20, -478}, {0, -458}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -494}, {0, -474}})));
 
-  Links.L_arm_link l_arm_link(
+  replaceable Links.L_arm_link l_arm_link constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"L_arm\""
-    annotation (Placement(transformation(extent={{28, -478}, {48, -458}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -494}, {48, -474}})));
 
-  Links.Nut nut(
+  replaceable Links.Nut nut constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"nut\""
-    annotation (Placement(transformation(extent={{28, -568}, {48, -548}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -584}, {48, -564}})));
 
-  Links.Table table(
+  replaceable Links.Table table constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"table\""
-    annotation (Placement(transformation(extent={{-20, -630}, {0, -610}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -646}, {0, -626}})));
 
-  Links.A_b___c_______1_0______d____e a_b___c_______1_0______d____e(
+  replaceable Links.A_b___c_______1_0______d____e a_b___c_______1_0______d____e constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"a\"b\\ <c> & << 1/0 >> {{d}} %e\""
-    annotation (Placement(transformation(extent={{28, -630}, {48, -610}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -646}, {48, -626}})));
 
-  Links.Balloon balloon(
+  replaceable Links.Balloon balloon constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"balloon\""
-    annotation (Placement(transformation(extent={{-20, -692}, {0, -672}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -708}, {0, -688}})));
 
-  Joints.Lift lift(
-    axisNumber = 1,
-    checkLimits = checkLimits,
-    checkEffort = false,
+  replaceable Joints.Lift lift constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+    s_min = max({lift.parameters.limits.lower, end_jointMimic.leader_min}),
+    s_max = min({lift.parameters.limits.upper, end_jointMimic.leader_max}),
+    v_max = min({lift.parameters.limits.velocity, end_jointMimic.leaderSpeed_max}),
     fixedStart = fixedStart,
-    s_start = s_start[1],
-    v_start = v_start[1])
+    checkEffort = false,
+    checkLimits = checkLimits)
     "Prismatic joint \"lift\" from link \"chassis\" to link \"l_arm\""
-    annotation (Placement(transformation(extent={{-56, -10}, {-36, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -10}, {-36, 10}})));
 
-  Joints.End_joint end_joint(
-    checkLimits = checkLimits,
-    checkEffort = false,
-    stateSelect = StateSelect.avoid,
+  replaceable Joints.End_joint end_joint constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+    s_min = max({end_joint.parameters.limits.lower, pinion_jointMimic.leader_min}),
+    s_max = min({end_joint.parameters.limits.upper, pinion_jointMimic.leader_max}),
+    v_max = min({end_joint.parameters.limits.velocity, pinion_jointMimic.leaderSpeed_max}),
+    s_start = end_joint.parameters.mimic.multiplier*lift.s_start + end_joint.parameters.mimic.offset,
     fixedStart = false,
-    s_start = end_joint.parameters.mimic.multiplier*lift.s_start + end_joint.parameters.mimic.offset)
+    stateSelect = StateSelect.avoid,
+    checkEffort = false,
+    checkLimits = checkLimits)
     "Prismatic joint \"end\" from link \"l_arm\" to link \"end\""
-    annotation (Placement(transformation(extent={{-4, -10}, {16, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -10}, {16, 10}})));
 
-  Joints.Pinion_joint pinion_joint(
-    checkLimits = checkLimits,
-    checkEffort = false,
-    stateSelect = StateSelect.avoid,
+  replaceable Joints.Pinion_joint pinion_joint constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+    phi_start = pinion_joint.parameters.mimic.multiplier*end_joint.s_start + pinion_joint.parameters.mimic.offset,
     fixedStart = false,
-    phi_start = pinion_joint.parameters.mimic.multiplier*end_joint.s_start + pinion_joint.parameters.mimic.offset)
+    stateSelect = StateSelect.avoid,
+    checkEffort = false,
+    checkLimits = checkLimits)
     "Continuous joint \"pinion\" from link \"l_arm\" to link \"pinion\""
-    annotation (Placement(transformation(extent={{-4, -100}, {16, -80}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -100}, {16, -80}})));
 
-  Joints.Mount mount
+  replaceable Joints.Mount mount constrainedby UrdfSync.Interfaces.PartialFixedJoint
     "Fixed joint \"mount\" from link \"chassis\" to link \"name\""
-    annotation (Placement(transformation(extent={{-56, -190}, {-36, -170}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -190}, {-36, -170}})));
 
-  Joints.Held_slide held_slide(
-    checkLimits = checkLimits,
-    checkEffort = false,
-    stateSelect = StateSelect.avoid,
+  replaceable Joints.Held_slide held_slide constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+    s_start = held_slide.parameters.mimic.offset,
     fixedStart = false,
-    s_start = held_slide.parameters.mimic.offset)
+    stateSelect = StateSelect.avoid,
+    checkEffort = false,
+    checkLimits = checkLimits)
     "Prismatic joint \"held slide\" from link \"name\" to link \"Gelenk_ä\""
-    annotation (Placement(transformation(extent={{-4, -190}, {16, -170}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -190}, {16, -170}})));
 
-  Joints.Held_turn held_turn(
-    checkLimits = checkLimits,
-    checkEffort = false,
-    stateSelect = StateSelect.avoid,
+  replaceable Joints.Held_turn held_turn constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+    phi_start = held_turn.parameters.mimic.offset,
     fixedStart = false,
-    phi_start = held_turn.parameters.mimic.offset)
+    stateSelect = StateSelect.avoid,
+    checkEffort = false,
+    checkLimits = checkLimits)
     "Revolute joint \"held turn\" from link \"name\" to link \"time\""
-    annotation (Placement(transformation(extent={{-4, -280}, {16, -260}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -280}, {16, -260}})));
 
-  Joints.Rotational_joint rotational_joint(
-    axisNumber = 1,
-    checkLimits = checkLimits,
+  replaceable Joints.Rotational rotational constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[1],
-    w_start = w_start[1])
+    checkLimits = checkLimits)
     "Continuous joint \"rotational\" from link \"chassis\" to link \"CON\""
-    annotation (Placement(transformation(extent={{-56, -350}, {-36, -330}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -358}, {-36, -338}})));
 
-  Joints.Shoulder shoulder(
-    axisNumber = 2,
-    checkLimits = checkLimits,
-    checkEffort = false,
+  replaceable Joints.Shoulder shoulder constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+    phi_min = max({shoulder.parameters.limits.lower, elbowMimic.leader_min, lead_screwMimic.leader_min}),
+    phi_max = min({shoulder.parameters.limits.upper, elbowMimic.leader_max, lead_screwMimic.leader_max}),
+    w_max = min({shoulder.parameters.limits.velocity, elbowMimic.leaderSpeed_max, lead_screwMimic.leaderSpeed_max}),
     fixedStart = fixedStart,
-    phi_start = phi_start[2],
-    w_start = w_start[2])
+    checkEffort = false,
+    checkLimits = checkLimits)
     "Revolute joint \"shoulder\" from link \"chassis\" to link \"upper arm\""
-    annotation (Placement(transformation(extent={{-56, -452}, {-36, -432}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -468}, {-36, -448}})));
 
-  Joints.Elbow elbow(
-    checkLimits = checkLimits,
-    checkEffort = false,
-    stateSelect = StateSelect.avoid,
+  replaceable Joints.Elbow elbow constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+    phi_start = elbow.parameters.mimic.multiplier*shoulder.phi_start + elbow.parameters.mimic.offset,
     fixedStart = false,
-    phi_start = elbow.parameters.mimic.multiplier*shoulder.phi_start + elbow.parameters.mimic.offset)
+    stateSelect = StateSelect.avoid,
+    checkEffort = false,
+    checkLimits = checkLimits)
     "Revolute joint \"elbow\" from link \"upper arm\" to link \"L_arm\""
-    annotation (Placement(transformation(extent={{-4, -452}, {16, -432}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -468}, {16, -448}})));
 
-  Joints.Lead_screw lead_screw(
-    checkLimits = checkLimits,
-    checkEffort = false,
-    stateSelect = StateSelect.avoid,
+  replaceable Joints.Lead_screw lead_screw constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+    s_start = lead_screw.parameters.mimic.multiplier*shoulder.phi_start + lead_screw.parameters.mimic.offset,
     fixedStart = false,
-    s_start = lead_screw.parameters.mimic.multiplier*shoulder.phi_start + lead_screw.parameters.mimic.offset)
+    stateSelect = StateSelect.avoid,
+    checkEffort = false,
+    checkLimits = checkLimits)
     "Prismatic joint \"lead-screw\" from link \"upper arm\" to link \"nut\""
-    annotation (Placement(transformation(extent={{-4, -542}, {16, -522}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -558}, {16, -538}})));
 
-  Joints.Table_joint table_joint
+  replaceable Joints.Table_joint table_joint constrainedby UrdfSync.Interfaces.PartialPlanarJoint
     "Planar joint \"table\" from link \"chassis\" to link \"table\""
-    annotation (Placement(transformation(extent={{-56, -604}, {-36, -584}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -620}, {-36, -600}})));
 
-  Joints.Puck puck
+  replaceable Joints.Puck puck constrainedby UrdfSync.Interfaces.PartialPlanarJoint
     "Planar joint \"puck\" from link \"table\" to link \"a\"b\\ <c> & << 1/0 >> {{d}} %e\""
-    annotation (Placement(transformation(extent={{-4, -604}, {16, -584}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -620}, {16, -600}})));
 
-  Joints.Tether tether
+  replaceable Joints.Tether tether constrainedby UrdfSync.Interfaces.PartialFloatingJoint
     "Floating joint \"tether\" from link \"chassis\" to link \"balloon\""
-    annotation (Placement(transformation(extent={{-56, -666}, {-36, -646}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -682}, {-36, -662}})));
 
-  UrdfSync.Couplings.TranslationalToTranslational end_jointMimic(parameters = end_joint.parameters.mimic)
+  UrdfSync.Couplings.TranslationalToTranslational end_jointMimic(
+    s_min = end_joint.s_min,
+    s_max = end_joint.s_max,
+    v_max = end_joint.v_max,
+    parameters = end_joint.parameters.mimic)
     "Joint \"end\" follows joint \"lift\""
-    annotation (Placement(transformation(extent={{-20, 18}, {0, 38}})));
+    annotation (Placement(transformation(extent={{-20, 34}, {0, 54}})));
 
-  UrdfSync.Couplings.TranslationalToRotational pinion_jointMimic(parameters = pinion_joint.parameters.mimic)
+  UrdfSync.Couplings.TranslationalToRotational pinion_jointMimic(
+    phi_min = pinion_joint.phi_min,
+    phi_max = pinion_joint.phi_max,
+    w_max = pinion_joint.w_max,
+    parameters = pinion_joint.parameters.mimic)
     "Joint \"pinion\" follows joint \"end\""
     annotation (Placement(transformation(extent={{-20, -72}, {0, -52}})));
 
-  UrdfSync.Couplings.HeldTranslational held_slideMimic(parameters = held_slide.parameters.mimic)
+  UrdfSync.Couplings.HeldTranslational held_slideMimic(
+    parameters = held_slide.parameters.mimic)
     "Joint \"held slide\" follows joint \"mount\""
     annotation (Placement(transformation(extent={{-20, -162}, {0, -142}})));
 
-  UrdfSync.Couplings.HeldRotational held_turnMimic(parameters = held_turn.parameters.mimic)
+  UrdfSync.Couplings.HeldRotational held_turnMimic(
+    parameters = held_turn.parameters.mimic)
     "Joint \"held turn\" follows joint \"mount\""
     annotation (Placement(transformation(extent={{-20, -252}, {0, -232}})));
 
-  UrdfSync.Couplings.RotationalToRotational elbowMimic(parameters = elbow.parameters.mimic)
+  UrdfSync.Couplings.RotationalToRotational elbowMimic(
+    phi_min = elbow.phi_min,
+    phi_max = elbow.phi_max,
+    w_max = elbow.w_max,
+    parameters = elbow.parameters.mimic)
     "Joint \"elbow\" follows joint \"shoulder\""
     annotation (Placement(transformation(extent={{-20, -424}, {0, -404}})));
 
-  UrdfSync.Couplings.RotationalToTranslational lead_screwMimic(parameters = lead_screw.parameters.mimic)
+  UrdfSync.Couplings.RotationalToTranslational lead_screwMimic(
+    s_min = lead_screw.s_min,
+    s_max = lead_screw.s_max,
+    v_max = lead_screw.v_max,
+    parameters = lead_screw.parameters.mimic)
     "Joint \"lead-screw\" follows joint \"shoulder\""
-    annotation (Placement(transformation(extent={{-20, -514}, {0, -494}})));
+    annotation (Placement(transformation(extent={{-20, -530}, {0, -510}})));
 
 equation
-  assert(not checkLimits or 0.999999*abs(rotationalAxis[2].tau) <= shoulder.parameters.limits.effort + 1e-6,
-    getInstanceName() + ".shoulder (joint " + shoulder.parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
-  assert(not checkLimits or 0.999999*abs(translationalAxis[1].f) <= lift.parameters.limits.effort + 1e-6,
+  assert(not checkLimits or 0.999999*abs(liftAxis.f) <= lift.parameters.limits.effort + 1e-6,
     getInstanceName() + ".lift (joint " + lift.parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
+  assert(not checkLimits or 0.999999*abs(shoulderAxis.tau) <= shoulder.parameters.limits.effort + 1e-6,
+    getInstanceName() + ".shoulder (joint " + shoulder.parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
   connect(frame_a, chassis.frame_a)
     annotation (Line(points={{-100, 0}, {-76, 0}, {-76, -26}, {-72, -26}}, color={95, 95, 95}, thickness=0.5));
   connect(chassis.frame_a, lift.frame_a)
@@ -326,22 +320,22 @@ equation
     annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -180}, {-56, -180}}, color={95, 95, 95}, thickness=0.5));
   connect(mount.frame_b, name_link.frame_a)
     annotation (Line(points={{-36, -180}, {-24, -180}, {-24, -206}, {-20, -206}}, color={95, 95, 95}, thickness=0.5));
-  connect(chassis.frame_a, rotational_joint.frame_a)
-    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -340}, {-56, -340}}, color={95, 95, 95}, thickness=0.5));
-  connect(rotational_joint.frame_b, cON_link.frame_a)
-    annotation (Line(points={{-36, -340}, {-24, -340}, {-24, -366}, {-20, -366}}, color={95, 95, 95}, thickness=0.5));
+  connect(chassis.frame_a, rotational.frame_a)
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -348}, {-56, -348}}, color={95, 95, 95}, thickness=0.5));
+  connect(rotational.frame_b, cON_link.frame_a)
+    annotation (Line(points={{-36, -348}, {-24, -348}, {-24, -374}, {-20, -374}}, color={95, 95, 95}, thickness=0.5));
   connect(chassis.frame_a, shoulder.frame_a)
-    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -442}, {-56, -442}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -458}, {-56, -458}}, color={95, 95, 95}, thickness=0.5));
   connect(shoulder.frame_b, upper_arm.frame_a)
-    annotation (Line(points={{-36, -442}, {-24, -442}, {-24, -468}, {-20, -468}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, -458}, {-24, -458}, {-24, -484}, {-20, -484}}, color={95, 95, 95}, thickness=0.5));
   connect(chassis.frame_a, table_joint.frame_a)
-    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -594}, {-56, -594}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -610}, {-56, -610}}, color={95, 95, 95}, thickness=0.5));
   connect(table_joint.frame_b, table.frame_a)
-    annotation (Line(points={{-36, -594}, {-24, -594}, {-24, -620}, {-20, -620}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, -610}, {-24, -610}, {-24, -636}, {-20, -636}}, color={95, 95, 95}, thickness=0.5));
   connect(chassis.frame_a, tether.frame_a)
-    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -656}, {-56, -656}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -672}, {-56, -672}}, color={95, 95, 95}, thickness=0.5));
   connect(tether.frame_b, balloon.frame_a)
-    annotation (Line(points={{-36, -656}, {-24, -656}, {-24, -682}, {-20, -682}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, -672}, {-24, -672}, {-24, -698}, {-20, -698}}, color={95, 95, 95}, thickness=0.5));
   connect(l_arm.frame_a, end_joint.frame_a)
     annotation (Line(points={{-20, -26}, {-24, -26}, {-24, 0}, {-4, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(end_joint.frame_b, end_link.frame_a)
@@ -350,10 +344,10 @@ equation
     annotation (Line(points={{-20, -26}, {-24, -26}, {-24, -90}, {-4, -90}}, color={95, 95, 95}, thickness=0.5));
   connect(pinion_joint.frame_b, pinion.frame_a)
     annotation (Line(points={{16, -90}, {24, -90}, {24, -116}, {28, -116}}, color={95, 95, 95}, thickness=0.5));
-  connect(end_link.frame_a, frame_b[1])
-    annotation (Line(points={{28, -26}, {24, -26}, {24, 0}, {150, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(pinion.frame_a, frame_b[2])
-    annotation (Line(points={{28, -116}, {24, -116}, {24, -90}, {126, -90}, {126, 0}, {150, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(end_link.frame_a, end_linkFrame)
+    annotation (Line(points={{28, -26}, {24, -26}, {24, 0}, {78, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(pinion.frame_a, pinionFrame)
+    annotation (Line(points={{28, -116}, {24, -116}, {24, -90}, {78, -90}}, color={95, 95, 95}, thickness=0.5));
   connect(name_link.frame_a, held_slide.frame_a)
     annotation (Line(points={{-20, -206}, {-24, -206}, {-24, -180}, {-4, -180}}, color={95, 95, 95}, thickness=0.5));
   connect(held_slide.frame_b, gelenk__.frame_a)
@@ -362,70 +356,84 @@ equation
     annotation (Line(points={{-20, -206}, {-24, -206}, {-24, -270}, {-4, -270}}, color={95, 95, 95}, thickness=0.5));
   connect(held_turn.frame_b, time_link.frame_a)
     annotation (Line(points={{16, -270}, {24, -270}, {24, -296}, {28, -296}}, color={95, 95, 95}, thickness=0.5));
-  connect(gelenk__.frame_a, frame_b[3])
-    annotation (Line(points={{28, -206}, {24, -206}, {24, -180}, {126, -180}, {126, 0}, {150, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(time_link.frame_a, frame_b[4])
-    annotation (Line(points={{28, -296}, {24, -296}, {24, -270}, {126, -270}, {126, 0}, {150, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(cON_link.frame_a, frame_b[5])
-    annotation (Line(points={{-20, -366}, {-24, -366}, {-24, -340}, {126, -340}, {126, 0}, {150, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(gelenk__.frame_a, gelenk__Frame)
+    annotation (Line(points={{28, -206}, {24, -206}, {24, -180}, {78, -180}}, color={95, 95, 95}, thickness=0.5));
+  connect(time_link.frame_a, time_linkFrame)
+    annotation (Line(points={{28, -296}, {24, -296}, {24, -270}, {78, -270}}, color={95, 95, 95}, thickness=0.5));
+  connect(cON_link.frame_a, cON_linkFrame)
+    annotation (Line(points={{-20, -374}, {-24, -374}, {-24, -348}, {78, -348}}, color={95, 95, 95}, thickness=0.5));
   connect(upper_arm.frame_a, elbow.frame_a)
-    annotation (Line(points={{-20, -468}, {-24, -468}, {-24, -442}, {-4, -442}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-20, -484}, {-24, -484}, {-24, -458}, {-4, -458}}, color={95, 95, 95}, thickness=0.5));
   connect(elbow.frame_b, l_arm_link.frame_a)
-    annotation (Line(points={{16, -442}, {24, -442}, {24, -468}, {28, -468}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{16, -458}, {24, -458}, {24, -484}, {28, -484}}, color={95, 95, 95}, thickness=0.5));
   connect(upper_arm.frame_a, lead_screw.frame_a)
-    annotation (Line(points={{-20, -468}, {-24, -468}, {-24, -532}, {-4, -532}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-20, -484}, {-24, -484}, {-24, -548}, {-4, -548}}, color={95, 95, 95}, thickness=0.5));
   connect(lead_screw.frame_b, nut.frame_a)
-    annotation (Line(points={{16, -532}, {24, -532}, {24, -558}, {28, -558}}, color={95, 95, 95}, thickness=0.5));
-  connect(l_arm_link.frame_a, frame_b[6])
-    annotation (Line(points={{28, -468}, {24, -468}, {24, -442}, {126, -442}, {126, 0}, {150, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(nut.frame_a, frame_b[7])
-    annotation (Line(points={{28, -558}, {24, -558}, {24, -532}, {126, -532}, {126, 0}, {150, 0}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{16, -548}, {24, -548}, {24, -574}, {28, -574}}, color={95, 95, 95}, thickness=0.5));
+  connect(l_arm_link.frame_a, l_arm_linkFrame)
+    annotation (Line(points={{28, -484}, {24, -484}, {24, -458}, {78, -458}}, color={95, 95, 95}, thickness=0.5));
+  connect(nut.frame_a, nutFrame)
+    annotation (Line(points={{28, -574}, {24, -574}, {24, -548}, {78, -548}}, color={95, 95, 95}, thickness=0.5));
   connect(table.frame_a, puck.frame_a)
-    annotation (Line(points={{-20, -620}, {-24, -620}, {-24, -594}, {-4, -594}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-20, -636}, {-24, -636}, {-24, -610}, {-4, -610}}, color={95, 95, 95}, thickness=0.5));
   connect(puck.frame_b, a_b___c_______1_0______d____e.frame_a)
-    annotation (Line(points={{16, -594}, {24, -594}, {24, -620}, {28, -620}}, color={95, 95, 95}, thickness=0.5));
-  connect(a_b___c_______1_0______d____e.frame_a, frame_b[8])
-    annotation (Line(points={{28, -620}, {24, -620}, {24, -594}, {126, -594}, {126, 0}, {150, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(balloon.frame_a, frame_b[9])
-    annotation (Line(points={{-20, -682}, {-24, -682}, {-24, -656}, {126, -656}, {126, 0}, {150, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(lift.axis, translationalAxis[1])
-    annotation (Line(points={{-46, 10}, {-46, 62}, {32, 62}, {32, 80}}, color={0, 127, 0}));
-  connect(lift.support, translationalSupport[1])
-    annotation (Line(points={{-52, 10}, {-52, 66}, {80, 66}, {80, 80}}, color={0, 127, 0}));
-  connect(rotational_joint.axis, rotationalAxis[1])
-    annotation (Line(points={{-46, -330}, {-46, -322}, {120, -322}, {120, 54}, {-68, 54}, {-68, 80}}, color={0, 0, 0}));
-  connect(rotational_joint.support, rotationalSupport[1])
-    annotation (Line(points={{-52, -330}, {-52, -318}, {114, -318}, {114, 58}, {-16, 58}, {-16, 80}}, color={0, 0, 0}));
-  connect(shoulder.axis, rotationalAxis[2])
-    annotation (Line(points={{-46, -432}, {-46, -392}, {120, -392}, {120, 54}, {-68, 54}, {-68, 80}}, color={0, 0, 0}));
-  connect(shoulder.support, rotationalSupport[2])
-    annotation (Line(points={{-52, -432}, {-52, -388}, {114, -388}, {114, 58}, {-16, 58}, {-16, 80}}, color={0, 0, 0}));
+    annotation (Line(points={{16, -610}, {24, -610}, {24, -636}, {28, -636}}, color={95, 95, 95}, thickness=0.5));
+  connect(a_b___c_______1_0______d____e.frame_a, a_b___c_______1_0______d____eFrame)
+    annotation (Line(points={{28, -636}, {24, -636}, {24, -610}, {78, -610}}, color={95, 95, 95}, thickness=0.5));
+  connect(balloon.frame_a, balloonFrame)
+    annotation (Line(points={{-20, -698}, {-24, -698}, {-24, -672}, {78, -672}}, color={95, 95, 95}, thickness=0.5));
+  connect(lift.axis, liftAxis)
+    annotation (Line(points={{-46, 10}, {-46, 20}}, color={0, 127, 0}));
+  connect(lift.support, liftSupport)
+    annotation (Line(points={{-52, 10}, {-52, 12}, {-60, 12}, {-60, 20}}, color={0, 127, 0}));
+  connect(rotational.axis, rotationalAxis_2)
+    annotation (Line(points={{-46, -338}, {-46, -328}}, color={0, 0, 0}));
+  connect(rotational.support, rotationalSupport_2)
+    annotation (Line(points={{-52, -338}, {-52, -336}, {-60, -336}, {-60, -328}}, color={0, 0, 0}));
+  connect(shoulder.axis, shoulderAxis)
+    annotation (Line(points={{-46, -448}, {-46, -438}}, color={0, 0, 0}));
+  connect(shoulder.support, shoulderSupport)
+    annotation (Line(points={{-52, -448}, {-52, -446}, {-60, -446}, {-60, -438}}, color={0, 0, 0}));
   connect(end_jointMimic.follower, end_joint.axis)
-    annotation (Line(points={{0, 28}, {6, 28}, {6, 10}}, color={0, 127, 0}));
+    annotation (Line(points={{0, 44}, {6, 44}, {6, 10}}, color={0, 127, 0}));
   connect(end_jointMimic.leader, lift.axis)
-    annotation (Line(points={{-20, 28}, {-28, 28}, {-28, 50}, {-46, 50}, {-46, 10}}, color={0, 127, 0}));
+    annotation (Line(points={{-20, 44}, {-28, 44}, {-28, 66}, {-38, 66}, {-38, 12}, {-46, 12}, {-46, 10}}, color={0, 127, 0}));
   connect(pinion_jointMimic.follower, pinion_joint.axis)
     annotation (Line(points={{0, -62}, {6, -62}, {6, -80}}, color={0, 0, 0}));
   connect(pinion_jointMimic.leader, end_joint.axis)
-    annotation (Line(points={{-20, -62}, {-32, -62}, {-32, 46}, {6, 46}, {6, 10}}, color={0, 127, 0}));
+    annotation (Line(points={{-20, -62}, {-32, -62}, {-32, 62}, {6, 62}, {6, 10}}, color={0, 127, 0}));
   connect(held_slideMimic.follower, held_slide.axis)
     annotation (Line(points={{0, -152}, {6, -152}, {6, -170}}, color={0, 127, 0}));
   connect(held_turnMimic.follower, held_turn.axis)
     annotation (Line(points={{0, -242}, {6, -242}, {6, -260}}, color={0, 0, 0}));
   connect(elbowMimic.follower, elbow.axis)
-    annotation (Line(points={{0, -414}, {6, -414}, {6, -432}}, color={0, 0, 0}));
+    annotation (Line(points={{0, -414}, {6, -414}, {6, -448}}, color={0, 0, 0}));
   connect(elbowMimic.leader, shoulder.axis)
-    annotation (Line(points={{-20, -414}, {-28, -414}, {-28, -396}, {-46, -396}, {-46, -432}}, color={0, 0, 0}));
+    annotation (Line(points={{-20, -414}, {-28, -414}, {-28, -396}, {-38, -396}, {-38, -446}, {-46, -446}, {-46, -448}}, color={0, 0, 0}));
   connect(lead_screwMimic.follower, lead_screw.axis)
-    annotation (Line(points={{0, -504}, {6, -504}, {6, -522}}, color={0, 127, 0}));
+    annotation (Line(points={{0, -520}, {6, -520}, {6, -538}}, color={0, 127, 0}));
   connect(lead_screwMimic.leader, shoulder.axis)
-    annotation (Line(points={{-20, -504}, {-28, -504}, {-28, -396}, {-46, -396}, {-46, -432}}, color={0, 0, 0}));
+    annotation (Line(points={{-20, -520}, {-28, -520}, {-28, -396}, {-38, -396}, {-38, -446}, {-46, -446}, {-46, -448}}, color={0, 0, 0}));
 
   annotation (
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -700}, {166, 90}})),
+    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 290}}), graphics={
+      Rectangle(extent={{-100, 100}, {100, 290}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+      Text(extent={{-90, 266}, {0, 284}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="lift"),
+      Text(extent={{-90, 246}, {0, 264}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="rotational"),
+      Text(extent={{-90, 226}, {0, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="shoulder"),
+      Text(extent={{0, 273}, {88, 287}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="end_link"),
+      Text(extent={{0, 253}, {88, 267}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="pinion"),
+      Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="gelenk__"),
+      Text(extent={{0, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="time_link"),
+      Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="cON_link"),
+      Text(extent={{0, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="l_arm_link"),
+      Text(extent={{0, 153}, {88, 167}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="nut"),
+      Text(extent={{0, 133}, {88, 147}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="a_b___c_______1_0______d____e"),
+      Text(extent={{0, 113}, {88, 127}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="balloon")}),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -716}, {88, 70}})),
     Documentation(info="<html>
 <p>
-Links and joints of robot Menagerie, connected. The flange vectors hold the axes that can be driven; the constants <code>...Axis</code> and <code>...Frame</code> are their numbers, and keep their meaning when the robot changes. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+Links and joints of robot Menagerie, connected. Each can be exchanged in a model that extends this one. A drive of joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
 </html>"));
 end Menagerie;

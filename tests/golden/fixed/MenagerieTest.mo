@@ -4,60 +4,54 @@ model MenagerieTest "Quick check of robot Menagerie: every axis moves inside its
   extends UrdfSync.Robots.PartialBench;
   extends Modelica.Icons.Example;
 
-  parameter MenagerieParameters parameters
-    "Numbers of the whole robot"
-    annotation (Placement(transformation(extent={{80, 80}, {100, 100}})));
-
-  Menagerie robot(fixedStart = false)
+  replaceable Menagerie robot constrainedby Menagerie(
+    fixedStart = false)
     "The robot"
-    annotation (Placement(transformation(extent={{20, -60}, {60, -20}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 385}})));
 
-  Modelica.Mechanics.Rotational.Sources.Position rotationalDrive[2](
-    each useSupport = true,
-    each exact = true)
-    "Moves each axis as asked"
-    annotation (Placement(transformation(extent={{-20, 20}, {0, 40}})));
+  UrdfSync.Drives.TranslationalSweep liftDrive(
+    s_start = robot.lift.s_start,
+    s_min = robot.lift.s_min,
+    s_max = robot.lift.s_max,
+    v_max = robot.lift.v_max)
+    "Moves joint \"lift\" there and back"
+    annotation (Placement(transformation(extent={{-40, 360}, {-20, 380}})));
 
-  Modelica.Mechanics.Translational.Sources.Position translationalDrive[1](
-    each useSupport = true,
-    each exact = true)
-    "Moves each axis as asked"
-    annotation (Placement(transformation(extent={{-20, 60}, {0, 80}})));
+  UrdfSync.Drives.RotationalSweep rotationalDrive(
+    phi_start = robot.rotational.phi_start,
+    phi_min = robot.rotational.phi_min,
+    phi_max = robot.rotational.phi_max,
+    w_max = robot.rotational.w_max)
+    "Moves joint \"rotational\" there and back"
+    annotation (Placement(transformation(extent={{-40, 330}, {-20, 350}})));
 
-  UrdfSync.Robots.Sweep rotationalSweep(
-    n = 2,
-    start = robot.phi_start,
-    range = robot.rotationalRange,
-    reach = 1)
-    "There and back"
-    annotation (Placement(transformation(extent={{-60, 20}, {-40, 40}})));
-
-  UrdfSync.Robots.Sweep translationalSweep(
-    n = 1,
-    start = robot.s_start,
-    range = robot.translationalRange,
-    reach = 0.1)
-    "There and back"
-    annotation (Placement(transformation(extent={{-60, 60}, {-40, 80}})));
+  UrdfSync.Drives.RotationalSweep shoulderDrive(
+    phi_start = robot.shoulder.phi_start,
+    phi_min = robot.shoulder.phi_min,
+    phi_max = robot.shoulder.phi_max,
+    w_max = robot.shoulder.w_max)
+    "Moves joint \"shoulder\" there and back"
+    annotation (Placement(transformation(extent={{-40, 300}, {-20, 320}})));
 
 equation
   connect(world.frame_b, robot.frame_a)
-    annotation (Line(points={{-80, -50}, {0, -50}, {0, -40}, {20, -40}}, color={95, 95, 95}, thickness=0.5));
-  connect(rotationalDrive.flange, robot.rotationalAxis)
-    annotation (Line(points={{0, 30}, {28, 30}, {28, -20}}, color={0, 0, 0}));
-  connect(rotationalDrive.support, robot.rotationalSupport)
-    annotation (Line(points={{-10, 20}, {-10, 10}, {34, 10}, {34, -20}}, color={0, 0, 0}));
-  connect(translationalDrive.flange, robot.translationalAxis)
-    annotation (Line(points={{0, 70}, {46, 70}, {46, -20}}, color={0, 127, 0}));
-  connect(translationalDrive.support, robot.translationalSupport)
-    annotation (Line(points={{-10, 60}, {-10, 50}, {52, 50}, {52, -20}}, color={0, 127, 0}));
-  connect(rotationalSweep.y, rotationalDrive.phi_ref)
-    annotation (Line(points={{-39, 30}, {-22, 30}}, color={0, 0, 127}));
-  connect(translationalSweep.y, translationalDrive.s_ref)
-    annotation (Line(points={{-39, 70}, {-22, 70}}, color={0, 0, 127}));
+    annotation (Line(points={{-80, -50}, {20, -50}}, color={95, 95, 95}, thickness=0.5));
+  connect(liftDrive.flange, robot.liftAxis)
+    annotation (Line(points={{-20, 370}, {20, 370}}, color={0, 127, 0}));
+  connect(liftDrive.support, robot.liftSupport)
+    annotation (Line(points={{-30, 360}, {-30, 355}, {20, 355}}, color={0, 127, 0}));
+  connect(rotationalDrive.flange, robot.rotationalAxis_2)
+    annotation (Line(points={{-20, 340}, {20, 340}}, color={0, 0, 0}));
+  connect(rotationalDrive.support, robot.rotationalSupport_2)
+    annotation (Line(points={{-30, 330}, {-30, 325}, {20, 325}}, color={0, 0, 0}));
+  connect(shoulderDrive.flange, robot.shoulderAxis)
+    annotation (Line(points={{-20, 310}, {20, 310}}, color={0, 0, 0}));
+  connect(shoulderDrive.support, robot.shoulderSupport)
+    annotation (Line(points={{-30, 300}, {-30, 295}, {20, 295}}, color={0, 0, 0}));
 
   annotation (
     experiment(StopTime=10, Interval=0.02, Tolerance=1e-6),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-120, -280}, {340, 405}})),
     Documentation(info="<html>
 <p>
 Simulates without inputs: every axis of robot Menagerie moves inside its limits and comes back. A warning in the log names a joint that passes one of its limits all the same, for example that of its effort. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

@@ -8,7 +8,6 @@ import itertools
 import random
 import sys
 from collections import defaultdict
-from collections.abc import Iterator
 from types import FrameType
 from typing import TypeAlias
 
@@ -38,22 +37,24 @@ class Recipe:
     parents: tuple[int, ...]
     kinds: tuple[JointKind, ...]
     leaders: tuple[int | None, ...]
+    framed: frozenset[str] = frozenset()
+    """Inner links with a connector of their own."""
 
     def tree(self) -> Tree:
         count = len(self.parents)
         children: dict[str, list[TreeJoint]] = {f"link{index}": [] for index in range(count + 1)}
-        numbers: defaultdict[JointKind, Iterator[int]] = defaultdict(lambda: itertools.count(1))
         for index in range(count):
             kind, moves = self.kinds[index], self.kinds[index] in ("rotational", "translational")
-            axis = next(numbers[kind]) if moves and self.leaders[index] is None else None
-            children[f"link{self.parents[index]}"].append(TreeJoint(f"j{index}", f"link{index + 1}", kind, axis))
-        leaves = [link for link, joints in children.items() if not joints]
+            driven = moves and self.leaders[index] is None
+            names = (f"j{index}Axis", f"j{index}Support") if driven else (None, None)
+            children[f"link{self.parents[index]}"].append(TreeJoint(f"j{index}", f"link{index + 1}", kind, *names))
+        frames = [link for link, joints in children.items() if not joints or link in self.framed]
         couplings = [
             TreeCoupling(f"mimic{index}", f"j{leader}", f"j{index}")
             for index, leader in enumerate(self.leaders)
             if leader is not None
         ]
-        return Tree("link0", children, {link: place for place, link in enumerate(leaves, 1)}, couplings)
+        return Tree("link0", children, {link: f"{link}Frame" for link in frames}, couplings)
 
 
 def recipe(random_: random.Random, links: int, depth: int, mimics: float) -> Recipe:
@@ -68,7 +69,8 @@ def recipe(random_: random.Random, links: int, depth: int, mimics: float) -> Rec
         choice = [leader for leader in movers if rank[leader] < rank[follower]]
         if choice and random_.random() < mimics:
             leaders[follower] = random_.choice(choice)
-    return Recipe(parents, kinds, tuple(leaders))
+    framed = frozenset(f"link{index}" for index in range(links) if random_.random() < mimics / 2)
+    return Recipe(parents, kinds, tuple(leaders), framed)
 
 
 recipes = st.builds(
@@ -84,12 +86,11 @@ def connections(tree: Tree) -> set[tuple[str, str]]:
     """What the robot model has to connect, said independently of the layout."""
     joints = {joint.name: (link, joint) for link, found in tree.children.items() for joint in found}
     ends = {("frame_a", f"{tree.root}.frame_a")}
-    ends |= {(f"{link}.frame_a", f"frame_b[{place}]") for link, place in tree.leaves.items()}
+    ends |= {(f"{link}.frame_a", frame) for link, frame in tree.frames.items()}
     for name, (parent, joint) in joints.items():
         ends |= {(f"{parent}.frame_a", f"{name}.frame_a"), (f"{name}.frame_b", f"{joint.child}.frame_a")}
-        if joint.axis is not None:
-            ends.add((f"{name}.axis", f"{joint.kind}Axis[{joint.axis}]"))
-            ends.add((f"{name}.support", f"{joint.kind}Support[{joint.axis}]"))
+        if joint.axis and joint.support:
+            ends |= {(f"{name}.axis", joint.axis), (f"{name}.support", joint.support)}
     for coupling in tree.couplings:
         ends.add((f"{coupling.name}.leader", f"{coupling.leader}.axis"))
         ends.add((f"{coupling.name}.follower", f"{coupling.follower}.axis"))
@@ -98,7 +99,7 @@ def connections(tree: Tree) -> set[tuple[str, str]]:
 
 def port(diagram: Diagram, end: str) -> tuple[float, float]:
     name, _, connector = end.partition(".")
-    place = diagram.placements[name.partition("[")[0]]
+    place = diagram.placements[name]
     x, y = PORTS[connector] if connector else (0.0, 0.0)
     return (
         (place.x1 + place.x2) / 2 + x * (place.x2 - place.x1) / 2,
@@ -132,7 +133,7 @@ def crossed(diagram: Diagram) -> list[tuple[tuple[str, str], str]]:
     """Lines that touch a component: a foreign one anywhere, one of their own anywhere but at the port."""
     found = []
     for ends, points in diagram.lines.items():
-        own = {end.partition(".")[0].partition("[")[0]: "." in end for end in ends}
+        own = {end.partition(".")[0]: "." in end for end in ends}
         runs = segments(points)
         for name, place in diagram.placements.items():
             if not own.get(name, True):
@@ -146,11 +147,11 @@ def crossed(diagram: Diagram) -> list[tuple[tuple[str, str], str]]:
 
 
 def nets(ends: tuple[str, str]) -> set[str]:
-    """What a line belongs to: the port it shares with others, and the vector that it leads to."""
+    """What a line belongs to: the port it shares with others."""
     ports = [end for end in ends if "." in end]
     hubs = {port for port in ports if port.endswith(".axis")} or {port for port in ports if port.endswith(".frame_a")}
     children = {ends[1]} if ends[0].endswith(".frame_a") and ends[1].endswith(".frame_a") else set()
-    return (hubs - children or set(ports)) | {end.partition("[")[0] for end in ends if "[" in end}
+    return hubs - children or set(ports)
 
 
 def overlaid(diagram: Diagram) -> list[tuple[tuple[str, str], tuple[str, str]]]:
@@ -190,67 +191,75 @@ def steps(tree: Tree) -> int:
 
 
 def test_a_single_link_has_both_frames() -> None:
-    diagram = layout(Tree("box", {}, {"box": 1}))
-    assert set(diagram.placements) == {"frame_a", "frame_b", "box"}
-    assert set(diagram.lines) == {("frame_a", "box.frame_a"), ("box.frame_a", "frame_b[1]")}
+    diagram = layout(Tree("box", {}, {"box": "boxFrame"}))
+    assert set(diagram.placements) == {"frame_a", "boxFrame", "box"}
+    assert set(diagram.lines) == {("frame_a", "box.frame_a"), ("box.frame_a", "boxFrame")}
 
 
 def test_one_joint_in_full() -> None:
-    """frame_a at (-100, 0), base, shoulder, arm, frame_b: joints on the spine, links below, flanges above."""
-    diagram = layout(Tree("base", {"base": [TreeJoint("shoulder", "arm", "rotational", 1)]}, {"arm": 1}))
-    assert diagram.extent == (-116, -44, 56, 46)
+    """frame_a at (-100, 0), base, shoulder, arm, its frame: joints on the spine, links below, connectors above."""
+    shoulder = TreeJoint("shoulder", "arm", "rotational", "shoulderAxis", "shoulderSupport")
+    diagram = layout(Tree("base", {"base": [shoulder]}, {"arm": "armFrame"}))
+    assert diagram.extent == (-116, -44, 36, 34)
     assert diagram.placements == {
         "frame_a": Placement(-116, -16, -84, 16),
         "base": Placement(-72, -36, -52, -16),
         "shoulder": Placement(-56, -10, -36, 10),
         "arm": Placement(-24, -36, -4, -16),
-        "frame_b": Placement(24, -16, 56, 16),
-        "rotationalAxis": Placement(-78, 26, -58, 46),
-        "rotationalSupport": Placement(-30, 26, -10, 46),
+        "armFrame": Placement(16, -10, 36, 10),
+        "shoulderAxis": Placement(-52, 14, -40, 26),
+        "shoulderSupport": Placement(-66, 14, -54, 26),
     }
     assert diagram.lines == {
         ("frame_a", "base.frame_a"): ((-100, 0), (-76, 0), (-76, -26), (-72, -26)),
         ("base.frame_a", "shoulder.frame_a"): ((-72, -26), (-76, -26), (-76, 0), (-56, 0)),
         ("shoulder.frame_b", "arm.frame_a"): ((-36, 0), (-28, 0), (-28, -26), (-24, -26)),
-        ("arm.frame_a", "frame_b[1]"): ((-24, -26), (-28, -26), (-28, 0), (40, 0)),
-        ("shoulder.axis", "rotationalAxis[1]"): ((-46, 10), (-46, 18), (-68, 18), (-68, 36)),
-        ("shoulder.support", "rotationalSupport[1]"): ((-52, 10), (-52, 22), (-20, 22), (-20, 36)),
+        ("arm.frame_a", "armFrame"): ((-24, -26), (-28, -26), (-28, 0), (26, 0)),
+        ("shoulder.axis", "shoulderAxis"): ((-46, 10), (-46, 20)),
+        ("shoulder.support", "shoulderSupport"): ((-52, 10), (-52, 12), (-60, 12), (-60, 20)),
     }
     assert set(diagram.kinds.values()) == {"frame", "rotational"}
 
 
+def test_an_inner_link_has_its_frame_below_it() -> None:
+    arm = TreeJoint("mount", "hand", "fixed")
+    diagram = layout(Tree("palm", {"palm": [arm]}, {"palm": "palmFrame", "hand": "handFrame"}))
+    palm, frame = diagram.placements["palm"], diagram.placements["palmFrame"]
+    assert frame.y2 < palm.y1
+    assert frame.centre[0] == palm.centre[0]
+
+
 def test_a_chain_is_one_row_from_left_to_right() -> None:
     diagram = layout(chain(["rotational", "fixed", "translational"]))
-    order = ["frame_a", "link0", "j0", "link1", "j1", "link2", "j2", "link3", "frame_b"]
+    order = ["frame_a", "link0", "j0", "link1", "j1", "link2", "j2", "link3", "link3Frame"]
     assert sorted(order, key=lambda name: diagram.placements[name].centre) == order
     heights = {name: diagram.placements[name].centre[1] for name in order}
-    assert {heights[name] for name in order if not name.startswith("link")} == {heights["frame_a"]}
-    assert len({heights[name] for name in order if name.startswith("link")}) == 1
+    assert {heights[name] for name in ("frame_a", "j0", "j1", "j2", "link3Frame")} == {0}
+    assert len({heights[f"link{number}"] for number in range(4)}) == 1
 
 
 def test_the_first_child_goes_on_and_the_next_ones_stand_below() -> None:
     children = [TreeJoint(name, f"{name}Foot", "fixed") for name in ("first", "second", "third")]
-    diagram = layout(Tree("trunk", {"trunk": children}, {f"{joint.name}Foot": 1 for joint in children}))
+    diagram = layout(
+        Tree("trunk", {"trunk": children}, {f"{joint.name}Foot": f"{joint.name}Frame" for joint in children})
+    )
     x, heights = zip(*(diagram.placements[joint.name].centre for joint in children), strict=True)
     assert len(set(x)) == 1
     assert list(heights) == sorted(heights, reverse=True)
     assert heights[0] == diagram.placements["frame_a"].centre[1]
 
 
-def test_only_vectors_that_exist_have_a_connector() -> None:
-    diagram = layout(chain(["translational", "fixed"]))
-    assert {name for name in diagram.placements if name.startswith(("rotational", "translational"))} == {
-        "translationalAxis",
-        "translationalSupport",
-    }
+def test_only_joints_that_can_be_driven_have_connectors() -> None:
+    diagram = layout(chain(["translational", "fixed", "free"]))
+    assert {name for name in diagram.placements if name.endswith(("Axis", "Support"))} == {"j0Axis", "j0Support"}
 
 
 def test_a_coupling_joins_leader_and_follower_in_the_kind_of_each() -> None:
-    left = TreeJoint("left", "leftFinger", "rotational", 1)
+    left = TreeJoint("left", "leftFinger", "rotational", "leftAxis", "leftSupport")
     right = TreeJoint("right", "rightFinger", "translational")
     couplings = [TreeCoupling("mimic", "left", "right")]
-    leaves = {"leftFinger": 1, "rightFinger": 2}
-    diagram = layout(Tree("palm", {"palm": [left, right]}, leaves, couplings))
+    frames = {"leftFinger": "leftFrame", "rightFinger": "rightFrame"}
+    diagram = layout(Tree("palm", {"palm": [left, right]}, frames, couplings))
     assert diagram.kinds["mimic.leader", "left.axis"] == "rotational"
     assert diagram.kinds["mimic.follower", "right.axis"] == "translational"
     assert diagram.placements["mimic"].y1 > diagram.placements["right"].y2
@@ -312,13 +321,13 @@ def test_lines_that_are_not_connected_never_lie_on_top_of_each_other(found: Reci
 
 @settings(deadline=None)
 @given(recipes)
-def test_the_connectors_stand_at_their_borders(found: Recipe) -> None:
-    diagram = layout(found.tree())
-    x1, _, x2, y2 = diagram.extent
+def test_frames_of_root_and_leaves_stand_at_their_borders(found: Recipe) -> None:
+    tree = found.tree()
+    diagram = layout(tree)
+    x1, _, x2, _ = diagram.extent
     assert diagram.placements["frame_a"].x1 == x1
-    assert diagram.placements["frame_b"].x2 == x2
-    tops = [place.y2 for name, place in diagram.placements.items() if name.endswith(("Axis", "Support"))]
-    assert set(tops) <= {y2}
+    leaves = [frame for link, frame in tree.frames.items() if not tree.children.get(link)]
+    assert {diagram.placements[frame].x2 for frame in leaves} == {x2}
 
 
 def test_a_humanoid_of_a_hundred_links_is_right() -> None:

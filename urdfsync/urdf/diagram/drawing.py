@@ -9,7 +9,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Literal, NamedTuple, TypeAlias
 
-from urdfsync.urdf.diagram.layout import VECTORS, Diagram, JointKind, LineKind
+from urdfsync.urdf.diagram.layout import Diagram, JointKind, LineKind
 from urdfsync.urdf.diagram.routing import Path, Placement, Point
 
 Kind: TypeAlias = Literal["link", "coupling"] | JointKind
@@ -24,7 +24,7 @@ _BEND = 2.0  # radius of the bends of flange lines: joining a bus looks unlike c
 
 
 class Label(NamedTuple):
-    """How a component is drawn: its kind, its name, and what its icon says inside (mass, axis number, ratio)."""
+    """How a component is drawn: its kind, its name, and what its icon says inside (mass, ratio)."""
 
     kind: Kind
     name: str
@@ -52,7 +52,7 @@ _LOOKS: Mapping[Kind, _Look] = {
         5,
         "M-5.4 3.6A6.5 6.5 0 1 1 5.4 3.6M7.9 2.5L5.4 3.6L5.3 0.9",
         0.3,
-        "rotational joint, axis number",
+        "rotational joint",
     ),
     "translational": _Look(
         "#dbf0dd",
@@ -60,7 +60,7 @@ _LOOKS: Mapping[Kind, _Look] = {
         2,
         "M-7 5.5H7M-5 3.7L-7 5.5L-5 7.3M5 3.7L7 5.5L5 7.3",
         -1.6,
-        "translational joint, axis number",
+        "translational joint",
     ),
     "free": _Look(
         "#ebe4f7",
@@ -86,6 +86,7 @@ _STYLE = """
 text { font-family: Helvetica, Arial, "Liberation Sans", sans-serif; fill: #2b2f36; }
 .title { font-weight: bold; }
 .middle { text-anchor: middle; }
+.end { text-anchor: end; }
 .port, .legend { fill: #666c76; }
 .line { fill: none; stroke-width: 0.6; stroke-linejoin: round; }
 .frame { stroke: #5f5f5f; stroke-width: 1.1; }
@@ -111,7 +112,11 @@ def svg(diagram: Diagram, labels: Mapping[str, Label], title: str = "") -> str:
     legend = _legend_rows([kind for kind in _LOOKS if kind in kinds], x2 - x1 + _MARGIN)
     left, top = x1 - _MARGIN, -y2 - _HEADER
     width, height = x2 - x1 + 2 * _MARGIN, y2 - y1 + _HEADER + _FOOTER + _LEGEND * len(legend)
-    counts = Counter(end.partition("[")[0] for ends in diagram.lines for end in ends if "[" in end)
+    own = {end: diagram.kinds[ends] for ends in diagram.lines for end in ends if "." not in end}
+    flanges = {name: kind for name, kind in own.items() if kind != "frame"}
+    frames = own.keys() - flanges.keys()
+    driven = {start: end for start, end in diagram.lines if start.endswith(".support")}
+    supports = set(driven.values())
     body = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width * _PIXELS}" height="{height * _PIXELS}" '
         f'viewBox="{left} {top} {width} {height}">',
@@ -125,17 +130,17 @@ def svg(diagram: Diagram, labels: Mapping[str, Label], title: str = "") -> str:
         *(f'<circle class="dot-{kind}" cx="{x}" cy="{-y}" r="1.2"/>' for kind, (x, y) in _junctions(diagram)),
     ]
     for name, placement in diagram.placements.items():
-        if name in ("frame_a", "frame_b"):
-            body += _frame(name, placement, counts[name])
-        elif name in VECTORS:
-            body += _flange(name, placement, counts[name])
+        if name in flanges:
+            body += _flange(placement, flanges[name], is_support=name in supports)
+        elif name in frames:
+            body += _frame(name, placement, is_root=name == "frame_a")
         else:
-            body += _component(labels[name], placement)
+            body += _component(labels[name], placement, driven=f"{name}.support" in driven)
     body += _legend(legend, (x1, -y1 + _FOOTER))
     return "\n".join([*filter(None, body), "</svg>", ""])
 
 
-def _component(label: Label, placement: Placement) -> Iterator[str]:
+def _component(label: Label, placement: Placement, *, driven: bool) -> Iterator[str]:
     x, y = placement.centre
     yield "<g>"
     yield f"<title>{_escaped(label.name)}</title>"
@@ -143,6 +148,8 @@ def _component(label: Label, placement: Placement) -> Iterator[str]:
     yield _text((x, -y + _LOOKS[label.kind].detail + 1.3), label.detail, "middle", _FONT, 17)
     if label.kind == "link":
         yield _text((placement.x1, -placement.y1 + 4), label.name, "", _FONT, 40)
+    elif driven:
+        yield from _haloed((x + 10, -placement.y2 - 9), label.name, 26)
     elif label.kind in ("rotational", "translational"):
         yield from _haloed((x + 1.5, -placement.y2 - 2.4), label.name, 34)
     else:
@@ -166,25 +173,29 @@ def _icon(kind: Kind, centre: tuple[float, float], scale: float, glyph: bool = T
     yield "</g>"
 
 
-def _frame(name: str, placement: Placement, count: int) -> Iterator[str]:
+def _frame(name: str, placement: Placement, *, is_root: bool) -> Iterator[str]:
     x, y = placement.centre
     half = (placement.y2 - placement.y1) // 2
-    yield f'<rect x="{x - 5}" y="{-y - half}" width="10" height="{2 * half}" fill="#ffffff" stroke="#5f5f5f"/>'
+    yield _rectangle((x, y), (half // 3, half), 'fill="#ffffff" stroke="#5f5f5f"')
     yield f'<rect x="{x - 1.5}" y="{-y - 1.5}" width="3" height="3" fill="#5f5f5f"/>'
-    yield _text((x, -placement.y1 + 4.5), _sized(name, count), "port middle", _FONT, 40)
+    if is_root:
+        yield _text((x, -placement.y1 + 4.5), name, "port middle", _FONT, 40)
+    else:
+        yield _text((placement.x2, -placement.y1 + 4.5), name, "port end", _FONT, 60)
 
 
-def _flange(name: str, placement: Placement, count: int) -> Iterator[str]:
-    x, y = placement.centre
-    colour = "#000000" if name.startswith("rotational") else "#007f00"
-    fill = "#ffffff" if name.endswith("Support") else colour
-    rounding = 6 if name.startswith("rotational") else 0
-    yield f'<rect x="{x - 6}" y="{-y - 6}" width="12" height="12" rx="{rounding}" fill="{fill}" stroke="{colour}"/>'
-    yield _text((x, -placement.y2 - 2), _sized(name, count), "port middle", _FONT, 46)
+def _flange(placement: Placement, motion: LineKind, *, is_support: bool) -> Iterator[str]:
+    """A connector without its name: it is that of the joint below."""
+    half = (placement.y2 - placement.y1) // 3
+    colour = "#000000" if motion == "rotational" else "#007f00"
+    fill = "#ffffff" if is_support else colour
+    rounding = half if motion == "rotational" else 0
+    yield _rectangle(placement.centre, (half, half), f'rx="{rounding}" fill="{fill}" stroke="{colour}"')
 
 
-def _sized(name: str, count: int) -> str:
-    return f"{name}[{count}]" if count else name
+def _rectangle(centre: Point, half: Point, style: str) -> str:
+    (x, y), (across, up) = centre, half
+    return f'<rect x="{x - across}" y="{-y - up}" width="{2 * across}" height="{2 * up}" {style}/>'
 
 
 def _lines(diagram: Diagram) -> Iterator[str]:

@@ -1,20 +1,19 @@
 """The robot model's diagram: where links, joints and couplings stand, and how the lines between them run.
 
-A row shows one chain, from left to right. A link's first child joint continues the link's row; every
-other one starts a row of its own, below all rows of the joints before it:
+A row shows one chain, from left to right, and ends at the connector of its last link. A link's first child
+joint continues the link's row; every other one starts a row of its own, below all rows of the joints before it:
 
-    frame_a ──┬── joint ──┬── joint ──┬─────────── frame_b
-              ├ link      ├ link      └ link           │
-              │           └── joint ──┬────────────────┤
-              │                       └ link           │
-              └────── joint ──┬────────────────────────┘
+    frame_a ──┬── joint ──┬── joint ──┬──────── handFrame
+              ├ link      ├ link      └ link
+              │           └── joint ──┬──────── cameraFrame
+              │                       └ link
+              └────── joint ──┬──────────────── tailFrame
                               └ link
 
 Components keep to columns. A link hangs on a vertical trunk at the left of its column, and the joints
 that start at it stand on the spines of their rows, right of the trunk: so a trunk only passes rows
-that lie right of it. Above the joints of a row runs a channel with one track per flange vector, which
-leads to the vector's bus, right of all columns, and on to the connector at the top. A mimic coupling
-stands above its follower; the line from its leader runs through the gap between two columns.
+that lie right of it. Above a joint that can be driven stand the connectors of its axis and its support.
+A mimic coupling stands above its follower; the line from its leader runs through the gap between two columns.
 """
 
 from __future__ import annotations
@@ -27,7 +26,19 @@ from typing import Literal, NamedTuple, TypeAlias
 import msgspec
 
 from urdfsync.urdf.diagram import routing
-from urdfsync.urdf.diagram.routing import DROP, JOINT_AT, LINK_AT, SIZE, Path, Placement, Point, Row, RowNeeds, square
+from urdfsync.urdf.diagram.routing import (
+    CONNECTOR,
+    DROP,
+    JOINT_AT,
+    LINK_AT,
+    SIZE,
+    Path,
+    Placement,
+    Point,
+    Row,
+    RowNeeds,
+    square,
+)
 
 JointKind: TypeAlias = Literal["fixed", "rotational", "translational", "free"]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]
@@ -44,28 +55,25 @@ PORTS: Mapping[str, Point] = {
 }
 """Where a component's connectors are in its icon, -100 to 100 both ways."""
 
-VECTORS = ("rotationalAxis", "rotationalSupport", "translationalAxis", "translationalSupport")
-"""The flange vectors at the top border, from left to right."""
-
 FRAME_A: Point = (-100, 0)
 """Where the middle of the connector `frame_a` is in every robot's diagram."""
 
 _FRAME = 32  # size of a frame connector, as in the Modelica Standard Library
-_MARGIN = 44  # from the last trunk to the buses: a link and its name
-_BUS = 6  # distance of neighbouring buses
-_LEAD = 8  # from the leaf bus to the connector of the leaf frames
+_TRUNK = 8  # from the connector of the root frame to the first trunk
+_MARGIN = 44  # from the last trunk to the connectors at the right: a link and its name
+_LEAF = 20  # size of the frame connectors at the right
+_ABOVE = 20  # from a row's spine up to the connectors of its joints
+_ASIDE = 8  # from an axis to the support's connector, and to the line that passes the axis's own
 
 
 class TreeJoint(msgspec.Struct, frozen=True):
-    """A joint that leads to the link `child`; `axis` counts from 1 in the flange vectors of its kind.
-
-    `axis` is None for a joint whose flanges don't lead outside: fixed, free, or a mimic follower.
-    """
+    """A joint that leads to the link `child`; `axis` and `support` name its connectors, None if it has none."""
 
     name: str
     child: str
     kind: JointKind
-    axis: int | None = None
+    axis: str | None = None
+    support: str | None = None
 
 
 class TreeCoupling(msgspec.Struct, frozen=True):
@@ -83,12 +91,12 @@ class Tree(msgspec.Struct, frozen=True):
     """What the diagram shows, by component names: a tree of links and joints, and the couplings across it.
 
     `children` gives the joints that start at a link, in the order they are drawn; links without any
-    may be left out. `leaves` gives the place of such a link in the vector `frame_b`, from 1.
+    may be left out. `frames` names the connectors of links that have one.
     """
 
     root: str
     children: Mapping[str, Sequence[TreeJoint]]
-    leaves: Mapping[str, int]
+    frames: Mapping[str, str]
     couplings: Sequence[TreeCoupling] = ()
 
 
@@ -118,7 +126,7 @@ def layout(tree: Tree) -> Diagram:
     for ends, kind, points in chain(_frame_lines(tree, plan), _flange_lines(plan), _coupling_lines(tree, plan)):
         lines[ends] = routing.path([(x + dx, y + dy) for x, y in points])
         kinds[ends] = kind
-    extent = (dx, plan.rows[-1].bottom + dy, plan.leaf_bus + _LEAD + _FRAME + dx, dy)
+    extent = (dx, plan.rows[-1].bottom + dy, plan.right + dx, dy)
     return Diagram(extent, {name: place.moved(dx, dy) for name, place in _components(tree, plan)}, lines, kinds)
 
 
@@ -152,9 +160,8 @@ class _Plan(msgspec.Struct, frozen=True):
     detours: _Detours
     rows: Sequence[Row]
     trunks: Sequence[int]
-    buses: Mapping[str, int]
-    leaf_bus: int
-    connectors: Mapping[str, Placement]
+    right: int
+    connectors: dict[str, Placement]
 
     def link(self, name: str) -> Placement:
         row, column = self.cells.links[name]
@@ -175,30 +182,30 @@ class _Plan(msgspec.Struct, frozen=True):
 def _plan(tree: Tree) -> _Plan:
     cells = _arrange(tree)
     detours = _detours(tree, cells)
-    needs = _needs(tree, cells, detours)
-    vectors = [vector for vector in VECTORS if vector in needs[0].buses]
-    rows = routing.rows(needs, VECTORS, -SIZE if vectors else 0)
+    rows = routing.rows(_needs(tree, cells, detours), 0)
     columns = range(1 + max(cell.column for cell in cells.links.values()))
-    trunks = routing.trunks([_count(detours.columns.get(column, {})) for column in columns], _FRAME + _LEAD // 2)
-    connectors = _flange_connectors(vectors, trunks)
-    right = max([trunks[-1], *(connector.x1 for connector in connectors.values())]) + _MARGIN
-    lower = {vector for need in needs[1:] for vector in need.buses}
-    buses: dict[str, int] = {}
-    for vector in reversed(vectors):
-        if vector in lower:
-            buses[vector] = right + _BUS * len(buses)
-    leaf_bus = right + _BUS * len(buses)
-    connectors["frame_a"] = square((_FRAME // 2, rows[0].spine), _FRAME)
-    if tree.leaves:
-        connectors["frame_b"] = square((leaf_bus + _LEAD + _FRAME // 2, rows[0].spine), _FRAME)
-    return _Plan(cells, detours, rows, trunks, buses, leaf_bus, connectors)
+    trunks = routing.trunks([_count(detours.columns.get(column, {})) for column in columns], _FRAME + _TRUNK // 2)
+    right = trunks[-1] + _MARGIN + _LEAF
+    plan = _Plan(cells, detours, rows, trunks, right, {"frame_a": square((_FRAME // 2, rows[0].spine), _FRAME)})
+    plan.connectors.update(_connectors(tree, plan))
+    return plan
 
 
-def _flange_connectors(vectors: Sequence[str], trunks: Sequence[int]) -> dict[str, Placement]:
-    """The connectors at the top, one per column, the last ones; right of each trunk, where no line goes up."""
-    further = [trunks[-1] + routing.COLUMN * (index + 1) for index in range(len(vectors))]
-    stops = [*trunks, *further][max(0, len(trunks) - len(vectors)) :]
-    return {vector: square((stop + 2 * LINK_AT, -SIZE // 2)) for vector, stop in zip(vectors, stops, strict=False)}
+def _connectors(tree: Tree, plan: _Plan) -> Iterator[tuple[str, Placement]]:
+    """The model's own connectors: frames of leaves at the right, all others beside what they belong to."""
+    for name, joint in plan.cells.parts.items():
+        x, y = plan.joint(name).centre
+        if joint.axis and joint.support:
+            support = x + SIZE * PORTS["support"][0] // 200
+            yield joint.axis, square((x, y + _ABOVE), CONNECTOR)
+            yield joint.support, square((support - _ASIDE, y + _ABOVE), CONNECTOR)
+    for link, frame in tree.frames.items():
+        row = plan.rows[plan.cells.links[link].row]
+        if tree.children.get(link):
+            icon = plan.link(link)
+            yield frame, square((icon.centre[0], icon.y1 - CONNECTOR), CONNECTOR)
+        else:
+            yield frame, square((plan.right - _LEAF // 2, row.spine), _LEAF)
 
 
 def _arrange(tree: Tree) -> _Cells:
@@ -245,16 +252,14 @@ def _detours(tree: Tree, cells: _Cells) -> _Detours:
 
 
 def _needs(tree: Tree, cells: _Cells, detours: _Detours) -> list[RowNeeds]:
-    """What every row's channel holds; the first one has the tracks of all vectors, to lead to the connectors."""
-    rows = 1 + max(cell.row for cell in cells.links.values())
-    buses: list[set[str]] = [set() for _ in range(rows)]
-    for name, joint in cells.parts.items():
-        if joint.axis is not None:
-            vectors = f"{joint.kind}Axis", f"{joint.kind}Support"
-            buses[cells.joints[name].row].update(vectors)
-            buses[0].update(vectors)
+    """What every row holds."""
+    driven = {cells.joints[name].row for name, joint in cells.parts.items() if joint.axis}
     banded = {cells.joints[coupling.follower].row for coupling in tree.couplings}
-    return [RowNeeds(frozenset(buses[row]), _count(detours.rows.get(row, {})), row in banded) for row in range(rows)]
+    framed = {cells.links[link].row for link in tree.frames if tree.children.get(link)}
+    return [
+        RowNeeds(_count(detours.rows.get(row, {})), row in banded, row in driven, row in framed)
+        for row in range(1 + max(cell.row for cell in cells.links.values()))
+    ]
 
 
 def _count(assigned: Mapping[str, int]) -> int:
@@ -278,10 +283,9 @@ def _frame_lines(tree: Tree, plan: _Plan) -> Iterator[_Line]:
         foot, head = (trunk, port[1]), (trunk, spine)
         if link == tree.root:
             yield ("frame_a", f"{link}.frame_a"), "frame", [plan.connectors["frame_a"].centre, head, foot, port]
-        if link in tree.leaves:
-            end = plan.connectors["frame_b"].centre
-            bus = [(plan.leaf_bus, spine), (plan.leaf_bus, end[1])]
-            yield (f"{link}.frame_a", f"frame_b[{tree.leaves[link]}]"), "frame", [port, foot, head, *bus, end]
+        if frame := tree.frames.get(link):
+            end = plan.connectors[frame].centre
+            yield (f"{link}.frame_a", frame), "frame", [port, foot, (trunk, end[1]), end]
         for joint in tree.children.get(link, ()):
             icon = plan.joint(joint.name)
             start, end = icon.at(PORTS["frame_a"]), icon.at(PORTS["frame_b"])
@@ -296,18 +300,15 @@ def _frame_lines(tree: Tree, plan: _Plan) -> Iterator[_Line]:
 
 
 def _flange_lines(plan: _Plan) -> Iterator[_Line]:
-    """From the joints to the vectors on top: along the row's track to the bus, up, along the first row's track."""
+    """From the joints to the connectors above them."""
     for name, joint in plan.cells.parts.items():
-        if joint.axis is None:
-            continue
-        row = plan.cells.joints[name].row
-        for port, vector in (("axis", f"{joint.kind}Axis"), ("support", f"{joint.kind}Support")):
-            start, end = plan.joint(name).at(PORTS[port]), plan.connectors[vector].centre
-            points = [start, (start[0], plan.rows[row].buses[vector])]
-            if row:
-                points += [(plan.buses[vector], plan.rows[at].buses[vector]) for at in (row, 0)]
-            points += [(end[0], plan.rows[0].buses[vector]), end]
-            yield (f"{name}.{port}", f"{vector}[{joint.axis}]"), _kind(joint), points
+        if joint.axis and joint.support:
+            icon = plan.joint(name)
+            axis, support = icon.at(PORTS["axis"]), icon.at(PORTS["support"])
+            yield (f"{name}.axis", joint.axis), _kind(joint), [axis, plan.connectors[joint.axis].centre]
+            end = plan.connectors[joint.support].centre
+            bend = support[1] + 2
+            yield (f"{name}.support", joint.support), _kind(joint), [support, (support[0], bend), (end[0], bend), end]
 
 
 def _coupling_lines(tree: Tree, plan: _Plan) -> Iterator[_Line]:
@@ -323,6 +324,9 @@ def _coupling_lines(tree: Tree, plan: _Plan) -> Iterator[_Line]:
         x = routing.gap_track(plan.trunks[column], plan.detours.columns[column][leader.name])
         start, end = icon.at(PORTS["leader"]), plan.joint(leader.name).at(PORTS["axis"])
         points = [start, (x, start[1]), (x, y), (end[0], y), end]
+        if leader.axis:  # the connector stands above the axis: pass it
+            aside, bend = end[0] + _ASIDE, end[1] + 2
+            points = [start, (x, start[1]), (x, y), (aside, y), (aside, bend), (end[0], bend), end]
         yield (f"{coupling.name}.leader", f"{leader.name}.axis"), _kind(leader), points
 
 

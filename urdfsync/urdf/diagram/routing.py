@@ -25,6 +25,8 @@ JOINT_AT = 20
 """From a column's trunk to the left edge of its joints."""
 COLUMN = 48
 """From trunk to trunk, as long as one track is enough in the gap between."""
+CONNECTOR = 12
+"""Width and height of a connector of the model that stands beside a component."""
 DROP = 26
 """From a row's spine down to the middle of its links."""
 
@@ -58,41 +60,37 @@ class Placement(msgspec.Struct, frozen=True):
 
 
 class RowNeeds(msgspec.Struct, frozen=True):
-    """What a row's channel must hold: one track per bus named in `buses`, `tracks` others, a band of components."""
+    """What a row must hold: lines and couplings above it, connectors above its joints, frames below its links."""
 
-    buses: frozenset[str]
     tracks: int
     band: bool
+    drives: bool
+    frames: bool
 
 
 class Row(msgspec.Struct, frozen=True):
-    """Heights of a row: the spine, the middle of its band, each bus's track, the other tracks from the top."""
+    """Heights of a row: its spine, the middle of its band, its tracks from the top; `bottom` is its end."""
 
     spine: int
     band: int
-    buses: Mapping[str, int]
     tracks: Sequence[int]
-
-    @property
-    def bottom(self) -> int:
-        """Where the next row may begin."""
-        return self.spine - _BELOW
+    bottom: int
 
 
-def rows(needs: Iterable[RowNeeds], order: Sequence[str], top: int) -> list[Row]:
-    """Stack rows downwards from `top`; in every channel the tracks of the buses in `order` lie lowest first."""
+def rows(needs: Iterable[RowNeeds], top: int) -> list[Row]:
+    """Stack rows downwards from `top`."""
     stacked: list[Row] = []
     for need in needs:
-        tapped = [bus for bus in reversed(order) if bus in need.buses]
-        buses = {bus: top - _TRACK * (index + 1) for index, bus in enumerate(tapped)}
-        top -= _TRACK * len(buses)
         lanes = [top - _TRACK * (index + 1) for index in range(need.tracks)]
         top -= _TRACK * len(lanes)
         middle = top - _NAME - SIZE // 2
         if need.band:
             top -= _NAME + SIZE
-        stacked.append(Row(top - _NAME - SIZE // 2, middle, buses, lanes))
-        top = stacked[-1].bottom
+        if need.drives:
+            top -= CONNECTOR + _TRACK
+        spine = top - _NAME - SIZE // 2
+        top = spine - _BELOW - (CONNECTOR + _TRACK if need.frames else 0)
+        stacked.append(Row(spine, middle, lanes, top))
     return stacked
 
 

@@ -1,21 +1,19 @@
-"""What differences do to the robot as a whole: mass, centre of mass, numbers of flanges and frames."""
+"""What differences do to the robot as a whole: mass and centre of mass."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 
-from urdfsync.difference import Effect, ElementKey, Version
+from urdfsync.difference import Effect, Version
 from urdfsync.urdf.kinematics import compose, link_poses, pose
-from urdfsync.urdf.model.assembly import axis_numbers
-from urdfsync.urdf.naming import natural_key
 from urdfsync.urdf.robot import Vector
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
+from urdfsync.urdf.skeleton import Skeleton
 from urdfsync.urdf.snapshot import from_snapshot
 
 
-def effects(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
-    """Mass and centre of mass of both versions, and the numbers of axes and frames that changed.
+def effects(old: Version, new: Version) -> Sequence[Effect]:
+    """Mass and centre of mass of both versions.
 
     The centre of mass is in metres, in the frame of the root link, with all joints at zero; it is None for a robot
     without mass.
@@ -25,8 +23,6 @@ def effects(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Se
     return [
         Effect(("robot", "mass"), old_mass, new_mass, "kg"),
         Effect(("robot", "centre of mass"), old_centre, new_centre, "m"),
-        *_renumbered("joint", _axes(before), _axes(after), renames),
-        *_renumbered("link", _frames(before), _frames(after), renames),
     ]
 
 
@@ -44,24 +40,3 @@ def _mass(skeleton: Skeleton) -> tuple[float, Vector | None]:
         return total, None
     x, y, z = (math.fsum(column) / total for column in zip(*moments, strict=True))
     return total, (x, y, z)
-
-
-def _axes(skeleton: Skeleton) -> Mapping[str, str]:
-    """Per driven joint, its flange in the robot model."""
-    motions = {joint.name: MOTIONS[joint.type] for joint in skeleton.joints if joint.type in MOTIONS}
-    return {name: f"{motions[name]}Axis[{number}]" for name, number in axis_numbers(skeleton).items()}
-
-
-def _frames(skeleton: Skeleton) -> Mapping[str, str]:
-    """Per link without children, its frame in the robot model."""
-    return {link.name: f"frame_b[{number}]" for number, link in enumerate(skeleton.leaves(), 1)}
-
-
-def _renumbered(
-    kind: str, old: Mapping[str, str], new: Mapping[str, str], renames: Mapping[ElementKey, str]
-) -> Iterator[Effect]:
-    """Connectors of elements that both versions connect, where they are not the same."""
-    known = {renames.get((kind, name), name): connector for name, connector in old.items()}
-    for name in sorted(known.keys() & new.keys(), key=natural_key):
-        if known[name] != new[name]:
-            yield Effect((f"{kind} {name}", "connector"), known[name], new[name])

@@ -9,20 +9,15 @@ from typing import TypeAlias, TypeVar
 import msgspec
 
 from urdfsync.domain import Import
-from urdfsync.modelica.literals import real, string, vector
 from urdfsync.urdf.meshes import lookup as mesh_lookup
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
-    Box,
-    Capsule,
     Collision,
-    Cylinder,
     Geometry,
     Link,
     Material,
     Mesh,
     Origin,
-    Sphere,
     Visual,
 )
 
@@ -51,7 +46,11 @@ class Numbers(msgspec.Struct, frozen=True):
     type: str
     title: str
     origin: Origin
-    numbers: list[tuple[str, str]]
+    geometry: Geometry
+    uri: str
+    """Where a mesh is; empty for all other shapes."""
+    bounds: Sequence[Sequence[float]]
+    """Lower and upper corner of a mesh, in metres; empty for all other shapes."""
     color: tuple[int, ...]
     opacity: float
     hull: Sequence[Sequence[float]]
@@ -100,7 +99,7 @@ def numbers(
 ) -> tuple[list[Numbers], list[Numbers]]:
     """A link's visuals and collisions for its record; the same ones as in its model."""
     visuals = [
-        _shape_numbers("visual", number, shape, _numbers(shape.geometry, imports, package), *_color(shape.material))
+        _shape_numbers("visual", number, shape, _mesh(shape.geometry, imports, package), *_color(shape.material))
         for number, shape in _found(link.visuals, imports)
     ]
     collisions = [
@@ -108,7 +107,7 @@ def numbers(
             "collision",
             number,
             shape,
-            _numbers(shape.geometry, imports, package),
+            _mesh(shape.geometry, imports, package),
             PINK,
             0.5,
             hull(shape.geometry, imports) if options.base == "floating" else (),
@@ -122,13 +121,14 @@ def _shape_numbers(
     word: str,
     number: int,
     shape: Visual | Collision,
-    sizes: list[tuple[str, str]],
+    mesh: tuple[str, Sequence[Sequence[float]]],
     color: tuple[int, ...],
     opacity: float,
     points: Sequence[Sequence[float]] = (),
 ) -> Numbers:
     title = f"{word.capitalize()} {number}" + (f': "{shape.name}"' if shape.name else "")
-    return Numbers(f"{word}{number}", type(shape.geometry).__name__, title, shape.origin, sizes, color, opacity, points)
+    kind = type(shape.geometry).__name__
+    return Numbers(f"{word}{number}", kind, title, shape.origin, shape.geometry, *mesh, color, opacity, points)
 
 
 def contacts(collisions: Iterable[Look]) -> list[Contact]:
@@ -175,19 +175,12 @@ def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence
     return found.facts["hull"] if found else ()
 
 
-def _numbers(geometry: Geometry, imports: Mapping[str, Import], package: str) -> list[tuple[str, str]]:
-    match geometry:
-        case Box(size=size):
-            return [("size", vector(size))]
-        case Sphere(radius=radius):
-            return [("radius", real(radius))]
-        case Cylinder(radius=radius, length=length) | Capsule(radius=radius, length=length):
-            return [("radius", real(radius)), ("length", real(length))]
-        case Mesh():
-            found = imports[mesh_lookup.key(geometry)]
-            lower, upper = found.facts["bounds"]
-            uri = string(f"modelica://{package}/{found.target}")
-            return [("uri", uri), ("lower", vector(lower)), ("upper", vector(upper))]
+def _mesh(geometry: Geometry, imports: Mapping[str, Import], package: str) -> tuple[str, Sequence[Sequence[float]]]:
+    """Address and bounds of an imported mesh; both empty for all other shapes."""
+    if not isinstance(geometry, Mesh):
+        return "", ()
+    found = imports[mesh_lookup.key(geometry)]
+    return f"modelica://{package}/{found.target}", found.facts["bounds"]
 
 
 def _color(material: Material | None) -> tuple[tuple[int, ...], float]:

@@ -8,7 +8,7 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 _BENCHES = {
-    ("package",): "Run and Test with the record of the whole robot (they are only compiled)",
+    ("package",): "Run and Test (they are only compiled)",
     ("record",): "the bench around the generic robot (it is only compiled)",
     ("package", "record"): "Run, Test and the generic robot with the record (they are only compiled)",
 }

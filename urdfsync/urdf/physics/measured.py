@@ -43,7 +43,7 @@ class Measured:
     @property
     def efforts(self) -> Array:
         """Of the driven axes, in the order of `motion.driven_axes`."""
-        return self._array(probe.effort_names(self._skeleton))
+        return self._array(probe.effort_names(self._skeleton, self._names))
 
     def frame(self, link: str) -> Frame:
         """How the frame of a link moves; its velocities are known only if a free joint carries it."""

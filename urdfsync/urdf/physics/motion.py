@@ -94,7 +94,7 @@ def free_start(joint: Joint) -> Start:
 
 
 def driven_axes(skeleton: Skeleton) -> tuple[Joint, ...]:
-    """Joints with a drive, in the order of the flange vectors: first those that turn, then those that slide."""
+    """Joints with a drive, first those that turn, then those that slide."""
     return (*skeleton.axes("rotational"), *skeleton.axes("translational"))
 
 

@@ -1,7 +1,7 @@
 """The Modelica text that moves a generated robot as `motion` says, and the variables that are read from it.
 
-It relies on little, so that packages may be edited: on what `variables` says, on the flange vectors, on `m`, and on
-the start values of planar and floating joints.
+It relies on little, so that packages may be edited: on what `variables` says, on `m`, and on the start values of
+planar and floating joints.
 """
 
 from __future__ import annotations
@@ -22,16 +22,10 @@ from urdfsync.urdf.physics.variables import (
     Variables,
     variables,
 )
-from urdfsync.urdf.skeleton import Motion, Skeleton
+from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 _DEPTH = 1e9
 """How far down the ground is, in m: the contacts of a mobile robot are there, and nothing touches."""
-_VECTORS: tuple[tuple[Motion, str, str, str], ...] = (
-    ("rotational", "Rotational", "phi", "tau"),
-    ("translational", "Translational", "s", "f"),
-)
-"""Kind of motion, the library's word for it, position and effort of its flanges."""
-
 _DRIVE = """
   model {domain}Drive "Moves a flange as q = a0 + a1*t + a2*t^2/2"
     parameter Real a0 = 0;
@@ -42,7 +36,7 @@ _DRIVE = """
     flange.{q} = a0 + a1*time + a2*time^2/2;
   end {domain}Drive;
 """
-DRIVES = "".join(_DRIVE.format(domain=domain, q=q) for _, domain, q, _ in _VECTORS)
+DRIVES = _DRIVE.format(domain="Rotational", q="phi") + _DRIVE.format(domain="Translational", q="s")
 """Models that move a flange, for a package that imports Modelica."""
 
 _BASE = """
@@ -84,13 +78,19 @@ def probe(skeleton: Skeleton, target: Target, options: Options, ballast: bool = 
         "    MovingBase base;",
         f"    {names.model}{modifiers});",
         *(f"    {line};" for line in _drives(skeleton)),
-        *([f"    {_ballast(skeleton)};"] if ballast else []),
+        *([f"    {_ballast(leaf)};" for leaf in range(1, 1 + len(skeleton.leaves()))] if ballast else []),
         "    Real mass = robot.m;",
         f"    Real moment[3] = {names.moment};",
         "  equation",
         "    connect(base.frame_b, robot.frame_a);",
-        *(f"    connect({kind}Drive.flange, robot.{kind}Axis);" for kind, *_ in _VECTORS if skeleton.axes(kind)),
-        *(["    connect(ballast.frame_a, robot.frame_b);"] if ballast else []),
+        *(
+            f"    connect(drive{k}.flange, {names.flange(joint.name)});"
+            for k, joint in enumerate(motion.driven_axes(skeleton), 1)
+        ),
+        *(
+            f"    connect(ballast{k}.frame_a, {names.frame(leaf.name)});"
+            for k, leaf in enumerate(skeleton.leaves() if ballast else (), 1)
+        ),
         "  end Probe;",
         "end Probe_;",
         "",
@@ -99,12 +99,11 @@ def probe(skeleton: Skeleton, target: Target, options: Options, ballast: bool = 
     return Probe("\n".join(lines), "Probe_.Probe", stop, stop / 4, tuple(_values(skeleton, names)))
 
 
-def effort_names(skeleton: Skeleton) -> tuple[str, ...]:
+def effort_names(skeleton: Skeleton, names: Variables) -> tuple[str, ...]:
     """What drives each axis, in the order of `motion.driven_axes`."""
     return tuple(
-        f"robot.{kind}Axis[{number}].{effort}"
-        for kind, _, _, effort in _VECTORS
-        for number, _ in enumerate(skeleton.axes(kind), 1)
+        f"{names.flange(joint.name)}.{'tau' if MOTIONS[joint.type] == 'rotational' else 'f'}"
+        for joint in motion.driven_axes(skeleton)
     )
 
 
@@ -115,7 +114,7 @@ def _values(skeleton: Skeleton, names: Variables) -> Iterator[str]:
     for joint in motion.free_joints(skeleton):
         for part in (VELOCITY, ROTATION, ACCELERATION, ANGULAR):
             yield from names.vector(joint.child, part)
-    yield from (*effort_names(skeleton), *FORCE, *TORQUE, *MASS, *MOMENT)
+    yield from (*effort_names(skeleton, names), *FORCE, *TORQUE, *MASS, *MOMENT)
 
 
 def _libraries(target: Target, options: Options) -> dict[str, None]:
@@ -140,18 +139,17 @@ def _starts(skeleton: Skeleton) -> Iterator[str]:
 
 
 def _drives(skeleton: Skeleton) -> Iterator[str]:
-    for kind, domain, _, _ in _VECTORS:
-        courses = [motion.axis_course(joint) for joint in skeleton.axes(kind)]
-        if courses:
-            values = (f"a{k} = {vector(numbers)}" for k, numbers in enumerate(zip(*courses, strict=True)))
-            yield f"{domain}Drive {kind}Drive[{len(courses)}]({', '.join(values)})"
+    for k, joint in enumerate(motion.driven_axes(skeleton), 1):
+        course = motion.axis_course(joint)
+        values = ", ".join(f"a{power} = {value!r}" for power, value in enumerate(course))
+        yield f"{MOTIONS[joint.type].capitalize()}Drive drive{k}({values})"
 
 
-def _ballast(skeleton: Skeleton) -> str:
-    tensor = ", ".join(f"each I_{i}{i} = {value!r}" for i, value in enumerate(motion.BALLAST_INERTIA, 1))
+def _ballast(number: int) -> str:
+    tensor = ", ".join(f"I_{i}{i} = {value!r}" for i, value in enumerate(motion.BALLAST_INERTIA, 1))
     centre = vector(motion.BALLAST_CENTRE)
-    body = f"each animation = false, each m = {motion.BALLAST_MASS!r}, each r_CM = {centre}, {tensor}"
-    return f"Modelica.Mechanics.MultiBody.Parts.Body ballast[{len(skeleton.leaves())}]({body})"
+    body = f"animation = false, m = {motion.BALLAST_MASS!r}, r_CM = {centre}, {tensor}"
+    return f"Modelica.Mechanics.MultiBody.Parts.Body ballast{number}({body})"
 
 
 def _text(course: Course) -> str:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Protocol
 
 from urdfsync.domain import Target
+from urdfsync.urdf.model.connectors import Connectors
+from urdfsync.urdf.model.robot import connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.skeleton import Skeleton
+from urdfsync.urdf.skeleton import Motion, Skeleton
 
 PLACE = "frame_a.r_0"
 """Where the frame of a link is, in the world."""
@@ -36,17 +38,27 @@ class Variables(Protocol):
         """The axes of a link's frame in the world, one after the other."""
         ...
 
+    def flange(self, joint: str) -> str:
+        """The connector of the axis of a joint that can be driven."""
+        ...
+
+    def frame(self, leaf: str) -> str:
+        """The connector of a link without children."""
+        ...
+
 
 def variables(skeleton: Skeleton, target: Target, options: Options) -> Variables:
     """The names for the approach that is compared: that of the package, if there is a choice."""
-    return PackageVariables(skeleton, target) if "package" in options.approach else RecordVariables(skeleton, target)
+    if "package" in options.approach:
+        return PackageVariables(skeleton, target, connector_names(skeleton, options))
+    return RecordVariables(skeleton, target)
 
 
 class PackageVariables:
     """A generated robot model; it relies on the components of links with their `frame_a` and `body`."""
 
-    def __init__(self, skeleton: Skeleton, target: Target) -> None:
-        self._skeleton = skeleton
+    def __init__(self, skeleton: Skeleton, target: Target, names: Connectors) -> None:
+        self._skeleton, self._names = skeleton, names
         self.model = f"{target.package}.{target.name} robot(animation = false, "
         self.moment = " + ".join(self._moment(link.name) for link in skeleton.links)
 
@@ -57,6 +69,14 @@ class PackageVariables:
     def axes(self, link: str) -> tuple[str, ...]:
         """See `Variables`."""
         return tuple(f"{self._link(link)}.frame_a.R.T[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3))
+
+    def flange(self, joint: str) -> str:
+        """See `Variables`."""
+        return f"robot.{self._names.axes[joint]}"
+
+    def frame(self, leaf: str) -> str:
+        """See `Variables`."""
+        return f"robot.{self._names.frames[leaf]}"
 
     def _moment(self, link: str) -> str:
         name = self._link(link)
@@ -72,6 +92,13 @@ class RecordVariables:
 
     def __init__(self, skeleton: Skeleton, target: Target) -> None:
         self._numbers = {link.name: number for number, link in enumerate(skeleton.links, 1)}
+        self._frames = {link.name: number for number, link in enumerate(skeleton.leaves(), 1)}
+        motions: tuple[Motion, ...] = ("rotational", "translational")
+        self._flanges = {
+            joint.name: f"robot.{motion}Axis[{number}]"
+            for motion in motions
+            for number, joint in enumerate(skeleton.axes(motion), 1)
+        }
         record = f"redeclare parameter {target.package}.{target.name}Parameters data"
         self.model = f"UrdfSync.Robots.GenericRobot robot({record}, "
         self.moment = " + ".join(
@@ -87,3 +114,11 @@ class RecordVariables:
     def axes(self, link: str) -> tuple[str, ...]:
         """See `Variables`."""
         return tuple(f"robot.R_0[{self._numbers[link]},{j},{i}]" for i in (1, 2, 3) for j in (1, 2, 3))
+
+    def flange(self, joint: str) -> str:
+        """See `Variables`."""
+        return self._flanges[joint]
+
+    def frame(self, leaf: str) -> str:
+        """See `Variables`."""
+        return f"robot.frame_b[{self._frames[leaf]}]"

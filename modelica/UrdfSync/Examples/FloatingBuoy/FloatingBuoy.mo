@@ -3,24 +3,17 @@ within UrdfSync.Examples.FloatingBuoy;
 model FloatingBuoy "Robot FloatingBuoy"
   extends UrdfSync.Robots.PartialStationaryRobot;
 
-  constant Integer clapper_swingAxis = 1
-    "Number of joint \"clapper_swing\" in rotationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b clapperFrame
+    "Frame of link \"clapper\""
+    annotation (Placement(transformation(extent={{64, -10}, {84, 10}}), iconTransformation(extent={{92, 112}, {108, 128}})));
 
-  constant Integer clapperFrame = 1
-    "Number of link \"clapper\" in frame_b";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a clapper_swingAxis
+    "Axis of joint \"clapper_swing\""
+    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-104, 116}, {-96, 124}})));
 
-  final parameter Real rotationalRange[1, 3] = {
-    {-Modelica.Constants.inf, Modelica.Constants.inf, clapper_swing.parameters.limits.velocity}}
-    "Ranges of rotationalAxis, those of joints that follow an axis included: {lower, upper, velocity}";
-
-  parameter Modelica.Units.SI.Angle phi_start[1] = {
-    UrdfSync.Functions.closestToZero(rotationalRange[1, 1], rotationalRange[1, 2])}
-    "Start values of the positions"
-    annotation (Dialog(tab="Initialization"));
-
-  parameter Modelica.Units.SI.AngularVelocity w_start[1] = zeros(1)
-    "Start values of the speeds"
-    annotation (Dialog(tab="Initialization"));
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b clapper_swingSupport
+    "Housing of the drive of joint \"clapper_swing\""
+    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-104, 106}, {-96, 114}})));
 
   final parameter Modelica.Units.SI.Mass m =
     world_link.m +
@@ -28,48 +21,33 @@ model FloatingBuoy "Robot FloatingBuoy"
     clapper.m
     "Mass of the whole robot";
 
-  Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis[1]
-    "Drives"
-    annotation (Placement(transformation(extent={{-30, 26}, {-10, 46}}), iconTransformation(extent={{-70, 90}, {-50, 110}})));
-
-  Modelica.Mechanics.Rotational.Interfaces.Flange_b rotationalSupport[1]
-    "Housings of the drives"
-    annotation (Placement(transformation(extent={{18, 26}, {38, 46}}), iconTransformation(extent={{-40, 90}, {-20, 110}})));
-
-  Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b[1]
-    "Frames of the links without children"
-    annotation (Placement(transformation(extent={{72, -16}, {104, 16}}), iconTransformation(extent={{84, -16}, {116, 16}})));
-
-  Links.World_link world_link(
+  replaceable Links.World_link world_link constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"world\""
-    annotation (Placement(transformation(extent={{-72, -36}, {-52, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-72, -36}, {-52, -16}})));
 
-  Links.Buoy buoy(
+  replaceable Links.Buoy buoy constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"buoy\""
-    annotation (Placement(transformation(extent={{-24, -36}, {-4, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -36}, {-4, -16}})));
 
-  Links.Clapper clapper(
+  replaceable Links.Clapper clapper constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"clapper\""
-    annotation (Placement(transformation(extent={{24, -36}, {44, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{24, -36}, {44, -16}})));
 
-  Joints.Drift drift
+  replaceable Joints.Drift drift constrainedby UrdfSync.Interfaces.PartialFloatingJoint
     "Floating joint \"drift\" from link \"world\" to link \"buoy\""
-    annotation (Placement(transformation(extent={{-56, -10}, {-36, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -10}, {-36, 10}})));
 
-  Joints.Clapper_swing clapper_swing(
-    axisNumber = 1,
-    checkLimits = checkLimits,
+  replaceable Joints.Clapper_swing clapper_swing constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[1],
-    w_start = w_start[1])
+    checkLimits = checkLimits)
     "Continuous joint \"clapper_swing\" from link \"buoy\" to link \"clapper\""
-    annotation (Placement(transformation(extent={{-8, -10}, {12, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -10}, {12, 10}})));
 
 equation
   connect(frame_a, world_link.frame_a)
@@ -82,18 +60,22 @@ equation
     annotation (Line(points={{-24, -26}, {-28, -26}, {-28, 0}, {-8, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(clapper_swing.frame_b, clapper.frame_a)
     annotation (Line(points={{12, 0}, {20, 0}, {20, -26}, {24, -26}}, color={95, 95, 95}, thickness=0.5));
-  connect(clapper.frame_a, frame_b[1])
-    annotation (Line(points={{24, -26}, {20, -26}, {20, 0}, {88, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(clapper_swing.axis, rotationalAxis[1])
-    annotation (Line(points={{2, 10}, {2, 18}, {-20, 18}, {-20, 36}}, color={0, 0, 0}));
-  connect(clapper_swing.support, rotationalSupport[1])
-    annotation (Line(points={{-4, 10}, {-4, 22}, {28, 22}, {28, 36}}, color={0, 0, 0}));
+  connect(clapper.frame_a, clapperFrame)
+    annotation (Line(points={{24, -26}, {20, -26}, {20, 0}, {74, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(clapper_swing.axis, clapper_swingAxis)
+    annotation (Line(points={{2, 10}, {2, 20}}, color={0, 0, 0}));
+  connect(clapper_swing.support, clapper_swingSupport)
+    annotation (Line(points={{-4, 10}, {-4, 12}, {-12, 12}, {-12, 20}}, color={0, 0, 0}));
 
   annotation (
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -44}, {104, 46}})),
+    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 130}}), graphics={
+      Rectangle(extent={{-100, 100}, {100, 130}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+      Text(extent={{-90, 106}, {0, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="clapper_swing"),
+      Text(extent={{0, 113}, {88, 127}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="clapper")}),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -44}, {84, 34}})),
     Documentation(info="<html>
 <p>
-Links and joints of robot FloatingBuoy, connected. The flange vectors hold the axes that can be driven; the constants <code>...Axis</code> and <code>...Frame</code> are their numbers, and keep their meaning when the robot changes. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+Links and joints of robot FloatingBuoy, connected. Each can be exchanged in a model that extends this one. A drive of joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
 </html>"));
 end FloatingBuoy;

@@ -3,41 +3,41 @@ within UrdfSync.Examples.FloatingBuoy;
 model FloatingBuoyRun "Run robot FloatingBuoy with positions from outside: the model to export as FMU"
   extends UrdfSync.Robots.PartialBench;
 
-  parameter FloatingBuoyParameters parameters
-    "Numbers of the whole robot"
-    annotation (Placement(transformation(extent={{80, 80}, {100, 100}})));
-
-  FloatingBuoy robot(fixedStart = false)
+  replaceable FloatingBuoy robot constrainedby FloatingBuoy(
+    fixedStart = false)
     "The robot"
-    annotation (Placement(transformation(extent={{20, -60}, {60, -20}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 145}})));
 
-  Modelica.Mechanics.Rotational.Sources.Position rotationalDrive[1](
-    each useSupport = true,
-    each exact = false,
-    w(each fixed = true))
-    "Moves, through a filter, each axis as asked"
-    annotation (Placement(transformation(extent={{-20, 20}, {0, 40}})));
+  Modelica.Blocks.Interfaces.RealInput clapper_swing_phi(unit = "rad")
+    "Where joint \"clapper_swing\" is to go"
+    annotation (Placement(transformation(extent={{-140, 120}, {-120, 140}}), iconTransformation(extent={{-116, 107}, {-100, 123}})));
 
-  Modelica.Blocks.Interfaces.RealInput phi[1](each unit = "rad")
-    "Where each axis is to go, in the order of robot.rotationalAxis"
-    annotation (Placement(transformation(extent={{-140, 10}, {-100, 50}})));
+  Modelica.Blocks.Interfaces.RealOutput clapper_swing_tau(unit = "N.m") = robot.clapper_swingAxis.tau
+    "What the drive of joint \"clapper_swing\" has to give"
+    annotation (Placement(transformation(extent={{340, 120}, {360, 140}}), iconTransformation(extent={{100, 107}, {116, 123}})));
 
-  Modelica.Blocks.Interfaces.RealOutput tau[1](each unit = "N.m") = robot.rotationalAxis.tau
-    "What each drive has to give"
-    annotation (Placement(transformation(extent={{100, 20}, {120, 40}})));
+  Modelica.Mechanics.Rotational.Sources.Position clapper_swingDrive(
+    useSupport = true,
+    exact = false,
+    w(fixed = true))
+    "Moves joint \"clapper_swing\", through a filter"
+    annotation (Placement(transformation(extent={{-40, 120}, {-20, 140}})));
 
 equation
   connect(world.frame_b, robot.frame_a)
-    annotation (Line(points={{-80, -50}, {0, -50}, {0, -40}, {20, -40}}, color={95, 95, 95}, thickness=0.5));
-  connect(rotationalDrive.flange, robot.rotationalAxis)
-    annotation (Line(points={{0, 30}, {28, 30}, {28, -20}}, color={0, 0, 0}));
-  connect(rotationalDrive.support, robot.rotationalSupport)
-    annotation (Line(points={{-10, 20}, {-10, 10}, {34, 10}, {34, -20}}, color={0, 0, 0}));
-  connect(phi, rotationalDrive.phi_ref)
-    annotation (Line(points={{-120, 30}, {-22, 30}}, color={0, 0, 127}));
+    annotation (Line(points={{-80, -50}, {20, -50}}, color={95, 95, 95}, thickness=0.5));
+  connect(clapper_swing_phi, clapper_swingDrive.phi_ref)
+    annotation (Line(points={{-130, 130}, {-42, 130}}, color={0, 0, 127}));
+  connect(clapper_swingDrive.flange, robot.clapper_swingAxis)
+    annotation (Line(points={{-20, 130}, {20, 130}}, color={0, 0, 0}));
+  connect(clapper_swingDrive.support, robot.clapper_swingSupport)
+    annotation (Line(points={{-30, 120}, {-30, 115}, {20, 115}}, color={0, 0, 0}));
 
   annotation (
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -100}, {120, 100}})),
+    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 130}}), graphics={
+      Rectangle(extent={{-100, 100}, {100, 130}}, lineColor={110, 110, 110}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+      Text(extent={{-94, 106}, {94, 124}}, textColor={64, 64, 64}, textString="clapper_swing")}),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -280}, {360, 165}})),
     Documentation(info="<html>
 <p>
 Robot FloatingBuoy in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

@@ -4,40 +4,30 @@ model FloatingBuoyTest "Quick check of robot FloatingBuoy: every axis moves insi
   extends UrdfSync.Robots.PartialBench;
   extends Modelica.Icons.Example;
 
-  parameter FloatingBuoyParameters parameters
-    "Numbers of the whole robot"
-    annotation (Placement(transformation(extent={{80, 80}, {100, 100}})));
-
-  FloatingBuoy robot(fixedStart = false)
+  replaceable FloatingBuoy robot constrainedby FloatingBuoy(
+    fixedStart = false)
     "The robot"
-    annotation (Placement(transformation(extent={{20, -60}, {60, -20}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 145}})));
 
-  Modelica.Mechanics.Rotational.Sources.Position rotationalDrive[1](
-    each useSupport = true,
-    each exact = true)
-    "Moves each axis as asked"
-    annotation (Placement(transformation(extent={{-20, 20}, {0, 40}})));
-
-  UrdfSync.Robots.Sweep rotationalSweep(
-    n = 1,
-    start = robot.phi_start,
-    range = robot.rotationalRange,
-    reach = 1)
-    "There and back"
-    annotation (Placement(transformation(extent={{-60, 20}, {-40, 40}})));
+  UrdfSync.Drives.RotationalSweep clapper_swingDrive(
+    phi_start = robot.clapper_swing.phi_start,
+    phi_min = robot.clapper_swing.phi_min,
+    phi_max = robot.clapper_swing.phi_max,
+    w_max = robot.clapper_swing.w_max)
+    "Moves joint \"clapper_swing\" there and back"
+    annotation (Placement(transformation(extent={{-40, 120}, {-20, 140}})));
 
 equation
   connect(world.frame_b, robot.frame_a)
-    annotation (Line(points={{-80, -50}, {0, -50}, {0, -40}, {20, -40}}, color={95, 95, 95}, thickness=0.5));
-  connect(rotationalDrive.flange, robot.rotationalAxis)
-    annotation (Line(points={{0, 30}, {28, 30}, {28, -20}}, color={0, 0, 0}));
-  connect(rotationalDrive.support, robot.rotationalSupport)
-    annotation (Line(points={{-10, 20}, {-10, 10}, {34, 10}, {34, -20}}, color={0, 0, 0}));
-  connect(rotationalSweep.y, rotationalDrive.phi_ref)
-    annotation (Line(points={{-39, 30}, {-22, 30}}, color={0, 0, 127}));
+    annotation (Line(points={{-80, -50}, {20, -50}}, color={95, 95, 95}, thickness=0.5));
+  connect(clapper_swingDrive.flange, robot.clapper_swingAxis)
+    annotation (Line(points={{-20, 130}, {20, 130}}, color={0, 0, 0}));
+  connect(clapper_swingDrive.support, robot.clapper_swingSupport)
+    annotation (Line(points={{-30, 120}, {-30, 115}, {20, 115}}, color={0, 0, 0}));
 
   annotation (
     experiment(StopTime=10, Interval=0.02, Tolerance=1e-6),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-120, -280}, {340, 165}})),
     Documentation(info="<html>
 <p>
 Simulates without inputs: every axis of robot FloatingBuoy moves inside its limits and comes back. A warning in the log names a joint that passes one of its limits all the same, for example that of its effort. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

@@ -3,74 +3,77 @@ within UrdfSync.Examples.SixAxisArm;
 model SixAxisArm "Robot SixAxisArm"
   extends UrdfSync.Robots.PartialStationaryRobot;
 
-  constant Integer turretAxis = 1
-    "Number of joint \"turret\" in rotationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b finger_rightFrame
+    "Frame of link \"finger_right\""
+    annotation (Placement(transformation(extent={{400, -10}, {420, 10}}), iconTransformation(extent={{92, 232}, {108, 248}})));
 
-  constant Integer shoulderAxis = 2
-    "Number of joint \"shoulder\" in rotationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b grasp_pointFrame
+    "Frame of link \"grasp_point\""
+    annotation (Placement(transformation(extent={{400, -72}, {420, -52}}), iconTransformation(extent={{92, 212}, {108, 228}})));
 
-  constant Integer elbowAxis = 3
-    "Number of joint \"elbow\" in rotationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b finger_leftFrame
+    "Frame of link \"finger_left\""
+    annotation (Placement(transformation(extent={{400, -154}, {420, -134}}), iconTransformation(extent={{92, 192}, {108, 208}})));
 
-  constant Integer forearm_rollAxis = 4
-    "Number of joint \"forearm_roll\" in rotationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b drive_pinionFrame
+    "Frame of link \"drive_pinion\""
+    annotation (Placement(transformation(extent={{400, -244}, {420, -224}}), iconTransformation(extent={{92, 172}, {108, 188}})));
 
-  constant Integer wrist_pitchAxis = 5
-    "Number of joint \"wrist_pitch\" in rotationalAxis";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a turretAxis
+    "Axis of joint \"turret\""
+    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-104, 236}, {-96, 244}})));
 
-  constant Integer flange_rollAxis = 6
-    "Number of joint \"flange_roll\" in rotationalAxis";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b turretSupport
+    "Housing of the drive of joint \"turret\""
+    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-104, 226}, {-96, 234}})));
 
-  constant Integer gripper_strokeAxis = 1
-    "Number of joint \"gripper_stroke\" in translationalAxis";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a shoulderAxis
+    "Axis of joint \"shoulder\""
+    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-104, 216}, {-96, 224}})));
 
-  constant Integer finger_rightFrame = 1
-    "Number of link \"finger_right\" in frame_b";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b shoulderSupport
+    "Housing of the drive of joint \"shoulder\""
+    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-104, 206}, {-96, 214}})));
 
-  constant Integer grasp_pointFrame = 2
-    "Number of link \"grasp_point\" in frame_b";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a elbowAxis
+    "Axis of joint \"elbow\""
+    annotation (Placement(transformation(extent={{44, 14}, {56, 26}}), iconTransformation(extent={{-104, 196}, {-96, 204}})));
 
-  constant Integer finger_leftFrame = 3
-    "Number of link \"finger_left\" in frame_b";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b elbowSupport
+    "Housing of the drive of joint \"elbow\""
+    annotation (Placement(transformation(extent={{30, 14}, {42, 26}}), iconTransformation(extent={{-104, 186}, {-96, 194}})));
 
-  constant Integer drive_pinionFrame = 4
-    "Number of link \"drive_pinion\" in frame_b";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a forearm_rollAxis
+    "Axis of joint \"forearm_roll\""
+    annotation (Placement(transformation(extent={{92, 14}, {104, 26}}), iconTransformation(extent={{-104, 176}, {-96, 184}})));
 
-  final parameter Real rotationalRange[6, 3] = {
-    {turret.parameters.limits.lower, turret.parameters.limits.upper, turret.parameters.limits.velocity},
-    {shoulder.parameters.limits.lower, shoulder.parameters.limits.upper, shoulder.parameters.limits.velocity},
-    {elbow.parameters.limits.lower, elbow.parameters.limits.upper, elbow.parameters.limits.velocity},
-    {forearm_roll.parameters.limits.lower, forearm_roll.parameters.limits.upper, forearm_roll.parameters.limits.velocity},
-    {wrist_pitch.parameters.limits.lower, wrist_pitch.parameters.limits.upper, wrist_pitch.parameters.limits.velocity},
-    {flange_roll.parameters.limits.lower, flange_roll.parameters.limits.upper, flange_roll.parameters.limits.velocity}}
-    "Ranges of rotationalAxis, those of joints that follow an axis included: {lower, upper, velocity}";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b forearm_rollSupport
+    "Housing of the drive of joint \"forearm_roll\""
+    annotation (Placement(transformation(extent={{78, 14}, {90, 26}}), iconTransformation(extent={{-104, 166}, {-96, 174}})));
 
-  parameter Modelica.Units.SI.Angle phi_start[6] = {
-    UrdfSync.Functions.closestToZero(rotationalRange[1, 1], rotationalRange[1, 2]),
-    UrdfSync.Functions.closestToZero(rotationalRange[2, 1], rotationalRange[2, 2]),
-    UrdfSync.Functions.closestToZero(rotationalRange[3, 1], rotationalRange[3, 2]),
-    UrdfSync.Functions.closestToZero(rotationalRange[4, 1], rotationalRange[4, 2]),
-    UrdfSync.Functions.closestToZero(rotationalRange[5, 1], rotationalRange[5, 2]),
-    UrdfSync.Functions.closestToZero(rotationalRange[6, 1], rotationalRange[6, 2])}
-    "Start values of the positions"
-    annotation (Dialog(tab="Initialization"));
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a wrist_pitchAxis
+    "Axis of joint \"wrist_pitch\""
+    annotation (Placement(transformation(extent={{140, 14}, {152, 26}}), iconTransformation(extent={{-104, 156}, {-96, 164}})));
 
-  parameter Modelica.Units.SI.AngularVelocity w_start[6] = zeros(6)
-    "Start values of the speeds"
-    annotation (Dialog(tab="Initialization"));
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b wrist_pitchSupport
+    "Housing of the drive of joint \"wrist_pitch\""
+    annotation (Placement(transformation(extent={{126, 14}, {138, 26}}), iconTransformation(extent={{-104, 146}, {-96, 154}})));
 
-  final parameter Real translationalRange[1, 3] = {
-    UrdfSync.Functions.leaderRange(UrdfSync.Functions.leaderRange({gripper_stroke.parameters.limits.lower, gripper_stroke.parameters.limits.upper, gripper_stroke.parameters.limits.velocity}, finger_coupling.parameters.mimic.multiplier, finger_coupling.parameters.mimic.offset, {finger_coupling.parameters.limits.lower, finger_coupling.parameters.limits.upper, finger_coupling.parameters.limits.velocity}), pinion_coupling.parameters.mimic.multiplier, pinion_coupling.parameters.mimic.offset, {pinion_coupling.parameters.limits.lower, pinion_coupling.parameters.limits.upper, pinion_coupling.parameters.limits.velocity})}
-    "Ranges of translationalAxis, those of joints that follow an axis included: {lower, upper, velocity}";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a flange_rollAxis
+    "Axis of joint \"flange_roll\""
+    annotation (Placement(transformation(extent={{188, 14}, {200, 26}}), iconTransformation(extent={{-104, 136}, {-96, 144}})));
 
-  parameter Modelica.Units.SI.Position s_start[1] = {
-    UrdfSync.Functions.closestToZero(translationalRange[1, 1], translationalRange[1, 2])}
-    "Start values of the positions"
-    annotation (Dialog(tab="Initialization"));
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b flange_rollSupport
+    "Housing of the drive of joint \"flange_roll\""
+    annotation (Placement(transformation(extent={{174, 14}, {186, 26}}), iconTransformation(extent={{-104, 126}, {-96, 134}})));
 
-  parameter Modelica.Units.SI.Velocity v_start[1] = zeros(1)
-    "Start values of the speeds"
-    annotation (Dialog(tab="Initialization"));
+  Modelica.Mechanics.Translational.Interfaces.Flange_a gripper_strokeAxis
+    "Axis of joint \"gripper_stroke\""
+    annotation (Placement(transformation(extent={{332, -130}, {344, -118}}), iconTransformation(extent={{-104, 116}, {-96, 124}})));
+
+  Modelica.Mechanics.Translational.Interfaces.Flange_b gripper_strokeSupport
+    "Housing of the drive of joint \"gripper_stroke\""
+    annotation (Placement(transformation(extent={{318, -130}, {330, -118}}), iconTransformation(extent={{-104, 106}, {-96, 114}})));
 
   final parameter Modelica.Units.SI.Mass m =
     base_link.m +
@@ -88,208 +91,178 @@ model SixAxisArm "Robot SixAxisArm"
     drive_pinion.m
     "Mass of the whole robot";
 
-  Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis[6]
-    "Drives"
-    annotation (Placement(transformation(extent={{210, 62}, {230, 82}}), iconTransformation(extent={{-70, 90}, {-50, 110}})));
-
-  Modelica.Mechanics.Rotational.Interfaces.Flange_b rotationalSupport[6]
-    "Housings of the drives"
-    annotation (Placement(transformation(extent={{258, 62}, {278, 82}}), iconTransformation(extent={{-40, 90}, {-20, 110}})));
-
-  Modelica.Mechanics.Translational.Interfaces.Flange_a translationalAxis[1]
-    "Drives"
-    annotation (Placement(transformation(extent={{306, 62}, {326, 82}}), iconTransformation(extent={{20, 90}, {40, 110}})));
-
-  Modelica.Mechanics.Translational.Interfaces.Flange_b translationalSupport[1]
-    "Housings of the drives"
-    annotation (Placement(transformation(extent={{354, 62}, {374, 82}}), iconTransformation(extent={{50, 90}, {70, 110}})));
-
-  Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b[4]
-    "Frames of the links without children"
-    annotation (Placement(transformation(extent={{420, -16}, {452, 16}}), iconTransformation(extent={{84, -16}, {116, 16}})));
-
-  Links.Base_link base_link(
+  replaceable Links.Base_link base_link constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"base_link\""
-    annotation (Placement(transformation(extent={{-72, -36}, {-52, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-72, -36}, {-52, -16}})));
 
-  Links.Carousel carousel(
+  replaceable Links.Carousel carousel constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"carousel\""
-    annotation (Placement(transformation(extent={{-24, -36}, {-4, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -36}, {-4, -16}})));
 
-  Links.Upper_arm upper_arm(
+  replaceable Links.Upper_arm upper_arm constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"upper_arm\""
-    annotation (Placement(transformation(extent={{24, -36}, {44, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{24, -36}, {44, -16}})));
 
-  Links.Elbow_housing elbow_housing(
+  replaceable Links.Elbow_housing elbow_housing constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"elbow_housing\""
-    annotation (Placement(transformation(extent={{72, -36}, {92, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{72, -36}, {92, -16}})));
 
-  Links.Forearm forearm(
+  replaceable Links.Forearm forearm constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"forearm\""
-    annotation (Placement(transformation(extent={{120, -36}, {140, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{120, -36}, {140, -16}})));
 
-  Links.Wrist wrist(
+  replaceable Links.Wrist wrist constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"wrist\""
-    annotation (Placement(transformation(extent={{168, -36}, {188, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{168, -36}, {188, -16}})));
 
-  Links.Mounting_flange mounting_flange(
+  replaceable Links.Mounting_flange mounting_flange constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"mounting_flange\""
-    annotation (Placement(transformation(extent={{216, -36}, {236, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{216, -36}, {236, -16}})));
 
-  Links.Tool0 tool0(
+  replaceable Links.Tool0 tool0 constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"tool0\""
-    annotation (Placement(transformation(extent={{264, -36}, {284, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{264, -36}, {284, -16}})));
 
-  Links.Gripper_body gripper_body(
+  replaceable Links.Gripper_body gripper_body constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"gripper_body\""
-    annotation (Placement(transformation(extent={{312, -36}, {332, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{312, -36}, {332, -16}})));
 
-  Links.Finger_right finger_right(
+  replaceable Links.Finger_right finger_right constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"finger_right\""
-    annotation (Placement(transformation(extent={{360, -36}, {380, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -36}, {380, -16}})));
 
-  Links.Grasp_point grasp_point(
+  replaceable Links.Grasp_point grasp_point constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"grasp_point\""
-    annotation (Placement(transformation(extent={{360, -98}, {380, -78}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -98}, {380, -78}})));
 
-  Links.Finger_left finger_left(
+  replaceable Links.Finger_left finger_left constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"finger_left\""
-    annotation (Placement(transformation(extent={{360, -172}, {380, -152}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -180}, {380, -160}})));
 
-  Links.Drive_pinion drive_pinion(
+  replaceable Links.Drive_pinion drive_pinion constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"drive_pinion\""
-    annotation (Placement(transformation(extent={{360, -262}, {380, -242}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -270}, {380, -250}})));
 
-  Joints.Turret turret(
-    axisNumber = 1,
-    checkLimits = checkLimits,
+  replaceable Joints.Turret turret constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[1],
-    w_start = w_start[1])
+    checkLimits = checkLimits)
     "Revolute joint \"turret\" from link \"base_link\" to link \"carousel\""
-    annotation (Placement(transformation(extent={{-56, -10}, {-36, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -10}, {-36, 10}})));
 
-  Joints.Shoulder shoulder(
-    axisNumber = 2,
-    checkLimits = checkLimits,
+  replaceable Joints.Shoulder shoulder constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[2],
-    w_start = w_start[2])
+    checkLimits = checkLimits)
     "Revolute joint \"shoulder\" from link \"carousel\" to link \"upper_arm\""
-    annotation (Placement(transformation(extent={{-8, -10}, {12, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -10}, {12, 10}})));
 
-  Joints.Elbow elbow(
-    axisNumber = 3,
-    checkLimits = checkLimits,
+  replaceable Joints.Elbow elbow constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[3],
-    w_start = w_start[3])
+    checkLimits = checkLimits)
     "Revolute joint \"elbow\" from link \"upper_arm\" to link \"elbow_housing\""
-    annotation (Placement(transformation(extent={{40, -10}, {60, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{40, -10}, {60, 10}})));
 
-  Joints.Forearm_roll forearm_roll(
-    axisNumber = 4,
-    checkLimits = checkLimits,
+  replaceable Joints.Forearm_roll forearm_roll constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[4],
-    w_start = w_start[4])
+    checkLimits = checkLimits)
     "Revolute joint \"forearm_roll\" from link \"elbow_housing\" to link \"forearm\""
-    annotation (Placement(transformation(extent={{88, -10}, {108, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{88, -10}, {108, 10}})));
 
-  Joints.Wrist_pitch wrist_pitch(
-    axisNumber = 5,
-    checkLimits = checkLimits,
+  replaceable Joints.Wrist_pitch wrist_pitch constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[5],
-    w_start = w_start[5])
+    checkLimits = checkLimits)
     "Revolute joint \"wrist_pitch\" from link \"forearm\" to link \"wrist\""
-    annotation (Placement(transformation(extent={{136, -10}, {156, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{136, -10}, {156, 10}})));
 
-  Joints.Flange_roll flange_roll(
-    axisNumber = 6,
-    checkLimits = checkLimits,
+  replaceable Joints.Flange_roll flange_roll constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[6],
-    w_start = w_start[6])
+    checkLimits = checkLimits)
     "Revolute joint \"flange_roll\" from link \"wrist\" to link \"mounting_flange\""
-    annotation (Placement(transformation(extent={{184, -10}, {204, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{184, -10}, {204, 10}})));
 
-  Joints.Flange_to_tool flange_to_tool
+  replaceable Joints.Flange_to_tool flange_to_tool constrainedby UrdfSync.Interfaces.PartialFixedJoint
     "Fixed joint \"flange_to_tool\" from link \"mounting_flange\" to link \"tool0\""
-    annotation (Placement(transformation(extent={{232, -10}, {252, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{232, -10}, {252, 10}})));
 
-  Joints.Gripper_mount gripper_mount
+  replaceable Joints.Gripper_mount gripper_mount constrainedby UrdfSync.Interfaces.PartialFixedJoint
     "Fixed joint \"gripper_mount\" from link \"tool0\" to link \"gripper_body\""
-    annotation (Placement(transformation(extent={{280, -10}, {300, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{280, -10}, {300, 10}})));
 
-  Joints.Finger_coupling finger_coupling(
-    checkLimits = checkLimits,
-    checkEffort = false,
-    stateSelect = StateSelect.avoid,
+  replaceable Joints.Finger_coupling finger_coupling constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+    s_start = finger_coupling.parameters.mimic.multiplier*gripper_stroke.s_start + finger_coupling.parameters.mimic.offset,
     fixedStart = false,
-    s_start = finger_coupling.parameters.mimic.multiplier*gripper_stroke.s_start + finger_coupling.parameters.mimic.offset)
+    stateSelect = StateSelect.avoid,
+    checkEffort = false,
+    checkLimits = checkLimits)
     "Prismatic joint \"finger_coupling\" from link \"gripper_body\" to link \"finger_right\""
-    annotation (Placement(transformation(extent={{328, -10}, {348, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -10}, {348, 10}})));
 
-  Joints.Grasp_frame grasp_frame
+  replaceable Joints.Grasp_frame grasp_frame constrainedby UrdfSync.Interfaces.PartialFixedJoint
     "Fixed joint \"grasp_frame\" from link \"gripper_body\" to link \"grasp_point\""
-    annotation (Placement(transformation(extent={{328, -72}, {348, -52}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -72}, {348, -52}})));
 
-  Joints.Gripper_stroke gripper_stroke(
-    axisNumber = 1,
-    checkLimits = checkLimits,
-    checkEffort = false,
+  replaceable Joints.Gripper_stroke gripper_stroke constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+    s_min = max({gripper_stroke.parameters.limits.lower, finger_couplingMimic.leader_min, pinion_couplingMimic.leader_min}),
+    s_max = min({gripper_stroke.parameters.limits.upper, finger_couplingMimic.leader_max, pinion_couplingMimic.leader_max}),
+    v_max = min({gripper_stroke.parameters.limits.velocity, finger_couplingMimic.leaderSpeed_max, pinion_couplingMimic.leaderSpeed_max}),
     fixedStart = fixedStart,
-    s_start = s_start[1],
-    v_start = v_start[1])
-    "Prismatic joint \"gripper_stroke\" from link \"gripper_body\" to link \"finger_left\""
-    annotation (Placement(transformation(extent={{328, -146}, {348, -126}})));
-
-  Joints.Pinion_coupling pinion_coupling(
-    checkLimits = checkLimits,
     checkEffort = false,
-    stateSelect = StateSelect.avoid,
+    checkLimits = checkLimits)
+    "Prismatic joint \"gripper_stroke\" from link \"gripper_body\" to link \"finger_left\""
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -154}, {348, -134}})));
+
+  replaceable Joints.Pinion_coupling pinion_coupling constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+    phi_start = pinion_coupling.parameters.mimic.multiplier*gripper_stroke.s_start + pinion_coupling.parameters.mimic.offset,
     fixedStart = false,
-    phi_start = pinion_coupling.parameters.mimic.multiplier*gripper_stroke.s_start + pinion_coupling.parameters.mimic.offset)
+    stateSelect = StateSelect.avoid,
+    checkEffort = false,
+    checkLimits = checkLimits)
     "Revolute joint \"pinion_coupling\" from link \"gripper_body\" to link \"drive_pinion\""
-    annotation (Placement(transformation(extent={{328, -236}, {348, -216}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -244}, {348, -224}})));
 
-  UrdfSync.Couplings.TranslationalToTranslational finger_couplingMimic(parameters = finger_coupling.parameters.mimic)
+  UrdfSync.Couplings.TranslationalToTranslational finger_couplingMimic(
+    s_min = finger_coupling.s_min,
+    s_max = finger_coupling.s_max,
+    v_max = finger_coupling.v_max,
+    parameters = finger_coupling.parameters.mimic)
     "Joint \"finger_coupling\" follows joint \"gripper_stroke\""
-    annotation (Placement(transformation(extent={{312, 18}, {332, 38}})));
+    annotation (Placement(transformation(extent={{312, 34}, {332, 54}})));
 
-  UrdfSync.Couplings.TranslationalToRotational pinion_couplingMimic(parameters = pinion_coupling.parameters.mimic)
+  UrdfSync.Couplings.TranslationalToRotational pinion_couplingMimic(
+    phi_min = pinion_coupling.phi_min,
+    phi_max = pinion_coupling.phi_max,
+    w_max = pinion_coupling.w_max,
+    parameters = pinion_coupling.parameters.mimic)
     "Joint \"pinion_coupling\" follows joint \"gripper_stroke\""
-    annotation (Placement(transformation(extent={{312, -208}, {332, -188}})));
+    annotation (Placement(transformation(extent={{312, -216}, {332, -196}})));
 
 equation
-  assert(not checkLimits or 0.999999*abs(translationalAxis[1].f) <= gripper_stroke.parameters.limits.effort + 1e-6,
+  assert(not checkLimits or 0.999999*abs(gripper_strokeAxis.f) <= gripper_stroke.parameters.limits.effort + 1e-6,
     getInstanceName() + ".gripper_stroke (joint " + gripper_stroke.parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
   connect(frame_a, base_link.frame_a)
     annotation (Line(points={{-100, 0}, {-76, 0}, {-76, -26}, {-72, -26}}, color={95, 95, 95}, thickness=0.5));
@@ -334,63 +307,76 @@ equation
   connect(grasp_frame.frame_b, grasp_point.frame_a)
     annotation (Line(points={{348, -62}, {356, -62}, {356, -88}, {360, -88}}, color={95, 95, 95}, thickness=0.5));
   connect(gripper_body.frame_a, gripper_stroke.frame_a)
-    annotation (Line(points={{312, -26}, {308, -26}, {308, -136}, {328, -136}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{312, -26}, {308, -26}, {308, -144}, {328, -144}}, color={95, 95, 95}, thickness=0.5));
   connect(gripper_stroke.frame_b, finger_left.frame_a)
-    annotation (Line(points={{348, -136}, {356, -136}, {356, -162}, {360, -162}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{348, -144}, {356, -144}, {356, -170}, {360, -170}}, color={95, 95, 95}, thickness=0.5));
   connect(gripper_body.frame_a, pinion_coupling.frame_a)
-    annotation (Line(points={{312, -26}, {308, -26}, {308, -226}, {328, -226}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{312, -26}, {308, -26}, {308, -234}, {328, -234}}, color={95, 95, 95}, thickness=0.5));
   connect(pinion_coupling.frame_b, drive_pinion.frame_a)
-    annotation (Line(points={{348, -226}, {356, -226}, {356, -252}, {360, -252}}, color={95, 95, 95}, thickness=0.5));
-  connect(finger_right.frame_a, frame_b[1])
-    annotation (Line(points={{360, -26}, {356, -26}, {356, 0}, {436, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(grasp_point.frame_a, frame_b[2])
-    annotation (Line(points={{360, -88}, {356, -88}, {356, -62}, {412, -62}, {412, 0}, {436, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(finger_left.frame_a, frame_b[3])
-    annotation (Line(points={{360, -162}, {356, -162}, {356, -136}, {412, -136}, {412, 0}, {436, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(drive_pinion.frame_a, frame_b[4])
-    annotation (Line(points={{360, -252}, {356, -252}, {356, -226}, {412, -226}, {412, 0}, {436, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(turret.axis, rotationalAxis[1])
-    annotation (Line(points={{-46, 10}, {-46, 46}, {220, 46}, {220, 72}}, color={0, 0, 0}));
-  connect(turret.support, rotationalSupport[1])
-    annotation (Line(points={{-52, 10}, {-52, 50}, {268, 50}, {268, 72}}, color={0, 0, 0}));
-  connect(shoulder.axis, rotationalAxis[2])
-    annotation (Line(points={{2, 10}, {2, 46}, {220, 46}, {220, 72}}, color={0, 0, 0}));
-  connect(shoulder.support, rotationalSupport[2])
-    annotation (Line(points={{-4, 10}, {-4, 50}, {268, 50}, {268, 72}}, color={0, 0, 0}));
-  connect(elbow.axis, rotationalAxis[3])
-    annotation (Line(points={{50, 10}, {50, 46}, {220, 46}, {220, 72}}, color={0, 0, 0}));
-  connect(elbow.support, rotationalSupport[3])
-    annotation (Line(points={{44, 10}, {44, 50}, {268, 50}, {268, 72}}, color={0, 0, 0}));
-  connect(forearm_roll.axis, rotationalAxis[4])
-    annotation (Line(points={{98, 10}, {98, 46}, {220, 46}, {220, 72}}, color={0, 0, 0}));
-  connect(forearm_roll.support, rotationalSupport[4])
-    annotation (Line(points={{92, 10}, {92, 50}, {268, 50}, {268, 72}}, color={0, 0, 0}));
-  connect(wrist_pitch.axis, rotationalAxis[5])
-    annotation (Line(points={{146, 10}, {146, 46}, {220, 46}, {220, 72}}, color={0, 0, 0}));
-  connect(wrist_pitch.support, rotationalSupport[5])
-    annotation (Line(points={{140, 10}, {140, 50}, {268, 50}, {268, 72}}, color={0, 0, 0}));
-  connect(flange_roll.axis, rotationalAxis[6])
-    annotation (Line(points={{194, 10}, {194, 46}, {220, 46}, {220, 72}}, color={0, 0, 0}));
-  connect(flange_roll.support, rotationalSupport[6])
-    annotation (Line(points={{188, 10}, {188, 50}, {268, 50}, {268, 72}}, color={0, 0, 0}));
-  connect(gripper_stroke.axis, translationalAxis[1])
-    annotation (Line(points={{338, -126}, {338, -114}, {406, -114}, {406, 54}, {316, 54}, {316, 72}}, color={0, 127, 0}));
-  connect(gripper_stroke.support, translationalSupport[1])
-    annotation (Line(points={{332, -126}, {332, -110}, {400, -110}, {400, 58}, {364, 58}, {364, 72}}, color={0, 127, 0}));
+    annotation (Line(points={{348, -234}, {356, -234}, {356, -260}, {360, -260}}, color={95, 95, 95}, thickness=0.5));
+  connect(finger_right.frame_a, finger_rightFrame)
+    annotation (Line(points={{360, -26}, {356, -26}, {356, 0}, {410, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(grasp_point.frame_a, grasp_pointFrame)
+    annotation (Line(points={{360, -88}, {356, -88}, {356, -62}, {410, -62}}, color={95, 95, 95}, thickness=0.5));
+  connect(finger_left.frame_a, finger_leftFrame)
+    annotation (Line(points={{360, -170}, {356, -170}, {356, -144}, {410, -144}}, color={95, 95, 95}, thickness=0.5));
+  connect(drive_pinion.frame_a, drive_pinionFrame)
+    annotation (Line(points={{360, -260}, {356, -260}, {356, -234}, {410, -234}}, color={95, 95, 95}, thickness=0.5));
+  connect(turret.axis, turretAxis)
+    annotation (Line(points={{-46, 10}, {-46, 20}}, color={0, 0, 0}));
+  connect(turret.support, turretSupport)
+    annotation (Line(points={{-52, 10}, {-52, 12}, {-60, 12}, {-60, 20}}, color={0, 0, 0}));
+  connect(shoulder.axis, shoulderAxis)
+    annotation (Line(points={{2, 10}, {2, 20}}, color={0, 0, 0}));
+  connect(shoulder.support, shoulderSupport)
+    annotation (Line(points={{-4, 10}, {-4, 12}, {-12, 12}, {-12, 20}}, color={0, 0, 0}));
+  connect(elbow.axis, elbowAxis)
+    annotation (Line(points={{50, 10}, {50, 20}}, color={0, 0, 0}));
+  connect(elbow.support, elbowSupport)
+    annotation (Line(points={{44, 10}, {44, 12}, {36, 12}, {36, 20}}, color={0, 0, 0}));
+  connect(forearm_roll.axis, forearm_rollAxis)
+    annotation (Line(points={{98, 10}, {98, 20}}, color={0, 0, 0}));
+  connect(forearm_roll.support, forearm_rollSupport)
+    annotation (Line(points={{92, 10}, {92, 12}, {84, 12}, {84, 20}}, color={0, 0, 0}));
+  connect(wrist_pitch.axis, wrist_pitchAxis)
+    annotation (Line(points={{146, 10}, {146, 20}}, color={0, 0, 0}));
+  connect(wrist_pitch.support, wrist_pitchSupport)
+    annotation (Line(points={{140, 10}, {140, 12}, {132, 12}, {132, 20}}, color={0, 0, 0}));
+  connect(flange_roll.axis, flange_rollAxis)
+    annotation (Line(points={{194, 10}, {194, 20}}, color={0, 0, 0}));
+  connect(flange_roll.support, flange_rollSupport)
+    annotation (Line(points={{188, 10}, {188, 12}, {180, 12}, {180, 20}}, color={0, 0, 0}));
+  connect(gripper_stroke.axis, gripper_strokeAxis)
+    annotation (Line(points={{338, -134}, {338, -124}}, color={0, 127, 0}));
+  connect(gripper_stroke.support, gripper_strokeSupport)
+    annotation (Line(points={{332, -134}, {332, -132}, {324, -132}, {324, -124}}, color={0, 127, 0}));
   connect(finger_couplingMimic.follower, finger_coupling.axis)
-    annotation (Line(points={{332, 28}, {338, 28}, {338, 10}}, color={0, 127, 0}));
+    annotation (Line(points={{332, 44}, {338, 44}, {338, 10}}, color={0, 127, 0}));
   connect(finger_couplingMimic.leader, gripper_stroke.axis)
-    annotation (Line(points={{312, 28}, {304, 28}, {304, -118}, {338, -118}, {338, -126}}, color={0, 127, 0}));
+    annotation (Line(points={{312, 44}, {304, 44}, {304, -110}, {346, -110}, {346, -132}, {338, -132}, {338, -134}}, color={0, 127, 0}));
   connect(pinion_couplingMimic.follower, pinion_coupling.axis)
-    annotation (Line(points={{332, -198}, {338, -198}, {338, -216}}, color={0, 0, 0}));
+    annotation (Line(points={{332, -206}, {338, -206}, {338, -224}}, color={0, 0, 0}));
   connect(pinion_couplingMimic.leader, gripper_stroke.axis)
-    annotation (Line(points={{312, -198}, {304, -198}, {304, -118}, {338, -118}, {338, -126}}, color={0, 127, 0}));
+    annotation (Line(points={{312, -206}, {304, -206}, {304, -110}, {346, -110}, {346, -132}, {338, -132}, {338, -134}}, color={0, 127, 0}));
 
   annotation (
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -270}, {452, 82}})),
+    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 250}}), graphics={
+      Rectangle(extent={{-100, 100}, {100, 250}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+      Text(extent={{-90, 226}, {0, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="turret"),
+      Text(extent={{-90, 206}, {0, 224}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="shoulder"),
+      Text(extent={{-90, 186}, {0, 204}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="elbow"),
+      Text(extent={{-90, 166}, {0, 184}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="forearm_roll"),
+      Text(extent={{-90, 146}, {0, 164}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="wrist_pitch"),
+      Text(extent={{-90, 126}, {0, 144}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="flange_roll"),
+      Text(extent={{-90, 106}, {0, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="gripper_stroke"),
+      Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_right"),
+      Text(extent={{0, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="grasp_point"),
+      Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_left"),
+      Text(extent={{0, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="drive_pinion")}),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -278}, {420, 62}})),
     Documentation(info="<html>
 <p>
-Links and joints of robot SixAxisArm, connected. The flange vectors hold the axes that can be driven; the constants <code>...Axis</code> and <code>...Frame</code> are their numbers, and keep their meaning when the robot changes. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+Links and joints of robot SixAxisArm, connected. Each can be exchanged in a model that extends this one. A drive of joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
 </html>"));
 end SixAxisArm;

@@ -6,6 +6,8 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
     connectionMatrix = [1, 2; 2, 3; 3, 4; 4, 5; 5, 6; 6, 7; 7, 8; 8, 9; 9, 10; 9, 11; 9, 12; 9, 13],
     moveableJoints = [1, 1; 2, 1; 3, 1; 4, 1; 5, 1; 6, 1; 9, 1; 11, 1; 12, 1],
     movingJoints = 9,
+    turningJoints = 7,
+    slidingJoints = 2,
     rotationalAxes = 6,
     translationalAxes = 1,
     jointTree = {{1, 1}, {2, 1}, {3, 1}, {4, 1}, {5, 1}, {6, 1}, {7, 2}, {7, 2}, {7, 1}},
@@ -14,19 +16,11 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
     linkBodies = {
       1, 2, 3, 4, 5, 6, 7, 7, 7, 8,
       7, 9, 10},
+    turning = {1, 2, 3, 4, 5, 6, 9},
+    sliding = {7, 8},
     rotationalJoints = {1, 2, 3, 4, 5, 6},
     translationalJoints = {8},
     followers = {{7, 8}, {9, 8}},
-    jointNames(name = {
-      turret.name,
-      shoulder.name,
-      elbow.name,
-      forearm_roll.name,
-      wrist_pitch.name,
-      flange_roll.name,
-      finger_coupling.name,
-      gripper_stroke.name,
-      pinion_coupling.name}),
     jointAxes = {
       turret.axis,
       shoulder.axis,
@@ -37,26 +31,6 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
       finger_coupling.axis,
       gripper_stroke.axis,
       pinion_coupling.axis},
-    jointLimits = {
-      {turret.limits.lower, turret.limits.upper, turret.limits.velocity, turret.limits.effort},
-      {shoulder.limits.lower, shoulder.limits.upper, shoulder.limits.velocity, shoulder.limits.effort},
-      {elbow.limits.lower, elbow.limits.upper, elbow.limits.velocity, elbow.limits.effort},
-      {forearm_roll.limits.lower, forearm_roll.limits.upper, forearm_roll.limits.velocity, forearm_roll.limits.effort},
-      {wrist_pitch.limits.lower, wrist_pitch.limits.upper, wrist_pitch.limits.velocity, wrist_pitch.limits.effort},
-      {flange_roll.limits.lower, flange_roll.limits.upper, flange_roll.limits.velocity, flange_roll.limits.effort},
-      {finger_coupling.limits.lower, finger_coupling.limits.upper, finger_coupling.limits.velocity, finger_coupling.limits.effort},
-      {gripper_stroke.limits.lower, gripper_stroke.limits.upper, gripper_stroke.limits.velocity, gripper_stroke.limits.effort},
-      {pinion_coupling.limits.lower, pinion_coupling.limits.upper, pinion_coupling.limits.velocity, pinion_coupling.limits.effort}},
-    jointLosses = {
-      {turret.dynamics.damping, turret.dynamics.friction},
-      {shoulder.dynamics.damping, shoulder.dynamics.friction},
-      {elbow.dynamics.damping, elbow.dynamics.friction},
-      {forearm_roll.dynamics.damping, forearm_roll.dynamics.friction},
-      {wrist_pitch.dynamics.damping, wrist_pitch.dynamics.friction},
-      {flange_roll.dynamics.damping, flange_roll.dynamics.friction},
-      {finger_coupling.dynamics.damping, finger_coupling.dynamics.friction},
-      {gripper_stroke.dynamics.damping, gripper_stroke.dynamics.friction},
-      {pinion_coupling.dynamics.damping, pinion_coupling.dynamics.friction}},
     jointPositions = {
       turret.origin.xyz,
       shoulder.origin.xyz,
@@ -83,9 +57,15 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
       grasp_frame.origin.rpy,
       gripper_stroke.origin.rpy,
       pinion_coupling.origin.rpy},
-    followerRatios = {
-      {finger_coupling.mimic.multiplier, finger_coupling.mimic.offset},
-      {pinion_coupling.mimic.multiplier, pinion_coupling.mimic.offset}},
+    followerMultipliers = {
+      finger_coupling.mimic.multiplier,
+      pinion_coupling.mimic.multiplier},
+    followerAngles = {
+      0,
+      pinion_coupling.mimic.offset},
+    followerLengths = {
+      finger_coupling.mimic.offset,
+      0},
     linkMasses = {
       base_link.inertial.mass,
       carousel.inertial.mass,
@@ -154,7 +134,99 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
       {finger_left.inertial.inertia.ixx, finger_left.inertial.inertia.iyy, finger_left.inertial.inertia.izz,
        finger_left.inertial.inertia.ixy, finger_left.inertial.inertia.ixz, finger_left.inertial.inertia.iyz},
       {drive_pinion.inertial.inertia.ixx, drive_pinion.inertial.inertia.iyy, drive_pinion.inertial.inertia.izz,
-       drive_pinion.inertial.inertia.ixy, drive_pinion.inertial.inertia.ixz, drive_pinion.inertial.inertia.iyz}});
+       drive_pinion.inertial.inertia.ixy, drive_pinion.inertial.inertia.ixz, drive_pinion.inertial.inertia.iyz}},
+    jointNames(
+      name = {
+        turret.name,
+        shoulder.name,
+        elbow.name,
+        forearm_roll.name,
+        wrist_pitch.name,
+        flange_roll.name,
+        finger_coupling.name,
+        gripper_stroke.name,
+        pinion_coupling.name}),
+    turningLimits(
+      lower = {
+        turret.limits.lower,
+        shoulder.limits.lower,
+        elbow.limits.lower,
+        forearm_roll.limits.lower,
+        wrist_pitch.limits.lower,
+        flange_roll.limits.lower,
+        pinion_coupling.limits.lower},
+      upper = {
+        turret.limits.upper,
+        shoulder.limits.upper,
+        elbow.limits.upper,
+        forearm_roll.limits.upper,
+        wrist_pitch.limits.upper,
+        flange_roll.limits.upper,
+        pinion_coupling.limits.upper},
+      velocity = {
+        turret.limits.velocity,
+        shoulder.limits.velocity,
+        elbow.limits.velocity,
+        forearm_roll.limits.velocity,
+        wrist_pitch.limits.velocity,
+        flange_roll.limits.velocity,
+        pinion_coupling.limits.velocity},
+      effort = {
+        turret.limits.effort,
+        shoulder.limits.effort,
+        elbow.limits.effort,
+        forearm_roll.limits.effort,
+        wrist_pitch.limits.effort,
+        flange_roll.limits.effort,
+        pinion_coupling.limits.effort}),
+    turningLosses(
+      damping = {
+        turret.dynamics.damping,
+        shoulder.dynamics.damping,
+        elbow.dynamics.damping,
+        forearm_roll.dynamics.damping,
+        wrist_pitch.dynamics.damping,
+        flange_roll.dynamics.damping,
+        pinion_coupling.dynamics.damping},
+      friction = {
+        turret.dynamics.friction,
+        shoulder.dynamics.friction,
+        elbow.dynamics.friction,
+        forearm_roll.dynamics.friction,
+        wrist_pitch.dynamics.friction,
+        flange_roll.dynamics.friction,
+        pinion_coupling.dynamics.friction},
+      steepness = {
+        turret.dynamics.steepness,
+        shoulder.dynamics.steepness,
+        elbow.dynamics.steepness,
+        forearm_roll.dynamics.steepness,
+        wrist_pitch.dynamics.steepness,
+        flange_roll.dynamics.steepness,
+        pinion_coupling.dynamics.steepness}),
+    slidingLimits(
+      lower = {
+        finger_coupling.limits.lower,
+        gripper_stroke.limits.lower},
+      upper = {
+        finger_coupling.limits.upper,
+        gripper_stroke.limits.upper},
+      velocity = {
+        finger_coupling.limits.velocity,
+        gripper_stroke.limits.velocity},
+      effort = {
+        finger_coupling.limits.effort,
+        gripper_stroke.limits.effort}),
+    slidingLosses(
+      damping = {
+        finger_coupling.dynamics.damping,
+        gripper_stroke.dynamics.damping},
+      friction = {
+        finger_coupling.dynamics.friction,
+        gripper_stroke.dynamics.friction},
+      steepness = {
+        finger_coupling.dynamics.steepness,
+        gripper_stroke.dynamics.steepness}));
 
   constant Integer turretAxis = 1
     "Number of joint \"turret\" in rotationalAxis";
@@ -558,7 +630,7 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
 
   annotation (Documentation(info="<html>
 <p>
-All numbers of robot SixAxisArm in one record, with the tables by which <code>UrdfSync.Robots.GenericRobot</code> reads how links and joints hang together. The tables refer to the numbers below them. A model that is generated per link and joint takes its numbers from its own record.
+All numbers of robot SixAxisArm in one record, with the tables by which <code>UrdfSync.Robots.GenericRobot</code> reads how links and joints hang together. The tables refer to the numbers below them. Where the package has models of the links and joints, these read the records of their elements, and the numbers here are a copy: an edit here changes no such model.
 </p>
 </html>"));
 end SixAxisArmParameters;

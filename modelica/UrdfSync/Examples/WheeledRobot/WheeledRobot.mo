@@ -3,82 +3,89 @@ within UrdfSync.Examples.WheeledRobot;
 model WheeledRobot "Robot WheeledRobot"
   extends UrdfSync.Robots.PartialMobileRobot;
 
-  constant Integer caster_swivelAxis = 1
-    "Number of joint \"caster_swivel\" in rotationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b caster_wheelFrame
+    "Frame of link \"caster_wheel\""
+    annotation (Placement(transformation(extent={{208, -10}, {228, 10}}), iconTransformation(extent={{92, 252}, {108, 268}})));
 
-  constant Integer caster_rollAxis = 2
-    "Number of joint \"caster_roll\" in rotationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b wheel_leftFrame
+    "Frame of link \"wheel_left\""
+    annotation (Placement(transformation(extent={{208, -88}, {228, -68}}), iconTransformation(extent={{92, 232}, {108, 248}})));
 
-  constant Integer drive_leftAxis = 3
-    "Number of joint \"drive_left\" in rotationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b wheel_rightFrame
+    "Frame of link \"wheel_right\""
+    annotation (Placement(transformation(extent={{208, -166}, {228, -146}}), iconTransformation(extent={{92, 212}, {108, 228}})));
 
-  constant Integer drive_rightAxis = 4
-    "Number of joint \"drive_right\" in rotationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b camera_optical_frameFrame
+    "Frame of link \"camera_optical_frame\""
+    annotation (Placement(transformation(extent={{208, -244}, {228, -224}}), iconTransformation(extent={{92, 192}, {108, 208}})));
 
-  constant Integer head_panAxis = 5
-    "Number of joint \"head_pan\" in rotationalAxis";
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b lidarFrame
+    "Frame of link \"lidar\""
+    annotation (Placement(transformation(extent={{208, -322}, {228, -302}}), iconTransformation(extent={{92, 172}, {108, 188}})));
 
-  constant Integer head_tiltAxis = 6
-    "Number of joint \"head_tilt\" in rotationalAxis";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a caster_swivelAxis
+    "Axis of joint \"caster_swivel\""
+    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-104, 256}, {-96, 264}})));
 
-  constant Integer lidar_spinAxis = 7
-    "Number of joint \"lidar_spin\" in rotationalAxis";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b caster_swivelSupport
+    "Housing of the drive of joint \"caster_swivel\""
+    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-104, 246}, {-96, 254}})));
 
-  constant Integer liftAxis = 1
-    "Number of joint \"lift\" in translationalAxis";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a caster_rollAxis
+    "Axis of joint \"caster_roll\""
+    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-104, 236}, {-96, 244}})));
 
-  constant Integer caster_wheelFrame = 1
-    "Number of link \"caster_wheel\" in frame_b";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b caster_rollSupport
+    "Housing of the drive of joint \"caster_roll\""
+    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-104, 226}, {-96, 234}})));
 
-  constant Integer wheel_leftFrame = 2
-    "Number of link \"wheel_left\" in frame_b";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a drive_leftAxis
+    "Axis of joint \"drive_left\""
+    annotation (Placement(transformation(extent={{-52, -64}, {-40, -52}}), iconTransformation(extent={{-104, 216}, {-96, 224}})));
 
-  constant Integer wheel_rightFrame = 3
-    "Number of link \"wheel_right\" in frame_b";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b drive_leftSupport
+    "Housing of the drive of joint \"drive_left\""
+    annotation (Placement(transformation(extent={{-66, -64}, {-54, -52}}), iconTransformation(extent={{-104, 206}, {-96, 214}})));
 
-  constant Integer camera_optical_frameFrame = 4
-    "Number of link \"camera_optical_frame\" in frame_b";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a drive_rightAxis
+    "Axis of joint \"drive_right\""
+    annotation (Placement(transformation(extent={{-52, -142}, {-40, -130}}), iconTransformation(extent={{-104, 196}, {-96, 204}})));
 
-  constant Integer lidarFrame = 5
-    "Number of link \"lidar\" in frame_b";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b drive_rightSupport
+    "Housing of the drive of joint \"drive_right\""
+    annotation (Placement(transformation(extent={{-66, -142}, {-54, -130}}), iconTransformation(extent={{-104, 186}, {-96, 194}})));
 
-  final parameter Real rotationalRange[7, 3] = {
-    {-Modelica.Constants.inf, Modelica.Constants.inf, caster_swivel.parameters.limits.velocity},
-    {-Modelica.Constants.inf, Modelica.Constants.inf, caster_roll.parameters.limits.velocity},
-    {-Modelica.Constants.inf, Modelica.Constants.inf, drive_left.parameters.limits.velocity},
-    {-Modelica.Constants.inf, Modelica.Constants.inf, drive_right.parameters.limits.velocity},
-    {head_pan.parameters.limits.lower, head_pan.parameters.limits.upper, head_pan.parameters.limits.velocity},
-    {head_tilt.parameters.limits.lower, head_tilt.parameters.limits.upper, head_tilt.parameters.limits.velocity},
-    {-Modelica.Constants.inf, Modelica.Constants.inf, lidar_spin.parameters.limits.velocity}}
-    "Ranges of rotationalAxis, those of joints that follow an axis included: {lower, upper, velocity}";
+  Modelica.Mechanics.Translational.Interfaces.Flange_a liftAxis
+    "Axis of joint \"lift\""
+    annotation (Placement(transformation(extent={{-4, -220}, {8, -208}}), iconTransformation(extent={{-104, 176}, {-96, 184}})));
 
-  parameter Modelica.Units.SI.Angle phi_start[7] = {
-    UrdfSync.Functions.closestToZero(rotationalRange[1, 1], rotationalRange[1, 2]),
-    UrdfSync.Functions.closestToZero(rotationalRange[2, 1], rotationalRange[2, 2]),
-    UrdfSync.Functions.closestToZero(rotationalRange[3, 1], rotationalRange[3, 2]),
-    UrdfSync.Functions.closestToZero(rotationalRange[4, 1], rotationalRange[4, 2]),
-    UrdfSync.Functions.closestToZero(rotationalRange[5, 1], rotationalRange[5, 2]),
-    UrdfSync.Functions.closestToZero(rotationalRange[6, 1], rotationalRange[6, 2]),
-    UrdfSync.Functions.closestToZero(rotationalRange[7, 1], rotationalRange[7, 2])}
-    "Start values of the positions"
-    annotation (Dialog(tab="Initialization"));
+  Modelica.Mechanics.Translational.Interfaces.Flange_b liftSupport
+    "Housing of the drive of joint \"lift\""
+    annotation (Placement(transformation(extent={{-18, -220}, {-6, -208}}), iconTransformation(extent={{-104, 166}, {-96, 174}})));
 
-  parameter Modelica.Units.SI.AngularVelocity w_start[7] = zeros(7)
-    "Start values of the speeds"
-    annotation (Dialog(tab="Initialization"));
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a head_panAxis
+    "Axis of joint \"head_pan\""
+    annotation (Placement(transformation(extent={{44, -220}, {56, -208}}), iconTransformation(extent={{-104, 156}, {-96, 164}})));
 
-  final parameter Real translationalRange[1, 3] = {
-    {lift.parameters.limits.lower, lift.parameters.limits.upper, lift.parameters.limits.velocity}}
-    "Ranges of translationalAxis, those of joints that follow an axis included: {lower, upper, velocity}";
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b head_panSupport
+    "Housing of the drive of joint \"head_pan\""
+    annotation (Placement(transformation(extent={{30, -220}, {42, -208}}), iconTransformation(extent={{-104, 146}, {-96, 154}})));
 
-  parameter Modelica.Units.SI.Position s_start[1] = {
-    UrdfSync.Functions.closestToZero(translationalRange[1, 1], translationalRange[1, 2])}
-    "Start values of the positions"
-    annotation (Dialog(tab="Initialization"));
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a head_tiltAxis
+    "Axis of joint \"head_tilt\""
+    annotation (Placement(transformation(extent={{92, -220}, {104, -208}}), iconTransformation(extent={{-104, 136}, {-96, 144}})));
 
-  parameter Modelica.Units.SI.Velocity v_start[1] = zeros(1)
-    "Start values of the speeds"
-    annotation (Dialog(tab="Initialization"));
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b head_tiltSupport
+    "Housing of the drive of joint \"head_tilt\""
+    annotation (Placement(transformation(extent={{78, -220}, {90, -208}}), iconTransformation(extent={{-104, 126}, {-96, 134}})));
+
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a lidar_spinAxis
+    "Axis of joint \"lidar_spin\""
+    annotation (Placement(transformation(extent={{-4, -298}, {8, -286}}), iconTransformation(extent={{-104, 116}, {-96, 124}})));
+
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b lidar_spinSupport
+    "Housing of the drive of joint \"lidar_spin\""
+    annotation (Placement(transformation(extent={{-18, -298}, {-6, -286}}), iconTransformation(extent={{-104, 106}, {-96, 114}})));
 
   final parameter Modelica.Units.SI.Mass m =
     base_link.m +
@@ -95,181 +102,137 @@ model WheeledRobot "Robot WheeledRobot"
     lidar.m
     "Mass of the whole robot";
 
-  Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis[7]
-    "Drives"
-    annotation (Placement(transformation(extent={{18, 34}, {38, 54}}), iconTransformation(extent={{-70, 90}, {-50, 110}})));
-
-  Modelica.Mechanics.Rotational.Interfaces.Flange_b rotationalSupport[7]
-    "Housings of the drives"
-    annotation (Placement(transformation(extent={{66, 34}, {86, 54}}), iconTransformation(extent={{-40, 90}, {-20, 110}})));
-
-  Modelica.Mechanics.Translational.Interfaces.Flange_a translationalAxis[1]
-    "Drives"
-    annotation (Placement(transformation(extent={{114, 34}, {134, 54}}), iconTransformation(extent={{20, 90}, {40, 110}})));
-
-  Modelica.Mechanics.Translational.Interfaces.Flange_b translationalSupport[1]
-    "Housings of the drives"
-    annotation (Placement(transformation(extent={{162, 34}, {182, 54}}), iconTransformation(extent={{50, 90}, {70, 110}})));
-
-  Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b[5]
-    "Frames of the links without children"
-    annotation (Placement(transformation(extent={{240, -16}, {272, 16}}), iconTransformation(extent={{84, -16}, {116, 16}})));
-
-  Links.Base_link base_link(
+  replaceable Links.Base_link base_link constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"base_link\""
-    annotation (Placement(transformation(extent={{-72, -36}, {-52, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-72, -36}, {-52, -16}})));
 
-  Links.Caster_fork caster_fork(
+  replaceable Links.Caster_fork caster_fork constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"caster_fork\""
-    annotation (Placement(transformation(extent={{-24, -36}, {-4, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -36}, {-4, -16}})));
 
-  Links.Caster_wheel caster_wheel(
+  replaceable Links.Caster_wheel caster_wheel constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"caster_wheel\""
-    annotation (Placement(transformation(extent={{24, -36}, {44, -16}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{24, -36}, {44, -16}})));
 
-  Links.Wheel_left wheel_left(
+  replaceable Links.Wheel_left wheel_left constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"wheel_left\""
-    annotation (Placement(transformation(extent={{-24, -106}, {-4, -86}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -114}, {-4, -94}})));
 
-  Links.Wheel_right wheel_right(
+  replaceable Links.Wheel_right wheel_right constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"wheel_right\""
-    annotation (Placement(transformation(extent={{-24, -176}, {-4, -156}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -192}, {-4, -172}})));
 
-  Links.Column_guide column_guide(
+  replaceable Links.Column_guide column_guide constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"column_guide\""
-    annotation (Placement(transformation(extent={{-24, -254}, {-4, -234}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -270}, {-4, -250}})));
 
-  Links.Column column(
+  replaceable Links.Column column constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"column\""
-    annotation (Placement(transformation(extent={{24, -254}, {44, -234}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{24, -270}, {44, -250}})));
 
-  Links.Neck neck(
+  replaceable Links.Neck neck constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"neck\""
-    annotation (Placement(transformation(extent={{72, -254}, {92, -234}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{72, -270}, {92, -250}})));
 
-  Links.Head head(
+  replaceable Links.Head head constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"head\""
-    annotation (Placement(transformation(extent={{120, -254}, {140, -234}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{120, -270}, {140, -250}})));
 
-  Links.Camera_optical_frame camera_optical_frame(
+  replaceable Links.Camera_optical_frame camera_optical_frame constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"camera_optical_frame\""
-    annotation (Placement(transformation(extent={{168, -254}, {188, -234}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{168, -270}, {188, -250}})));
 
-  Links.Lidar_mast lidar_mast(
+  replaceable Links.Lidar_mast lidar_mast constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"lidar_mast\""
-    annotation (Placement(transformation(extent={{-24, -324}, {-4, -304}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -348}, {-4, -328}})));
 
-  Links.Lidar lidar(
+  replaceable Links.Lidar lidar constrainedby UrdfSync.Interfaces.PartialLink(
     animation = animation,
     showCollisions = showCollisions)
     "Link \"lidar\""
-    annotation (Placement(transformation(extent={{24, -324}, {44, -304}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{24, -348}, {44, -328}})));
 
-  Joints.Caster_swivel caster_swivel(
-    axisNumber = 1,
-    checkLimits = checkLimits,
+  replaceable Joints.Caster_swivel caster_swivel constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[1],
-    w_start = w_start[1])
+    checkLimits = checkLimits)
     "Continuous joint \"caster_swivel\" from link \"base_link\" to link \"caster_fork\""
-    annotation (Placement(transformation(extent={{-56, -10}, {-36, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -10}, {-36, 10}})));
 
-  Joints.Caster_roll caster_roll(
-    axisNumber = 2,
-    checkLimits = checkLimits,
+  replaceable Joints.Caster_roll caster_roll constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[2],
-    w_start = w_start[2])
+    checkLimits = checkLimits)
     "Continuous joint \"caster_roll\" from link \"caster_fork\" to link \"caster_wheel\""
-    annotation (Placement(transformation(extent={{-8, -10}, {12, 10}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -10}, {12, 10}})));
 
-  Joints.Drive_left drive_left(
-    axisNumber = 3,
-    checkLimits = checkLimits,
+  replaceable Joints.Drive_left drive_left constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[3],
-    w_start = w_start[3])
+    checkLimits = checkLimits)
     "Continuous joint \"drive_left\" from link \"base_link\" to link \"wheel_left\""
-    annotation (Placement(transformation(extent={{-56, -80}, {-36, -60}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -88}, {-36, -68}})));
 
-  Joints.Drive_right drive_right(
-    axisNumber = 4,
-    checkLimits = checkLimits,
+  replaceable Joints.Drive_right drive_right constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[4],
-    w_start = w_start[4])
+    checkLimits = checkLimits)
     "Continuous joint \"drive_right\" from link \"base_link\" to link \"wheel_right\""
-    annotation (Placement(transformation(extent={{-56, -150}, {-36, -130}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -166}, {-36, -146}})));
 
-  Joints.Guide_mount guide_mount
+  replaceable Joints.Guide_mount guide_mount constrainedby UrdfSync.Interfaces.PartialFixedJoint
     "Fixed joint \"guide_mount\" from link \"base_link\" to link \"column_guide\""
-    annotation (Placement(transformation(extent={{-56, -228}, {-36, -208}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -244}, {-36, -224}})));
 
-  Joints.Lift lift(
-    axisNumber = 1,
-    checkLimits = checkLimits,
+  replaceable Joints.Lift lift constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
     fixedStart = fixedStart,
-    s_start = s_start[1],
-    v_start = v_start[1])
+    checkLimits = checkLimits)
     "Prismatic joint \"lift\" from link \"column_guide\" to link \"column\""
-    annotation (Placement(transformation(extent={{-8, -228}, {12, -208}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -244}, {12, -224}})));
 
-  Joints.Head_pan head_pan(
-    axisNumber = 5,
-    checkLimits = checkLimits,
+  replaceable Joints.Head_pan head_pan constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[5],
-    w_start = w_start[5])
+    checkLimits = checkLimits)
     "Revolute joint \"head_pan\" from link \"column\" to link \"neck\""
-    annotation (Placement(transformation(extent={{40, -228}, {60, -208}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{40, -244}, {60, -224}})));
 
-  Joints.Head_tilt head_tilt(
-    axisNumber = 6,
-    checkLimits = checkLimits,
+  replaceable Joints.Head_tilt head_tilt constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[6],
-    w_start = w_start[6])
+    checkLimits = checkLimits)
     "Revolute joint \"head_tilt\" from link \"neck\" to link \"head\""
-    annotation (Placement(transformation(extent={{88, -228}, {108, -208}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{88, -244}, {108, -224}})));
 
-  Joints.Camera_mount camera_mount
+  replaceable Joints.Camera_mount camera_mount constrainedby UrdfSync.Interfaces.PartialFixedJoint
     "Fixed joint \"camera_mount\" from link \"head\" to link \"camera_optical_frame\""
-    annotation (Placement(transformation(extent={{136, -228}, {156, -208}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{136, -244}, {156, -224}})));
 
-  Joints.Mast_mount mast_mount
+  replaceable Joints.Mast_mount mast_mount constrainedby UrdfSync.Interfaces.PartialFixedJoint
     "Fixed joint \"mast_mount\" from link \"base_link\" to link \"lidar_mast\""
-    annotation (Placement(transformation(extent={{-56, -298}, {-36, -278}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -322}, {-36, -302}})));
 
-  Joints.Lidar_spin lidar_spin(
-    axisNumber = 7,
-    checkLimits = checkLimits,
+  replaceable Joints.Lidar_spin lidar_spin constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
     fixedStart = fixedStart,
-    phi_start = phi_start[7],
-    w_start = w_start[7])
+    checkLimits = checkLimits)
     "Continuous joint \"lidar_spin\" from link \"lidar_mast\" to link \"lidar\""
-    annotation (Placement(transformation(extent={{-8, -298}, {12, -278}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -322}, {12, -302}})));
 
 equation
   connect(frame_a, base_link.frame_a)
@@ -279,93 +242,108 @@ equation
   connect(caster_swivel.frame_b, caster_fork.frame_a)
     annotation (Line(points={{-36, 0}, {-28, 0}, {-28, -26}, {-24, -26}}, color={95, 95, 95}, thickness=0.5));
   connect(base_link.frame_a, drive_left.frame_a)
-    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -70}, {-56, -70}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -78}, {-56, -78}}, color={95, 95, 95}, thickness=0.5));
   connect(drive_left.frame_b, wheel_left.frame_a)
-    annotation (Line(points={{-36, -70}, {-28, -70}, {-28, -96}, {-24, -96}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, -78}, {-28, -78}, {-28, -104}, {-24, -104}}, color={95, 95, 95}, thickness=0.5));
   connect(base_link.frame_a, drive_right.frame_a)
-    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -140}, {-56, -140}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -156}, {-56, -156}}, color={95, 95, 95}, thickness=0.5));
   connect(drive_right.frame_b, wheel_right.frame_a)
-    annotation (Line(points={{-36, -140}, {-28, -140}, {-28, -166}, {-24, -166}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, -156}, {-28, -156}, {-28, -182}, {-24, -182}}, color={95, 95, 95}, thickness=0.5));
   connect(base_link.frame_a, guide_mount.frame_a)
-    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -218}, {-56, -218}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -234}, {-56, -234}}, color={95, 95, 95}, thickness=0.5));
   connect(guide_mount.frame_b, column_guide.frame_a)
-    annotation (Line(points={{-36, -218}, {-28, -218}, {-28, -244}, {-24, -244}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, -234}, {-28, -234}, {-28, -260}, {-24, -260}}, color={95, 95, 95}, thickness=0.5));
   connect(base_link.frame_a, mast_mount.frame_a)
-    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -288}, {-56, -288}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-72, -26}, {-76, -26}, {-76, -312}, {-56, -312}}, color={95, 95, 95}, thickness=0.5));
   connect(mast_mount.frame_b, lidar_mast.frame_a)
-    annotation (Line(points={{-36, -288}, {-28, -288}, {-28, -314}, {-24, -314}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-36, -312}, {-28, -312}, {-28, -338}, {-24, -338}}, color={95, 95, 95}, thickness=0.5));
   connect(caster_fork.frame_a, caster_roll.frame_a)
     annotation (Line(points={{-24, -26}, {-28, -26}, {-28, 0}, {-8, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(caster_roll.frame_b, caster_wheel.frame_a)
     annotation (Line(points={{12, 0}, {20, 0}, {20, -26}, {24, -26}}, color={95, 95, 95}, thickness=0.5));
-  connect(caster_wheel.frame_a, frame_b[1])
-    annotation (Line(points={{24, -26}, {20, -26}, {20, 0}, {256, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(wheel_left.frame_a, frame_b[2])
-    annotation (Line(points={{-24, -96}, {-28, -96}, {-28, -70}, {232, -70}, {232, 0}, {256, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(wheel_right.frame_a, frame_b[3])
-    annotation (Line(points={{-24, -166}, {-28, -166}, {-28, -140}, {232, -140}, {232, 0}, {256, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(caster_wheel.frame_a, caster_wheelFrame)
+    annotation (Line(points={{24, -26}, {20, -26}, {20, 0}, {218, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(wheel_left.frame_a, wheel_leftFrame)
+    annotation (Line(points={{-24, -104}, {-28, -104}, {-28, -78}, {218, -78}}, color={95, 95, 95}, thickness=0.5));
+  connect(wheel_right.frame_a, wheel_rightFrame)
+    annotation (Line(points={{-24, -182}, {-28, -182}, {-28, -156}, {218, -156}}, color={95, 95, 95}, thickness=0.5));
   connect(column_guide.frame_a, lift.frame_a)
-    annotation (Line(points={{-24, -244}, {-28, -244}, {-28, -218}, {-8, -218}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-24, -260}, {-28, -260}, {-28, -234}, {-8, -234}}, color={95, 95, 95}, thickness=0.5));
   connect(lift.frame_b, column.frame_a)
-    annotation (Line(points={{12, -218}, {20, -218}, {20, -244}, {24, -244}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{12, -234}, {20, -234}, {20, -260}, {24, -260}}, color={95, 95, 95}, thickness=0.5));
   connect(column.frame_a, head_pan.frame_a)
-    annotation (Line(points={{24, -244}, {20, -244}, {20, -218}, {40, -218}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{24, -260}, {20, -260}, {20, -234}, {40, -234}}, color={95, 95, 95}, thickness=0.5));
   connect(head_pan.frame_b, neck.frame_a)
-    annotation (Line(points={{60, -218}, {68, -218}, {68, -244}, {72, -244}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{60, -234}, {68, -234}, {68, -260}, {72, -260}}, color={95, 95, 95}, thickness=0.5));
   connect(neck.frame_a, head_tilt.frame_a)
-    annotation (Line(points={{72, -244}, {68, -244}, {68, -218}, {88, -218}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{72, -260}, {68, -260}, {68, -234}, {88, -234}}, color={95, 95, 95}, thickness=0.5));
   connect(head_tilt.frame_b, head.frame_a)
-    annotation (Line(points={{108, -218}, {116, -218}, {116, -244}, {120, -244}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{108, -234}, {116, -234}, {116, -260}, {120, -260}}, color={95, 95, 95}, thickness=0.5));
   connect(head.frame_a, camera_mount.frame_a)
-    annotation (Line(points={{120, -244}, {116, -244}, {116, -218}, {136, -218}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{120, -260}, {116, -260}, {116, -234}, {136, -234}}, color={95, 95, 95}, thickness=0.5));
   connect(camera_mount.frame_b, camera_optical_frame.frame_a)
-    annotation (Line(points={{156, -218}, {164, -218}, {164, -244}, {168, -244}}, color={95, 95, 95}, thickness=0.5));
-  connect(camera_optical_frame.frame_a, frame_b[4])
-    annotation (Line(points={{168, -244}, {164, -244}, {164, -218}, {232, -218}, {232, 0}, {256, 0}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{156, -234}, {164, -234}, {164, -260}, {168, -260}}, color={95, 95, 95}, thickness=0.5));
+  connect(camera_optical_frame.frame_a, camera_optical_frameFrame)
+    annotation (Line(points={{168, -260}, {164, -260}, {164, -234}, {218, -234}}, color={95, 95, 95}, thickness=0.5));
   connect(lidar_mast.frame_a, lidar_spin.frame_a)
-    annotation (Line(points={{-24, -314}, {-28, -314}, {-28, -288}, {-8, -288}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-24, -338}, {-28, -338}, {-28, -312}, {-8, -312}}, color={95, 95, 95}, thickness=0.5));
   connect(lidar_spin.frame_b, lidar.frame_a)
-    annotation (Line(points={{12, -288}, {20, -288}, {20, -314}, {24, -314}}, color={95, 95, 95}, thickness=0.5));
-  connect(lidar.frame_a, frame_b[5])
-    annotation (Line(points={{24, -314}, {20, -314}, {20, -288}, {232, -288}, {232, 0}, {256, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(caster_swivel.axis, rotationalAxis[1])
-    annotation (Line(points={{-46, 10}, {-46, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
-  connect(caster_swivel.support, rotationalSupport[1])
-    annotation (Line(points={{-52, 10}, {-52, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
-  connect(caster_roll.axis, rotationalAxis[2])
-    annotation (Line(points={{2, 10}, {2, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
-  connect(caster_roll.support, rotationalSupport[2])
-    annotation (Line(points={{-4, 10}, {-4, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
-  connect(drive_left.axis, rotationalAxis[3])
-    annotation (Line(points={{-46, -60}, {-46, -52}, {226, -52}, {226, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
-  connect(drive_left.support, rotationalSupport[3])
-    annotation (Line(points={{-52, -60}, {-52, -48}, {220, -48}, {220, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
-  connect(drive_right.axis, rotationalAxis[4])
-    annotation (Line(points={{-46, -130}, {-46, -122}, {226, -122}, {226, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
-  connect(drive_right.support, rotationalSupport[4])
-    annotation (Line(points={{-52, -130}, {-52, -118}, {220, -118}, {220, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
-  connect(lift.axis, translationalAxis[1])
-    annotation (Line(points={{2, -208}, {2, -192}, {214, -192}, {214, 26}, {124, 26}, {124, 44}}, color={0, 127, 0}));
-  connect(lift.support, translationalSupport[1])
-    annotation (Line(points={{-4, -208}, {-4, -188}, {208, -188}, {208, 30}, {172, 30}, {172, 44}}, color={0, 127, 0}));
-  connect(head_pan.axis, rotationalAxis[5])
-    annotation (Line(points={{50, -208}, {50, -200}, {226, -200}, {226, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
-  connect(head_pan.support, rotationalSupport[5])
-    annotation (Line(points={{44, -208}, {44, -196}, {220, -196}, {220, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
-  connect(head_tilt.axis, rotationalAxis[6])
-    annotation (Line(points={{98, -208}, {98, -200}, {226, -200}, {226, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
-  connect(head_tilt.support, rotationalSupport[6])
-    annotation (Line(points={{92, -208}, {92, -196}, {220, -196}, {220, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
-  connect(lidar_spin.axis, rotationalAxis[7])
-    annotation (Line(points={{2, -278}, {2, -270}, {226, -270}, {226, 18}, {28, 18}, {28, 44}}, color={0, 0, 0}));
-  connect(lidar_spin.support, rotationalSupport[7])
-    annotation (Line(points={{-4, -278}, {-4, -266}, {220, -266}, {220, 22}, {76, 22}, {76, 44}}, color={0, 0, 0}));
+    annotation (Line(points={{12, -312}, {20, -312}, {20, -338}, {24, -338}}, color={95, 95, 95}, thickness=0.5));
+  connect(lidar.frame_a, lidarFrame)
+    annotation (Line(points={{24, -338}, {20, -338}, {20, -312}, {218, -312}}, color={95, 95, 95}, thickness=0.5));
+  connect(caster_swivel.axis, caster_swivelAxis)
+    annotation (Line(points={{-46, 10}, {-46, 20}}, color={0, 0, 0}));
+  connect(caster_swivel.support, caster_swivelSupport)
+    annotation (Line(points={{-52, 10}, {-52, 12}, {-60, 12}, {-60, 20}}, color={0, 0, 0}));
+  connect(caster_roll.axis, caster_rollAxis)
+    annotation (Line(points={{2, 10}, {2, 20}}, color={0, 0, 0}));
+  connect(caster_roll.support, caster_rollSupport)
+    annotation (Line(points={{-4, 10}, {-4, 12}, {-12, 12}, {-12, 20}}, color={0, 0, 0}));
+  connect(drive_left.axis, drive_leftAxis)
+    annotation (Line(points={{-46, -68}, {-46, -58}}, color={0, 0, 0}));
+  connect(drive_left.support, drive_leftSupport)
+    annotation (Line(points={{-52, -68}, {-52, -66}, {-60, -66}, {-60, -58}}, color={0, 0, 0}));
+  connect(drive_right.axis, drive_rightAxis)
+    annotation (Line(points={{-46, -146}, {-46, -136}}, color={0, 0, 0}));
+  connect(drive_right.support, drive_rightSupport)
+    annotation (Line(points={{-52, -146}, {-52, -144}, {-60, -144}, {-60, -136}}, color={0, 0, 0}));
+  connect(lift.axis, liftAxis)
+    annotation (Line(points={{2, -224}, {2, -214}}, color={0, 127, 0}));
+  connect(lift.support, liftSupport)
+    annotation (Line(points={{-4, -224}, {-4, -222}, {-12, -222}, {-12, -214}}, color={0, 127, 0}));
+  connect(head_pan.axis, head_panAxis)
+    annotation (Line(points={{50, -224}, {50, -214}}, color={0, 0, 0}));
+  connect(head_pan.support, head_panSupport)
+    annotation (Line(points={{44, -224}, {44, -222}, {36, -222}, {36, -214}}, color={0, 0, 0}));
+  connect(head_tilt.axis, head_tiltAxis)
+    annotation (Line(points={{98, -224}, {98, -214}}, color={0, 0, 0}));
+  connect(head_tilt.support, head_tiltSupport)
+    annotation (Line(points={{92, -224}, {92, -222}, {84, -222}, {84, -214}}, color={0, 0, 0}));
+  connect(lidar_spin.axis, lidar_spinAxis)
+    annotation (Line(points={{2, -302}, {2, -292}}, color={0, 0, 0}));
+  connect(lidar_spin.support, lidar_spinSupport)
+    annotation (Line(points={{-4, -302}, {-4, -300}, {-12, -300}, {-12, -292}}, color={0, 0, 0}));
 
   annotation (
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -332}, {272, 54}})),
+    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 270}}), graphics={
+      Rectangle(extent={{-100, 100}, {100, 270}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+      Text(extent={{-90, 246}, {0, 264}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="caster_swivel"),
+      Text(extent={{-90, 226}, {0, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="caster_roll"),
+      Text(extent={{-90, 206}, {0, 224}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="drive_left"),
+      Text(extent={{-90, 186}, {0, 204}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="drive_right"),
+      Text(extent={{-90, 166}, {0, 184}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="lift"),
+      Text(extent={{-90, 146}, {0, 164}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="head_pan"),
+      Text(extent={{-90, 126}, {0, 144}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="head_tilt"),
+      Text(extent={{-90, 106}, {0, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="lidar_spin"),
+      Text(extent={{0, 253}, {88, 267}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="caster_wheel"),
+      Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="wheel_left"),
+      Text(extent={{0, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="wheel_right"),
+      Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="camera_optical_frame"),
+      Text(extent={{0, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="lidar")}),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -356}, {228, 34}})),
     Documentation(info="<html>
 <p>
-Links and joints of robot WheeledRobot, connected. The flange vectors hold the axes that can be driven; the constants <code>...Axis</code> and <code>...Frame</code> are their numbers, and keep their meaning when the robot changes. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+Links and joints of robot WheeledRobot, connected. Each can be exchanged in a model that extends this one. A drive of joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
 </html>"));
 end WheeledRobot;

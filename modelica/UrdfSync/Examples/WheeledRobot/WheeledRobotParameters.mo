@@ -7,6 +7,8 @@ record WheeledRobotParameters "Numbers of robot WheeledRobot as a whole"
     connectionMatrix = [1, 2; 2, 3; 1, 4; 1, 5; 1, 6; 6, 7; 7, 8; 8, 9; 9, 10; 1, 11; 11, 12],
     moveableJoints = [1, 1; 2, 1; 3, 1; 4, 1; 6, 1; 7, 1; 8, 1; 11, 1],
     movingJoints = 8,
+    turningJoints = 7,
+    slidingJoints = 1,
     rotationalAxes = 7,
     translationalAxes = 1,
     jointTree = {{1, 1}, {2, 1}, {1, 1}, {1, 1}, {1, 2}, {6, 1}, {7, 1}, {1, 1}},
@@ -15,17 +17,10 @@ record WheeledRobotParameters "Numbers of robot WheeledRobot as a whole"
     linkBodies = {
       1, 2, 3, 4, 5, 1, 6, 7, 8, 8,
       1, 9},
+    turning = {1, 2, 3, 4, 6, 7, 8},
+    sliding = {5},
     rotationalJoints = {1, 2, 3, 4, 6, 7, 8},
     translationalJoints = {5},
-    jointNames(name = {
-      caster_swivel.name,
-      caster_roll.name,
-      drive_left.name,
-      drive_right.name,
-      lift.name,
-      head_pan.name,
-      head_tilt.name,
-      lidar_spin.name}),
     jointAxes = {
       caster_swivel.axis,
       caster_roll.axis,
@@ -35,24 +30,6 @@ record WheeledRobotParameters "Numbers of robot WheeledRobot as a whole"
       head_pan.axis,
       head_tilt.axis,
       lidar_spin.axis},
-    jointLimits = {
-      {-Modelica.Constants.inf, Modelica.Constants.inf, caster_swivel.limits.velocity, caster_swivel.limits.effort},
-      {-Modelica.Constants.inf, Modelica.Constants.inf, caster_roll.limits.velocity, caster_roll.limits.effort},
-      {-Modelica.Constants.inf, Modelica.Constants.inf, drive_left.limits.velocity, drive_left.limits.effort},
-      {-Modelica.Constants.inf, Modelica.Constants.inf, drive_right.limits.velocity, drive_right.limits.effort},
-      {lift.limits.lower, lift.limits.upper, lift.limits.velocity, lift.limits.effort},
-      {head_pan.limits.lower, head_pan.limits.upper, head_pan.limits.velocity, head_pan.limits.effort},
-      {head_tilt.limits.lower, head_tilt.limits.upper, head_tilt.limits.velocity, head_tilt.limits.effort},
-      {-Modelica.Constants.inf, Modelica.Constants.inf, lidar_spin.limits.velocity, lidar_spin.limits.effort}},
-    jointLosses = {
-      {caster_swivel.dynamics.damping, caster_swivel.dynamics.friction},
-      {caster_roll.dynamics.damping, caster_roll.dynamics.friction},
-      {drive_left.dynamics.damping, drive_left.dynamics.friction},
-      {drive_right.dynamics.damping, drive_right.dynamics.friction},
-      {lift.dynamics.damping, lift.dynamics.friction},
-      {head_pan.dynamics.damping, head_pan.dynamics.friction},
-      {head_tilt.dynamics.damping, head_tilt.dynamics.friction},
-      {lidar_spin.dynamics.damping, lidar_spin.dynamics.friction}},
     jointPositions = {
       caster_swivel.origin.xyz,
       caster_roll.origin.xyz,
@@ -140,7 +117,91 @@ record WheeledRobotParameters "Numbers of robot WheeledRobot as a whole"
       {lidar_mast.inertial.inertia.ixx, lidar_mast.inertial.inertia.iyy, lidar_mast.inertial.inertia.izz,
        lidar_mast.inertial.inertia.ixy, lidar_mast.inertial.inertia.ixz, lidar_mast.inertial.inertia.iyz},
       {lidar.inertial.inertia.ixx, lidar.inertial.inertia.iyy, lidar.inertial.inertia.izz,
-       lidar.inertial.inertia.ixy, lidar.inertial.inertia.ixz, lidar.inertial.inertia.iyz}});
+       lidar.inertial.inertia.ixy, lidar.inertial.inertia.ixz, lidar.inertial.inertia.iyz}},
+    jointNames(
+      name = {
+        caster_swivel.name,
+        caster_roll.name,
+        drive_left.name,
+        drive_right.name,
+        lift.name,
+        head_pan.name,
+        head_tilt.name,
+        lidar_spin.name}),
+    turningLimits(
+      lower = {
+        -Modelica.Constants.inf,
+        -Modelica.Constants.inf,
+        -Modelica.Constants.inf,
+        -Modelica.Constants.inf,
+        head_pan.limits.lower,
+        head_tilt.limits.lower,
+        -Modelica.Constants.inf},
+      upper = {
+        Modelica.Constants.inf,
+        Modelica.Constants.inf,
+        Modelica.Constants.inf,
+        Modelica.Constants.inf,
+        head_pan.limits.upper,
+        head_tilt.limits.upper,
+        Modelica.Constants.inf},
+      velocity = {
+        caster_swivel.limits.velocity,
+        caster_roll.limits.velocity,
+        drive_left.limits.velocity,
+        drive_right.limits.velocity,
+        head_pan.limits.velocity,
+        head_tilt.limits.velocity,
+        lidar_spin.limits.velocity},
+      effort = {
+        caster_swivel.limits.effort,
+        caster_roll.limits.effort,
+        drive_left.limits.effort,
+        drive_right.limits.effort,
+        head_pan.limits.effort,
+        head_tilt.limits.effort,
+        lidar_spin.limits.effort}),
+    turningLosses(
+      damping = {
+        caster_swivel.dynamics.damping,
+        caster_roll.dynamics.damping,
+        drive_left.dynamics.damping,
+        drive_right.dynamics.damping,
+        head_pan.dynamics.damping,
+        head_tilt.dynamics.damping,
+        lidar_spin.dynamics.damping},
+      friction = {
+        caster_swivel.dynamics.friction,
+        caster_roll.dynamics.friction,
+        drive_left.dynamics.friction,
+        drive_right.dynamics.friction,
+        head_pan.dynamics.friction,
+        head_tilt.dynamics.friction,
+        lidar_spin.dynamics.friction},
+      steepness = {
+        caster_swivel.dynamics.steepness,
+        caster_roll.dynamics.steepness,
+        drive_left.dynamics.steepness,
+        drive_right.dynamics.steepness,
+        head_pan.dynamics.steepness,
+        head_tilt.dynamics.steepness,
+        lidar_spin.dynamics.steepness}),
+    slidingLimits(
+      lower = {
+        lift.limits.lower},
+      upper = {
+        lift.limits.upper},
+      velocity = {
+        lift.limits.velocity},
+      effort = {
+        lift.limits.effort}),
+    slidingLosses(
+      damping = {
+        lift.dynamics.damping},
+      friction = {
+        lift.dynamics.friction},
+      steepness = {
+        lift.dynamics.steepness}));
 
   constant Integer caster_swivelAxis = 1
     "Number of joint \"caster_swivel\" in rotationalAxis";
@@ -515,7 +576,7 @@ record WheeledRobotParameters "Numbers of robot WheeledRobot as a whole"
 
   annotation (Documentation(info="<html>
 <p>
-All numbers of robot WheeledRobot in one record, with the tables by which <code>UrdfSync.Robots.GenericRobot</code> reads how links and joints hang together. The tables refer to the numbers below them. A model that is generated per link and joint takes its numbers from its own record.
+All numbers of robot WheeledRobot in one record, with the tables by which <code>UrdfSync.Robots.GenericRobot</code> reads how links and joints hang together. The tables refer to the numbers below them. Where the package has models of the links and joints, these read the records of their elements, and the numbers here are a copy: an edit here changes no such model.
 </p>
 </html>"));
 end WheeledRobotParameters;

@@ -2,65 +2,156 @@ within UrdfSync.Examples.WheeledRobot;
 
 model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the model to export as FMU"
   extends UrdfSync.Robots.PartialMobileBench(
-    r_start = {0, 0, parameters.standingHeight},
+    redeclare WheeledRobotStance stance,
     load = robot.m*world.g);
 
-  parameter WheeledRobotParameters parameters
-    "Numbers of the whole robot"
-    annotation (Placement(transformation(extent={{80, 80}, {100, 100}})));
-
-  WheeledRobot robot(fixedStart = false)
+  replaceable WheeledRobot robot constrainedby WheeledRobot(
+    fixedStart = false,
+    caster_swivel(fixedStart = true),
+    caster_roll(fixedStart = true))
     "The robot"
-    annotation (Placement(transformation(extent={{20, -60}, {60, -20}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 355}})));
 
-  Modelica.Mechanics.Rotational.Sources.Position rotationalDrive[7](
-    each useSupport = true,
-    each exact = false,
-    w(each fixed = true))
-    "Moves, through a filter, each axis as asked"
-    annotation (Placement(transformation(extent={{-20, 20}, {0, 40}})));
+  Modelica.Blocks.Interfaces.RealInput drive_left_phi(unit = "rad")
+    "Where joint \"drive_left\" is to go"
+    annotation (Placement(transformation(extent={{-140, 270}, {-120, 290}}), iconTransformation(extent={{-116, 207}, {-100, 223}})));
 
-  Modelica.Mechanics.Translational.Sources.Position translationalDrive[1](
-    each useSupport = true,
-    each exact = false,
-    v(each fixed = true))
-    "Moves, through a filter, each axis as asked"
-    annotation (Placement(transformation(extent={{-20, 60}, {0, 80}})));
+  Modelica.Blocks.Interfaces.RealOutput drive_left_tau(unit = "N.m") = robot.drive_leftAxis.tau
+    "What the drive of joint \"drive_left\" has to give"
+    annotation (Placement(transformation(extent={{340, 270}, {360, 290}}), iconTransformation(extent={{100, 207}, {116, 223}})));
 
-  Modelica.Blocks.Interfaces.RealInput phi[7](each unit = "rad")
-    "Where each axis is to go, in the order of robot.rotationalAxis"
-    annotation (Placement(transformation(extent={{-140, 10}, {-100, 50}})));
+  Modelica.Mechanics.Rotational.Sources.Position drive_leftDrive(
+    useSupport = true,
+    exact = false,
+    w(fixed = true))
+    "Moves joint \"drive_left\", through a filter"
+    annotation (Placement(transformation(extent={{-40, 270}, {-20, 290}})));
 
-  Modelica.Blocks.Interfaces.RealOutput tau[7](each unit = "N.m") = robot.rotationalAxis.tau
-    "What each drive has to give"
-    annotation (Placement(transformation(extent={{100, 20}, {120, 40}})));
+  Modelica.Blocks.Interfaces.RealInput drive_right_phi(unit = "rad")
+    "Where joint \"drive_right\" is to go"
+    annotation (Placement(transformation(extent={{-140, 240}, {-120, 260}}), iconTransformation(extent={{-116, 187}, {-100, 203}})));
 
-  Modelica.Blocks.Interfaces.RealInput s[1](each unit = "m")
-    "Where each axis is to go, in the order of robot.translationalAxis"
-    annotation (Placement(transformation(extent={{-140, 50}, {-100, 90}})));
+  Modelica.Blocks.Interfaces.RealOutput drive_right_tau(unit = "N.m") = robot.drive_rightAxis.tau
+    "What the drive of joint \"drive_right\" has to give"
+    annotation (Placement(transformation(extent={{340, 240}, {360, 260}}), iconTransformation(extent={{100, 187}, {116, 203}})));
 
-  Modelica.Blocks.Interfaces.RealOutput f[1](each unit = "N") = robot.translationalAxis.f
-    "What each drive has to give"
-    annotation (Placement(transformation(extent={{100, 60}, {120, 80}})));
+  Modelica.Mechanics.Rotational.Sources.Position drive_rightDrive(
+    useSupport = true,
+    exact = false,
+    w(fixed = true))
+    "Moves joint \"drive_right\", through a filter"
+    annotation (Placement(transformation(extent={{-40, 240}, {-20, 260}})));
+
+  Modelica.Blocks.Interfaces.RealInput lift_s(unit = "m")
+    "Where joint \"lift\" is to go"
+    annotation (Placement(transformation(extent={{-140, 210}, {-120, 230}}), iconTransformation(extent={{-116, 167}, {-100, 183}})));
+
+  Modelica.Blocks.Interfaces.RealOutput lift_f(unit = "N") = robot.liftAxis.f
+    "What the drive of joint \"lift\" has to give"
+    annotation (Placement(transformation(extent={{340, 210}, {360, 230}}), iconTransformation(extent={{100, 167}, {116, 183}})));
+
+  Modelica.Mechanics.Translational.Sources.Position liftDrive(
+    useSupport = true,
+    exact = false,
+    v(fixed = true))
+    "Moves joint \"lift\", through a filter"
+    annotation (Placement(transformation(extent={{-40, 210}, {-20, 230}})));
+
+  Modelica.Blocks.Interfaces.RealInput head_pan_phi(unit = "rad")
+    "Where joint \"head_pan\" is to go"
+    annotation (Placement(transformation(extent={{-140, 180}, {-120, 200}}), iconTransformation(extent={{-116, 147}, {-100, 163}})));
+
+  Modelica.Blocks.Interfaces.RealOutput head_pan_tau(unit = "N.m") = robot.head_panAxis.tau
+    "What the drive of joint \"head_pan\" has to give"
+    annotation (Placement(transformation(extent={{340, 180}, {360, 200}}), iconTransformation(extent={{100, 147}, {116, 163}})));
+
+  Modelica.Mechanics.Rotational.Sources.Position head_panDrive(
+    useSupport = true,
+    exact = false,
+    w(fixed = true))
+    "Moves joint \"head_pan\", through a filter"
+    annotation (Placement(transformation(extent={{-40, 180}, {-20, 200}})));
+
+  Modelica.Blocks.Interfaces.RealInput head_tilt_phi(unit = "rad")
+    "Where joint \"head_tilt\" is to go"
+    annotation (Placement(transformation(extent={{-140, 150}, {-120, 170}}), iconTransformation(extent={{-116, 127}, {-100, 143}})));
+
+  Modelica.Blocks.Interfaces.RealOutput head_tilt_tau(unit = "N.m") = robot.head_tiltAxis.tau
+    "What the drive of joint \"head_tilt\" has to give"
+    annotation (Placement(transformation(extent={{340, 150}, {360, 170}}), iconTransformation(extent={{100, 127}, {116, 143}})));
+
+  Modelica.Mechanics.Rotational.Sources.Position head_tiltDrive(
+    useSupport = true,
+    exact = false,
+    w(fixed = true))
+    "Moves joint \"head_tilt\", through a filter"
+    annotation (Placement(transformation(extent={{-40, 150}, {-20, 170}})));
+
+  Modelica.Blocks.Interfaces.RealInput lidar_spin_phi(unit = "rad")
+    "Where joint \"lidar_spin\" is to go"
+    annotation (Placement(transformation(extent={{-140, 120}, {-120, 140}}), iconTransformation(extent={{-116, 107}, {-100, 123}})));
+
+  Modelica.Blocks.Interfaces.RealOutput lidar_spin_tau(unit = "N.m") = robot.lidar_spinAxis.tau
+    "What the drive of joint \"lidar_spin\" has to give"
+    annotation (Placement(transformation(extent={{340, 120}, {360, 140}}), iconTransformation(extent={{100, 107}, {116, 123}})));
+
+  Modelica.Mechanics.Rotational.Sources.Position lidar_spinDrive(
+    useSupport = true,
+    exact = false,
+    w(fixed = true))
+    "Moves joint \"lidar_spin\", through a filter"
+    annotation (Placement(transformation(extent={{-40, 120}, {-20, 140}})));
 
 equation
   connect(base.frame_b, robot.frame_a)
-    annotation (Line(points={{-40, -50}, {0, -50}, {0, -40}, {20, -40}}, color={95, 95, 95}, thickness=0.5));
-  connect(rotationalDrive.flange, robot.rotationalAxis)
-    annotation (Line(points={{0, 30}, {28, 30}, {28, -20}}, color={0, 0, 0}));
-  connect(rotationalDrive.support, robot.rotationalSupport)
-    annotation (Line(points={{-10, 20}, {-10, 10}, {34, 10}, {34, -20}}, color={0, 0, 0}));
-  connect(translationalDrive.flange, robot.translationalAxis)
-    annotation (Line(points={{0, 70}, {46, 70}, {46, -20}}, color={0, 127, 0}));
-  connect(translationalDrive.support, robot.translationalSupport)
-    annotation (Line(points={{-10, 60}, {-10, 50}, {52, 50}, {52, -20}}, color={0, 127, 0}));
-  connect(phi, rotationalDrive.phi_ref)
-    annotation (Line(points={{-120, 30}, {-22, 30}}, color={0, 0, 127}));
-  connect(s, translationalDrive.s_ref)
-    annotation (Line(points={{-120, 70}, {-22, 70}}, color={0, 0, 127}));
+    annotation (Line(points={{-40, -50}, {20, -50}}, color={95, 95, 95}, thickness=0.5));
+  connect(drive_left_phi, drive_leftDrive.phi_ref)
+    annotation (Line(points={{-130, 280}, {-42, 280}}, color={0, 0, 127}));
+  connect(drive_leftDrive.flange, robot.drive_leftAxis)
+    annotation (Line(points={{-20, 280}, {20, 280}}, color={0, 0, 0}));
+  connect(drive_leftDrive.support, robot.drive_leftSupport)
+    annotation (Line(points={{-30, 270}, {-30, 265}, {20, 265}}, color={0, 0, 0}));
+  connect(drive_right_phi, drive_rightDrive.phi_ref)
+    annotation (Line(points={{-130, 250}, {-42, 250}}, color={0, 0, 127}));
+  connect(drive_rightDrive.flange, robot.drive_rightAxis)
+    annotation (Line(points={{-20, 250}, {20, 250}}, color={0, 0, 0}));
+  connect(drive_rightDrive.support, robot.drive_rightSupport)
+    annotation (Line(points={{-30, 240}, {-30, 235}, {20, 235}}, color={0, 0, 0}));
+  connect(lift_s, liftDrive.s_ref)
+    annotation (Line(points={{-130, 220}, {-42, 220}}, color={0, 0, 127}));
+  connect(liftDrive.flange, robot.liftAxis)
+    annotation (Line(points={{-20, 220}, {20, 220}}, color={0, 127, 0}));
+  connect(liftDrive.support, robot.liftSupport)
+    annotation (Line(points={{-30, 210}, {-30, 205}, {20, 205}}, color={0, 127, 0}));
+  connect(head_pan_phi, head_panDrive.phi_ref)
+    annotation (Line(points={{-130, 190}, {-42, 190}}, color={0, 0, 127}));
+  connect(head_panDrive.flange, robot.head_panAxis)
+    annotation (Line(points={{-20, 190}, {20, 190}}, color={0, 0, 0}));
+  connect(head_panDrive.support, robot.head_panSupport)
+    annotation (Line(points={{-30, 180}, {-30, 175}, {20, 175}}, color={0, 0, 0}));
+  connect(head_tilt_phi, head_tiltDrive.phi_ref)
+    annotation (Line(points={{-130, 160}, {-42, 160}}, color={0, 0, 127}));
+  connect(head_tiltDrive.flange, robot.head_tiltAxis)
+    annotation (Line(points={{-20, 160}, {20, 160}}, color={0, 0, 0}));
+  connect(head_tiltDrive.support, robot.head_tiltSupport)
+    annotation (Line(points={{-30, 150}, {-30, 145}, {20, 145}}, color={0, 0, 0}));
+  connect(lidar_spin_phi, lidar_spinDrive.phi_ref)
+    annotation (Line(points={{-130, 130}, {-42, 130}}, color={0, 0, 127}));
+  connect(lidar_spinDrive.flange, robot.lidar_spinAxis)
+    annotation (Line(points={{-20, 130}, {20, 130}}, color={0, 0, 0}));
+  connect(lidar_spinDrive.support, robot.lidar_spinSupport)
+    annotation (Line(points={{-30, 120}, {-30, 115}, {20, 115}}, color={0, 0, 0}));
 
   annotation (
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -100}, {120, 100}})),
+    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 270}}), graphics={
+      Rectangle(extent={{-100, 100}, {100, 270}}, lineColor={110, 110, 110}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+      Text(extent={{-94, 206}, {94, 224}}, textColor={64, 64, 64}, textString="drive_left"),
+      Text(extent={{-94, 186}, {94, 204}}, textColor={64, 64, 64}, textString="drive_right"),
+      Text(extent={{-94, 166}, {94, 184}}, textColor={64, 64, 64}, textString="lift"),
+      Text(extent={{-94, 146}, {94, 164}}, textColor={64, 64, 64}, textString="head_pan"),
+      Text(extent={{-94, 126}, {94, 144}}, textColor={64, 64, 64}, textString="head_tilt"),
+      Text(extent={{-94, 106}, {94, 124}}, textColor={64, 64, 64}, textString="lidar_spin")}),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -280}, {360, 375}})),
     Documentation(info="<html>
 <p>
 Robot WheeledRobot in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

@@ -2,11 +2,8 @@ within Zoo.Menagerie.Joints;
 
 model Mount "Fixed joint \"mount\" from link \"chassis\" to link \"name\""
   extends UrdfSync.Icons.FixedJoint;
-  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
-
-  parameter MountParameters parameters
-    "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+  extends UrdfSync.Interfaces.PartialFixedJoint(
+    redeclare MountParameters parameters);
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
     animation = false,

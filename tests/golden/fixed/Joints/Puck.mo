@@ -2,31 +2,8 @@ within Zoo.Menagerie.Joints;
 
 model Puck "Planar joint \"puck\" from link \"table\" to link \"a\"b\\ <c> & << 1/0 >> {{d}} %e\""
   extends UrdfSync.Icons.PlanarJoint;
-  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
-
-  parameter PuckParameters parameters
-    "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
-
-  parameter Boolean fixedStart = true
-    "= true, if the simulation begins at the start values"
-    annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
-
-  parameter Modelica.Units.SI.Position s_start[2] = {0, 0}
-    "Start values of the sliding positions"
-    annotation (Dialog(tab="Initialization"));
-
-  parameter Modelica.Units.SI.Velocity v_start[2] = {0, 0}
-    "Start values of the sliding speeds"
-    annotation (Dialog(tab="Initialization"));
-
-  parameter Modelica.Units.SI.Angle phi_start = 0
-    "Start value of the angle"
-    annotation (Dialog(tab="Initialization"));
-
-  parameter Modelica.Units.SI.AngularVelocity w_start = 0
-    "Start value of the turning speed"
-    annotation (Dialog(tab="Initialization"));
+  extends UrdfSync.Interfaces.PartialPlanarJoint(
+    redeclare PuckParameters parameters);
 
   final parameter Real n_x[3] = UrdfSync.Functions.normalTo(parameters.axis)
     "First sliding direction, resolved in the joint frame";

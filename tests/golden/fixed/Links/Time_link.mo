@@ -2,21 +2,8 @@ within Zoo.Menagerie.Links;
 
 model Time_link "Link \"time\""
   extends UrdfSync.Icons.Link;
-
-  parameter Time_linkParameters parameters
-    "Numbers of the link"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
-
-  parameter Boolean animation = true
-    "= true, if visuals are drawn"
-    annotation (Dialog(tab="Animation"));
-
-  parameter Boolean showCollisions = false
-    "= true, if collision shapes are drawn, in pink"
-    annotation (Dialog(tab="Animation"));
-
-  final parameter Modelica.Units.SI.Mass m = parameters.inertial.mass
-    "Mass";
+  extends UrdfSync.Interfaces.PartialLink(
+    redeclare Time_linkParameters parameters);
 
   final parameter Modelica.Units.SI.MomentOfInertia I[3, 3](each min = -Modelica.Constants.inf) = UrdfSync.Functions.inertiaInLinkAxes(
     parameters.inertial.origin.rpy,
@@ -28,13 +15,9 @@ model Time_link "Link \"time\""
      parameters.inertial.inertia.iyz})
     "Inertia tensor about the centre of mass, resolved in frame_a";
 
-  Modelica.Mechanics.MultiBody.Interfaces.Frame_a frame_a
-    "Link frame"
-    annotation (Placement(transformation(extent={{-116, -16}, {-84, 16}})));
-
   Modelica.Mechanics.MultiBody.Parts.Body body(
     animation = false,
-    m = m,
+    m = parameters.inertial.mass,
     r_CM = parameters.inertial.origin.xyz,
     I_11 = I[1, 1],
     I_22 = I[2, 2],
@@ -51,7 +34,7 @@ equation
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
-      Text(extent={{-150, -100}, {150, -70}}, textString="m=%{parameters.inertial.mass}")}),
+      Text(extent={{-130, -100}, {130, -70}}, textString="m=%{parameters.inertial.mass}")}),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}})),
     Documentation(info="<html>
 <p>

@@ -2,31 +2,8 @@ within UrdfSync.Examples.FloatingBuoy.Joints;
 
 model Drift "Floating joint \"drift\" from link \"world\" to link \"buoy\""
   extends UrdfSync.Icons.FloatingJoint;
-  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
-
-  parameter DriftParameters parameters
-    "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
-
-  parameter Boolean fixedStart = true
-    "= true, if the simulation begins at the start values"
-    annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
-
-  parameter Modelica.Units.SI.Position r_start[3] = {0, 0, 0}
-    "Start value of the position of frame_b, resolved in the joint frame"
-    annotation (Dialog(tab="Initialization"));
-
-  parameter Modelica.Units.SI.Angle rpy_start[3] = {0, 0, 0}
-    "Start values of roll, pitch and yaw of frame_b in the joint frame"
-    annotation (Dialog(tab="Initialization"));
-
-  parameter Modelica.Units.SI.Velocity v_start[3] = {0, 0, 0}
-    "Start value of the velocity of frame_b, resolved in the joint frame"
-    annotation (Dialog(tab="Initialization"));
-
-  parameter Modelica.Units.SI.AngularVelocity w_start[3] = {0, 0, 0}
-    "Start value of the angular velocity of frame_b, resolved in the joint frame"
-    annotation (Dialog(tab="Initialization"));
+  extends UrdfSync.Interfaces.PartialFloatingJoint(
+    redeclare DriftParameters parameters);
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
     animation = false,

@@ -2,11 +2,8 @@ within UrdfSync.Examples.SixAxisArm.Joints;
 
 model Flange_to_tool "Fixed joint \"flange_to_tool\" from link \"mounting_flange\" to link \"tool0\""
   extends UrdfSync.Icons.FixedJoint;
-  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
-
-  parameter Flange_to_toolParameters parameters
-    "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+  extends UrdfSync.Interfaces.PartialFixedJoint(
+    redeclare Flange_to_toolParameters parameters);
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
     animation = false,

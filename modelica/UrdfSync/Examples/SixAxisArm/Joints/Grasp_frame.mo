@@ -2,11 +2,8 @@ within UrdfSync.Examples.SixAxisArm.Joints;
 
 model Grasp_frame "Fixed joint \"grasp_frame\" from link \"gripper_body\" to link \"grasp_point\""
   extends UrdfSync.Icons.FixedJoint;
-  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
-
-  parameter Grasp_frameParameters parameters
-    "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+  extends UrdfSync.Interfaces.PartialFixedJoint(
+    redeclare Grasp_frameParameters parameters);
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
     animation = false,

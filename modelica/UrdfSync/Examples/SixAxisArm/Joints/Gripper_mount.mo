@@ -2,11 +2,8 @@ within UrdfSync.Examples.SixAxisArm.Joints;
 
 model Gripper_mount "Fixed joint \"gripper_mount\" from link \"tool0\" to link \"gripper_body\""
   extends UrdfSync.Icons.FixedJoint;
-  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
-
-  parameter Gripper_mountParameters parameters
-    "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+  extends UrdfSync.Interfaces.PartialFixedJoint(
+    redeclare Gripper_mountParameters parameters);
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
     animation = false,

@@ -2,44 +2,8 @@ within UrdfSync.Examples.SixAxisArm.Joints;
 
 model Pinion_coupling "Revolute joint \"pinion_coupling\" from link \"gripper_body\" to link \"drive_pinion\""
   extends UrdfSync.Icons.RevoluteJoint;
-  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
-
-  parameter Pinion_couplingParameters parameters
-    "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
-
-  parameter Integer axisNumber = 0
-    "Number of the axis in the robot's vector of flanges; 0 if it has none";
-
-  parameter Boolean checkLimits = true
-    "= true, if passing a limit is reported by a warning";
-
-  parameter Boolean checkEffort = true
-    "= true, if the effort at axis is checked, too; = false, if axis is not all that drives the joint";
-
-  parameter StateSelect stateSelect = StateSelect.prefer
-    "Whether position and speed are taken as states"
-    annotation (Dialog(tab="Advanced"));
-
-  parameter Boolean fixedStart = true
-    "= true, if the simulation begins at the start values; = false, if they are guesses"
-    annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
-
-  parameter Modelica.Units.SI.Angle phi_start = 0
-    "Start value of the position"
-    annotation (Dialog(tab="Initialization"));
-
-  parameter Modelica.Units.SI.AngularVelocity w_start = 0
-    "Start value of the speed"
-    annotation (Dialog(tab="Initialization"));
-
-  Modelica.Mechanics.Rotational.Interfaces.Flange_a axis
-    "Drive"
-    annotation (Placement(transformation(extent={{-10, 90}, {10, 110}})));
-
-  Modelica.Mechanics.Rotational.Interfaces.Flange_b support
-    "Housing of the drive"
-    annotation (Placement(transformation(extent={{-70, 90}, {-50, 110}})));
+  extends UrdfSync.Interfaces.PartialRevoluteJoint(
+    redeclare Pinion_couplingParameters parameters);
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
     animation = false,
@@ -90,7 +54,7 @@ equation
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
-      Text(extent={{-150, -100}, {150, -70}}, textString="%axisNumber: n=%{parameters.axis}")}),
+      Text(extent={{-130, -100}, {130, -70}}, textString="n=%{parameters.axis}")}),
     Documentation(info="<html>
 <p>
 The URDF joint <code>pinion_coupling</code>: link <code>drive_pinion</code> relative to link <code>gripper_body</code> turns within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

@@ -2,11 +2,8 @@ within UrdfSync.Examples.WheeledRobot.Joints;
 
 model Camera_mount "Fixed joint \"camera_mount\" from link \"head\" to link \"camera_optical_frame\""
   extends UrdfSync.Icons.FixedJoint;
-  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
-
-  parameter Camera_mountParameters parameters
-    "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+  extends UrdfSync.Interfaces.PartialFixedJoint(
+    redeclare Camera_mountParameters parameters);
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
     animation = false,

@@ -2,11 +2,8 @@ within UrdfSync.Examples.WheeledRobot.Joints;
 
 model Guide_mount "Fixed joint \"guide_mount\" from link \"base_link\" to link \"column_guide\""
   extends UrdfSync.Icons.FixedJoint;
-  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
-
-  parameter Guide_mountParameters parameters
-    "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+  extends UrdfSync.Interfaces.PartialFixedJoint(
+    redeclare Guide_mountParameters parameters);
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
     animation = false,

@@ -2,11 +2,8 @@ within UrdfSync.Examples.WheeledRobot.Joints;
 
 model Mast_mount "Fixed joint \"mast_mount\" from link \"base_link\" to link \"lidar_mast\""
   extends UrdfSync.Icons.FixedJoint;
-  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
-
-  parameter Mast_mountParameters parameters
-    "Numbers of the joint"
-    annotation (Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+  extends UrdfSync.Interfaces.PartialFixedJoint(
+    redeclare Mast_mountParameters parameters);
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
     animation = false,

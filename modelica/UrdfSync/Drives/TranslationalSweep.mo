@@ -1,0 +1,66 @@
+within UrdfSync.Drives;
+
+model TranslationalSweep "Moves one axis smoothly to the roomier end of its range and back"
+  extends UrdfSync.Icons.TranslationalDrive;
+
+  parameter Modelica.Units.SI.Position s_start = 0
+    "Position at the beginning";
+
+  parameter Modelica.Units.SI.Position s_min = -Modelica.Constants.inf
+    "Smallest position";
+
+  parameter Modelica.Units.SI.Position s_max = Modelica.Constants.inf
+    "Largest position";
+
+  parameter Modelica.Units.SI.Velocity v_max = Modelica.Constants.inf
+    "Largest speed";
+
+  parameter Modelica.Units.SI.Position reach = 0.1
+    "Longest way";
+
+  parameter Modelica.Units.SI.Time period = 10
+    "Time of the way there and back";
+
+  final parameter Modelica.Units.SI.Position s_end = UrdfSync.Functions.sweepEnd(s_start, s_min, s_max, v_max, period, reach)
+    "Turning point";
+
+  Modelica.Mechanics.Translational.Interfaces.Flange_b flange
+    "Axis that is moved"
+    annotation (Placement(transformation(extent={{90, -10}, {110, 10}})));
+
+  Modelica.Mechanics.Translational.Interfaces.Support support
+    "Housing of the drive"
+    annotation (Placement(transformation(extent={{-10, -110}, {10, -90}})));
+
+  Modelica.Blocks.Sources.Cosine acceleration(
+    amplitude = 2*(Modelica.Constants.pi/period)^2*(s_end - s_start),
+    f = 1/period)
+    "Second derivative of the way"
+    annotation (Placement(transformation(extent={{-60, -10}, {-40, 10}})));
+
+  Modelica.Mechanics.Translational.Sources.Accelerate accelerate(
+    useSupport = true,
+    s(start = s_start, fixed = true),
+    v(start = 0, fixed = true))
+    "Moves the axis"
+    annotation (Placement(transformation(extent={{0, -10}, {20, 10}})));
+
+equation
+  connect(acceleration.y, accelerate.a_ref)
+    annotation (Line(points={{-39, 0}, {-2, 0}}, color={0, 0, 127}));
+  connect(accelerate.flange, flange)
+    annotation (Line(points={{20, 0}, {100, 0}}, color={0, 127, 0}));
+  connect(accelerate.support, support)
+    annotation (Line(points={{10, -10}, {10, -60}, {0, -60}, {0, -100}}, color={0, 127, 0}));
+
+  annotation (Documentation(info="<html>
+<p>
+The axis begins at rest and moves as <code>s = s_start + (s_end - s_start)*(1 - cos(2*pi*time/period))/2</code>. The range and the speed limit are
+kept with a margin of 10 %. An axis without room stays where it is.
+</p>
+<p>
+The acceleration is given and integrated, which is exact to the tolerance of the solver: a given position would have to be differentiated
+twice through the equations of the robot, which takes compilers much longer where the base moves freely.
+</p>
+</html>"));
+end TranslationalSweep;

@@ -1,0 +1,11 @@
+within UrdfSync;
+
+package Drives "What moves the joints in the Test models of robots"
+  extends Modelica.Icons.SourcesPackage;
+
+  annotation (Documentation(info="<html>
+<p>
+A drive acts between the support of a joint and its axis, and stays inside the limits of the joint.
+</p>
+</html>"));
+end Drives;

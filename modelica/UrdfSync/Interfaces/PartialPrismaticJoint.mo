@@ -1,0 +1,62 @@
+within UrdfSync.Interfaces;
+
+partial model PartialPrismaticJoint "What joints that slide along one axis have in common"
+  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
+
+  replaceable parameter UrdfSync.Records.PrismaticJoint parameters
+    "Numbers of the joint"
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{-100, 80}, {-80, 100}})));
+
+  parameter Boolean checkLimits = true
+    "= true, if passing a limit is reported by a warning";
+
+  parameter Boolean checkEffort = true
+    "= true, if the effort at axis is checked, too; = false, if axis is not all that drives the joint";
+
+  parameter StateSelect stateSelect = StateSelect.prefer
+    "Whether position and speed are taken as states"
+    annotation (Dialog(tab="Advanced"));
+
+  parameter Modelica.Units.SI.Position s_min = parameters.limits.lower
+    "Smallest position in use: the limit, or where a joint that follows this one has its own"
+    annotation (Dialog(tab="Advanced"));
+
+  parameter Modelica.Units.SI.Position s_max = parameters.limits.upper
+    "Largest position in use: the limit, or where a joint that follows this one has its own"
+    annotation (Dialog(tab="Advanced"));
+
+  parameter Modelica.Units.SI.Velocity v_max = parameters.limits.velocity
+    "Largest speed in use: the limit, or where a joint that follows this one has its own"
+    annotation (Dialog(tab="Advanced"));
+
+  parameter Boolean fixedStart = true
+    "= true, if the simulation begins at the start values; = false, if they are guesses"
+    annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
+
+  parameter Modelica.Units.SI.Position s_start = UrdfSync.Functions.closestToZero(s_min, s_max)
+    "Start value of the position: zero, or what is closest to it in the range in use"
+    annotation (Dialog(tab="Initialization"));
+
+  parameter Modelica.Units.SI.Velocity v_start = 0
+    "Start value of the speed"
+    annotation (Dialog(tab="Initialization"));
+
+  Modelica.Mechanics.Translational.Interfaces.Flange_a axis
+    "Drive"
+    annotation (Placement(transformation(extent={{-10, 90}, {10, 110}})));
+
+  Modelica.Mechanics.Translational.Interfaces.Flange_b support
+    "Housing of the drive"
+    annotation (Placement(transformation(extent={{-70, 90}, {-50, 110}})));
+
+  annotation (Documentation(info="<html>
+<p>
+<code>frame_a</code> is connected to the parent link, <code>frame_b</code> to the child link. A drive acts between <code>support</code> and
+<code>axis</code>; without one the joint moves freely.
+</p>
+<p>
+The range in use, <code>s_min</code> to <code>s_max</code>, is where the joint begins and where the Test model of a robot moves it. A robot narrows it
+for a joint that others follow.
+</p>
+</html>"));
+end PartialPrismaticJoint;

@@ -1,0 +1,21 @@
+"""Which links have a frame connector of their own in the robot model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Link
+from urdfsync.urdf.skeleton import Skeleton
+
+
+def frame_links(skeleton: Skeleton, options: Options) -> tuple[Link, ...]:
+    """The leaves and the links that the option `frames` names, each once, in canonical order.
+
+    Names that are no link are left out: `check_options` reports them.
+    """
+    named: Iterable[str] = () if isinstance(options.frames, str) else options.frames
+    if options.frames == "all":
+        named = (link.name for link in skeleton.links[1:])  # the root link has frame_a
+    wanted = {leaf.name for leaf in skeleton.leaves()}.union(named)
+    return tuple(link for link in skeleton.links if link.name in wanted)

@@ -1,0 +1,48 @@
+"""Names of what a robot model has beside its links and joints: its connectors and its couplings.
+
+Such a name is made from the name of its element. Where an element has that name already, the connector gives way,
+with a number; so a new connector never renames an element, whose name is that of a file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import msgspec
+
+from urdfsync.urdf.drives import can_be_driven
+from urdfsync.urdf.naming import GENERATED, Identifier
+from urdfsync.urdf.skeleton import Skeleton
+
+
+class Connectors(msgspec.Struct, frozen=True):
+    """Component names in the robot model, by the URDF name of the link or joint that they belong to."""
+
+    frames: dict[str, str]
+    """Of links: the leaves, and those that the options name."""
+    axes: dict[str, str]
+    """Of joints that can be driven."""
+    supports: dict[str, str]
+    """Of the same joints: where the housings of their drives are."""
+    couplings: dict[str, str]
+    """Of joints that follow another one."""
+
+
+def connectors(skeleton: Skeleton, frames: Iterable[str]) -> Connectors:
+    """The names for a robot; `frames` are the links that get a frame of their own."""
+    taken = GENERATED | {identifier.component.lower() for identifier in skeleton.names.values()}
+    driven = [joint.name for joint in skeleton.joints if can_be_driven(joint)]
+    return Connectors(
+        {name: _free(skeleton.link(name), "Frame", taken) for name in frames},
+        {name: _free(skeleton.joint(name), "Axis", taken) for name in driven},
+        {name: _free(skeleton.joint(name), "Support", taken) for name in driven},
+        {joint.name: _free(skeleton.joint(joint.name), "Mimic", taken) for joint, _ in skeleton.followers()},
+    )
+
+
+def _free(identifier: Identifier, suffix: str, taken: frozenset[str]) -> str:
+    """The component's name with a suffix, and with the first free number from 2 if that is taken."""
+    name, number = identifier.component + suffix, 2
+    while name.lower() in taken:
+        name, number = f"{identifier.component}{suffix}_{number}", number + 1
+    return name
