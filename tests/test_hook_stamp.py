@@ -101,6 +101,9 @@ def test_the_answer_belongs_to_the_folder_and_the_environment(
     with monkeypatch.context() as patch:
         patch.setenv("PYTHONPATH", str(repository.folder))
         assert not hook._is_stamped()
+    with monkeypatch.context() as patch:
+        patch.setenv("MODELICAPATH", str(repository.folder))
+        assert not hook._is_stamped()
     assert hook._is_stamped()
 
 

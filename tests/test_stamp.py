@@ -101,6 +101,9 @@ def test_the_answer_belongs_to_the_folder_and_the_environment(
     with monkeypatch.context() as patch:
         patch.setenv("ROS_PACKAGE_PATH", str(folder))
         assert repeated(*BUILD) is None
+    with monkeypatch.context() as patch:
+        patch.setenv("MODELICAPATH", str(folder))
+        assert repeated(*BUILD) is None
     assert repeated(*BUILD) is not None
 
 
@@ -227,6 +230,17 @@ def test_whatever_matters_ends_a_stamp(folder: Path, name: str, monkeypatch: pyt
     stamped(*BUILD)
     assert both_ways(monkeypatch, *BUILD) is not None
     EDITS[name](folder)
+    assert both_ways(monkeypatch, *BUILD) is None
+
+
+def test_so_does_a_library_that_comes_to_modelicapath(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MODELICAPATH", str(folder / "libraries"))
+    source = Path(URDF).read_text()
+    assert "package://leg_meshes/" in source
+    Path(URDF).write_text(source.replace("package://leg_meshes/", "modelica://LegMeshes/"))
+    stamped(*BUILD)
+    assert both_ways(monkeypatch, *BUILD) is not None
+    _write("libraries/LegMeshes 2.0/package.mo")(folder)
     assert both_ways(monkeypatch, *BUILD) is None
 
 

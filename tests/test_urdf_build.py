@@ -85,6 +85,30 @@ def test_meshes_are_imported_and_named_by_modelica_uris(arm: Path) -> None:
     assert "package://" not in texts
 
 
+def test_meshes_of_a_modelica_library_are_imported(arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The library on MODELICAPATH comes before a folder of its name beside the source."""
+    folder = arm / "ws" / "src" / "six_axis_arm"
+    source = folder / "six_axis_arm.urdf"
+    source.write_text(source.read_text().replace("package://six_axis_arm/meshes/", "modelica://ArmMeshes/Resources/"))
+    library = arm / "libraries" / "ArmMeshes 1.2.0"
+    library.mkdir(parents=True)
+    (library / "package.mo").write_text("package ArmMeshes\nend ArmMeshes;\n")
+    shutil.move(folder / "meshes", library / "Resources")
+    monkeypatch.setenv("MODELICAPATH", "")
+    result = run(arm)
+    assert {found.code for found in result.diagnostics} == {"mesh-not-found"}
+    assert "`ArmMeshes` on MODELICAPATH" in (result.diagnostics[0].hint or "")
+    monkeypatch.setenv("MODELICAPATH", str(arm / "libraries"))
+    assert run(arm).diagnostics == ()
+    assert len(list((arm / "modelica/Arm/Resources").iterdir())) == 7
+    beside = folder / "ArmMeshes" / "Resources"
+    shutil.copytree(library / "Resources", beside)
+    (beside / "carousel.obj").write_text("no mesh")
+    assert run(arm).in_step
+    monkeypatch.setenv("MODELICAPATH", "")
+    assert {found.code for found in run(arm).diagnostics} == {"mesh-unreadable-kept"}
+
+
 def test_a_robot_whose_meshes_are_gone_keeps_its_imported_copies(arm: Path) -> None:
     run(arm)
     before = contents(arm / "modelica")

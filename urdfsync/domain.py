@@ -162,6 +162,8 @@ class Lookup(msgspec.Struct, frozen=True):
     """Folders whose children are packages, from the configuration and the environment, best first."""
     packages: Mapping[str, Path] = msgspec.field(default_factory=dict)
     """Folders of packages by their name, wherever they are; filled only if something was not found without."""
+    libraries: Mapping[str, Path] = msgspec.field(default_factory=dict)
+    """Folders of the Modelica libraries on MODELICAPATH by their name; filled only if the source refers to one."""
     guess: bool = False
     """Whether a package that is nowhere may be a folder of another name around the source."""
 
@@ -271,10 +273,12 @@ class Domain(Protocol):
     """Raised whenever the same snapshot, options and templates give other text."""
     converter: int
     """Raised whenever `convert` gives other bytes for the same input."""
-    uses: Sequence[tuple[str, str]]
-    """Libraries that generated packages need, with their versions: what a top-level package's `uses` names."""
     options: type[Any]
     """A frozen msgspec.Struct with the domain's options and their defaults; unknown keys are refused by the core."""
+
+    def uses(self, options: Any) -> Sequence[tuple[str, str]]:
+        """Return the libraries that a generated package needs, with their versions: what a top-level `uses` names."""
+        ...
 
     def read(self, content: bytes, file: str, options: Any, parts: Parts | None = None) -> Reading:
         """Read a source; `file` is how diagnostics name it. Raises nothing for bad input: see `Reading`.

@@ -52,7 +52,7 @@ def _is_stamped_as(top: str, path: str, files: set[str]) -> bool:
 
 
 def _question(top: str, file: str) -> str:
-    variables = map(os.environ.get, ("ROS_PACKAGE_PATH", "PYTHONPATH"))
+    variables = map(os.environ.get, ("ROS_PACKAGE_PATH", "MODELICAPATH", "PYTHONPATH"))
     return repr(("hook", top, file, os.getcwd(), *variables))  # noqa: PTH109 - no pathlib here
 
 

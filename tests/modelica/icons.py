@@ -125,6 +125,12 @@ class Connector:
     kind: str
     corners: tuple[Point, Point]
 
+    @property
+    def middle(self) -> Point:
+        """The point at which connection lines end."""
+        (x1, y1), (x2, y2) = self.corners
+        return (x1 + x2) / 2, (y1 + y2) / 2
+
 
 @dataclasses.dataclass(frozen=True)
 class Icon:
@@ -149,18 +155,23 @@ def source(name: str, library: Path = LIBRARY) -> str:
     return (path / "package.mo" if path.is_dir() else path.with_suffix(".mo")).read_text("utf-8")
 
 
+def bases(text: str) -> list[str]:
+    """Full names of the classes of the library that a Modelica text extends."""
+    return _EXTENDS.findall(text)
+
+
 @functools.cache
 def icon(name: str, library: Path = LIBRARY) -> Icon:
     """The icon of the class with the full name `name`."""
     text = source(name, library)
-    bases = [icon(base, library) for base in _EXTENDS.findall(text)]
+    inherited = [icon(base, library) for base in bases(text)]
     own = [
         graphic for note in annotations_in(text) for graphic in note.get("Icon", Call("Icon", {})).get("graphics", [])
     ]
     connectors = [_connector(kind, annotations_in(note)[0]) for kind, note in _CONNECTOR.findall(text)]
     return Icon(
-        (*(graphic for base in bases for graphic in base.graphics), *own),
-        (*(mark for base in bases for mark in base.connectors), *filter(None, connectors)),
+        (*(graphic for base in inherited for graphic in base.graphics), *own),
+        (*(mark for base in inherited for mark in base.connectors), *filter(None, connectors)),
     )
 
 

@@ -10,6 +10,7 @@ import pytest
 
 SHOWN = [name for name in icons.classes() if icons.icon(name).graphics]
 COMPONENTS = [name for name in icons.classes() if name.startswith("UrdfSync.Icons.") and not name.endswith("Package")]
+SHAPES = [f"UrdfSync.Visualizers.{shape}" for shape in ("Box", "Cylinder", "Capsule", "Sphere", "Mesh")]
 REACH = {"Text": 160}
 """How far from the middle graphics may go; all but texts stay inside the icon."""
 
@@ -22,6 +23,27 @@ def outside(name: str) -> list[str]:
         for point in icons.corners(graphic)
         if max(map(abs, point)) > REACH.get(graphic.name, 100) + 1e-9
     ]
+
+
+def crossed(name: str, library: Path = icons.LIBRARY) -> list[str]:
+    """Texts of a class that lie where the lines to its connectors leave the icon."""
+    shown = icons.icon(name, library)
+    return [
+        f"{graphic.get('textString')} at {middle}"
+        for graphic in shown.graphics
+        for middle in [connector.middle for connector in shown.connectors]
+        if graphic.name == "Text" and lies_outside(icons.corners(graphic), middle)
+    ]
+
+
+def lies_outside(corners: list[icons.Point], connector: icons.Point) -> bool:
+    """Whether a rectangle is met on the straight way out of the icon from a connector at its border."""
+    for along, across in ((0, 1), (1, 0)):
+        here, there = connector[along], [corner[along] for corner in corners]
+        beside = [corner[across] for corner in corners]
+        if abs(here) >= 90 and min(beside) < connector[across] < max(beside) and max(here * x for x in there) > here**2:
+            return True
+    return False
 
 
 def drawn(graphic: str, tmp_path: Path) -> ElementTree.Element:
@@ -45,12 +67,42 @@ def test_icons_of_components_show_the_name_in_blue(name: str) -> None:
 
 @pytest.mark.parametrize("name", [name for name in COMPONENTS if name.endswith(("Link", "Joint"))])
 def test_links_and_joints_leave_room_for_a_text_below(name: str) -> None:
-    assert min(y for graphic in icons.icon(name).graphics for _, y in icons.corners(graphic)) >= -60
+    pictures = [graphic for graphic in icons.icon(name).graphics if graphic.name != "Text"]
+    assert min(y for graphic in pictures for _, y in icons.corners(graphic)) >= -60
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_no_line_to_a_connector_crosses_a_text(name: str) -> None:
+    assert crossed(name) == []
+
+
+def test_a_text_above_a_connector_at_the_top_is_crossed(tmp_path: Path) -> None:
+    library = tmp_path / "UrdfSync"
+    library.mkdir()
+    (library / "X.mo").write_text(
+        "within UrdfSync;\nmodel X\n"
+        '  Modelica.Mechanics.Rotational.Interfaces.Flange_a axis\n    "Drive"\n'
+        "    annotation (Placement(transformation(extent={{-10, 90}, {10, 110}})));\n"
+        '  annotation (Icon(graphics={Text(extent={{-150, 110}, {150, 150}}, textString="a"), '
+        'Text(extent={{-150, -150}, {150, -110}}, textString="b")}));\nend X;\n'
+    )
+    assert crossed("UrdfSync.X", library) == ["a at (0.0, 100.0)"]
+
+
+@pytest.mark.parametrize("name", ["UrdfSync.Icons.StationaryRobot", "UrdfSync.Icons.MobileRobot"])
+def test_a_robot_can_continue_its_icon_at_the_top(name: str) -> None:
+    assert max(y for graphic in icons.icon(name).graphics for _, y in icons.corners(graphic)) <= 100
 
 
 def test_no_two_icons_look_the_same() -> None:
-    drawings = [icons.draw(icons.icon(name), "") for name in COMPONENTS]
+    drawings = [icons.draw(icons.icon(name), "") for name in [*COMPONENTS, *SHAPES]]
     assert len(set(drawings)) == len(drawings)
+
+
+def test_each_shape_and_the_sweep_draw_a_picture() -> None:
+    bare = icons.icon("UrdfSync.Visualizers.PartialShape").graphics
+    assert [name for name in SHAPES if len(icons.icon(name).graphics) <= len(bare)] == []
+    assert icons.icon("UrdfSync.Robots.Sweep").graphics
 
 
 def test_a_sheet_holds_every_icon() -> None:

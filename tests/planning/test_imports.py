@@ -97,6 +97,7 @@ def test_files_on_the_network_are_for_the_user_to_fetch(tmp_path: Path, uri: str
     ("uri", "hint"),
     [
         ("package://ladder_data/step.csv", "add the folder that holds the folder `ladder_data` to `package_paths`"),
+        ("modelica://Ladder.Data/step.csv", "put the folder that holds the library `Ladder` on MODELICAPATH"),
         ("tables/step.csv", "add the folder that holds it to `package_paths`"),
         ("/opt/tables/step.csv", "put it there, or let the source refer to it by a package or a relative path"),
         ("file:///opt/step.csv", "put it there, or let the source refer to it by a package or a relative path"),

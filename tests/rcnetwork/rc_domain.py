@@ -69,9 +69,11 @@ class RcNetwork:
     name = "rcnetwork"
     templates: Path | None = Path(__file__).parent / "templates"
     revision = 1
-    uses = (("Modelica", "4.0.0"),)
     converter = 1
     options = Options
+
+    def uses(self, options: Options) -> Sequence[tuple[str, str]]:
+        return (("Modelica", "4.0.0"),)
 
     def read(self, content: bytes, file: str, options: Options, parts: Parts | None = None) -> Reading:
         text = content.decode(errors="replace")

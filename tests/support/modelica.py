@@ -92,9 +92,9 @@ def standard(library: Path) -> tuple[str, ...]:
     return slim.Copies(libraries.standard(os.environ, Path.home(), library), CACHE).roots(())
 
 
-def compile_task(model: str) -> Task:
-    """Compile a model of a package by its full name."""
-    task = tasks.compiling(model)
+def compile_task(model: str, *libraries: str) -> Task:
+    """Compile a model of a package by its full name; `libraries` are what it needs beside those of all packages."""
+    task = tasks.compiling(model, ("Modelica", "UrdfSync", *libraries))
     return Task(task.source, task.model)
 
 

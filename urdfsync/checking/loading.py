@@ -115,7 +115,7 @@ class Loader:
         with writing(self._cache.folder):
             root = workspace.write(self._folder / label, robot, texts, around)
         every = [content.decode(errors="replace") for content in (*texts.values(), *around.values())]
-        uses = (name for name, _ in self.subject.domain.uses)
+        uses = (name for name, _ in self.subject.domain.uses(robot.options))
         libraries = self._dependencies.of(root.name, every, uses)
         standard: tuple[str, ...] = ()
         if self._copies is not None:

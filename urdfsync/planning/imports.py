@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
@@ -23,6 +24,7 @@ _POINTER = b"version https://git-lfs"
 _ABSOLUTE = r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]"
 """A place on this machine, to which search paths make no difference."""
 _IN_PACKAGE = "[a-z]+://([^/]+)/"
+_IN_LIBRARY = r"\s*modelica:/*([^/.]+)"
 
 
 class Recorded(msgspec.Struct, frozen=True):
@@ -113,8 +115,12 @@ def sought(
     """The files that a model refers to.
 
     Packages are searched for only if one of them is not found without; what is not found then either is guessed.
+    Modelica libraries come first for the files that are said to be in them, so MODELICAPATH is read before that.
     """
     found = domain.dependencies(snapshot, lookup, options, lines)
+    if any(re.match(_IN_LIBRARY, dependency.uri, re.IGNORECASE) for dependency in found):
+        lookup = msgspec.structs.replace(lookup, libraries=packages.libraries(os.environ))
+        found = domain.dependencies(snapshot, lookup, options, lines)
     if all(map(_is_found, found)):
         return found
     lookup = msgspec.structs.replace(lookup, packages=packages.find(lookup.package_paths, lookup.source))
@@ -220,6 +226,8 @@ def _not_found(dependency: Dependency, source: str) -> Diagnostic:
         hint = "download it, and let the source refer to the file"
     elif re.match(_ABSOLUTE, uri, re.IGNORECASE):
         hint = "put it there, or let the source refer to it by a package or a relative path"
+    elif library := re.match(_IN_LIBRARY, uri, re.IGNORECASE):
+        hint = f"put the folder that holds the library `{library[1]}` on MODELICAPATH"
     elif package := re.match(_IN_PACKAGE, uri, re.IGNORECASE):
         hint = f"add the folder that holds the folder `{package[1]}` to `package_paths`"
     return Diagnostic(Severity.WARNING, "not-found", message, source, hint=hint)

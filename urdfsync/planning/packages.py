@@ -1,4 +1,4 @@
-"""ROS packages on this machine: which folder holds the package of a name."""
+"""ROS packages and Modelica libraries on this machine: which folder holds the one of a name."""
 
 from __future__ import annotations
 
@@ -29,6 +29,38 @@ def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
         for name, path in _below(folder):
             found.setdefault(name, path)
     return found
+
+
+def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:
+    """Folder of each Modelica library on MODELICAPATH; of two of one name, the one in the first entry.
+
+    As Modelica tools have it, a library is a folder `Name` or `Name VERSION` with a `package.mo`. In one entry the
+    folder without a version comes first, then the newest version.
+    """
+    found: dict[str, Path] = {}
+    for entry in filter(None, environment.get("MODELICAPATH", "").split(os.pathsep)):
+        folder = Path(entry).absolute()
+        try:
+            names = looking.names(folder)
+        except OSError:  # it is not there, or can't be read: that may change
+            continue
+        for name in sorted(names, key=_precedence):
+            if _is_file(folder / name / "package.mo"):
+                found.setdefault(name.partition(" ")[0], folder / name)
+    return found
+
+
+def _precedence(name: str) -> tuple[bool, list[int], str]:
+    """Sort the folder of a library without a version first, then newer versions before older ones."""
+    version = name.partition(" ")[2]
+    return bool(version), [-int(number) for number in re.findall("[0-9]+", version)], name
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return looking.is_file(path)
+    except OSError:
+        return False  # a folder above it may not let us in
 
 
 def _below(top: Path) -> Iterator[tuple[str, Path]]:

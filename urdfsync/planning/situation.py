@@ -78,7 +78,7 @@ class Situation:
             for path in parents.files(robot):
                 with contextlib.suppress(OutputError):  # it may be a link
                     self.disk.look(path)
-        self.parents = parents.check(config, robot, self.domain.uses)
+        self.parents = parents.check(config, robot, self.domain.uses(robot.options))
         self.store = Store(config.root, shown, request.memory)
         self.folder = self.disk.key(robot.folder)
         self.recovered: Recovered | None = None

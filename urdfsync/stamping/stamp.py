@@ -31,7 +31,17 @@ without one, the second process only costs its 2 ms, as much as 1,000 files."""
 _TYPE = 0o170000
 """The bits of a mode that `stat.S_IFMT` leaves."""
 _VARIABLES = (
-    *("ROS_PACKAGE_PATH", "PYTHONPATH", "NO_COLOR", "FORCE_COLOR", "TERM", "COLORTERM", "COLUMNS", "LINES"),
+    *(
+        "ROS_PACKAGE_PATH",
+        "MODELICAPATH",
+        "PYTHONPATH",
+        "NO_COLOR",
+        "FORCE_COLOR",
+        "TERM",
+        "COLORTERM",
+        "COLUMNS",
+        "LINES",
+    ),
     *("TTY_COMPATIBLE", "TTY_INTERACTIVE", "UNICODE_VERSION"),
 )
 """What of the environment decides what is found, and how it looks."""

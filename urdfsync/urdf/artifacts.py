@@ -16,7 +16,7 @@ from urdfsync.urdf.model.robot import robot_data
 from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.naming import Identifier, Key
-from urdfsync.urdf.options import USES, Options
+from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Inertial, Joint, JointType, Link, Robot
 from urdfsync.urdf.skeleton import Skeleton, bare
 
@@ -132,7 +132,7 @@ def _package(structure: Skeleton, target: Target, options: Options) -> Iterator[
         within=parent,
         name=last,
         title=f"Robot {name}: links, joints, robot and benches" if whole else f"Robot {name} in one record",
-        uses=() if parent else USES,
+        uses=() if parent else options.uses,
         note=notes.package_note(name, bench=has_bench(joints, options)),
     )
     classes = [

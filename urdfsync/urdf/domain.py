@@ -25,7 +25,7 @@ from urdfsync.domain import (
 )
 from urdfsync.urdf import naming
 from urdfsync.urdf.kept import Kept
-from urdfsync.urdf.options import USES, Options
+from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
@@ -35,14 +35,17 @@ class UrdfDomain:
 
     name = "urdf"
     templates: Path | None = None
-    revision = 4
+    revision = 5
     converter = 1
-    uses = USES
     options = Options
 
     def __init__(self) -> None:
         self._meshes: Parts | None = None
         """Which links have meshes, where readings are kept: several stages of a build ask for them."""
+
+    def uses(self, options: Options) -> Sequence[tuple[str, str]]:
+        """See `urdfsync.domain.Domain`."""
+        return options.uses
 
     def read(self, content: bytes, file: str, options: Options, parts: Parts | None = None) -> Reading:
         """See `urdfsync.domain.Domain`."""

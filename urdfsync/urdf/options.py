@@ -7,7 +7,10 @@ from typing import Literal
 import msgspec
 
 USES = (("Modelica", "4.0.0"), ("UrdfSync", "0.1.0"))
-"""Libraries that generated packages are written for."""
+"""Libraries that all generated packages are written for."""
+# No release notes of this library are public. The version is that of the published URDFModelica_Tutorial.
+VISUALIZATION2 = ("Visualization2", "1.1")
+"""The library that packages with the visualizer `visualization2` are written for, too."""
 
 
 class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -30,3 +33,9 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         """Raise ValueError for a choice that leaves nothing to write."""
         if not self.approach:
             raise ValueError('`approach` is empty: name "package", "record" or both')
+
+    @property
+    def uses(self) -> tuple[tuple[str, str], ...]:
+        """Libraries that a package with these options needs, with their versions. Only link models have shapes."""
+        drawn = self.visualizer == "visualization2" and "package" in self.approach
+        return (*USES, VISUALIZATION2) if drawn else USES

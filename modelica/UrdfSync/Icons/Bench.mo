@@ -5,7 +5,7 @@ partial model Bench "Icon of test benches for robots"
     Icon(
       coordinateSystem(extent={{-100, -100}, {100, 100}}),
       graphics={
-        Text(extent={{-150, 110}, {150, 150}}, textColor={0, 0, 255}, textString="%name"),
+        Text(extent={{-150, -150}, {150, -110}}, textColor={0, 0, 255}, textString="%name"),
         Rectangle(extent={{-100, -100}, {100, 100}}, lineColor={110, 110, 110}, lineThickness=0.5,
             fillColor={250, 250, 250}, fillPattern=FillPattern.Solid, radius=14),
         Rectangle(extent={{-84, 34}, {-18, 84}}, lineColor={44, 82, 130}, lineThickness=0.5, fillColor={255, 255, 255},

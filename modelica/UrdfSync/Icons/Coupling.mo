@@ -5,7 +5,7 @@ partial model Coupling "Icon of couplings between joints"
     Icon(
       coordinateSystem(extent={{-100, -100}, {100, 100}}),
       graphics={
-        Text(extent={{-150, 70}, {150, 110}}, textColor={0, 0, 255}, textString="%name"),
+        Text(extent={{-130, 70}, {130, 110}}, textColor={0, 0, 255}, textString="%name"),
         Line(points={{-100, 0}, {-32, 0}}, color={90, 90, 90}, thickness=0.5),
         Line(points={{38, 0}, {100, 0}}, color={90, 90, 90}, thickness=0.5),
         Polygon(points={{9, -6}, {18, -4}, {18, 4}, {9, 6}, {7, 13}, {14, 19}, {11, 25}, {2, 22}, {-4, 28}, {-1, 37},

@@ -5,7 +5,7 @@ partial model FixedJoint "Icon of fixed joints"
     Icon(
       coordinateSystem(extent={{-100, -100}, {100, 100}}),
       graphics={
-        Text(extent={{-150, 70}, {150, 110}}, textColor={0, 0, 255}, textString="%name"),
+        Text(extent={{-130, -110}, {130, -70}}, textColor={0, 0, 255}, textString="%name"),
         Rectangle(extent={{-100, -12}, {-26, 12}}, lineColor={90, 90, 90}, fillColor={224, 224, 224},
             fillPattern=FillPattern.Solid),
         Rectangle(extent={{26, -12}, {100, 12}}, lineColor={90, 90, 90}, fillColor={224, 224, 224},

@@ -5,7 +5,7 @@ partial model Link "Icon of robot links"
     Icon(
       coordinateSystem(extent={{-100, -100}, {100, 100}}),
       graphics={
-        Text(extent={{-150, 60}, {150, 100}}, textColor={0, 0, 255}, textString="%name"),
+        Text(extent={{-130, -150}, {130, -110}}, textColor={0, 0, 255}, textString="%name"),
         Polygon(points={{-27, 22}, {-31, 27}, {-36, 31}, {-42, 35}, {-48, 37}, {-55, 38}, {-61, 38}, {-68, 37},
             {-74, 34}, {-80, 31}, {-85, 27}, {-89, 22}, {-92, 16}, {-95, 10}, {-96, 3}, {-96, -3}, {-95, -10},
             {-92, -16}, {-89, -22}, {-85, -27}, {-80, -31}, {-74, -34}, {-68, -37}, {-61, -38}, {-55, -38}, {-48, -37},
@@ -26,8 +26,8 @@ partial model Link "Icon of robot links"
             pattern=LinePattern.None, fillColor={44, 82, 130}, fillPattern=FillPattern.Solid)}),
     Documentation(info="<html>
 <p>
-A rigid body with its joints at both ends and the mark of the centre of mass. Below y = -60 it leaves room for
-the mass.
+A rigid body with its joints at both ends and the mark of the centre of mass. The name stands below it; between
+y = -100 and y = -60 there is room for the mass.
 </p>
 </html>"));
 end Link;

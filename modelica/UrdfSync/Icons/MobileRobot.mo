@@ -5,7 +5,7 @@ partial model MobileRobot "Icon of robots that move over the ground"
     Icon(
       coordinateSystem(extent={{-100, -100}, {100, 100}}),
       graphics={
-        Text(extent={{-150, 110}, {150, 150}}, textColor={0, 0, 255}, textString="%name"),
+        Text(extent={{-150, -150}, {150, -110}}, textColor={0, 0, 255}, textString="%name"),
         Rectangle(extent={{-100, -100}, {100, 100}}, lineColor={44, 82, 130}, lineThickness=0.5,
             fillColor={255, 255, 255}, fillPattern=FillPattern.Solid, radius=14),
         Line(points={{-88, -78}, {88, -78}}, color={90, 90, 90}, thickness=0.75),
@@ -45,7 +45,8 @@ partial model MobileRobot "Icon of robots that move over the ground"
             fillPattern=FillPattern.Solid)}),
     Documentation(info="<html>
 <p>
-An arm on a platform with wheels.
+An arm on a platform with wheels. A robot model may continue the icon above y = 100, for the connectors of its
+drives; the name stands below.
 </p>
 </html>"));
 end MobileRobot;

@@ -5,7 +5,7 @@ partial model PlanarJoint "Icon of planar joints"
     Icon(
       coordinateSystem(extent={{-100, -100}, {100, 100}}),
       graphics={
-        Text(extent={{-150, 70}, {150, 110}}, textColor={0, 0, 255}, textString="%name"),
+        Text(extent={{-130, -110}, {130, -70}}, textColor={0, 0, 255}, textString="%name"),
         Rectangle(extent={{-100, -12}, {-60, 12}}, lineColor={90, 90, 90}, fillColor={224, 224, 224},
             fillPattern=FillPattern.Solid),
         Polygon(points={{-96, -54}, {52, -54}, {96, 54}, {-52, 54}, {-96, -54}}, lineColor={105, 70, 150},

@@ -5,7 +5,7 @@ partial model RevoluteJoint "Icon of revolute joints"
     Icon(
       coordinateSystem(extent={{-100, -100}, {100, 100}}),
       graphics={
-        Text(extent={{-150, 110}, {150, 150}}, textColor={0, 0, 255}, textString="%name"),
+        Text(extent={{-130, -150}, {130, -110}}, textColor={0, 0, 255}, textString="%name"),
         Line(points={{0, 100}, {0, 36}}, color={110, 110, 110}, thickness=0.5),
         Line(points={{-60, 100}, {-60, 10}}, color={110, 110, 110}, thickness=0.5),
         Rectangle(extent={{-100, -12}, {0, 12}}, lineColor={90, 90, 90}, fillColor={224, 224, 224},
@@ -25,7 +25,8 @@ partial model RevoluteJoint "Icon of revolute joints"
     Documentation(info="<html>
 <p>
 A pivot with an arrow between two stops: it turns within limits. The axis is driven from the top, between the
-fixed support (left) and the part that turns (right). Below y = -60 it leaves room for the number of the axis.
+fixed support (left) and the part that turns (right). The name stands below, where no connection runs; between
+y = -100 and y = -60 there is room for a line of text.
 </p>
 </html>"));
 end RevoluteJoint;

@@ -54,7 +54,7 @@ equation
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
-      Text(extent={{-150, -100}, {150, -70}}, textString="n=%{parameters.axis}")}),
+      Text(extent={{-130, -100}, {130, -70}}, textString="n=%{parameters.axis}")}),
     Documentation(info="<html>
 <p>
 Turns within limits. The numbers are those of the record <code>parameters</code>, which can be redeclared.

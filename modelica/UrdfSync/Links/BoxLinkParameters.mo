@@ -23,7 +23,7 @@ record BoxLinkParameters "Numbers of box link"
 
   annotation (Documentation(info="<html>
 <p>
-Numbers of box link. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+Numbers of box link. To change them, extend the record, or modify them where it is used.
 </p>
 </html>"));
 end BoxLinkParameters;

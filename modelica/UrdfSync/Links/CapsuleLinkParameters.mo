@@ -25,7 +25,7 @@ record CapsuleLinkParameters "Numbers of capsule link"
 
   annotation (Documentation(info="<html>
 <p>
-Numbers of capsule link. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+Numbers of capsule link. To change them, extend the record, or modify them where it is used.
 </p>
 </html>"));
 end CapsuleLinkParameters;

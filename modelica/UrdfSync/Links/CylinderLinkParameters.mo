@@ -25,7 +25,7 @@ record CylinderLinkParameters "Numbers of cylinder link"
 
   annotation (Documentation(info="<html>
 <p>
-Numbers of cylinder link. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+Numbers of cylinder link. To change them, extend the record, or modify them where it is used.
 </p>
 </html>"));
 end CylinderLinkParameters;

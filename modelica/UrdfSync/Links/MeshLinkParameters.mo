@@ -27,7 +27,7 @@ record MeshLinkParameters "Numbers of mesh link"
 
   annotation (Documentation(info="<html>
 <p>
-Numbers of mesh link. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+Numbers of mesh link. To change them, extend the record, or modify them where it is used.
 </p>
 </html>"));
 end MeshLinkParameters;

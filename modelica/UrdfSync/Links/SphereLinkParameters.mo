@@ -23,7 +23,7 @@ record SphereLinkParameters "Numbers of sphere link"
 
   annotation (Documentation(info="<html>
 <p>
-Numbers of sphere link. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+Numbers of sphere link. To change them, extend the record, or modify them where it is used.
 </p>
 </html>"));
 end SphereLinkParameters;

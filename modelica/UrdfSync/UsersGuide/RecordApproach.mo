@@ -41,7 +41,8 @@ Numbers in the tables are references to the components of links and joints. So e
 <dt><a href=\"modelica://UrdfSync.Robots.ArticulatedRobot\">Robots.ArticulatedRobot</a></dt>
 <dd>Articulated-body equations: explicit in the accelerations, for tools that do not solve the equations of motion as one system of the size of the number of axes.</dd>
 <dt><a href=\"modelica://UrdfSync.Robots.MultiBodyGenericRobot\">Robots.MultiBodyGenericRobot</a></dt>
-<dd>The published formulation, arrays of multibody components. Checked for syntax and names, and simulated with its loops written out for one robot; never as it stands.</dd>
+<dd>The published formulation, arrays of multibody components. OpenModelica translates it; with rumoca, the compiler of <code>urdfsync check</code>, it does
+not compile.</dd>
 <dt><a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a></dt>
 <dd>Functions over the same tables: mass matrix, Coriolis and gravity forces, the Jacobian of any link, poses, base and tool link. They can be used
 without the models. For 40 robots with 2 to 30 moving joints they agree with Pinocchio to 2e-15, relative to the greatest element of a result

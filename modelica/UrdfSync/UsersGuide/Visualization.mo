@@ -15,7 +15,8 @@ The option <code>visualizer</code> in <code>urdfsync.toml</code> says which libr
 the default. It does not show opacity.</dd>
 <dt><code>\"visualization2\"</code></dt>
 <dd>The shapes of the DLR Visualization 2 library, which you need to have. Models generated with this option have been checked for syntax
-and layout only: the library was not at hand when this was written.</dd>
+and layout only: the library was not at hand when this was written. The version in <code>uses</code> is the one that its authors' published
+tutorial names. A capsule is a cylinder and two spheres.</dd>
 </dl>
 <h4>Shapes</h4>
 <p>

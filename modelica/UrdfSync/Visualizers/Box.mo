@@ -23,7 +23,17 @@ protected
     R = frame_a.R) if world.enableAnimation and animation
     "Box";
 
-  annotation (Documentation(info="<html>
+  annotation (
+    Icon(
+      coordinateSystem(extent={{-100, -100}, {100, 100}}),
+      graphics={
+        Polygon(points={{15, -2}, {-41, 30}, {15, 62}, {71, 30}, {15, -2}}, lineColor={44, 82, 130},
+            lineThickness=0.5, fillColor={226, 236, 248}, fillPattern=FillPattern.Solid),
+        Polygon(points={{15, -2}, {-41, 30}, {-41, -32}, {15, -64}, {15, -2}}, lineColor={44, 82, 130},
+            lineThickness=0.5, fillColor={200, 217, 240}, fillPattern=FillPattern.Solid),
+        Polygon(points={{15, -2}, {71, 30}, {71, -32}, {15, -64}, {15, -2}}, lineColor={44, 82, 130},
+            lineThickness=0.5, fillColor={160, 186, 222}, fillPattern=FillPattern.Solid)}),
+    Documentation(info="<html>
 <p>
 A box, centred at the origin of its record.
 </p>

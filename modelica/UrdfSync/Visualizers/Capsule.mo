@@ -49,7 +49,19 @@ protected
     R = frame_a.R) if world.enableAnimation and animation
     "Sphere at the upper end";
 
-  annotation (Documentation(info="<html>
+  annotation (
+    Icon(
+      coordinateSystem(extent={{-100, -100}, {100, 100}}),
+      graphics={
+        Rectangle(extent={{-27, -64}, {57, 62}}, lineColor={0, 115, 125}, lineThickness=0.5, fillColor={205, 236, 238},
+            fillPattern=FillPattern.Solid, radius=42),
+        Ellipse(extent={{-27, 10}, {57, 30}}, lineColor={0, 115, 125}, startAngle=180, endAngle=360,
+            closure=EllipseClosure.None),
+        Ellipse(extent={{-27, -32}, {57, -12}}, lineColor={0, 115, 125}, startAngle=180, endAngle=360,
+            closure=EllipseClosure.None),
+        Ellipse(extent={{-8, 32}, {8, 48}}, pattern=LinePattern.None, fillColor={238, 250, 250},
+            fillPattern=FillPattern.Solid)}),
+    Documentation(info="<html>
 <p>
 A capsule along z, centred at the origin of its record.
 </p>

@@ -23,7 +23,19 @@ protected
     R = frame_a.R) if world.enableAnimation and animation
     "Cylinder";
 
-  annotation (Documentation(info="<html>
+  annotation (
+    Icon(
+      coordinateSystem(extent={{-100, -100}, {100, 100}}),
+      graphics={
+        Ellipse(extent={{-35, -64}, {65, -30}}, lineColor={38, 115, 65}, lineThickness=0.5, fillColor={205, 235, 213},
+            fillPattern=FillPattern.Solid),
+        Rectangle(extent={{-35, -47}, {65, 45}}, pattern=LinePattern.None, fillColor={205, 235, 213},
+            fillPattern=FillPattern.Solid),
+        Line(points={{-35, 45}, {-35, -47}}, color={38, 115, 65}, thickness=0.5),
+        Line(points={{65, 45}, {65, -47}}, color={38, 115, 65}, thickness=0.5),
+        Ellipse(extent={{-35, 28}, {65, 62}}, lineColor={38, 115, 65}, lineThickness=0.5, fillColor={232, 246, 236},
+            fillPattern=FillPattern.Solid)}),
+    Documentation(info="<html>
 <p>
 A cylinder along z, centred at the origin of its record.
 </p>

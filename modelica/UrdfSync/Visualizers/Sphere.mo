@@ -23,7 +23,17 @@ protected
     R = frame_a.R) if world.enableAnimation and animation
     "Sphere";
 
-  annotation (Documentation(info="<html>
+  annotation (
+    Icon(
+      coordinateSystem(extent={{-100, -100}, {100, 100}}),
+      graphics={
+        Ellipse(extent={{-48, -64}, {78, 62}}, lineColor={186, 98, 20}, lineThickness=0.5, fillColor={253, 226, 196},
+            fillPattern=FillPattern.Solid),
+        Ellipse(extent={{-48, -22}, {78, 20}}, lineColor={186, 98, 20}, startAngle=180, endAngle=360,
+            closure=EllipseClosure.None),
+        Ellipse(extent={{-20, 14}, {8, 42}}, pattern=LinePattern.None, fillColor={255, 243, 228},
+            fillPattern=FillPattern.Solid)}),
+    Documentation(info="<html>
 <p>
 A sphere, centred at the origin of its record.
 </p>

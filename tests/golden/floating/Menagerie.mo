@@ -308,8 +308,6 @@ model Menagerie "Robot Menagerie"
 equation
   assert(not checkLimits or 0.999999*abs(liftAxis.f) <= lift.parameters.limits.effort + 1e-6,
     getInstanceName() + ".lift (joint " + lift.parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
-  assert(not checkLimits or 0.999999*abs(None.tau) <= mount.parameters.limits.effort + 1e-6,
-    getInstanceName() + ".mount (joint " + mount.parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
   assert(not checkLimits or 0.999999*abs(shoulderAxis.tau) <= shoulder.parameters.limits.effort + 1e-6,
     getInstanceName() + ".shoulder (joint " + shoulder.parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
   connect(frame_a, chassis.frame_a)
@@ -419,7 +417,7 @@ equation
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 290}}), graphics={
-      Rectangle(extent={{-100, 100}, {100, 290}}, lineColor={44, 82, 130}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+      Rectangle(extent={{-100, 100}, {100, 290}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
       Text(extent={{-90, 266}, {20, 284}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="lift"),
       Text(extent={{-90, 246}, {20, 264}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="rotational"),
       Text(extent={{-90, 226}, {20, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="shoulder"),

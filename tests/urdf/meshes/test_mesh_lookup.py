@@ -54,6 +54,59 @@ def test_uri_is_looked_for_in_this_order(uri: str, paths: list[str]) -> None:
 
 
 @pytest.mark.parametrize(
+    ("uri", "paths"),
+    [
+        ("modelica://Meshes/a.stl", ["/lib/Meshes 1.2/a.stl", "/ws/src/arm/urdf/Meshes/a.stl", "/ws/Meshes/a.stl"]),
+        ("Modelica://Meshes//a.stl", ["/lib/Meshes 1.2/a.stl", "/ws/src/Meshes/a.stl"]),
+        ("modelica:/Meshes/a.stl", ["/lib/Meshes 1.2/a.stl", "/ws/src/Meshes/a.stl"]),
+        (
+            "modelica://Meshes/Resources/a%20b.stl",
+            ["/lib/Meshes 1.2/Resources/a%20b.stl", "/lib/Meshes 1.2/Resources/a b.stl"],
+        ),
+        (
+            "modelica://Meshes.Arms/a.stl",
+            ["/lib/Meshes 1.2/Arms/a.stl", "/lib/Meshes 1.2/a.stl", "/ws/Meshes/Arms/a.stl"],
+        ),
+        ("modelica://arm/meshes/a.stl", ["/ws/src/arm/urdf/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+    ],
+)
+def test_modelica_uri_is_looked_for_in_the_library_and_then_around_the_source(uri: str, paths: list[str]) -> None:
+    known = msgspec.structs.replace(LOOKUP, libraries={"Meshes": Path("/lib/Meshes 1.2")})
+    found = [str(path) for path in candidates(uri, known)]
+    assert found[0] == paths[0]
+    assert [path for path in found if path in paths] == paths
+
+
+def test_the_source_may_be_in_a_library_with_a_version() -> None:
+    inside = Lookup(Path("/lib/Plant 2.1/Resources/arm.urdf"))
+    assert Path("/lib/Plant 2.1/Resources/a.stl") in candidates("modelica://Plant/Resources/a.stl", inside)
+
+
+@pytest.mark.parametrize(
+    "uri",
+    [
+        "modelica://",
+        "modelica://Meshes",
+        "modelica://Meshes/",
+        "modelica:///a.stl",
+        "modelica://Meshes/../other/a.stl",
+        "modelica://Meshes/Resources/../../../a.stl",
+        "modelica://Meshes/..\\a.stl",
+        "modelica://../a.stl",
+        "modelica://Meshes../a.stl",
+    ],
+)
+def test_modelica_uri_does_not_lead_out_of_a_library(uri: str) -> None:
+    known = msgspec.structs.replace(LOOKUP, libraries={"Meshes": Path("/lib/Meshes")})
+    assert candidates(uri, known) == ()
+
+
+def test_an_encoded_step_upwards_is_not_taken() -> None:
+    known = msgspec.structs.replace(LOOKUP, libraries={"Meshes": Path("/lib/Meshes")})
+    assert all(".." not in path.parts for path in candidates("modelica://Meshes/%2e%2e/%2E%2E/a.stl", known))
+
+
+@pytest.mark.parametrize(
     ("uri", "first"),
     [
         ("package://arm/a.stl", "/opt/robots/arm/a.stl"),

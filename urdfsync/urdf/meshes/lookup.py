@@ -2,7 +2,7 @@
 
 A mesh is identified by its URI as written together with its scale, since the scale is baked into the
 imported file. Where a URI points to is decided as ROS does it, widened to what URDF files out in the
-world contain: `package://` and `model://` with search paths, `$(find …)` that no xacro has expanded,
+world contain: `package://` and `model://` with search paths, `$(find …)` that no xacro has expanded, `modelica://`,
 `file:` in all its spellings, relative paths, backslashes and percent-encoding. Other schemes are not
 looked up: a build doesn't use the network.
 """
@@ -105,6 +105,9 @@ def _places(text: str, lookup: Lookup) -> Iterator[Path]:
     elif match[1].lower() in ("package", "model"):
         package, _, rest = match[2].partition("/")
         yield from _in_package(package, rest, lookup)
+    elif match[1].lower() == "modelica":
+        class_name, _, rest = match[2].lstrip("/").partition("/")
+        yield from _in_library(class_name, rest, lookup)
 
 
 def _at_path(text: str, lookup: Lookup) -> Iterator[Path]:
@@ -137,6 +140,26 @@ def _in_package(package: str, text: str, lookup: Lookup) -> Iterator[Path]:
             yield lookup.packages[package] / path
         elif named and lookup.guess:
             yield from (folder / path for folder in lookup.source.parents)
+
+
+def _in_library(class_name: str, text: str, lookup: Lookup) -> Iterator[Path]:
+    """A path in a Modelica library: on MODELICAPATH, then in a folder of its name around the source.
+
+    `modelica://Plant.Arms/a.stl` is beside the class `Plant.Arms`: in its folder, or where its file is. A path that
+    leads out of the library has no place.
+    """
+    name, *inner = class_name.split(".")
+    path = text.lstrip("/")
+    if not path or ".." in path.split("/") or _DRIVE.match(path) or not all(map(str.isidentifier, (name, *inner))):
+        return
+    roots = [lookup.libraries[name]] if name in lookup.libraries else []
+    for folder in lookup.source.parents:
+        roots.append(folder / name)
+        if folder.name.partition(" ")[0] == name:
+            roots.append(folder)
+    for root in roots:
+        for depth in range(len(inner), -1, -1):
+            yield root.joinpath(*inner[:depth], path)
 
 
 def _possible(path: Path) -> bool:

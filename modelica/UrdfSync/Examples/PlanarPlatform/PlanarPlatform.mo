@@ -69,7 +69,7 @@ equation
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 130}}), graphics={
-      Rectangle(extent={{-100, 100}, {100, 130}}, lineColor={44, 82, 130}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+      Rectangle(extent={{-100, 100}, {100, 130}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
       Text(extent={{-90, 106}, {20, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="boom_swing"),
       Text(extent={{20, 113}, {88, 127}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="boom")}),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -44}, {84, 34}})),

@@ -361,7 +361,7 @@ equation
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 250}}), graphics={
-      Rectangle(extent={{-100, 100}, {100, 250}}, lineColor={44, 82, 130}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+      Rectangle(extent={{-100, 100}, {100, 250}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
       Text(extent={{-90, 226}, {20, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="turret"),
       Text(extent={{-90, 206}, {20, 224}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="shoulder"),
       Text(extent={{-90, 186}, {20, 204}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="elbow"),

@@ -326,7 +326,7 @@ equation
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 270}}), graphics={
-      Rectangle(extent={{-100, 100}, {100, 270}}, lineColor={44, 82, 130}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+      Rectangle(extent={{-100, 100}, {100, 270}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
       Text(extent={{-90, 246}, {20, 264}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="caster_swivel"),
       Text(extent={{-90, 226}, {20, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="caster_roll"),
       Text(extent={{-90, 206}, {20, 224}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="drive_left"),

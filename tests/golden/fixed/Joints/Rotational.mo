@@ -52,7 +52,7 @@ equation
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
-      Text(extent={{-150, -100}, {150, -70}}, textString="n=%{parameters.axis}")}),
+      Text(extent={{-130, -100}, {130, -70}}, textString="n=%{parameters.axis}")}),
     Documentation(info="<html>
 <p>
 The URDF joint <code>rotational</code>: link <code>CON</code> relative to link <code>chassis</code> turns without end stops. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

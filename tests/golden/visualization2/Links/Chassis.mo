@@ -74,6 +74,32 @@ model Chassis "Link \"chassis\""
     "Place of visual3"
     annotation (Placement(transformation(extent={{-40, 80}, {-20, 100}})));
 
+  Modelica.Mechanics.MultiBody.Parts.FixedTranslation visual3LowerPlace(
+    animation = false,
+    r = {0, 0, -0.5*parameters.visual3.length})
+    "Place of the lower end"
+    annotation (Placement(transformation(extent={{-14, 76}, {-2, 88}})));
+
+  Visualization2.Shapes.Primitives.Sphere visual3Lower(
+    radius = parameters.visual3.radius,
+    color = parameters.visual3.color,
+    transparency = 1 - parameters.visual3.opacity) if animation
+    "Visual 3, lower end"
+    annotation (Placement(transformation(extent={{6, 76}, {18, 88}})));
+
+  Modelica.Mechanics.MultiBody.Parts.FixedTranslation visual3UpperPlace(
+    animation = false,
+    r = {0, 0, 0.5*parameters.visual3.length})
+    "Place of the upper end"
+    annotation (Placement(transformation(extent={{-14, 92}, {-2, 104}})));
+
+  Visualization2.Shapes.Primitives.Sphere visual3Upper(
+    radius = parameters.visual3.radius,
+    color = parameters.visual3.color,
+    transparency = 1 - parameters.visual3.opacity) if animation
+    "Visual 3, upper end"
+    annotation (Placement(transformation(extent={{6, 92}, {18, 104}})));
+
   Visualization2.Shapes.Primitives.Cylinder visual3(
     n = {0, 1, 0},
     angle = 90,
@@ -82,7 +108,7 @@ model Chassis "Link \"chassis\""
     color = parameters.visual3.color,
     transparency = 1 - parameters.visual3.opacity) if animation
     "Visual 3"
-    annotation (Placement(transformation(extent={{0, 80}, {20, 100}})));
+    annotation (Placement(transformation(extent={{26, 80}, {46, 100}})));
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation visual4Place(
     animation = false,
@@ -180,6 +206,32 @@ model Chassis "Link \"chassis\""
     "Place of collision3"
     annotation (Placement(transformation(extent={{-40, -100}, {-20, -80}})));
 
+  Modelica.Mechanics.MultiBody.Parts.FixedTranslation collision3LowerPlace(
+    animation = false,
+    r = {0, 0, -0.5*parameters.collision3.length})
+    "Place of the lower end"
+    annotation (Placement(transformation(extent={{-14, -104}, {-2, -92}})));
+
+  Visualization2.Shapes.Primitives.Sphere collision3Lower(
+    radius = parameters.collision3.radius,
+    color = parameters.collision3.color,
+    transparency = 1 - parameters.collision3.opacity) if showCollisions
+    "Collision 3, lower end"
+    annotation (Placement(transformation(extent={{6, -104}, {18, -92}})));
+
+  Modelica.Mechanics.MultiBody.Parts.FixedTranslation collision3UpperPlace(
+    animation = false,
+    r = {0, 0, 0.5*parameters.collision3.length})
+    "Place of the upper end"
+    annotation (Placement(transformation(extent={{-14, -88}, {-2, -76}})));
+
+  Visualization2.Shapes.Primitives.Sphere collision3Upper(
+    radius = parameters.collision3.radius,
+    color = parameters.collision3.color,
+    transparency = 1 - parameters.collision3.opacity) if showCollisions
+    "Collision 3, upper end"
+    annotation (Placement(transformation(extent={{6, -88}, {18, -76}})));
+
   Visualization2.Shapes.Primitives.Cylinder collision3(
     n = {0, 1, 0},
     angle = 90,
@@ -188,7 +240,7 @@ model Chassis "Link \"chassis\""
     color = parameters.collision3.color,
     transparency = 1 - parameters.collision3.opacity) if showCollisions
     "Collision 3"
-    annotation (Placement(transformation(extent={{0, -100}, {20, -80}})));
+    annotation (Placement(transformation(extent={{26, -100}, {46, -80}})));
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation collision4Place(
     animation = false,
@@ -237,7 +289,15 @@ equation
   connect(frame_a, visual3Place.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, 90}, {-40, 90}}, color={95, 95, 95}, thickness=0.5));
   connect(visual3Place.frame_b, visual3.frame_a)
-    annotation (Line(points={{-20, 90}, {0, 90}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-20, 90}, {26, 90}}, color={95, 95, 95}, thickness=0.5));
+  connect(visual3Place.frame_b, visual3LowerPlace.frame_a)
+    annotation (Line(points={{-20, 90}, {-17, 90}, {-17, 82}, {-14, 82}}, color={95, 95, 95}, thickness=0.5));
+  connect(visual3LowerPlace.frame_b, visual3Lower.frame_a)
+    annotation (Line(points={{-2, 82}, {6, 82}}, color={95, 95, 95}, thickness=0.5));
+  connect(visual3Place.frame_b, visual3UpperPlace.frame_a)
+    annotation (Line(points={{-20, 90}, {-17, 90}, {-17, 98}, {-14, 98}}, color={95, 95, 95}, thickness=0.5));
+  connect(visual3UpperPlace.frame_b, visual3Upper.frame_a)
+    annotation (Line(points={{-2, 98}, {6, 98}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, visual4Place.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, 120}, {-40, 120}}, color={95, 95, 95}, thickness=0.5));
   connect(visual4Place.frame_b, visual4.frame_a)
@@ -261,7 +321,15 @@ equation
   connect(frame_a, collision3Place.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, -90}, {-40, -90}}, color={95, 95, 95}, thickness=0.5));
   connect(collision3Place.frame_b, collision3.frame_a)
-    annotation (Line(points={{-20, -90}, {0, -90}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-20, -90}, {26, -90}}, color={95, 95, 95}, thickness=0.5));
+  connect(collision3Place.frame_b, collision3LowerPlace.frame_a)
+    annotation (Line(points={{-20, -90}, {-17, -90}, {-17, -98}, {-14, -98}}, color={95, 95, 95}, thickness=0.5));
+  connect(collision3LowerPlace.frame_b, collision3Lower.frame_a)
+    annotation (Line(points={{-2, -98}, {6, -98}}, color={95, 95, 95}, thickness=0.5));
+  connect(collision3Place.frame_b, collision3UpperPlace.frame_a)
+    annotation (Line(points={{-20, -90}, {-17, -90}, {-17, -82}, {-14, -82}}, color={95, 95, 95}, thickness=0.5));
+  connect(collision3UpperPlace.frame_b, collision3Upper.frame_a)
+    annotation (Line(points={{-2, -82}, {6, -82}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, collision4Place.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, -120}, {-40, -120}}, color={95, 95, 95}, thickness=0.5));
   connect(collision4Place.frame_b, collision4.frame_a)
@@ -273,7 +341,7 @@ equation
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
-      Text(extent={{-150, -100}, {150, -70}}, textString="m=%{parameters.inertial.mass}")}),
+      Text(extent={{-130, -100}, {130, -70}}, textString="m=%{parameters.inertial.mass}")}),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-100, -170}, {100, 200}})),
     Documentation(info="<html>
 <p>

@@ -66,7 +66,7 @@ equation
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
-      Text(extent={{-150, -100}, {150, -70}}, textString="m=%{parameters.inertial.mass}")}),
+      Text(extent={{-130, -100}, {130, -70}}, textString="m=%{parameters.inertial.mass}")}),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 110}})),
     Documentation(info="<html>
 <p>

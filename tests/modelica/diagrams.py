@@ -1,0 +1,123 @@
+"""Draws the diagrams of models as SVG, as a Modelica tool does: icons of components, and the lines between them.
+
+`python tests/modelica/diagrams.py DIAGRAM.svg CLASS` draws one. A component whose class is not in the library is a
+box with its name.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import html
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import icons
+from icons import Call, Point
+
+_COMPONENT = re.compile(
+    r"^  (?:inner |replaceable |parameter )*"
+    r"((?:\w+\.)*[A-Z]\w*) (\w+)(?:\[[^\]]*\])?(?=[\s(;])"  # its type and name
+    r"(?:[^;\"]|\"(?:\\.|[^\"\\])*\")*;",
+    re.MULTILINE,
+)
+_MARGIN = 20
+
+
+@dataclasses.dataclass(frozen=True)
+class Component:
+    """A component of a model, with the corners at which its icon's -100 and 100 lie in the diagram."""
+
+    kind: str
+    """Full name of its class."""
+    name: str
+    corners: tuple[Point, Point]
+
+    @property
+    def icon(self) -> icons.Icon:
+        """The icon of its class; an empty one if the library does not have the class."""
+        return icons.icon(self.kind) if _exists(self.kind) else icons.Icon()
+
+    def place(self, point: Point) -> Point:
+        """Where a point of the icon lies in the diagram. No component of the library is turned."""
+        (x1, y1), (x2, y2) = self.corners
+        return (x1 + (x2 - x1) * (point[0] + 100) / 200, y1 + (y2 - y1) * (point[1] + 100) / 200)
+
+
+@dataclasses.dataclass(frozen=True)
+class Diagram:
+    """What a model shows: its components and the points of its connection lines, those of its base classes first."""
+
+    components: tuple[Component, ...]
+    lines: tuple[Call, ...]
+    extent: tuple[Point, Point]
+
+
+def diagram(name: str) -> Diagram:
+    """The diagram of the class with the full name `name`."""
+    text = icons.source(name)
+    notes = icons.annotations_in(text)
+    bases = [diagram(base) for base in icons.bases(text)]
+    system = next((note.get("Diagram").get("coordinateSystem") for note in notes if note.get("Diagram")), None)
+    lower, upper = system.get("extent") if system else ((-100, -100), (100, 100))
+    return Diagram(
+        (*(component for base in bases for component in base.components), *_components(name, text)),
+        (*(line for base in bases for line in base.lines), *(note.get("Line") for note in notes if note.get("Line"))),
+        ((lower[0], lower[1]), (upper[0], upper[1])),
+    )
+
+
+def _components(name: str, text: str) -> Iterator[Component]:
+    for match in _COMPONENT.finditer(text):
+        placements = [note.get("Placement") for note in icons.annotations_in(match[0])]
+        for placement in filter(None, placements):
+            (x1, y1), (x2, y2) = placement.get("transformation").get("extent")
+            yield Component(_full_name(match[1], name), match[2], ((x1, y1), (x2, y2)))
+
+
+def _full_name(kind: str, inside: str) -> str:
+    """The full name of a class as it is called inside of another, which may leave out the packages around both."""
+    packages = inside.split(".")[:-1]
+    names = (".".join([*packages[:count], kind]) for count in range(len(packages), 0, -1))
+    return next(filter(_exists, names), kind)
+
+
+def _exists(name: str) -> bool:
+    path = icons.LIBRARY.parent.joinpath(*name.split("."))
+    return path.with_name(f"{path.name}.mo").is_file() or (path / "package.mo").is_file()
+
+
+def draw(shown: Diagram) -> str:
+    """The diagram as SVG."""
+    (x1, y1), (x2, y2) = shown.extent
+    left, top, width, height = x1 - _MARGIN, -y2 - _MARGIN, x2 - x1 + 2 * _MARGIN, y2 - y1 + 2 * _MARGIN
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{3 * width:g}" height="{3 * height:g}" '
+        f'viewBox="{left:g} {top:g} {width:g} {height:g}">',
+        f'<rect x="{left:g}" y="{top:g}" width="{width:g}" height="{height:g}" fill="#ffffff"/>',
+    ]
+    for component in shown.components:
+        (left, top), (right, bottom) = component.place((-100, 100)), component.place((100, -100))
+        place = f"translate({(left + right) / 2:g} {-(top + bottom) / 2:g})"
+        scale = f"scale({(right - left) / 200:g} {(top - bottom) / 200:g})"
+        parts.append(f'<g transform="{place} {scale}">\n{_picture(component)}\n</g>')
+    thin = (Call("Line", {**line.arguments, "thickness": line.get("thickness", 0.25) / 2}) for line in shown.lines)
+    return "\n".join([*parts, *(icons.draw(icons.Icon((line,)), "") for line in thin), "</svg>", ""])
+
+
+def _picture(component: Component) -> str:
+    if component.icon.graphics:
+        return icons.draw(component.icon, component.name)
+    box = '<rect x="-100" y="-100" width="200" height="200" fill="#ffffff" stroke="#999999" stroke-width="4"/>'
+    return f'{box}\n<text font-size="36" text-anchor="middle">{html.escape(component.name)}</text>'
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Write the diagram that the command line asks for."""
+    target, name = arguments
+    Path(target).write_text(draw(diagram(name)), "utf-8")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
