@@ -338,6 +338,28 @@ def test_a_wrong_choice_is_repeated_as_it_was_written(value: str, words: str) ->
     assert found == [f'urdfsync.toml:4: error: `base` must be "fixed" or "floating", not {words} [wrong-value]']
 
 
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ('frames = "leafs"', '`frames` must be "leaves" or "all" or a list, not "leafs"'),
+        ("frames = 3", '`frames` must be "leaves" or "all" or a list, not 3'),
+        ('frames = ["a", 3]', "`frames`[1] must be a string, not an integer"),
+        ('driven = "a"', "`driven` must be a list, not a string"),
+        ("driven = [true]", "`driven`[0] must be a string, not true or false"),
+    ],
+)
+def test_an_option_that_may_be_a_list(line: str, words: str) -> None:
+    found = failures(f"[robots.arm]\nsource = 'a'\npackage = 'Arm'\n{line}")
+    assert found == [f"urdfsync.toml:4: error: {words} [wrong-value]"]
+
+
+def test_lists_and_words_of_such_an_option() -> None:
+    text = "[robots.{0}]\nsource = 'a'\npackage = '{0}'\n{1}\n".format
+    lines = ('frames = "all"', 'frames = ["a"]\ndriven = []', "")
+    found = [one.options for one in parse("".join(map(text, "ABC", lines))).robots]
+    assert [(one.frames, one.driven) for one in found] == [("all", None), (("a",), ()), ("leaves", None)]
+
+
 def test_lines_do_not_depend_on_separators_inside_of_strings() -> None:
     assert failures("# \u2028 \x85\n" + robot("grund = true"))[0].startswith("urdfsync.toml:6: ")
 

@@ -232,6 +232,10 @@ def test_names_are_identifiers_and_reversible(case: Case) -> None:
         assert len(set(names.values())) == len(names)
 
 
+def test_defaults_suit_every_model(case: Case) -> None:
+    assert list(case.domain.check_options(case.snapshot, case.options)) == []
+
+
 def test_proposals_are_options(case: Case) -> None:
     values = {proposal.option: proposal.value for proposal in case.domain.propose(case.snapshot)}
     options = {field.encode_name for field in msgspec.structs.fields(case.domain.options)}

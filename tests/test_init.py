@@ -63,6 +63,9 @@ def test_choices_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     assert 'base = "fixed"  # "fixed" or "floating"; guessed: ' in text
     assert '# visualizer = "standard"  # "standard" or "visualization2"' in text
     assert '# approach = ["package"]  # "package" or "record", or several' in text
+    assert '# frames = "leaves"  # "leaves" or "all", or a list of names' in text
+    assert "driven" not in text, "it has no value that leaves the choice to urdfsync"
+    config.load(tmp_path / "urdfsync.toml")
 
 
 def test_an_existing_file_is_never_overwritten(project: Path, capsys: Capture) -> None:

@@ -178,7 +178,6 @@ def test_a_build_that_is_writing_is_waited_for(built: Path, capsys: Capture) -> 
 # Records
 
 
-
 # The process
 
 

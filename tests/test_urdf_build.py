@@ -12,6 +12,7 @@ from lxml import etree
 from urdfsync import wording
 from urdfsync.build import Request, build
 from urdfsync.config import load
+from urdfsync.diagnostics import Severity
 from urdfsync.difference import ChangeClass
 from urdfsync.domain import Role
 from urdfsync.outcome import Result
@@ -234,3 +235,80 @@ def test_a_rename_and_a_template_are_told_as_such(arm: Path) -> None:
     other = run(arm).changes
     assert other is not None
     assert wording.changes(other)[0] == "a template, an option or urdfsync itself changed"
+
+
+CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller"/>
+  <joint name="wheel" type="continuous"><parent link="base"/><child link="tyre"/></joint>
+  <joint name="caster" type="continuous"><parent link="base"/><child link="roller"/></joint>
+  <transmission name="t"><joint name="wheel"/></transmission>
+</robot>"""
+CART_CONFIGURATION = '[robots.cart]\nsource = "cart.urdf"\npackage = "Cart"\ncross_check = false\n'
+
+
+@pytest.fixture
+def cart(tmp_path: Path) -> Path:
+    """A project that builds a robot with a wheel and a caster."""
+    (tmp_path / "cart.urdf").write_text(CART)
+    (tmp_path / "urdfsync.toml").write_text(CART_CONFIGURATION)
+    return tmp_path
+
+
+def test_passive_joints_are_noted_by_a_build_that_reads_the_source_and_by_no_other(cart: Path) -> None:
+    (note,) = run(cart).diagnostics
+    assert (note.severity, note.code, Path(note.file).name, note.line) == (
+        *(Severity.NOTE, "passive-joints"), "urdfsync.toml", 1
+    )  # fmt: skip
+    assert note.message.startswith("robot `cart`: Run and Test do not drive `caster`: ")
+    assert not run(cart).diagnostics
+    (cart / "urdfsync.toml").write_text(CART_CONFIGURATION + 'driven = ["wheel"]\n')
+    assert not run(cart).diagnostics
+
+
+def test_a_drive_that_comes_is_a_structural_change(cart: Path) -> None:
+    run(cart)
+    (cart / "cart.urdf").write_text(CART.replace('"t">', '"t"><joint name="caster"/>'))
+    result = run(cart)
+    assert result.changes is not None
+    assert "joint caster / drive: passive → driven" in wording.changes(result.changes)
+    assert result.changes.change_class is ChangeClass.STRUCTURAL
+
+
+@pytest.mark.parametrize(
+    "line", ['frames = ["base"]', 'frames = "all"', 'driven = ["caster"]', "driven = []", 'inputs = "vector"']
+)
+def test_a_choice_of_connectors_is_one_of_the_generator(cart: Path, line: str) -> None:
+    """So the package is rendered again, whatever depends on it."""
+    run(cart)
+    (cart / "urdfsync.toml").write_text(CART_CONFIGURATION + line)
+    result = run(cart)
+    assert result.changes is not None
+    assert result.changes.generator
+    assert run(cart).changes is None
+
+
+@pytest.mark.parametrize("line", ['frames = ["hand"]', 'driven = ["wheels"]'])
+def test_a_name_that_the_robot_does_not_have_stops_its_build(cart: Path, line: str) -> None:
+    run(cart)
+    (cart / "urdfsync.toml").write_text(f"[defaults]\n{line}\n{CART_CONFIGURATION}")
+    (cart / "cart.urdf").write_text(CART.replace("roller", "ball"))
+    before = contents(cart)
+    for full in (False, True):
+        result = run(cart, full=full)
+        (error,) = result.diagnostics
+        assert result.failed
+        assert (error.severity, Path(error.file).name, error.line) == (Severity.ERROR, "urdfsync.toml", 2)
+        assert error.message.startswith("robot `cart`: ")
+    assert contents(cart) == before
+    (cart / "urdfsync.toml").write_text(CART_CONFIGURATION)
+    assert not run(cart).failed
+
+
+def test_a_link_that_goes_with_its_frame_stops_the_build_too(cart: Path) -> None:
+    """The configuration was right until the source lost the link."""
+    (cart / "urdfsync.toml").write_text(CART_CONFIGURATION + 'frames = ["tyre"]')
+    assert not run(cart).failed
+    before = contents(cart / "modelica")
+    (cart / "cart.urdf").write_text(CART.replace("tyre", "tire"))
+    (error,) = run(cart).diagnostics
+    assert (error.code, error.line, error.hint) == ("frame-of-no-link", 5, "did you mean `tire`?")
+    assert contents(cart / "modelica") == before

@@ -9,7 +9,7 @@ nothing in here does IO.
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, TypeAlias
 
@@ -300,6 +300,13 @@ class Domain(Protocol):
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """Per kind of element: name in the source → identifier in Modelica."""
+        ...
+
+    def check_options(self, snapshot: Snapshot, options: Any) -> Iterable[tuple[str, Diagnostic]]:
+        """Which options do not suit the model, and what to know of others: the option, and a diagnostic without place.
+
+        An error stops the build of the robot. Pure: the core adds the line of the configuration.
+        """
         ...
 
     def artifacts(

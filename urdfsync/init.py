@@ -186,7 +186,7 @@ def _table(guess: Guess, domain: Domain) -> str:
         if proposal:
             reason = " ".join("".join(char if char.isprintable() else " " for char in proposal.reason).split())
             lines.append(f"{_line(proposal.option, proposal.value)}  # {_choices(field.type)}guessed: {reason}")
-        elif field.default is not msgspec.NODEFAULT:
+        elif field.default not in (msgspec.NODEFAULT, None):  # TOML has no null
             lines.append(f"# {_line(field.encode_name, field.default)}{_comment(field.type)}")
     return "\n".join(lines) + "\n"
 
@@ -202,7 +202,8 @@ def _line(key: str, value: Any) -> str:
 def _choices(kind: Any) -> str:
     allowed = tables.choices(kind)
     words = " or ".join(f'"{choice}"' for choice in allowed)
-    return f"{words}{', or several' if tables.is_list(kind) else ''}; " if allowed else ""
+    more = ", or several" if tables.is_list(kind) else ", or a list of names" if tables.may_be_list(kind) else ""
+    return f"{words}{more}; " if allowed else ""
 
 
 def _comment(kind: Any) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, Literal, get_args, get_origin
+from types import UnionType
+from typing import Any, Literal, Union, get_args, get_origin
 
 import msgspec
 
@@ -75,9 +76,14 @@ def read(table: Table, struct: type[Any]) -> tuple[Any, list[Diagnostic]]:
 
 
 def choices(kind: Any) -> tuple[Any, ...]:
-    """The values that a Literal type allows, or those of which a tuple type takes any number; empty for other types."""
+    """The values that a Literal type allows, or those of which a tuple type takes any number; empty for other types.
+
+    Of a union, those of the Literal type in it.
+    """
     if is_list(kind):
         kind = get_args(kind)[0]
+    if _is_union(kind):
+        return next((get_args(part) for part in get_args(kind) if get_origin(part) is Literal), ())
     return get_args(kind) if get_origin(kind) is Literal else ()
 
 
@@ -86,12 +92,22 @@ def is_list(kind: Any) -> bool:
     return get_origin(kind) is tuple
 
 
+def may_be_list(kind: Any) -> bool:
+    """Whether a type stands for a list among other things."""
+    return _is_union(kind) and any(map(is_list, get_args(kind)))
+
+
+def _is_union(kind: Any) -> bool:
+    return get_origin(kind) in (Union, UnionType)  # `Literal[…] | tuple[…]` is the former, `tuple[…] | None` the latter
+
+
 def _in_words(key: str, value: Any, kind: Any, error: str) -> str:
     allowed = [f'"{choice}"' if isinstance(choice, str) else str(choice) for choice in choices(kind)]
     if allowed and is_list(kind):
         return f"`{key}` must be a list of {' and '.join(allowed)}, {_but(value, choices(kind))}"
-    if allowed:
-        return f"`{key}` must be {' or '.join(allowed)}, not {_as_written(value)}"
+    if allowed and not (may_be_list(kind) and isinstance(value, list)):
+        listed = " or a list" if may_be_list(kind) else ""
+        return f"`{key}` must be {' or '.join(allowed)}{listed}, not {_as_written(value)}"
     match = _EXPECTED.match(error)
     if match is None:
         return f"`{key}`: {error[0].lower()}{error[1:]}"

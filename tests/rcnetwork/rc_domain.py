@@ -112,6 +112,14 @@ class RcNetwork:
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         return {"elements": {name: name for name in snapshot["elements"]}}
 
+    def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
+        nodes = {node for element in snapshot["elements"].values() for node in element["between"]}
+        if options.prefix in nodes:
+            message, hint = f"`prefix` names `{options.prefix}`, which is a node", "choose another one"
+            yield "prefix", Diagnostic(Severity.ERROR, "prefix-is-node", message, hint=hint)
+        if options.ground and GROUND not in nodes:
+            yield "ground", Diagnostic(Severity.NOTE, "no-ground", "no node is called `ground`")
+
     def artifacts(
         self,
         snapshot: Snapshot,

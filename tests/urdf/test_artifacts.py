@@ -165,12 +165,12 @@ def test_one_of_everything_compiles(models: Sequence[str], tmp_path: Path, model
 
 def test_every_template_is_in_use() -> None:
     both = Options(approach=("package", "record"))
-    robots = menagerie("fixed").robot, twig("record").robot
-    made = [each for robot in robots for each in artifacts(robot, {}, MENAGERIE, both)]
+    mobile = Options(base="floating")
+    robots = (menagerie("fixed").robot, both), (twig("record").robot, both), (twig("record").robot, mobile)
+    made = [each for robot, options in robots for each in artifacts(robot, {}, MENAGERIE, options)]
     used = {each.template for each in made if isinstance(each, Artifact)}
     for path in TEMPLATES.rglob("*.jinja"):
         used.update(re.findall(r'<%-? (?:import|include) "([^"]+\.jinja)"', path.read_text(encoding="utf-8")))
-    used |= {f"link/{visualizer}.jinja" for visualizer in ("standard", "visualization2")}
     assert used == {path.relative_to(TEMPLATES).as_posix() for path in TEMPLATES.rglob("*.jinja")}
 
 
@@ -198,15 +198,17 @@ def test_package_orders_name_every_class_once(variant: str) -> None:
 
 def test_roles_and_owners() -> None:
     robot = Robot("r", (Link("a"), Link("b")), (Joint("a", "fixed", "a", "b"),))
-    files = {each.path: each for each in artifacts(robot, {}, Target("R", "R"), Options())}
+    options = Options(approach=("package", "record"), base="floating")
+    files = {each.path: each for each in artifacts(robot, {}, Target("R", "R"), options)}
     found = {path: (each.role, each.owner) for path, each in files.items() if isinstance(each, Artifact)}
     assert found["Links/A.mo"] == (Role.MODEL, "link a")
     assert found["Links/AParameters.mo"] == (Role.RECORD, "link a")
     assert found["Joints/A_joint.mo"] == (Role.MODEL, "joint a")
     assert found["R.mo"] == found["RRun.mo"] == found["RTest.mo"] == (Role.MODEL, "robot")
-    assert found["RParameters.mo"] == (Role.RECORD, "robot")
+    assert found["RStance.mo"] == found["RParameters.mo"] == (Role.RECORD, "robot")
     assert found["package.mo"] == found["Links/package.mo"] == (Role.PACKAGE, "robot")
-    assert files["package.order"] == Order("package.order", ("R", "RRun", "RTest", "RParameters", "Links", "Joints"))
+    order = ("R", "RRun", "RTest", "RGeneric", "RStance", "RParameters", "Links", "Joints")
+    assert files["package.order"] == Order("package.order", order)
 
 
 def test_only_a_package_at_the_top_says_what_it_uses() -> None:
@@ -259,13 +261,14 @@ def test_a_robot_of_one_link_has_no_joints_and_no_drives(base: str) -> None:
     package = package_of(urdfs.link("stone", 1), base=base)
     assert not any(path.startswith("Joints") for path in package.texts)
     assert package.texts["package.order"].split()[-1] == "Links"
-    assert "frame_b[1]" in package.texts["Own.mo"]
-    assert "connectionMatrix = fill(0, 0, 2)" in package.texts["OwnParameters.mo"]
-    assert not re.search("rotational|translational", package.texts["Own.mo"] + package.texts["OwnRun.mo"])
+    assert "connect(stone.frame_a, stoneFrame)" in package.texts["Own.mo"]
+    assert not re.search("Rotational|Translational", package.texts["Own.mo"] + package.texts["OwnRun.mo"])
 
 
 def test_without_a_collision_there_is_no_height_to_stand_at() -> None:
-    assert "standingHeight" not in package_of(urdfs.link("ghost", 1), base="floating").texts["OwnParameters.mo"]
+    assert (
+        "height" not in package_of(urdfs.link("ghost", 1), base="floating").texts["OwnStance.mo"].split("annotation")[0]
+    )
 
 
 def test_what_is_asked_for_is_there_and_nothing_else() -> None:

@@ -72,6 +72,7 @@ JOINTS = st.builds(
     ABSENT | st.builds(Mimic, NAMES, NUMBERS, NUMBERS),
     ABSENT | st.builds(Calibration, ABSENT | NUMBERS, ABSENT | NUMBERS),
     ABSENT | st.builds(SafetyController, NUMBERS, NUMBERS, NUMBERS, NUMBERS),
+    st.booleans(),
 )
 ROBOTS = st.builds(
     Robot,
@@ -161,6 +162,13 @@ def test_the_order_of_elements_and_attributes_makes_no_difference(seed: int) -> 
         element.attrib.update(attributes)
     shuffled = ElementTree.tostring(root, encoding="unicode")
     assert json.dumps(to_snapshot(read(shuffled))) == json.dumps(to_snapshot(read(ARM)))
+
+
+def test_only_a_joint_that_something_drives_says_so() -> None:
+    transmission = '<transmission><joint name="j"/></transmission></robot>'
+    joints = [to_snapshot(read(text))["joints"]["j"] for text in (ARM, ARM.replace("</robot>", transmission))]
+    assert joints[1] == {**joints[0], "actuated": True}
+    assert "actuated" not in joints[0]
 
 
 def test_the_order_of_visuals_is_kept() -> None:

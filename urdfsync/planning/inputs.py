@@ -8,6 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
+
 from urdfsync import looking, profiling
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
@@ -71,6 +73,25 @@ def _check_templates(folder: Path) -> None:
             else:
                 continue
             raise ConfigError(Diagnostic(Severity.ERROR, "template", message, shown(path), hint=hint))
+
+
+def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: Snapshot) -> tuple[Diagnostic, ...]:
+    """What the domain says of the robot's options, now that there is a model, at their lines in the configuration.
+
+    Raises ConfigError with every option that does not suit the model.
+    """
+    found = tuple(
+        msgspec.structs.replace(
+            said,
+            message=f"robot `{robot.name}`: {said.message}",
+            file=shown(config.file),
+            line=robot.lines.get(option, robot.lines[""]),
+        )
+        for option, said in domain.check_options(snapshot, robot.options)
+    )
+    if errors := [said for said in found if said.severity is Severity.ERROR]:
+        raise ConfigError(*sorted(errors, key=lambda error: error.line))
+    return found
 
 
 @profiling.staged("reading")

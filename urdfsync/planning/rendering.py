@@ -25,6 +25,7 @@ class Rendering:
         self._templates = situation.templates
         self.snapshot, self._imports = _model(situation)
         """The model of the source, and what is imported for it."""
+        inputs.check_options(config, robot, self.domain, self.snapshot)
 
     def package(self, content: bytes) -> Mapping[str, bytes]:
         """The Modelica files of the package by their path below it; `content` is the source or an amended copy."""

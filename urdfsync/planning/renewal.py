@@ -36,6 +36,7 @@ class Renewal:
             situation.domain, robot.options, situation.content, shown(robot.source), situation.request.memory
         )
         self._said, self._lines = reading.diagnostics, reading.lines  # and not another snapshot
+        self._said += inputs.check_options(situation.config, robot, situation.domain, self._snapshot)
         del reading
         self._imported = self._import()
         self.now = Version(self._snapshot, self._imported.imports, situation.generator.fingerprint)

@@ -7,6 +7,7 @@ from itertools import compress
 from pathlib import Path
 from typing import Any
 
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.difference import Difference, Effect, ElementKey, Meaning, Version
 from urdfsync.domain import (
     Artifact,
@@ -27,7 +28,7 @@ from urdfsync.urdf import naming
 from urdfsync.urdf.kept import Kept
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
+from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
 
 
 class UrdfDomain:
@@ -85,6 +86,12 @@ class UrdfDomain:
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """See `urdfsync.domain.Domain`."""
         return naming.components(tuple(snapshot["links"]), tuple(snapshot["joints"]), target.name)
+
+    def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf.option_names import check_options
+
+        return check_options(snapshot["links"], joints_of(snapshot["joints"]), options)
 
     def artifacts(
         self,

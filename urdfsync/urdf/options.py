@@ -28,6 +28,12 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Whether yourdfpy reads each changed source, too, and has to agree."""
     approach: tuple[Literal["package", "record"], ...] = ("package",)
     """`package`: a model per link and joint; `record`: a bench for the generic robot. Both have the robot's record."""
+    driven: tuple[str, ...] | None = None
+    """URDF names of the joints that Run and Test drive; None to go by the source: see `urdfsync.urdf.drives`."""
+    frames: Literal["leaves", "all"] | tuple[str, ...] = "leaves"
+    """URDF names of the links that have a frame in the robot model beside the leaves, which always have one."""
+    inputs: Literal["names", "vector"] = "names"
+    """`names`: Run has a position input per driven joint; `vector`: one for all, in the order of the chain."""
 
     def __post_init__(self) -> None:
         """Raise ValueError for a choice that leaves nothing to write."""

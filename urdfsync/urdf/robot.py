@@ -166,6 +166,8 @@ class Joint(msgspec.Struct, frozen=True):
     mimic: Mimic | None = None
     calibration: Calibration | None = None
     safety_controller: SafetyController | None = None
+    actuated: bool = False
+    """Whether a `<transmission>` or `<ros2_control>` of the robot drives it."""
 
 
 class Extension(msgspec.Struct, frozen=True):

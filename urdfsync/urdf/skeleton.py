@@ -13,7 +13,7 @@ from typing import Literal
 import msgspec
 
 from urdfsync.urdf.naming import Identifier, Key, identify, natural_key
-from urdfsync.urdf.robot import Joint, Link, Mimic, Robot
+from urdfsync.urdf.robot import Joint, Limit, Link, Mimic, Robot
 
 Motion = Literal["rotational", "translational"]
 
@@ -87,9 +87,13 @@ class Skeleton(msgspec.Struct, frozen=True):
 
 
 def bare(joint: Joint) -> Joint:
-    """What of a joint is no number: where it stands, how it moves, and which joint it follows."""
+    """What of a joint is no number: where it stands, how it moves, which joint it follows, and what drives it.
+
+    A limit is there without its numbers: whether a joint has one decides with others whether it is driven.
+    """
+    limit = None if joint.limit is None else Limit()
     mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
-    return Joint(joint.name, joint.type, joint.parent, joint.child, mimic=mimic)
+    return Joint(joint.name, joint.type, joint.parent, joint.child, limit=limit, mimic=mimic, actuated=joint.actuated)
 
 
 def _depth_first(robot: Robot) -> tuple[tuple[Link, ...], tuple[Joint, ...]]:

@@ -6,8 +6,8 @@
      "extensions": {owner: {tag: [text, …]}}}
 
 Elements are sorted by name, so their order in the file makes no difference; visuals and collisions keep theirs.
-What the model does not have (no inertial, no limit, no colour) is left out, so that its coming and going is one
-block of a diff; every number is there, defaults too, so that a change of a number is one changed line.
+What the model does not have (no inertial, no limit, no colour, no drive) is left out, so that its coming and going is
+one block of a diff; every number is there, defaults too, so that a change of a number is one changed line.
 """
 
 from __future__ import annotations
@@ -60,6 +60,11 @@ def from_snapshot(snapshot: Snapshot, parts: Parts | None = None) -> Robot:
     return msgspec.structs.replace(robot, links=tuple(links.values()), joints=tuple(joints.values()))
 
 
+def joints_of(joints: Mapping[str, Any]) -> tuple[Joint, ...]:
+    """The joints of a snapshot, in its order, given its entry `joints`. Raises ValueError for other data."""
+    return tuple([_joint(name, joint) for name, joint in joints.items()])
+
+
 def _link(name: str, link: Mapping[str, Any]) -> Link:
     return msgspec.convert({"name": name, **link}, Link)
 
@@ -94,6 +99,8 @@ def _plain(element: _Element) -> dict[str, Any]:
     text = _ENCODER.encode(element)
     plain: dict[str, Any] = msgspec.json.decode(text)
     del plain["name"]
+    if plain.get("actuated") is False:
+        del plain["actuated"]
     if _NULL in text:
         _drop_absent(plain)
     return plain

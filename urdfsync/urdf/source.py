@@ -15,6 +15,7 @@ from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Parts
 from urdfsync.urdf.reader import checks, chunks, xml
+from urdfsync.urdf.reader.actuated import Actuated, check_actuated
 from urdfsync.urdf.reader.chunks import Chunk
 from urdfsync.urdf.reader.faults import Fault
 from urdfsync.urdf.reader.fields import Element, Findings
@@ -146,13 +147,22 @@ def _assemble(document: _Document, before: Robot | None, findings: Findings) -> 
     extensions = tuple(extension for chunk in (*others, *links, *joints) for extension in chunk.made.extensions)
     known = [(chunk.path, chunk.made.read) for chunk in materials if isinstance(chunk.made.read, Material)]
     bodies = [chunk.made.read for chunk in links if isinstance(chunk.made.read, Link)]
-    moves = tuple([chunk.made.read for chunk in joints if isinstance(chunk.made.read, Joint)])
+    actuated = [named for chunk in others for named in chunk.made.actuated]
+    moves = _with_actuated([chunk.made.read for chunk in joints if isinstance(chunk.made.read, Joint)], actuated)
     complete = len(bodies) == len(links) and len(moves) == len(joints)
     resolved = resolve_materials(list(checks.numbered("link", bodies)), known, findings)
     robot = Robot(name, resolved, moves, extensions)
     faults = [fault for chunk in (*links, *joints) for fault in chunk.made.faults] if complete else None
     _add(checks.check(robot, complete=complete, of_elements=faults), findings)
+    if complete:
+        _add(check_actuated(actuated, {joint.name for joint in moves}), findings)
     return _as_before(checks.unit_axes(robot), before)
+
+
+def _with_actuated(joints: Iterable[Joint], actuated: Iterable[Actuated]) -> tuple[Joint, ...]:
+    """The joints, those marked that a transmission or ros2_control drives."""
+    names = {named.joint for named in actuated}
+    return tuple([msgspec.structs.replace(joint, actuated=True) if joint.name in names else joint for joint in joints])
 
 
 def _by_kind(document: _Document, findings: Findings) -> tuple[list[Chunk[Part]], ...]:

@@ -79,14 +79,14 @@ def test_of_a_class_that_is_not_there_the_follow_ups_are_left_out() -> None:
 def test_what_follows_in_other_files_is_left_out_as_well() -> None:
     names = ("parameters.limits.lower", "parameters.name", "elbow.parameters.limits.lower")
     text = unresolved(*map(component, names), kind("ElbowParameters"))
-    place = f"{ELBOW}:{arm.line('parameter ElbowParameters')}"
+    place = f"{ELBOW}:{arm.line('redeclare ElbowParameters')}"
     expected = [f"{place}: error: joint elbow: there is no class `ElbowParameters` [unresolved]"]
     assert explained(text, {"Joints/ElbowParameters.mo": None}) == expected
 
 
 def test_what_a_missing_base_class_would_bring_is_left_out() -> None:
-    base = "Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames"
-    name = base.replace("Two", "To")
+    base = "UrdfSync.Interfaces.PartialRevoluteJoint"
+    name = base.replace("Revolute", "Revolut")
     text = unresolved(
         f"base class not found: `{name}` does not exist",
         component("frame_a"),

@@ -80,8 +80,8 @@ equation
     annotation (Line(points={{-30, 300}, {-30, 295}, {20, 295}}, color={0, 0, 0}));
 
   annotation (
-    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 170}}), graphics={
-      Rectangle(extent={{-100, 100}, {100, 170}}, lineColor={110, 110, 110}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 290}}), graphics={
+      Rectangle(extent={{-100, 100}, {100, 290}}, lineColor={110, 110, 110}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
       Text(extent={{-94, 266}, {94, 284}}, textColor={64, 64, 64}, textString="lift"),
       Text(extent={{-94, 246}, {94, 264}}, textColor={64, 64, 64}, textString="rotational"),
       Text(extent={{-94, 226}, {94, 244}}, textColor={64, 64, 64}, textString="shoulder")}),

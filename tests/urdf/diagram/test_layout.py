@@ -8,7 +8,6 @@ import itertools
 import random
 import sys
 from collections import defaultdict
-from collections.abc import Iterator
 from types import FrameType
 from typing import TypeAlias
 
@@ -241,7 +240,9 @@ def test_a_chain_is_one_row_from_left_to_right() -> None:
 
 def test_the_first_child_goes_on_and_the_next_ones_stand_below() -> None:
     children = [TreeJoint(name, f"{name}Foot", "fixed") for name in ("first", "second", "third")]
-    diagram = layout(Tree("trunk", {"trunk": children}, {f"{joint.name}Foot": f"{joint.name}Frame" for joint in children}))
+    diagram = layout(
+        Tree("trunk", {"trunk": children}, {f"{joint.name}Foot": f"{joint.name}Frame" for joint in children})
+    )
     x, heights = zip(*(diagram.placements[joint.name].centre for joint in children), strict=True)
     assert len(set(x)) == 1
     assert list(heights) == sorted(heights, reverse=True)

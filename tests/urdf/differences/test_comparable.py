@@ -39,6 +39,26 @@ def test_a_link_and_a_joint_of_one_name_are_not_mixed_up() -> None:
     assert renamed["joints"]["c"]["parent"] == "a"
 
 
+def test_joints_that_can_be_driven_say_whether_they_are() -> None:
+    joints = (
+        *ARM,
+        '<link name="three"/><link name="four"/>',
+        '<joint name="caster" type="continuous"><parent link="one"/><child link="three"/></joint>',
+        '<joint name="weld" type="fixed"><parent link="one"/><child link="four"/></joint>',
+    )
+    silent = comparable(snapshot(*joints), {})["joints"]
+    assert {name: joint.get("drive") for name, joint in silent.items()} == {
+        "lead": "driven", "follow": None, "caster": "driven", "weld": None
+    }  # fmt: skip
+    told = snapshot(*joints, '<transmission name="t"><joint name="lead"/></transmission>')
+    renamed = comparable(told, {("joint", "caster"): "roll", ("joint", "lead"): "first"})["joints"]
+    assert {name: joint.get("drive") for name, joint in renamed.items()} == {
+        "first": "driven", "follow": None, "roll": "passive", "weld": None
+    }  # fmt: skip
+    assert not any("actuated" in joint for joint in renamed.values())
+    assert "drive" not in told["joints"]["lead"], "a snapshot is changed by nobody"
+
+
 def test_extensions_are_keyed_by_their_subject_so_that_one_more_is_one_change() -> None:
     gazebo = '<gazebo reference="{}"><mu1>1</mu1></gazebo>'
     first = comparable(snapshot(*ARM, gazebo.format("one"), gazebo.format("two")), {})["extensions"][""]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import msgspec
@@ -245,3 +245,84 @@ def test_reading_the_same_robot_written_differently_gives_no_change() -> None:
     assert snapshot is not None
     found = compare(version(), Version(snapshot, {}), urdf, FIXED)
     assert found.change_class is NONE
+
+
+CASTERS = (
+    *(f'<link name="{name}"/>' for name in ("base", "one", "two", "three")),
+    '<joint name="wheel" type="continuous"><parent link="base"/><child link="one"/></joint>',
+    '<joint name="caster" type="continuous"><parent link="base"/><child link="two"/></joint>',
+    '<joint name="mast" type="revolute"><parent link="base"/><child link="three"/><limit upper="1"/></joint>',
+)
+WHEEL, CASTER, MAST = (
+    f'<transmission name="{name} drive"><joint name="{name}"/></transmission>' for name in ("wheel", "caster", "mast")
+)
+LIMITED = CASTERS[5].replace("</joint>", '<limit effort="1" velocity="1"/></joint>')
+
+
+def drives(old: Sequence[str], new: Sequence[str], options: Options = FIXED) -> dict[str, tuple[Any, Any, ChangeClass]]:
+    """The changes from one robot to another: old value and new one where a drive changed, and the class."""
+    one, two = (read(urdfs.robot(*elements).encode()).snapshot for elements in (old, new))
+    assert one is not None
+    assert two is not None
+    found = compare(Version(one, {}), Version(two, {}), urdf, options).changes
+    return {
+        str(c): (c.old, c.new, c.change_class) if c.path[-1] == "drive" else (None, None, c.change_class) for c in found
+    }
+
+
+TEXT = (None, None, UNMODELLED)
+PASSIVE, DRIVEN = ("driven", "passive", STRUCTURAL), ("passive", "driven", STRUCTURAL)
+
+
+def test_the_first_drive_makes_casters_passive() -> None:
+    found = drives(CASTERS, (*CASTERS, WHEEL))
+    assert found == {"joint caster / drive": PASSIVE, "robot / extensions": TEXT}
+
+
+def test_drives_of_joints_that_are_driven_anyway_are_not_modelled() -> None:
+    assert set(drives((*CASTERS, WHEEL), (*CASTERS, WHEEL, MAST)).values()) == {TEXT}
+    other = WHEEL.replace("</transmission>", "<actuator name='m'/></transmission>")
+    assert drives((*CASTERS, WHEEL), (*CASTERS, other)) == {"robot / transmission wheel drive": TEXT}
+
+
+def test_a_drive_that_goes_to_another_joint() -> None:
+    moved = drives((*CASTERS, WHEEL), (*CASTERS, CASTER))
+    assert moved["joint wheel / drive"] == PASSIVE
+    assert moved["joint caster / drive"] == DRIVEN
+
+
+def test_a_limit_can_decide_too() -> None:
+    limited = [LIMITED if element == CASTERS[5] else element for element in CASTERS]
+    assert drives((*CASTERS, WHEEL), (*limited, WHEEL)) == {
+        "joint caster / drive": DRIVEN,
+        "joint caster / limit": (None, None, PARAMETER),
+    }
+    assert drives(CASTERS, limited) == {"joint caster / limit": (None, None, PARAMETER)}
+
+
+@pytest.mark.parametrize("options", [Options(driven=("wheel",)), Options(approach=("record",))])
+def test_where_the_source_does_not_decide_drives_are_text(options: Options) -> None:
+    assert set(drives(CASTERS, (*CASTERS, WHEEL), options).values()) == {TEXT}
+
+
+def test_a_joint_that_can_not_be_driven_any_more_has_another_type_and_no_more_to_say() -> None:
+    fixed = [element.replace('"caster" type="continuous"', '"caster" type="fixed"') for element in CASTERS]
+    assert drives((*CASTERS, WHEEL), (*fixed, WHEEL)) == {"joint caster / type": (None, None, STRUCTURAL)}
+    following = [element.replace('"two"/>', '"two"/><mimic joint="wheel"/>') for element in CASTERS[5:6]]
+    mimics = (*CASTERS[:5], *following, *CASTERS[6:])
+    assert drives((*CASTERS, WHEEL), (*mimics, WHEEL)) == {"joint caster / mimic": (None, None, STRUCTURAL)}
+
+
+def test_a_renamed_joint_keeps_its_drive() -> None:
+    renamed = [element.replace('"wheel"', '"tyre"') for element in (*CASTERS, WHEEL)]
+    found = drives((*CASTERS, WHEEL), renamed)
+    assert "joint wheel" in found
+    assert not [path for path in found if path.endswith("drive") and path.startswith("joint")]
+
+
+def test_a_rename_that_the_transmission_has_missed_is_one_still() -> None:
+    renamed = [element.replace('"wheel"', '"tyre"') for element in CASTERS]
+    assert drives((*CASTERS, WHEEL), (*renamed, WHEEL)) == {
+        "joint wheel": (None, None, STRUCTURAL),
+        "joint caster / drive": DRIVEN,
+    }

@@ -22,7 +22,6 @@ from urdfsync.urdf.robot import (
     Geometry,
     Inertial,
     Joint,
-    JointType,
     Limit,
     Link,
     Mesh,
@@ -31,7 +30,7 @@ from urdfsync.urdf.robot import (
     Robot,
     Sphere,
 )
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
+from urdfsync.urdf.skeleton import Skeleton
 
 TARGET = Target("Plant.Arm", "Arm")
 

@@ -12,9 +12,7 @@ from urdfsync.urdf.model.shapes import GREY, PINK, Numbers, contacts, hull, look
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,
-    Capsule,
     Collision,
-    Cylinder,
     Geometry,
     Link,
     Material,

@@ -111,7 +111,7 @@ def test_a_baseline_takes_the_place_of_the_reference() -> None:
 def test_differences_values_and_sizes_are_those_of_the_baseline() -> None:
     one = experiment(ARM)
     series, baseline = zeros(one), zeros(one)
-    elbow, slide = "robot.rotationalAxis[1].tau", "robot.translationalAxis[1].f"
+    elbow, slide = "robot.elbowAxis.tau", "robot.slideAxis.f"
     series |= {elbow: (3.0, 0.0, -1.0)}
     baseline |= {elbow: (1.0, 50.0, 2.0), slide: (0.0, 0.0, 7.0), "base.frame_b.t[2]": (0.0, 0.0, 90.0)}
     efforts = [found for found in one.compare(series, baseline) if found.quantity is Quantity.EFFORT]
@@ -185,7 +185,7 @@ SPHERE = "<geometry><sphere radius='1'/></geometry>"
 SHAPE = f"<visual>{SPHERE}</visual><collision>{SPHERE}</collision>"
 
 
-BENCHES = "Run and Test with the record of the whole robot (they are only compiled)"
+BENCHES = "Run and Test (they are only compiled)"
 
 
 def test_what_is_not_compared_concerns_this_robot() -> None:

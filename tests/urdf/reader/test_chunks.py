@@ -179,6 +179,7 @@ def own(*children: str, start: str = '<robot name="r">', end: str = "</robot>") 
 A, B = '<link name="a"/>', '<link name="b"/>'
 AB = '<joint name="ab" type="fixed"><parent link="a"/><child link="b"/></joint>'
 X = '<x:e y:z="1"/>'
+T, U = (f'<transmission name="t"><joint name="{name}"/></transmission>' for name in ("ab", "abc"))
 IDS = '<!DOCTYPE robot [<!ATTLIST sensor kind NMTOKENS #IMPLIED>]><robot name="r">'
 TRICKS: dict[str, list[str]] = {
     "a comment that swallows a child": [
@@ -210,6 +211,7 @@ TRICKS: dict[str, list[str]] = {
     "an identity": [own(A, "<q xml:id='a'/>"), own(A, "<q xml:id='a'/>", "<p xml:id='a'/>")],
     "merge markers": [own(A, "\n", "<q/>"), own(A, "\n<<<<<<< HEAD\n", "<q/>")],
     "an entity": [own(A, "<q/>"), own(A, "<q>&e;</q>")],
+    "a transmission": [own(A, B, turn, *end) for turn in (AB, AB.replace(">", " >")) for end in ([], [T], [T, T], [U])],
     "xacro": [own(A, "<xacro:leg/>"), own("<xacro:leg/>"), own(A, "<xacro:leg/>", "<material name='&#36;{a}'/>")],
     "a material elsewhere": [own(*BOXES, material) for material in (GREY.format(1), GREY.format("x"), "", "<q/>")],
     "several definitions": [own(*BOXES, *(GREY.format(n) for n in numbers)) for numbers in ((1, 0), (0, 1), (0, 0))],
@@ -263,6 +265,8 @@ OTHERS = st.builds(
         [
             '<material name="{0}"><color rgba="0 0 {1} 1"/></material>\n',
             '<gazebo reference="{0}">{1}</gazebo>',
+            '<transmission name="{1}">\n<joint name="{0}"/></transmission>',
+            '<ros2_control name="{1}"><joint name="{0}"><command_interface/></joint></ros2_control>',
             "<x:e>\n<x:f/><![CDATA[</robot>]]></x:e>\n",
             "<y:e/>\n",
             '<xacro:{0} n="${{{1}}}"/>',

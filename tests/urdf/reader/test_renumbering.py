@@ -27,15 +27,18 @@ GIVEN: dict[str, tuple[Any, ...]] = {
     "grey": (0.5,),
     "leg": ("", 1, 'box size="1 1 1"', "grey"),
     "knee": ("revolute", 0.1, "thigh", 2, -1, '<mimic joint="hip" multiplier="2"/>'),
-    "end": ("",),
+    "end": ("", "knee"),
 }
-"""A robot with a warning (the axis), a material from elsewhere and a mimic relation."""
+"""A robot with a warning (the axis), a material from elsewhere, a mimic relation and a transmission."""
+DRIVE = '<transmission name="drive"><joint name="{0}"/></transmission>'
 
 
 def legged(**others: tuple[Any, ...]) -> bytes:
     given = GIVEN | others
     leg, knee = LEG.format(*given["leg"]), KNEE.format(*given["knee"])
-    return robot(GREY.format(*given["grey"]), link("base"), link("thigh"), leg, HIP, knee, *given["end"]).encode()
+    more, driven = given["end"]
+    end = more, DRIVE.format(driven)
+    return robot(GREY.format(*given["grey"]), link("base"), link("thigh"), leg, HIP, knee, *end).encode()
 
 
 NUMBERS = {
@@ -59,7 +62,9 @@ MORE = {
     "a parent": {"knee": ("revolute", 0.1, "base", 2, -1, '<mimic joint="hip" multiplier="2"/>')},
     "no mimic": {"knee": ("revolute", 0.1, "thigh", 2, -1, "")},
     "a mimic of nothing": {"knee": ("revolute", 0.1, "thigh", 2, -1, '<mimic joint="hop" multiplier="2"/>')},
-    "an element": {"end": ("<gazebo/>",)},
+    "an element": {"end": ("<gazebo/>", "knee")},
+    "another joint that is driven": {"end": ("", "hip")},
+    "a drive of nothing": {"end": ("", "ankle")},
 }
 
 

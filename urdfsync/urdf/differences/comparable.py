@@ -1,4 +1,4 @@
-"""Snapshots as they are compared: under the new names, extensions keyed by what they are about."""
+"""Snapshots as they are compared: under the new names, with drives, extensions keyed by what they are about."""
 
 from __future__ import annotations
 
@@ -9,13 +9,19 @@ from typing import Any
 
 from urdfsync.difference import ElementKey
 from urdfsync.domain import Snapshot
+from urdfsync.urdf.drives import can_be_driven, passive_joints
+from urdfsync.urdf.snapshot import joints_of
 
 _SUBJECT = re.compile(r"<[^>]*?\s(?:name|reference)=\"([^\"]*)\"")
 """The name in an element's first tag; in canonical XML the value of an attribute has no quotes."""
 
 
 def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-    """The snapshot with those links and joints renamed wherever it mentions them, and extensions keyed."""
+    """The snapshot with those links and joints renamed wherever it mentions them, and extensions keyed.
+
+    Each joint that can be driven has an entry `drive` in the place of `actuated`: `driven` or `passive`, as the source
+    has it. One transmission more or less can change it for joints that it does not name.
+    """
     links, joints, extensions = snapshot["links"], snapshot["joints"], snapshot["extensions"]
     if renames:
         links = {renames.get(("link", name), name): link for name, link in links.items()}
@@ -24,7 +30,7 @@ def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapsho
     return {
         "name": snapshot["name"],
         "links": links,
-        "joints": joints,
+        "joints": _with_drives(joints),
         "extensions": {owner: _keyed(tags) for owner, tags in extensions.items()},
     }
 
@@ -34,6 +40,17 @@ def _joint(joint: Mapping[str, Any], renames: Mapping[ElementKey, str]) -> Mappi
     if mimic := joint.get("mimic"):
         ends["mimic"] = {**mimic, "joint": renames.get(("joint", mimic["joint"]), mimic["joint"])}
     return {**joint, **ends}
+
+
+def _with_drives(joints: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Mapping[str, Any]]:
+    robot = joints_of(joints)
+    passive = passive_joints(robot)
+    drives = {joint.name: "passive" if joint.name in passive else "driven" for joint in robot if can_be_driven(joint)}
+    return {
+        name: {key: value for key, value in joint.items() if key != "actuated"}
+        | ({"drive": drives[name]} if name in drives else {})
+        for name, joint in joints.items()
+    }
 
 
 def _owner(owner: str, renames: Mapping[ElementKey, str]) -> str:

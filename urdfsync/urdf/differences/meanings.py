@@ -11,7 +11,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.difference import ChangeClass, Difference, Meaning, Version
+from urdfsync.difference import ChangeClass, Difference, Kind, Meaning, Version
 from urdfsync.urdf.differences.shapes import GROUPS, Group, Looks, mesh_of
 from urdfsync.urdf.differences.units import joint_unit, link_unit
 from urdfsync.urdf.meshes import lookup
@@ -56,6 +56,8 @@ class _Meanings(msgspec.Struct, frozen=True, dict=True):
                 return self._import(key)
             case ("links", str(name), *fields):
                 return self._link(name, fields)
+            case ("joints", str(name), "drive"):
+                return self._drive(name, difference.kind)
             case ("joints", str(name), *fields):
                 return self._joint(name, fields)
             case ("extensions", str(owner), *fields):
@@ -105,6 +107,12 @@ class _Meanings(msgspec.Struct, frozen=True, dict=True):
         units = [joint_unit(joints[name], joints, place[-1]) for joints in versions if _has(joints[name], place)]
         unit = " → ".join(dict.fromkeys(filter(None, units)))
         return Meaning(words, max(classes, key=lambda c: c.rank), unit)
+
+    def _drive(self, name: str, kind: Kind) -> Meaning | None:
+        """A joint that begins or ceases to be driven; None if its type or mimic says so, or if an option decides."""
+        if kind is not Kind.CHANGED or self.options.driven is not None or "package" not in self.options.approach:
+            return None
+        return Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL)
 
     def _import(self, key: str) -> Meaning | None:
         """A mesh that some shape shows in both versions; what else comes or goes follows from other changes."""

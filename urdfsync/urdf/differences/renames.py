@@ -16,8 +16,9 @@ from typing import Any
 from urdfsync.difference import ElementKey
 from urdfsync.domain import Snapshot
 
-_NAMES = {"joint": ("parent", "child"), "mimic": ("joint",), "material": ("name",), "shape": ("name",)}
-"""Per block of the snapshot, the entries that are names: not part of what makes elements alike."""
+_NAMES = {"joint": ("parent", "child", "actuated"), "mimic": ("joint",), "material": ("name",), "shape": ("name",)}
+"""Per block of the snapshot, the entries that are names, or follow from names elsewhere (a transmission that names the
+joint): not part of what makes elements alike."""
 
 
 def renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:

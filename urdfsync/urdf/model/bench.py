@@ -8,6 +8,7 @@ from typing import Any
 import msgspec
 
 from urdfsync.domain import Import, Target
+from urdfsync.urdf.drives import driven_joints
 from urdfsync.urdf.model import notes
 from urdfsync.urdf.model.assembly import standing_height
 from urdfsync.urdf.model.robot import connector_names, drive_rows, icon_top
@@ -38,9 +39,11 @@ def bench_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str
     names = connector_names(skeleton, options)
     rows = drive_rows(skeleton, names)
     top = icon_top(max(len(rows), len(names.frames)))
+    driven = driven_joints(skeleton.joints, options)
     drives = [
         BenchDrive(row.joint, row.name, row.motion, row.axis, row.support, _FRAME_Y + row.y * 3 // 2, row.y)
         for row in rows
+        if row.name in driven
     ]
     return {
         "within": target.package,
@@ -49,10 +52,11 @@ def bench_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str
         "base": options.base,
         "visualizer": options.visualizer,
         "drives": drives,
-        "passive": [],
+        "passive": [row.joint for row in rows if row.name not in driven],
+        "inputs": options.inputs,
         "bottom": _FRAME_Y - 150,
         "top": _FRAME_Y + top * 3 // 2,
-        "icon_top": icon_top(len(rows)),
+        "icon_top": top,
         "run_note": notes.run_note(target.name),
         "test_note": notes.test_note(target.name),
     }

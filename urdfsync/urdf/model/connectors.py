@@ -10,8 +10,9 @@ from collections.abc import Iterable
 
 import msgspec
 
+from urdfsync.urdf.drives import can_be_driven
 from urdfsync.urdf.naming import GENERATED, Identifier
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
+from urdfsync.urdf.skeleton import Skeleton
 
 
 class Connectors(msgspec.Struct, frozen=True):
@@ -30,7 +31,7 @@ class Connectors(msgspec.Struct, frozen=True):
 def connectors(skeleton: Skeleton, frames: Iterable[str]) -> Connectors:
     """The names for a robot; `frames` are the links that get a frame of their own."""
     taken = GENERATED | {identifier.component.lower() for identifier in skeleton.names.values()}
-    driven = [joint.name for joint in skeleton.joints if joint.type in MOTIONS and joint.mimic is None]
+    driven = [joint.name for joint in skeleton.joints if can_be_driven(joint)]
     return Connectors(
         {name: _free(skeleton.link(name), "Frame", taken) for name in frames},
         {name: _free(skeleton.joint(name), "Axis", taken) for name in driven},

@@ -48,9 +48,9 @@ def joint_note(joint: Joint) -> str:
 def robot_note(name: str) -> str:
     """Documentation of the robot model, as HTML."""
     return (
-        f"Links and joints of robot {name}, connected. The flange vectors hold the axes that can be driven; the "
-        "constants <code>...Axis</code> and <code>...Frame</code> are their numbers, and keep their meaning when the "
-        f"robot changes. {_EDIT}"
+        f"Links and joints of robot {name}, connected. Each can be exchanged in a model that extends this one. A drive of "
+        "joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. "
+        f"{_EDIT}"
     )
 
 

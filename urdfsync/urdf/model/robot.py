@@ -9,6 +9,7 @@ import msgspec
 
 from urdfsync.domain import Target
 from urdfsync.urdf.diagram import layout
+from urdfsync.urdf.frames import frame_links
 from urdfsync.urdf.model import notes
 from urdfsync.urdf.model.connectors import Connectors, connectors
 from urdfsync.urdf.options import Options
@@ -121,7 +122,7 @@ def robot_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str
 
 def connector_names(skeleton: Skeleton, options: Options) -> Connectors:
     """The names of a robot's connectors."""
-    return connectors(skeleton, (link.name for link in skeleton.leaves()))
+    return connectors(skeleton, (link.name for link in frame_links(skeleton, options)))
 
 
 def drive_rows(skeleton: Skeleton, names: Connectors) -> list[Drive]:
@@ -202,7 +203,9 @@ def _joints(skeleton: Skeleton, names: Connectors) -> list[JointPart]:
             notes.joint_title(joint),
             names.axes.get(joint.name),
             _following(skeleton, joint, types, names),
-            tuple(names.couplings[follower.name] for follower, _ in followers.get(joint.name, ()) if joint.type in MOTIONS),
+            tuple(
+                names.couplings[follower.name] for follower, _ in followers.get(joint.name, ()) if joint.type in MOTIONS
+            ),
         )
         for joint in skeleton.joints
     ]

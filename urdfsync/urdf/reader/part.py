@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 
 import msgspec
 
+from urdfsync.urdf.reader.actuated import TAGS, Actuated, read_actuated
 from urdfsync.urdf.reader.checks import Finding, check_joint, check_link
 from urdfsync.urdf.reader.fields import Element, Findings, extension
 from urdfsync.urdf.reader.joint import read_joint
@@ -42,6 +43,8 @@ class Part(msgspec.Struct, frozen=True, eq=False):
     """What checks say of the link or joint by itself."""
     findings: Findings
     leftovers: tuple[Leftover, ...]
+    actuated: tuple[Actuated, ...] = ()
+    """The joints that a transmission, or an element of ros2_control, drives."""
 
 
 def read_part(node: Node, path: str, text: str) -> Part:
@@ -50,6 +53,7 @@ def read_part(node: Node, path: str, text: str) -> Part:
     extensions: list[Extension] = []
     read: Link | Joint | Material | None = None
     faults: Iterable[Finding] = ()
+    driven: Iterable[Actuated] = ()
     match node.tag:
         case "link":
             element = Element(node, path, findings)
@@ -63,8 +67,10 @@ def read_part(node: Node, path: str, text: str) -> Part:
             read = read_material(Element(node, path, findings))
         case _:
             extensions.append(extension("", node, "robot", MODELLED, findings))
+            if node.tag in TAGS:
+                driven = read_actuated(Element(node, path, findings))
     left = tuple(_leftovers(node)) if any(sign in text for sign in _XACRO) else ()
-    return Part(read, tuple(extensions), tuple(faults), findings, left)
+    return Part(read, tuple(extensions), tuple(faults), findings, left, tuple(driven))
 
 
 def _leftovers(child: Node) -> Iterator[Leftover]:

@@ -66,7 +66,7 @@ def renumbered(last: Last, document: Document[Part], said: Sequence[Diagnostic],
         found = [_with_materials(links[old.name], old) if old.name in links else old for old in robot.links]
         robot = msgspec.structs.replace(robot, links=tuple(found))
     if joints:
-        moves = [_with_unit_axis(joints[old.name], old) if old.name in joints else old for old in robot.joints]
+        moves = [_as_in_robot(joints[old.name], old) if old.name in joints else old for old in robot.joints]
         robot = msgspec.structs.replace(robot, joints=tuple(moves))
     same = last.agreed == head and not document.far
     return Renumbered(robot, same and all(_are_alike(old.text, new.text) for old, new in changes))
@@ -125,7 +125,7 @@ def _with_materials(link: Link, old: Link) -> Link:
     return old if found == old else found
 
 
-def _with_unit_axis(joint: Joint, old: Joint) -> Joint:
-    """The joint with a unit vector as its axis, or the old one if nothing has changed."""
-    (found,) = unit_axes(Robot("", joints=(joint,))).joints
+def _as_in_robot(joint: Joint, old: Joint) -> Joint:
+    """The joint with a unit vector as its axis, actuated as the old one; that itself if nothing has changed."""
+    (found,) = unit_axes(Robot("", joints=(msgspec.structs.replace(joint, actuated=old.actuated),))).joints
     return old if found == old else found

@@ -75,7 +75,7 @@ equation
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -44}, {84, 34}})),
     Documentation(info="<html>
 <p>
-Links and joints of robot PlanarPlatform, connected. The flange vectors hold the axes that can be driven; the constants <code>...Axis</code> and <code>...Frame</code> are their numbers, and keep their meaning when the robot changes. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+Links and joints of robot PlanarPlatform, connected. Each can be exchanged in a model that extends this one. A drive of joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
 </html>"));
 end PlanarPlatform;

@@ -6,39 +6,11 @@ model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the m
     load = robot.m*world.g);
 
   replaceable WheeledRobot robot constrainedby WheeledRobot(
-    fixedStart = false)
+    fixedStart = false,
+    caster_swivel(fixedStart = true),
+    caster_roll(fixedStart = true))
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 355}})));
-
-  Modelica.Blocks.Interfaces.RealInput caster_swivel_phi(unit = "rad")
-    "Where joint \"caster_swivel\" is to go"
-    annotation (Placement(transformation(extent={{-140, 330}, {-120, 350}}), iconTransformation(extent={{-120, 245}, {-100, 265}})));
-
-  Modelica.Blocks.Interfaces.RealOutput caster_swivel_tau(unit = "N.m") = robot.caster_swivelAxis.tau
-    "What the drive of joint \"caster_swivel\" has to give"
-    annotation (Placement(transformation(extent={{340, 330}, {360, 350}}), iconTransformation(extent={{100, 245}, {120, 265}})));
-
-  Modelica.Mechanics.Rotational.Sources.Position caster_swivelDrive(
-    useSupport = true,
-    exact = false,
-    w(fixed = true))
-    "Moves joint \"caster_swivel\", through a filter"
-    annotation (Placement(transformation(extent={{-40, 330}, {-20, 350}})));
-
-  Modelica.Blocks.Interfaces.RealInput caster_roll_phi(unit = "rad")
-    "Where joint \"caster_roll\" is to go"
-    annotation (Placement(transformation(extent={{-140, 300}, {-120, 320}}), iconTransformation(extent={{-120, 225}, {-100, 245}})));
-
-  Modelica.Blocks.Interfaces.RealOutput caster_roll_tau(unit = "N.m") = robot.caster_rollAxis.tau
-    "What the drive of joint \"caster_roll\" has to give"
-    annotation (Placement(transformation(extent={{340, 300}, {360, 320}}), iconTransformation(extent={{100, 225}, {120, 245}})));
-
-  Modelica.Mechanics.Rotational.Sources.Position caster_rollDrive(
-    useSupport = true,
-    exact = false,
-    w(fixed = true))
-    "Moves joint \"caster_roll\", through a filter"
-    annotation (Placement(transformation(extent={{-40, 300}, {-20, 320}})));
 
   Modelica.Blocks.Interfaces.RealInput drive_left_phi(unit = "rad")
     "Where joint \"drive_left\" is to go"
@@ -133,18 +105,6 @@ model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the m
 equation
   connect(base.frame_b, robot.frame_a)
     annotation (Line(points={{-40, -50}, {20, -50}}, color={95, 95, 95}, thickness=0.5));
-  connect(caster_swivel_phi, caster_swivelDrive.phi_ref)
-    annotation (Line(points={{-130, 340}, {-42, 340}}, color={0, 0, 127}));
-  connect(caster_swivelDrive.flange, robot.caster_swivelAxis)
-    annotation (Line(points={{-20, 340}, {20, 340}}, color={0, 0, 0}));
-  connect(caster_swivelDrive.support, robot.caster_swivelSupport)
-    annotation (Line(points={{-30, 330}, {-30, 325}, {20, 325}}, color={0, 0, 0}));
-  connect(caster_roll_phi, caster_rollDrive.phi_ref)
-    annotation (Line(points={{-130, 310}, {-42, 310}}, color={0, 0, 127}));
-  connect(caster_rollDrive.flange, robot.caster_rollAxis)
-    annotation (Line(points={{-20, 310}, {20, 310}}, color={0, 0, 0}));
-  connect(caster_rollDrive.support, robot.caster_rollSupport)
-    annotation (Line(points={{-30, 300}, {-30, 295}, {20, 295}}, color={0, 0, 0}));
   connect(drive_left_phi, drive_leftDrive.phi_ref)
     annotation (Line(points={{-130, 280}, {-42, 280}}, color={0, 0, 127}));
   connect(drive_leftDrive.flange, robot.drive_leftAxis)
@@ -185,8 +145,6 @@ equation
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 270}}), graphics={
       Rectangle(extent={{-100, 100}, {100, 270}}, lineColor={110, 110, 110}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
-      Text(extent={{-94, 246}, {94, 264}}, textColor={64, 64, 64}, textString="caster_swivel"),
-      Text(extent={{-94, 226}, {94, 244}}, textColor={64, 64, 64}, textString="caster_roll"),
       Text(extent={{-94, 206}, {94, 224}}, textColor={64, 64, 64}, textString="drive_left"),
       Text(extent={{-94, 186}, {94, 204}}, textColor={64, 64, 64}, textString="drive_right"),
       Text(extent={{-94, 166}, {94, 184}}, textColor={64, 64, 64}, textString="lift"),

@@ -7,25 +7,11 @@ model WheeledRobotTest "Quick check of robot WheeledRobot: every axis moves insi
   extends Modelica.Icons.Example;
 
   replaceable WheeledRobot robot constrainedby WheeledRobot(
-    fixedStart = false)
+    fixedStart = false,
+    caster_swivel(fixedStart = true),
+    caster_roll(fixedStart = true))
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 355}})));
-
-  UrdfSync.Drives.RotationalSweep caster_swivelDrive(
-    phi_start = robot.caster_swivel.phi_start,
-    phi_min = robot.caster_swivel.phi_min,
-    phi_max = robot.caster_swivel.phi_max,
-    w_max = robot.caster_swivel.w_max)
-    "Moves joint \"caster_swivel\" there and back"
-    annotation (Placement(transformation(extent={{-40, 330}, {-20, 350}})));
-
-  UrdfSync.Drives.RotationalSweep caster_rollDrive(
-    phi_start = robot.caster_roll.phi_start,
-    phi_min = robot.caster_roll.phi_min,
-    phi_max = robot.caster_roll.phi_max,
-    w_max = robot.caster_roll.w_max)
-    "Moves joint \"caster_roll\" there and back"
-    annotation (Placement(transformation(extent={{-40, 300}, {-20, 320}})));
 
   UrdfSync.Drives.RotationalSweep drive_leftDrive(
     phi_start = robot.drive_left.phi_start,
@@ -78,14 +64,6 @@ model WheeledRobotTest "Quick check of robot WheeledRobot: every axis moves insi
 equation
   connect(base.frame_b, robot.frame_a)
     annotation (Line(points={{-40, -50}, {20, -50}}, color={95, 95, 95}, thickness=0.5));
-  connect(caster_swivelDrive.flange, robot.caster_swivelAxis)
-    annotation (Line(points={{-20, 340}, {20, 340}}, color={0, 0, 0}));
-  connect(caster_swivelDrive.support, robot.caster_swivelSupport)
-    annotation (Line(points={{-30, 330}, {-30, 325}, {20, 325}}, color={0, 0, 0}));
-  connect(caster_rollDrive.flange, robot.caster_rollAxis)
-    annotation (Line(points={{-20, 310}, {20, 310}}, color={0, 0, 0}));
-  connect(caster_rollDrive.support, robot.caster_rollSupport)
-    annotation (Line(points={{-30, 300}, {-30, 295}, {20, 295}}, color={0, 0, 0}));
   connect(drive_leftDrive.flange, robot.drive_leftAxis)
     annotation (Line(points={{-20, 280}, {20, 280}}, color={0, 0, 0}));
   connect(drive_leftDrive.support, robot.drive_leftSupport)

@@ -1,0 +1,109 @@
+"""Which joints Run and Test drive."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from support.corpus import label, robots
+
+from urdfsync.urdf.drives import driven_joints, passive_joints
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Joint, Limit, Mimic
+from urdfsync.urdf.skeleton import bare
+from urdfsync.urdf.source import read_robot
+
+PLAIN = Options()
+MIR = {f"{corner}_caster_{part}_joint" for corner in ("fl", "fr", "bl", "br") for part in ("rotation", "wheel")}
+TENDONS = {f"finger_{finger}_joint_{number}" for finger in ("1", "2", "middle") for number in (0, 1, 2)}
+PASSIVE = {"random-mir": MIR, "drake-robotiq_tendons": TENDONS}
+"""Passive joints of the robots of the corpus that have any."""
+JOINTS = st.builds(
+    Joint,
+    st.sampled_from("abcdefgh"),
+    st.sampled_from(["fixed", "continuous", "revolute", "prismatic", "planar", "floating"]),
+    st.just("p"),
+    st.just("c"),
+    limit=st.none() | st.builds(Limit, st.floats(-9, 0), st.floats(0, 9), st.none() | st.floats(0, 9)),
+    mimic=st.none() | st.builds(Mimic, st.just("a"), st.floats(-9, 9)),
+    actuated=st.booleans(),
+)
+
+
+def joint(name: str, kind: str = "continuous", limit: bool = False, mimic: str = "", actuated: bool = False) -> Joint:
+    return Joint(
+        name,
+        kind,  # type: ignore[arg-type]
+        "p",
+        "c",
+        limit=Limit() if limit else None,
+        mimic=Mimic(mimic) if mimic else None,
+        actuated=actuated,
+    )
+
+
+CART = (
+    joint("wheel", actuated=True),
+    joint("caster"),
+    joint("mast", "revolute", limit=True),
+    joint("lid", "revolute"),
+    joint("lift", "prismatic"),
+    joint("spindle", limit=True),
+    joint("slave", mimic="wheel"),
+    joint("driven slave", mimic="wheel", actuated=True),
+    joint("weld", "fixed", actuated=True),
+    joint("glide", "planar"),
+    joint("fly", "floating"),
+)
+DRIVEN = {"wheel", "mast", "lid", "lift", "spindle"}
+
+
+def test_a_continuous_joint_with_neither_drive_nor_limit_is_passive_if_others_have_a_drive() -> None:
+    assert driven_joints(CART, PLAIN) == DRIVEN
+    assert passive_joints(CART) == {"caster"}
+
+
+def test_a_robot_that_says_nothing_of_drives_keeps_all_of_them() -> None:
+    silent = [joint("wheel"), *CART[1:7], *CART[9:]]
+    assert driven_joints(silent, PLAIN) == {*DRIVEN, "caster"}
+    assert passive_joints(silent) == frozenset()
+
+
+def test_a_transmission_of_a_joint_that_can_not_move_says_something_too() -> None:
+    assert driven_joints([joint("weld", "fixed", actuated=True), joint("caster")], PLAIN) == frozenset()
+
+
+@pytest.mark.parametrize(
+    ("names", "driven"),
+    [
+        (["caster"], {"caster"}),
+        ([], set()),
+        (["caster", "caster", "mast"], {"caster", "mast"}),
+        (["mast", "slave", "weld", "glide", "fly", "gone"], {"mast"}),
+    ],
+)
+def test_the_option_says_exactly_which_are_driven(names: Sequence[str], driven: set[str]) -> None:
+    assert driven_joints(CART, Options(driven=tuple(names))) == driven
+
+
+@given(st.lists(JOINTS, unique_by=lambda joint: joint.name), st.none() | st.lists(st.sampled_from("abcxyz")).map(tuple))
+def test_no_number_and_no_order_counts(joints: list[Joint], names: tuple[str, ...] | None) -> None:
+    options = Options(driven=names)
+    driven = driven_joints(joints, options)
+    assert driven_joints([*map(bare, reversed(joints))], options) == driven
+    assert driven <= {one.name for one in joints if one.type not in ("fixed", "planar", "floating") and not one.mimic}
+
+
+@pytest.mark.parametrize("file", robots(), ids=label)
+def test_real_robots(corpus: Path, file: str) -> None:
+    robot = read_robot((corpus / file).read_bytes(), file, cross_check=False).robot
+    if robot is None:
+        pytest.skip("a file with errors")
+    assert passive_joints(robot.joints) == PASSIVE.get(label(file), frozenset())
+
+
+def test_the_robots_with_passive_joints_are_in_the_corpus(corpus: Path) -> None:
+    assert PASSIVE.keys() <= set(map(label, robots()))

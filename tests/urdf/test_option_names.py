@@ -1,0 +1,105 @@
+"""Names in options that the robot does not have: what they are instead, and what may be meant."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from support import urdfs
+from support.packages import read
+
+from urdfsync.diagnostics import Severity
+from urdfsync.urdf.domain import DOMAIN
+from urdfsync.urdf.options import Options
+
+TRANSMISSION = '<transmission name="t"><joint name="wheel"/></transmission>'
+CART = urdfs.robot(
+    *map(urdfs.link, ("base", "tyre", "roller", "mast", "camera", "plate", "kite", "cover", "bolt")),
+    urdfs.joint("wheel", "continuous", "base", "tyre"),
+    urdfs.joint("caster", "continuous", "base", "roller"),
+    urdfs.joint("lift", "prismatic", "base", "mast", inside=[urdfs.limit(), urdfs.mimic("wheel")]),
+    urdfs.joint("camera", "fixed", "mast", "camera"),
+    urdfs.joint("glide", "planar", "base", "plate"),
+    urdfs.joint("lid", "fixed", "base", "cover", inside=[urdfs.mimic("wheel")]),
+    urdfs.joint("latch", "continuous", "base", "bolt", inside=[urdfs.mimic("lift")]),
+    urdfs.joint("fly", "floating", "base", "kite"),
+)
+WITH_DRIVE = CART.replace("</robot>", f"{TRANSMISSION}</robot>")
+
+
+def found(urdf: str = CART, **options: Any) -> list[tuple[str, Severity, str]]:
+    snapshot = read(urdf.encode()).snapshot
+    assert snapshot is not None
+    checked = DOMAIN.check_options(snapshot, Options(**options))
+    return [(option, said.severity, str(said).partition(": ")[2]) for option, said in checked]
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("base_link", "but the robot has no such link; did you mean `base`? [frame-of-no-link]"),
+        ("xyz", "but the robot has no such link; correct its name, or take it out [frame-of-no-link]"),
+        ("lift", "which is a joint and no link; name the link behind it, `mast`, or its parent [frame-of-no-link]"),
+    ],
+)
+def test_a_frame_of_no_link(name: str, words: str) -> None:
+    problem = ("frames", Severity.ERROR, f"`frames` names `{name}`, {words}")
+    assert found(frames=("base", name, "mast", name)) == [problem]
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("wheels", "but the robot has no such joint; did you mean `wheel`? [drive-of-no-joint]"),
+        ("lifts", "but the robot has no such joint; correct its name, or take it out [drive-of-no-joint]"),
+        ("lift", "which follows joint `wheel`; name `wheel`, or take it out [drive-of-no-joint]"),
+        ("camera", "which is fixed; take it out [drive-of-no-joint]"),
+        ("glide", "which is planar and has no single axis; take it out [drive-of-no-joint]"),
+        ("fly", "which is floating and has no single axis; take it out [drive-of-no-joint]"),
+        ("tyre", "which is a link and no joint; name the joint that moves it, `wheel` [drive-of-no-joint]"),
+        ("base", "which is a link and no joint; name a joint [drive-of-no-joint]"),
+        ("plate", "which is a link and no joint; name a joint [drive-of-no-joint]"),
+        ("lid", "which is fixed; take it out [drive-of-no-joint]"),
+        ("latch", "which follows joint `lift`; take it out [drive-of-no-joint]"),
+    ],
+)
+def test_a_drive_of_no_joint_that_can_be_driven(name: str, words: str) -> None:
+    problem = ("driven", Severity.ERROR, f"`driven` names `{name}`, {words}")
+    assert found(driven=("caster", name)) == [problem]
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"frames": "all"},
+        {"frames": ("tyre", "camera", "base")},
+        {"driven": ()},
+        {"driven": ("wheel", "caster")},
+        {"approach": ("record",), "frames": ("gone",), "driven": ("gone",)},
+    ],
+)
+def test_nothing_to_say(options: dict[str, Any]) -> None:
+    assert found(**options) == []
+
+
+def test_passive_joints_are_a_note_unless_the_option_says_what_is_driven() -> None:
+    note = (
+        "Run and Test do not drive `caster`: others have a transmission or ros2_control, these not even a limit; "
+        "if that is wrong, list all joints to drive in `driven` [passive-joints]"
+    )
+    assert found(WITH_DRIVE) == [("driven", Severity.NOTE, note)]
+    assert found(WITH_DRIVE, driven=("wheel",)) == []
+    assert found(WITH_DRIVE, approach=("record",)) == []
+
+
+def test_of_many_passive_joints_the_first_are_named() -> None:
+    casters = range(1, 13)
+    urdf = urdfs.robot(
+        *map(urdfs.link, ("base", "tyre", *(f"roller {number}" for number in casters))),
+        urdfs.joint("wheel", "continuous", "base", "tyre"),
+        *(urdfs.joint(f"caster {number}", "continuous", "base", f"roller {number}") for number in casters),
+        TRANSMISSION,
+    )
+    ((_, _, note),) = found(urdf)
+    assert "`caster 1`, `caster 2`, `caster 3`, `caster 4`, `caster 5` and 7 more: others" in note

@@ -1,0 +1,19 @@
+"""Which links have a frame connector of their own in the robot model."""
+
+from __future__ import annotations
+
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Link
+from urdfsync.urdf.skeleton import Skeleton
+
+
+def frame_links(skeleton: Skeleton, options: Options) -> tuple[Link, ...]:
+    """The leaves and the links that the option `frames` names, each once, in canonical order.
+
+    Names that are no link are left out: `check_options` reports them.
+    """
+    if options.frames == "all":
+        return skeleton.links
+    named = () if options.frames == "leaves" else options.frames
+    wanted = {leaf.name for leaf in skeleton.leaves()}.union(named)
+    return tuple(link for link in skeleton.links if link.name in wanted)
