@@ -31,7 +31,7 @@ from support.words import (
 )
 
 from urdfsync.domain import Role, Target
-from urdfsync.modelica import is_identifier
+from urdfsync.modelica.names import is_identifier
 
 BOT = Target("Bot", "Bot")
 PARTS = 16

@@ -30,7 +30,7 @@ from urdfsync.domain import (
     Templates,
 )
 from urdfsync.files import digest, templates_digest
-from urdfsync.modelica import is_identifier, within
+from urdfsync.modelica.names import is_identifier, within
 from urdfsync.planning import generate
 
 URDF = b"""<robot name="two &quot;links&quot;">

@@ -593,19 +593,114 @@ def test_a_merge_that_mentions_what_is_gone_is_a_conflict(project: Path) -> None
     assert standoff.rejected == f"the merge mentions `C1`, which the package has no more (line {line})"
 
 
-def test_own_classes_that_mention_what_is_gone_are_named(project: Path) -> None:
+def warnings(result: Result) -> list[str]:
+    """Where texts use names that the package loses, and what is said of it."""
+    assert {one.code for one in result.diagnostics} <= {"vanished-name"}
+    return [f"{Path(one.file).name}:{one.line}: {one.message}; {one.hint}" for one in result.diagnostics]
+
+
+def test_own_classes_that_use_what_is_gone_are_named(project: Path) -> None:
     run()
     mine = Path(f"{LADDER}/Elements/Mine.mo")
     mine.write_text('within Ladder.Elements;\nmodel Mine "C1"\n  // C1\n  extends C1;\nend Mine;\n')
-    edit(f"{LADDER}/Elements/R2.mo", "equation", "  C1Parameters other;\n\nequation")
+    edit(f"{LADDER}/Elements/R2.mo", "equation", "  C1 other;\n\nequation")
     drop("C1")
-    found = run().diagnostics
-    assert [(one.file, one.line, one.code) for one in found] == [
-        (str(mine), 4, "vanished-name"),
-        (f"{LADDER}/Elements/R2.mo", 7, "vanished-name"),
+    gone, hint = "but the package has no `C1` any more", "adapt your text to what the package is now"
+    assert warnings(run()) == [
+        f"Mine.mo:4: `C1` is used here, {gone}; {hint}",
+        f"R2.mo:7: `C1` is used here, {gone}; {hint}",
     ]
-    assert "`C1`" in found[0].message
     assert not run().diagnostics
+
+
+USER = {
+    "MyLadder.mo": """\
+within;
+model MyLadder
+  extends Ladder.Ladder(redeclare Modelica.Electrical.Analog.Basic.Resistor C1, R1(R = 2));
+  Ladder.Elements.C1 other;
+  Real C3 = C1.v;
+equation
+  connect(other.p, C1.p);
+end MyLadder;
+""",
+    "bench/MyBench.mo": """\
+model MyBench "Tries C1"
+  MyLadder mine;
+  Real u = mine.C1.v + mine.R1.v;
+end MyBench;
+""",
+    "Stranger.mo": "model Stranger\n  C1 other;\nend Stranger;\n",
+    "Broken.mo": "model Broken\n  Ladder.Ladder C1\nend Broken;\n",
+}
+
+
+def write_user(project: Path) -> None:
+    for path, text in USER.items():
+        (project / "modelica" / path).parent.mkdir(exist_ok=True)
+        (project / "modelica" / path).write_text(text)
+
+
+def test_files_around_the_package_that_use_what_is_gone_are_named(project: Path) -> None:
+    run()
+    write_user(project)
+    drop("C1")
+    gone, hint = "but the package has no `C1` any more", "adapt your text to what the package is now"
+    expected = [
+        f"Broken.mo:2: `C1` is used here, {gone}; {hint}",
+        f"MyBench.mo:3: `mine.C1.v` is used here, {gone}; {hint}",
+        f"MyLadder.mo:3: `C1` is used here, {gone}; {hint}; also in lines 4, 5, 7",
+    ]
+    assert sorted(warnings(run(dry=True))) == expected
+    assert sorted(warnings(run())) == expected
+    assert not run().diagnostics
+
+
+def test_uses_of_a_renamed_element_get_its_new_name(project: Path) -> None:
+    run()
+    write_user(project)
+    rename("C1", "Tank")
+    assert sorted(warnings(run()))[2].endswith("no `C1` any more; it is `Tank` now; also in lines 4, 5, 7")
+
+
+def test_nobody_is_told_of_names_that_are_still_there(project: Path) -> None:
+    run()
+    write_user(project)
+    drop("R2")
+    assert not run().diagnostics
+
+
+def test_a_package_that_moves_is_told_by_its_new_name(project: Path) -> None:
+    run()
+    write_user(project)
+    edit("urdfsync.toml", 'package = "Ladder"', 'package = "Rungs"')
+    found = [line for line in warnings(run()) if line.startswith("MyLadder")]
+    assert found[0].endswith("but the package has no `Ladder` any more; it is `Rungs` now; also in line 4")
+
+
+def test_a_record_stays_while_a_file_of_the_users_needs_it(project: Path) -> None:
+    run()
+    mine, record = project / "modelica" / "Mine.mo", f"{LADDER}/Elements/C1Parameters.mo"
+    mine.write_text("model Mine\n  parameter Ladder.Elements.C1Parameters p;\nend Mine;\n")
+    drop("C1")
+    result = run()
+    assert kinds(result)[record] is Kind.NEEDED
+    assert not result.diagnostics
+    assert Path(record).exists()
+    assert kinds(run()) == {record: Kind.NEEDED}
+    assert "C1Parameters" in Path(f"{LADDER}/Elements/package.order").read_text().split()
+    mine.write_text("model Mine\n  // Ladder.Elements.C1Parameters\nend Mine;\n")
+    assert kinds(run())[record] is Kind.DELETE
+    assert not Path(record).exists()
+
+
+def test_a_record_of_a_renamed_element_does_not_stay(project: Path) -> None:
+    run()
+    (project / "modelica" / "Mine.mo").write_text("model Mine\n  Ladder.Elements.C1Parameters p;\nend Mine;\n")
+    rename("C1", "Tank")
+    (line,) = warnings(run())
+    assert line.endswith("no `C1Parameters` any more; it is `TankParameters` now")
+    assert not Path(f"{LADDER}/Elements/C1Parameters.mo").exists()
 
 
 def test_an_own_class_behind_a_link_stops_no_build(project: Path, tmp_path: Path) -> None:

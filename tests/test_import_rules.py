@@ -72,13 +72,13 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "comparing/differ": ("urdfsync.report", "urdfsync.cli", "urdfsync.render", *HEAVY),
     "wording": (*SHELL_MODULES, *IO, *HEAVY),
     "documents": (*SHELL_MODULES, *IO, *HEAVY),
-    "modelica": ("urdfsync", *IO, *HEAVY),
-    "literals": ("urdfsync", *IO, *HEAVY),
-    "merge": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    **{f"modelica/{name}": ("urdfsync", *IO, *HEAVY) for name in ("names", "literals")},
     **{
-        f"merging/{name}": ("pathlib", "urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY)
-        for name in ("expressions", "grammar", "reading", "soundness")
+        f"modelica/{name}": ("pathlib", "urdfsync.manifest", "urdfsync.merging", *SHELL_MODULES, *IO, *HEAVY)
+        for name in ("lexer", "syntax", "reader", "expressions", "parser", "scopes", "unresolved")
     },
+    "merge": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    "merging/soundness": ("pathlib", "urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY),
     "tomlfile": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "tables": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "targets": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
@@ -234,8 +234,6 @@ PURE = (
         "status",
         "wording",
         "documents",
-        "modelica",
-        "literals",
         "checking/libraries/references",
         "checking/verdict",
         "checking/words",
@@ -243,7 +241,11 @@ PURE = (
         "watching/words",
         *(f"checking/diagnosis/{name}" for name in ("package", "layout", "complaints", "mentions", "problems")),
     ),
-    *(name for name in MODULES if name in ("merge", "state/repair") or name.startswith(("urdf/", "merging/"))),
+    *(
+        name
+        for name in MODULES
+        if name in ("merge", "state/repair") or name.startswith(("urdf/", "merging/", "modelica/"))
+    ),
 )
 
 

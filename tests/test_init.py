@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from urdfsync import cli, config
-from urdfsync.modelica import class_name, is_identifier
+from urdfsync.modelica.names import class_name, is_identifier
 
 Capture = pytest.CaptureFixture[str]
 

@@ -328,6 +328,8 @@ def test_an_edited_model_keeps_its_record() -> None:
     }
     gone = Action("Links/Hand.mo", Kind.FORGET, Role.MODEL, "link hand", "old")
     assert spared(gone, record)["Links/HandParameters.mo"] is Kind.DELETE
+    (used,) = spare([record], lambda *_: False, {record.path})
+    assert used.kind is Kind.NEEDED
 
 
 def test_a_package_stays_as_long_as_there_are_classes_in_it() -> None:

@@ -17,7 +17,7 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 
 from urdfsync import changes, moves
 from urdfsync.domain import Role
-from urdfsync.literals import numbers_only
+from urdfsync.modelica.literals import numbers_only
 from urdfsync.plan import (
     CONFLICTS,
     DELETES,

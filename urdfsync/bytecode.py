@@ -18,8 +18,8 @@ from pathlib import Path
 import jinja2
 from jinja2 import bccache
 
-from urdfsync import literals
 from urdfsync.files import put
+from urdfsync.modelica import literals
 
 _SIZE = hashlib.sha256().digest_size
 

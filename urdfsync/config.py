@@ -15,9 +15,10 @@ from typing import Any, Literal
 
 import msgspec
 
-from urdfsync import looking, modelica, registry, tables, targets, tomlfile
+from urdfsync import looking, registry, tables, targets, tomlfile
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, Target
+from urdfsync.modelica.names import DEVICES
 from urdfsync.spelling import nearest
 
 FILE_NAME = "urdfsync.toml"
@@ -113,7 +114,7 @@ class Config(msgspec.Struct, frozen=True):
 
 def is_robot_name(name: str) -> bool:
     """Whether a robot's name can be a file's name on every system."""
-    device = name.partition(".")[0].lower() in modelica.DEVICES
+    device = name.partition(".")[0].lower() in DEVICES
     return bool(_SAFE_NAME.fullmatch(name)) and not device and not name.endswith(".")
 
 

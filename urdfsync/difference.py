@@ -81,3 +81,5 @@ class Effect(msgspec.Struct, frozen=True):
     old: Any
     new: Any
     unit: str = ""
+    hint: str = ""
+    """What to do about it, if there is anything."""

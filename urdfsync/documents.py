@@ -190,7 +190,8 @@ def _plain(value: object) -> Any:
 
 
 def _effect(found: difference.Effect) -> dict[str, Any]:
-    return {"effect": " / ".join(found.path), "old": found.old, "new": found.new, "unit": found.unit}
+    values = {"old": found.old, "new": found.new, "unit": found.unit, "hint": found.hint}
+    return {"effect": " / ".join(found.path), **values}
 
 
 def _file(file: FileState) -> dict[str, Any]:

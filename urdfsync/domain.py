@@ -343,8 +343,14 @@ class Domain(Protocol):
         """The meaning of each difference of two comparable versions; None if another difference says the same."""
         ...
 
-    def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
+    def effects(self, old: Version, new: Version) -> Sequence[Effect]:
         """What the differences do to the model as a whole; the versions are as read, not comparable ones."""
+        ...
+
+    def interface(
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str], options: Any
+    ) -> Sequence[Effect]:
+        """What users may have connected to, and what is there by another name now, or no more; old is None for new."""
         ...
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:

@@ -12,10 +12,11 @@ from typing import Any
 import msgspec
 import tomli_w
 
-from urdfsync import modelica, registry, tables
+from urdfsync import registry, tables
 from urdfsync.config import is_robot_name, shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
+from urdfsync.modelica.names import class_name
 
 _HEADER = """\
 # Robots that urdfsync keeps in step with their Modelica packages.
@@ -153,11 +154,11 @@ def _guess(root: Path, source: Path, options: tuple[Proposal, ...], taken: Seque
     stem = source.name.partition(".")[0][:_LONGEST]
     count = "" if _is_free(stem, "", taken) else next(str(n) for n in range(2, 10_000) if _is_free(stem, str(n), taken))
     path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
-    return Guess(_robot_name(stem) + count, path.as_posix(), modelica.class_name(stem) + count, options)
+    return Guess(_robot_name(stem) + count, path.as_posix(), class_name(stem) + count, options)
 
 
 def _is_free(stem: str, count: str, taken: Sequence[Guess]) -> bool:
-    robot, package = _robot_name(stem) + count, (modelica.class_name(stem) + count).casefold()
+    robot, package = _robot_name(stem) + count, (class_name(stem) + count).casefold()
     return not any(guess.robot == robot or guess.package.casefold() == package for guess in taken)
 
 

@@ -283,10 +283,13 @@ def _action(
     return Action(path, kind, role, owner, base, generated, mine=mine.hash, at_hand=at_hand)
 
 
-def spare(actions: Iterable[Action], stays: Callable[[str, Collection[str]], bool]) -> tuple[Action, ...]:
+def spare(
+    actions: Iterable[Action], stays: Callable[[str, Collection[str]], bool], used: Collection[str] = ()
+) -> tuple[Action, ...]:
     """Keep what the user's files need: the record of an edited model, the `package.mo` of a folder with classes.
 
-    The record of a model that the user makes his own becomes his own, too.
+    The record of a model that the user makes his own becomes his own, too. `used` are records that a text of the user's
+    mentions.
 
     `stays(path, gone)` says whether the folder of the `package.mo` at `path` has other classes than those
     of the files in `gone`.
@@ -298,7 +301,7 @@ def spare(actions: Iterable[Action], stays: Callable[[str, Collection[str]], boo
     kept = {
         path
         for path, action in gone.items()
-        if action.kind is Kind.DELETE and action.role is Role.RECORD and action.owner in owners
+        if action.kind is Kind.DELETE and action.role is Role.RECORD and (action.owner in owners or path in used)
     }
     free = {path for path, action in gone.items() if action.role is Role.RECORD and action.owner in let_go}
     packages = [path for path, action in gone.items() if action.role is Role.PACKAGE]

@@ -24,8 +24,9 @@ from jinja2.exceptions import SecurityError
 from jinja2.runtime import Context, Macro
 from jinja2.sandbox import MAX_RANGE, ImmutableSandboxedEnvironment
 
-from urdfsync import bytecode, literals
+from urdfsync import bytecode
 from urdfsync.domain import Piece, Recipe
+from urdfsync.modelica import literals
 
 if sys.platform == "linux":
     import resource

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import msgspec
@@ -11,7 +11,6 @@ from urdfsync.merge import merge
 from urdfsync.merging.soundness import flaw
 from urdfsync.plan import CONFLICTS, Action, Kind
 from urdfsync.standoff import Choice, Standoff
-from urdfsync.vanished import mentions
 
 
 class Settled(NamedTuple):
@@ -21,22 +20,23 @@ class Settled(NamedTuple):
     text: str | None = None
 
 
-def stand_off(
-    action: Action, base: str | None, mine: str, generated: str, vanished: Set[str] = frozenset()
-) -> Standoff:
-    """The three texts of a file, and what comes of merging them; a merge that makes no sense is none.
-
-    `vanished` are names that the package has no more.
-    """
+def stand_off(action: Action, base: str | None, mine: str, generated: str) -> Standoff:
+    """The three texts of a file, and what comes of merging them; a merge that makes no sense is none."""
     merged = None if base is None else merge(base, mine, generated)
     rejected = ""
     if merged and merged.text is not None and merged.text != mine and action.path.endswith(".mo"):
         reason = flaw(merged.text, (mine, generated))
-        for name, line in mentions(merged.text, vanished)[: 0 if reason else 1]:
-            reason = f"mentions `{name}`, which the package has no more (line {line})"
         if reason:
             merged, rejected = msgspec.structs.replace(merged, text=None), f"the merge {reason}"
     return Standoff(action.path, action.owner, base, mine, generated, merged, action.origin, rejected)
+
+
+def reject_merge(standoff: Standoff, name: str, line: int) -> Standoff:
+    """The same without its merge, which uses a name that the package loses."""
+    if standoff.merge is None:
+        return standoff
+    reason = f"the merge mentions `{name}`, which the package has no more (line {line})"
+    return msgspec.structs.replace(standoff, merge=msgspec.structs.replace(standoff.merge, text=None), rejected=reason)
 
 
 def settle(

@@ -6,11 +6,12 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import config, modelica, registry
+from urdfsync import config, registry
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError, UrdfsyncError
 from urdfsync.domain import Domain, Reading, Target, Templates
 from urdfsync.files import kind_of, normalised, put, templates_digest
+from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
 from urdfsync.planning import inputs
 from urdfsync.planning.generate import Generated
 
@@ -74,18 +75,18 @@ def _render(domain: Domain, reading: Reading, file: str, target: Target) -> Reco
 
 
 def _class_name(source: Path, chosen: str, file: Path | None) -> str:
-    if chosen and not modelica.is_class_name(chosen):
+    if chosen and not is_class_name(chosen):
         hint = "choose a name with a capital first that neither Modelica nor urdfsync has a use for"
         raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", f"{chosen!r} can't be a class", hint=hint))
     stem = file.stem if file is not None else ""
-    if chosen or modelica.is_class_name(stem):
+    if chosen or is_class_name(stem):
         return chosen or stem
-    return modelica.class_name(source.name.partition(".")[0]) + _SUFFIX
+    return class_name(source.name.partition(".")[0]) + _SUFFIX
 
 
 def _package(within: str) -> str:
     for part in within.split(".") if within else ():
-        if not modelica.is_identifier(part) or not modelica.is_package_name(part):
+        if not is_identifier(part) or not is_package_name(part):
             message, hint = f"{within!r} can't be a package", "name one like Plant.Robots"
             raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", message, hint=hint))
     return within

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from urdfsync import modelica, tables
+from urdfsync import tables
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.modelica import names
 
 
 def class_name(package: str, chosen: str) -> str:
@@ -20,20 +21,20 @@ def problems(table: tables.Table, package: str, chosen: str) -> list[Diagnostic]
         hint = "use letters, digits and `_`, a letter first"
         if not name:
             message = f"`package` must be a full class name, not {package!r}"
-        elif name in modelica.KEYWORDS:
+        elif name in names.KEYWORDS:
             message, hint = f"`{key}`: `{name}` is a keyword of Modelica", _instead(name)
-        elif not modelica.is_identifier(name):
+        elif not names.is_identifier(name):
             message = f"`{key}`: {name!r} is no Modelica identifier"
         else:
             continue
         found.append(table.problem("modelica-name", key, message, hint))
     for index, part in enumerate(parts if not found else []):
-        own_library = part == modelica.LIBRARY and index == 0 and len(parts) > 1  # `parents` looks whether it is there
-        if not modelica.is_package_name(part) and not own_library:
+        own_library = part == names.LIBRARY and index == 0 and len(parts) > 1  # `parents` looks whether it is there
+        if not names.is_package_name(part) and not own_library:
             message = f"`package`: `{part}` can't be a package: Modelica, Windows or urdfsync has a use for the name"
             found.append(table.problem("modelica-name", "package", message, _instead(part)))
     name = class_name(package, chosen)
-    if not found and not modelica.is_class_name(name):
+    if not found and not names.is_class_name(name):
         message = f"`{name}` can't be the class of a robot model"
         hint = "set `class` to a name with a capital first that neither Modelica nor urdfsync has a use for"
         found.append(table.problem("modelica-name", "class" if chosen else "package", message, hint))
@@ -41,4 +42,4 @@ def problems(table: tables.Table, package: str, chosen: str) -> list[Diagnostic]
 
 
 def _instead(name: str) -> str:
-    return f"choose another name, for example `{modelica.class_name(f'{name} robot')}`"
+    return f"choose another name, for example `{names.class_name(f'{name} robot')}`"

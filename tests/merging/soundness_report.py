@@ -19,8 +19,8 @@ from pathlib import Path
 import rumoca
 
 from urdfsync.merge import merge, split_lines
-from urdfsync.merging.grammar import findings
 from urdfsync.merging.tokens import tokens
+from urdfsync.modelica.parser import parse
 
 LIBRARY = Path(__file__).parents[2] / "modelica" / "UrdfSync"
 
@@ -89,8 +89,8 @@ def main(count: int = 2000, seed: int = 1) -> None:
     files = [split_lines(path.read_text("utf-8")) for path in sorted(LIBRARY.rglob("*.mo"))]
     verdicts: Counter[str] = Counter()
     for _, text in zip(range(count), cases(rng, files), strict=False):
-        theirs, ours = refused(text), findings(text)
-        syntax = [finding for finding in ours if not finding.reason.endswith(" twice")]
+        theirs, ours = refused(text), parse(text).faults
+        syntax = [fault for fault in ours if not fault.reason.endswith(" twice")]
         verdict = "both refuse" if theirs else "only something twice" if ours else "both accept"
         if (theirs and not ours) or (syntax and not theirs):
             verdict = "missed" if theirs else "false alarm"

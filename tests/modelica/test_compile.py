@@ -12,7 +12,7 @@ from support.modelica import Task, compile_task, execute
 from support.packages import Package, generate, proposed_base
 
 from urdfsync.domain import Target
-from urdfsync.modelica import class_name
+from urdfsync.modelica.names import class_name
 
 CHOSEN = ("random-schunk_pg70", "oems-turtlebot3_burger")
 """One that stands and slides, with a mimic joint, and one that drives: the others are compiled in the long run."""

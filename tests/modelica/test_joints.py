@@ -18,7 +18,7 @@ from support.packages import Package, generate
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
 from urdfsync.domain import Quantity, Target
-from urdfsync.literals import vector
+from urdfsync.modelica.literals import vector
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reading import read

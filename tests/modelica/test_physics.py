@@ -15,7 +15,7 @@ from support import corpus, physics
 from support.corpus import REPOSITORY
 from support.marks import LONG
 
-from urdfsync.modelica import class_name
+from urdfsync.modelica.names import class_name
 from urdfsync.urdf.physics import amended
 from urdfsync.urdf.skeleton import Skeleton
 from urdfsync.urdf.source import read_robot

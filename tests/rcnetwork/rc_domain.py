@@ -167,7 +167,12 @@ class RcNetwork:
             meanings.append(Meaning(tuple(fields) or ("network",), reach, units[fields[-1]] if is_number else ""))
         return meanings
 
-    def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
+    def effects(self, old: Version, new: Version) -> Sequence[Effect]:
+        return ()
+
+    def interface(
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str], options: Options
+    ) -> Sequence[Effect]:
         return ()
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:

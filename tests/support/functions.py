@@ -10,7 +10,7 @@ import numpy as np
 
 from support import generic
 from support.modelica import Array, Run, Series, Task, execute
-from urdfsync.literals import vector
+from urdfsync.modelica.literals import vector
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.skeleton import MOTIONS
 

@@ -14,7 +14,7 @@ import numpy as np
 from support.modelica import Array, Run, Task
 from support.packages import Package, generate
 from urdfsync.domain import Target
-from urdfsync.literals import vector
+from urdfsync.modelica.literals import vector
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reading import read

@@ -53,6 +53,22 @@ def mutated(old: Version, random: Random, count: int) -> Version:
     return Version(snapshot, found)
 
 
+def driven_and_passive(random: Random) -> tuple[Version, Version]:
+    """Two versions of a robot of joints that turn freely, some of them driven: not by the same transmissions."""
+    old = version(random)
+    for joint in old.snapshot["joints"].values():
+        if random.random() < 0.7:
+            joint["type"] = "continuous"
+            for block in ("limit", "mimic"):
+                joint.pop(block, None)
+        if random.random() < 0.3:
+            joint["actuated"] = True
+    snapshot: Data = copy.deepcopy(dict(old.snapshot))
+    for _ in range(random.randint(1, 3)):
+        _toggle_drive(snapshot, random)
+    return old, Version(snapshot, old.imports)
+
+
 def _change_number(snapshot: Data, random: Random) -> None:
     part = random.choice(("links", "joints"))
     if not snapshot[part]:
@@ -76,6 +92,13 @@ def _toggle_block(snapshot: Data, random: Random) -> None:
         block = random.choice(BLOCKS)
         if joint.pop(block, None) is None:
             _add_block(snapshot, name, block, random)
+
+
+def _toggle_drive(snapshot: Data, random: Random) -> None:
+    if snapshot["joints"]:
+        joint = random.choice(list(snapshot["joints"].values()))
+        if not joint.pop("actuated", False):
+            joint["actuated"] = True
 
 
 def _change_type(snapshot: Data, random: Random) -> None:
@@ -182,6 +205,7 @@ MUTATIONS: tuple[Callable[[Data, Random], None], ...] = (
     _change_number,
     _toggle_inertial,
     _toggle_block,
+    _toggle_drive,
     _change_type,
     _change_leader,
     _change_shapes,

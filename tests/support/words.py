@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Literal, NamedTuple
 
-from urdfsync.modelica import KEYWORDS
+from urdfsync.modelica.names import KEYWORDS
 
 Kind = Literal["string", "number", "name", "keyword", "mark"]
 

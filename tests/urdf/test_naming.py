@@ -11,7 +11,7 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from urdfsync.modelica import KEYWORDS
+from urdfsync.modelica.names import KEYWORDS
 from urdfsync.urdf import naming
 from urdfsync.urdf.naming import Identifier, Key, identify, natural_key, spell
 

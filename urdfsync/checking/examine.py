@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import os
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -15,9 +16,11 @@ from urdfsync.checking import loading, workspace
 from urdfsync.checking.cache import Cache
 from urdfsync.checking.compilers import choice
 from urdfsync.checking.compilers.tasks import Outcome, Task, compiling
-from urdfsync.checking.diagnosis import layout, problems
+from urdfsync.checking.diagnosis import layout, names, problems
 from urdfsync.checking.diagnosis.problems import Case
 from urdfsync.checking.findings import Findings
+from urdfsync.checking.libraries import dependencies, library
+from urdfsync.checking.libraries.library import LibraryError
 from urdfsync.checking.loading import Loaded, Loader
 from urdfsync.checking.process import Limits
 from urdfsync.checking.subject import Subject
@@ -25,8 +28,10 @@ from urdfsync.checking.toolbox import Toolbox
 from urdfsync.checking.trials import Trials
 from urdfsync.checking.verdict import Compiled, Verdict
 from urdfsync.checking.wishes import Wishes
-from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.classfiles import StoredClasses
+from urdfsync.config import Config, RobotConfig, library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.modelica.names import LIBRARY
 from urdfsync.planning.situation import Progress, Request
 
 
@@ -50,6 +55,11 @@ def examine(
         findings.say(found)
         if any(one.severity is Severity.ERROR for one in found):
             findings.miss("nothing was compiled, since the files are not in order")
+            return findings.verdict
+        own, others = _names(subject)
+        findings.say([*own, *others])
+        if any(one.severity is Severity.ERROR for one in own):
+            findings.miss("nothing was compiled, since names in the package mean nothing")
         else:
             cache = Cache.of_user()
             with loading.bench(cache, config, robot) as folder:
@@ -64,6 +74,37 @@ def _files(subject: Subject) -> list[Diagnostic]:
     files = {robot.output / path: content for path, content in subject.around.items()}
     odd = [_odd(path) for path in workspace.oddities(robot.folder)] if subject.built else []
     return [*layout.check(subject.package), *layout.check_around(files, shown), *odd]
+
+
+def _names(subject: Subject) -> tuple[list[Diagnostic], list[Diagnostic]]:
+    """What is wrong with names in the package, and in the user's files outside of it."""
+    robot, places = subject.robot, dependencies.search_path(subject.robot)
+    around = {robot.output / path: text for path, text in subject.around.items() if path.endswith(".mo")}
+    find = functools.partial(_library, subject.config, places, robot.target.package.partition(".")[0])
+    others = {**around, **subject.users_files}
+    sources = StoredClasses(robot.target.package, robot.folder, subject.texts, others, find)
+    users = [name for name, one in sources.users.items() if Path(one.file) in subject.users_files]
+    unread = [path for path in sources.unread if path in subject.users_files and path not in around]
+    own = names.check(subject.package, sources.own, sources)
+    return list(own), [*map(_unread, unread), *names.check(subject.package, users, sources)]
+
+
+def _library(config: Config, places: Sequence[Path], top: str, name: str) -> Path | None:
+    """Where a library is; `top` is the top-level package that is checked, `places` are the folders of others."""
+    if name == LIBRARY != top:
+        return library_folder() / LIBRARY
+    if name not in library.PARTS:
+        return library.find(name, places)
+    try:
+        found = library.standard(os.environ, library.home(), config.check.library)
+    except LibraryError:
+        return None
+    return dict(zip(library.PARTS, (found.modelica, found.services, found.complex), strict=True))[name].path
+
+
+def _unread(path: Path) -> Diagnostic:
+    message, hint = "this file can't be read as Modelica, so its names were not checked", "open it in a Modelica tool"
+    return Diagnostic(Severity.WARNING, "names-unread", message, shown(path), hint=hint)
 
 
 def _odd(path: Path) -> Diagnostic:

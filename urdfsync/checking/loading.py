@@ -13,7 +13,6 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import modelica
 from urdfsync.checking import workspace
 from urdfsync.checking.cache import LOCK, Cache, CacheError, writing
 from urdfsync.checking.libraries import dependencies, library, references, slim
@@ -22,6 +21,7 @@ from urdfsync.checking.libraries.library import LibraryError, StandardLibrary
 from urdfsync.checking.subject import Subject
 from urdfsync.config import Config, RobotConfig, library_folder
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.modelica.names import LIBRARY
 from urdfsync.state.lock import Lock, LockedError
 
 ATTEMPTS = 2
@@ -121,7 +121,7 @@ class Loader:
         if self._copies is not None:
             mentioned = references.mentioned(every) | self._dependencies.standard(libraries.values())
             standard = self._copies.roots(mentioned)
-        own = {modelica.LIBRARY: library_folder() / modelica.LIBRARY} if root.name != modelica.LIBRARY else {}
+        own = {LIBRARY: library_folder() / LIBRARY} if root.name != LIBRARY else {}
         return Loaded(label, texts, root, {**own, **libraries}, standard, _count((*standard, root)))
 
 

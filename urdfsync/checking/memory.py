@@ -1,6 +1,7 @@
 """Which packages a check found right, so that it need not look at them again: a small file per robot.
 
-A check is the same again if all that it rests on is: the package, what is around it, urdfsync, compiler and libraries.
+A check is the same again if all that it rests on is: the package, what is around it and what mentions it, urdfsync,
+compiler and libraries.
 The files are in the state folder, not committed, and safe to lose. One that can't be read, or not be written,
 costs one check more.
 """
@@ -51,11 +52,12 @@ class Memory:
         try:
             texts = workspace.package_texts(robot.folder)
             around = workspace.surroundings(self._config, robot, texts)
-            libraries = dependencies.fingerprint(robot, [*texts.values(), *around.values()])
+            users = workspace.users_files(self._config, robot)
+            libraries = dependencies.fingerprint(robot, [*texts.values(), *around.values(), *users.values()])
         except (UrdfsyncError, OSError):
             return None
         total.update(f"{libraries}\0".encode(errors="surrogateescape"))
-        for files in (texts, around):
+        for files in (texts, around, {path.as_posix(): content for path, content in users.items()}):
             for path, content in sorted(files.items()):
                 total.update(f"{path}\0{digest(content)}\n".encode(errors="surrogateescape"))
             total.update(b"\0")

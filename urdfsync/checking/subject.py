@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 from urdfsync.build import build
 from urdfsync.checking import edits, workspace
@@ -61,6 +62,11 @@ class Subject:
     def around(self) -> Mapping[str, bytes]:
         """The files around the package, by their path below the output folder; see `workspace.surroundings`."""
         return workspace.surroundings(self.config, self.robot, self.texts)
+
+    @functools.cached_property
+    def users_files(self) -> Mapping[Path, bytes]:
+        """The user's files outside of the package, by their absolute path; see `workspace.users_files`."""
+        return workspace.users_files(self.config, self.robot)
 
     @property
     def texts(self) -> Mapping[str, bytes]:

@@ -9,14 +9,14 @@ from __future__ import annotations
 import codecs
 import contextlib
 import os
-import re
 import shutil
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from urdfsync import modelica
+from urdfsync.classfiles import mentions, related
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.modelica.names import within
 
 _NOT_CLASSES = frozenset({"Resources"})
 """Folders of a package that hold no classes, whatever is in them."""
@@ -59,8 +59,19 @@ def surroundings(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
     for name in _parents(robot.target.package):
         path = f"{name.replace('.', '/')}/package.mo"
         last = name.rpartition(".")[2]
-        found.setdefault(path, f"{modelica.within(name)}\npackage {last}\nend {last};\n".encode())
+        found.setdefault(path, f"{within(name)}\npackage {last}\nend {last};\n".encode())
     return found
+
+
+def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
+    """The Modelica files below the output folder, in no robot's package, that have to do with the robot's package.
+
+    They mention the package, or the class in another such file. Raises OutputError for a file that can't be read.
+    """
+    folders = frozenset(other.folder for other in config.robots)
+    read = _read(robot.output, robot.output, folders) if robot.output not in folders else {}
+    files = {robot.output / path: content for path, content in read.items() if path.endswith(".mo")}
+    return related(files, [robot.target.package.rpartition(".")[2]])
 
 
 def write(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: Mapping[str, bytes]) -> Path:
@@ -141,11 +152,6 @@ def _reading() -> Iterator[None]:
 
 def _name(other: RobotConfig) -> bytes:
     return other.target.package.rpartition(".")[2].encode()
-
-
-def mentions(text: bytes, name: bytes) -> bool:
-    """Whether a name stands in a text as a word of its own."""
-    return name in text and re.search(rb"\b" + re.escape(name) + rb"\b", text) is not None
 
 
 def _parents(package: str) -> Iterator[str]:

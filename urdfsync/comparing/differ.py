@@ -10,6 +10,7 @@ import os
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
@@ -22,8 +23,8 @@ from urdfsync.comparing.subjects import Subject
 from urdfsync.comparing.versions import Read, Source
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.difference import Version
-from urdfsync.domain import Import, Role, Templates
+from urdfsync.difference import Effect, ElementKey, Version
+from urdfsync.domain import Domain, Import, Role, Templates
 from urdfsync.files import Tree, digest, templates_digest, text_digest
 from urdfsync.outcome import Result
 from urdfsync.plan import Action, Actions, Kind
@@ -71,10 +72,16 @@ def _with_last_build(subject: Subject, robot: RobotConfig, config: Config, reque
     name = shown(subject.source)
     new = Version(inputs.read(situation.domain, subject.options, situation.content, name)[0])
     try:
-        effects = situation.domain.effects(last, new, found.renames)
+        effects = _effects(situation.domain, last, new, found.renames, subject.options)
     except NO_MODEL:
         return comparison  # what is recorded is no model of the domain
     return msgspec.structs.replace(comparison, effects=tuple(effects))
+
+
+def _effects(
+    domain: Domain, old: Version, new: Version, renames: Mapping[ElementKey, str], options: Any
+) -> Sequence[Effect]:
+    return [*domain.effects(old, new), *domain.interface(old, new, renames, options)]
 
 
 class _Versions:
@@ -98,7 +105,9 @@ class _Versions:
             old = self._read(other, versions.known_from(new, self._copy))
         found = changes.compare(old.version, new.version, domain, subject.options)
         actions = self._actions(old.version, new.version) if found.changes else Actions()
-        effects = domain.effects(old.version, new.version, found.renames) if found.changes else ()
+        effects: Sequence[Effect] = ()
+        if found.changes:
+            effects = _effects(domain, old.version, new.version, found.renames, subject.options)
         said = {(known.code, known.message) for known in old.diagnostics}
         result = Result(
             subject.name,

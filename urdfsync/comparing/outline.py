@@ -109,14 +109,18 @@ def _effect(found: Effect) -> Row:
     if old is None or new is None:
         tone, there = (Tone.REMOVED, old) if new is None else (Tone.ADDED, new)
         return Row(
-            label, tone, new=f"{'was' if new is None else 'now'} {figures.with_unit(figures.one(there), found.unit)}"
+            label,
+            tone,
+            new=f"{'was' if new is None else 'now'} {figures.with_unit(figures.one(there), found.unit)}",
+            relation=found.hint,
         )
     if figures.is_vector(old) and figures.is_vector(new) and len(old) == len(new):
         before, after = figures.vectors(old, new)
         relation = f"by {figures.with_unit(f'{math.dist(old, new):.3g}', found.unit)}"
         return Row(label, Tone.CHANGED, before, figures.with_unit(after, found.unit), relation)
     before, after = figures.pair(old, new)
-    return Row(label, Tone.CHANGED, before, figures.with_unit(after, found.unit), figures.percent(old, new))
+    relation = found.hint or figures.percent(old, new)
+    return Row(label, Tone.CHANGED, before, figures.with_unit(after, found.unit), relation)
 
 
 def _is_same(old: Any, new: Any) -> bool:

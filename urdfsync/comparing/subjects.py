@@ -9,10 +9,11 @@ from typing import Any
 
 import msgspec
 
-from urdfsync import modelica, registry
+from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Target
+from urdfsync.modelica.names import class_name
 
 DOMAIN = "urdf"
 """What a source is that no robot of the configuration has."""
@@ -68,7 +69,7 @@ def _of_robot(robot: RobotConfig) -> Subject:
 
 
 def _alone(path: Path) -> Subject:
-    name = modelica.class_name(path.name.partition(".")[0])
+    name = class_name(path.name.partition(".")[0])
     return Subject(path.name, path, DOMAIN, registry.domain(DOMAIN).options(), Target(name, name))
 
 

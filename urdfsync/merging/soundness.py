@@ -6,9 +6,9 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 
-from urdfsync.merging.grammar import findings
-from urdfsync.merging.reading import Finding
 from urdfsync.merging.tokens import NEWLINE
+from urdfsync.modelica.lexer import Fault
+from urdfsync.modelica.parser import parse
 
 _MARKER = re.compile(r"(<{7}|\|{7}|={7}|>{7})(\s|$)")
 
@@ -19,10 +19,10 @@ def flaw(text: str, sides: Sequence[str]) -> str:
     What is wrong with one of the sides already, as often as in the merge, is no flaw: a side's odd text is its
     author's business. Names are not resolved, and types not checked: only a compiler can do that.
     """
-    found = _findings(text)
+    found = _faults(text)
     known: Counter[str] = Counter()
     for side in sides if found else ():
-        known |= Counter(finding.reason for finding in _findings(side))
+        known |= Counter(fault.reason for fault in _faults(side))
     seen: Counter[str] = Counter()
     for reason, line in found:
         seen[reason] += 1
@@ -31,14 +31,14 @@ def flaw(text: str, sides: Sequence[str]) -> str:
     return ""
 
 
-def markers(text: str) -> list[Finding]:
+def markers(text: str) -> list[Fault]:
     """Lines that look like conflict markers; they may also stand in a documentation."""
     return [
-        Finding(f"has the conflict marker `{marker[1]}`", number)
+        Fault(f"has the conflict marker `{marker[1]}`", number)
         for number, line in enumerate(text.split(NEWLINE), start=1)
         if (marker := _MARKER.match(line))
     ]
 
 
-def _findings(text: str) -> list[Finding]:
-    return [*markers(text), *findings(text)]
+def _faults(text: str) -> list[Fault]:
+    return [*markers(text), *parse(text).faults]

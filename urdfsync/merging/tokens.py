@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 
-from urdfsync.modelica import KEYWORDS
+from urdfsync.modelica.names import KEYWORDS
 
 NEWLINE = "\n"
 SEPARATORS = frozenset(",;")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Protocol, TypeVar
 
 import msgspec
@@ -13,8 +13,8 @@ from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.files import text_digest
-from urdfsync.literals import numbers_only
 from urdfsync.manifest import Manifest
+from urdfsync.modelica.literals import numbers_only
 from urdfsync.plan import (
     CONFLICTS,
     DELETES,
@@ -36,6 +36,8 @@ from urdfsync.planning.parents import Parents
 from urdfsync.planning.shared import Shared
 from urdfsync.standoff import Choice, Standoff
 
+USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE, Kind.CONFLICT, Kind.ORPHAN})
+"""Actions on files in which the user's text stays or goes on."""
 _LEAVES = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
 """Actions on files that the package has no more."""
 _Entry = TypeVar("_Entry")
@@ -93,9 +95,8 @@ class Texts(Protocol):
         """What was written last to a file, by its hash; None if that is lost."""
         ...
 
-    @property
-    def vanished(self) -> Set[str]:
-        """Names of elements that the package had and has no more."""
+    def lost_use(self, key: str, text: str) -> tuple[str, int] | None:
+        """The first name in a text for a file that the package loses, with its line; None if there is none."""
         ...
 
 
@@ -120,7 +121,9 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
     aim = msgspec.structs.replace(aim, choices=choices)
     open_ = texts is not None and any(action.kind in DISPUTED or action.kind is Kind.ORPHAN for action in planned)
     actions, standoffs, merged = _settle(disk, planned, aim, texts) if texts and open_ else (planned, {}, {})
-    actions = spare(actions, disk.has_classes)
+    actions = spare(
+        actions, disk.has_classes, _needed(disk, actions, aim, merged, [manifest.folder] if manifest else [])
+    )
     order_files = {key: disk.text(key) for key in sorted(owned.keys() | aim.orders.keys())}
     _refuse_markers(disk, actions, order_files)
     ours = _ours(owned, actions)
@@ -143,6 +146,29 @@ def decide(disk: Disk, manifest: Manifest | None, aim: Aim, texts: Texts | None)
         standoffs=tuple(standoff for path, standoff in sorted(standoffs.items()) if path in conflicts),
         shared=tuple(file for file in _shared(disk, aim, ours, around) if disk.key(file.path) not in waits),
     )
+
+
+def _needed(
+    disk: Disk, actions: Sequence[Action], aim: Aim, merged: Mapping[str, str], folders: Iterable[str]
+) -> frozenset[str]:
+    """The records that are no longer generated and that a text of the user's mentions, edited files included.
+
+    `folders` are those that the package had before.
+    Where the element has another name now, its record is not needed: the user is told the new name.
+    """
+    moved = set(aim.moves.values())
+    going = [a.path for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in moved]
+    if not going:
+        return frozenset()
+    from urdfsync.planning.dangling import words  # not at the top: hardly any build takes a record away
+
+    known = {action.path: action.kind for action in actions}
+    edited = [path for path, kind in known.items() if kind in USERS]
+    own = disk.classes(aim.folder) - known.keys() - aim.stay.keys()
+    texts = [merged.get(key) or disk.any_text(key) for key in (*edited, *sorted(own))]
+    texts += [content.decode(errors="replace") for content in disk.users_files({aim.folder, *folders}).values()]
+    used = set().union(*map(words, texts))
+    return frozenset(path for path in going if path.rpartition("/")[2].removesuffix(".mo") in used)
 
 
 def _reached(disk: Disk, entries: Mapping[str, _Entry], folder: str) -> Iterator[tuple[str, _Entry]]:
@@ -219,14 +245,17 @@ def _settle(
 
 def _standoff(disk: Disk, action: Action, texts: Texts) -> Standoff:
     """The texts of a file that both sides changed; of a class that is a folder now, the user's is its `package.mo`."""
-    from urdfsync.settle import stand_off
+    from urdfsync.settle import reject_merge, stand_off
 
     place = action.origin or action.path
     mine = disk.text(place)
     base = texts.base(place, action.base) if action.base else None
     generated = texts.generated(action.path)
     if mine is not None:
-        return stand_off(action, base, mine, generated, texts.vanished)
+        standoff = stand_off(action, base, mine, generated)
+        merged = standoff.merge.text if standoff.merge and action.path.endswith(".mo") else None
+        use = texts.lost_use(action.path, merged) if merged is not None and merged != mine else None
+        return reject_merge(standoff, *use) if use else standoff
     package = disk.text(f"{place.removesuffix('.mo')}/package.mo")
     reason = "you made a folder of the class"
     return Standoff(action.path, action.owner, base, package or "", generated, None, rejected=reason)

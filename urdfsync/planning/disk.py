@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import os
 from collections.abc import Collection, Iterable, Iterator, Mapping
@@ -9,7 +10,9 @@ from pathlib import Path
 from typing import TypeAlias
 
 from urdfsync import looking
+from urdfsync.classfiles import modelica_files, related
 from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.files import Tree, digest, placed, text_digest
 from urdfsync.plan import FileRecord, Found
@@ -26,6 +29,7 @@ class Disk:
     def __init__(self, config: Config, robot: RobotConfig, known: Hashes | None = None) -> None:
         """`known` are hashes that hold as long as the system says the same of a file."""
         self._root, self._prefix = config.root, os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
+        self._output = robot.output
         self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
         self._homes: dict[str, Tree | None] = {}
         """The trees that folders are in; None for a folder that is in none, or not there."""
@@ -128,9 +132,27 @@ class Disk:
         return False
 
     def classes(self, folder: str) -> set[str]:
-        """All Modelica files below a folder, its own and others, as far as they can be read."""
-        files = self.path(folder).rglob("*.mo")
-        return {self.key(path) for path in files if os.path.isfile(path)}  # noqa: PTH113 - a folder may let nobody in
+        """All Modelica files of the package in a folder, its own and others, as far as they can be looked at."""
+        return {self.key(Path(path)) for path in modelica_files(self.path(folder))}
+
+    def any_text(self, key: str) -> str:
+        """The text of a file that is only searched: empty if it can't be read, since it may be the user's own."""
+        try:
+            return self.text(key) or ""
+        except OutputError:
+            return ""
+
+    def users_files(self, folders: Iterable[str]) -> dict[Path, bytes]:
+        """The Modelica files below the output folder that have to do with the package in one of these folders.
+
+        They are outside of the folders, and known by their paths. What can't be read is left out.
+        """
+        packages, found = {self.path(folder) for folder in folders}, {}
+        for path in map(Path, modelica_files(self._output)):
+            if packages.isdisjoint(path.parents):
+                with contextlib.suppress(OSError):
+                    found[path] = looking.content(path)
+        return related(found, [package.name for package in packages])
 
     def look(self, place: str) -> Hashed | None:
         """What is at an absolute path without detours; None for nothing. Raises OutputError as `read`."""

@@ -12,9 +12,10 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import looking, modelica
+from urdfsync import looking
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.modelica.names import LIBRARY, within
 
 
 class Parents(msgspec.Struct, frozen=True):
@@ -71,9 +72,9 @@ def _is_ordered(package: Path, created: Mapping[Path, bytes]) -> bool:
 
 def _check_library(robot: RobotConfig, parts: Sequence[str], file: str) -> None:
     """Only the library's own output folder may hold a package of its name: it would hide the library from tools."""
-    if parts[0] == modelica.LIBRARY and not looking.is_file(robot.output / modelica.LIBRARY / "package.mo"):
-        message = f"`{modelica.LIBRARY}` is the library that models need; a package of that name would hide it"
-        hint = f"choose another top-level package than `{modelica.LIBRARY}`"
+    if parts[0] == LIBRARY and not looking.is_file(robot.output / LIBRARY / "package.mo"):
+        message = f"`{LIBRARY}` is the library that models need; a package of that name would hide it"
+        hint = f"choose another top-level package than `{LIBRARY}`"
         raise OutputError(_problem("modelica-name", message, "package", robot, file, hint))
 
 
@@ -111,7 +112,7 @@ def _check_uses(robot: RobotConfig, parts: Sequence[str], uses: Sequence[tuple[s
 def _package(name: str, uses: Sequence[tuple[str, str]]) -> bytes:
     parent, _, last = name.rpartition(".")
     annotation = "" if parent else f"  annotation ({_uses(uses)});\n"
-    return f'{modelica.within(name)}\npackage {last} "{last}"\n{annotation}end {last};\n'.encode()
+    return f'{within(name)}\npackage {last} "{last}"\n{annotation}end {last};\n'.encode()
 
 
 def _uses(uses: Sequence[tuple[str, str]]) -> str:

@@ -4,26 +4,24 @@ from __future__ import annotations
 
 import contextlib
 import functools
-from collections.abc import Mapping, Set
+from collections.abc import Mapping
 
-from urdfsync import changes, profiling, vanished
+from urdfsync import changes, profiling
 from urdfsync.changes import Changes, Stale
 from urdfsync.config import shown
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.difference import ElementKey, Version
 from urdfsync.domain import Role, Target
 from urdfsync.moves import places
-from urdfsync.plan import FileRecord, Kind, State, Wanted
+from urdfsync.plan import FileRecord, State, Wanted
 from urdfsync.planning import imports, inputs, leftovers
+from urdfsync.planning.dangling import DanglingNames, lost_names
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.generate import Generated, artifacts
 from urdfsync.planning.outputs import Outputs
 from urdfsync.planning.recording import Recording
 from urdfsync.planning.situation import NO_MODEL, Situation
 from urdfsync.planning.work import Work
-
-_USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
-"""What happens to files that are as the user wants them."""
 
 
 class Renewal:
@@ -54,7 +52,7 @@ class Renewal:
         decision = self._decide(found.renames if found else {})
         found = found if settled is last else self._changes(settled)
         said = [*self._said, *self._imported.diagnostics, *situation.parents.diagnostics]
-        said += [*self._moved(decision), *self._mentions(decision)]
+        said += [*self._moved(decision), *self._uses(decision)]
         said.sort(key=lambda diagnostic: (diagnostic.file, diagnostic.line))
         news = found if found and (found.changes or found.generator) else None
         if situation.request.dry:
@@ -211,46 +209,58 @@ class Renewal:
         return next((text for text in found if text is not None), None)
 
     @functools.cached_property
-    def vanished(self) -> Set[str]:
-        """Names of elements that the package had and has no more."""
+    def _lost(self) -> dict[str, str]:
+        """The names that the package loses, with their new names."""
+        recorded, situation = self._situation.recorded, self._situation
+        if recorded is None or self._situation.recovered is not None:
+            return {}
+        now, before = self._generated.artifacts, dict[str, str]()
+        for key, record in recorded.files.items():
+            path = self._old_path(key)
+            stays = path in now and (path not in self._outputs.stale or record.role is Role.RECORD)
+            text_role = record.role in (Role.MODEL, Role.RECORD, Role.PACKAGE)
+            if text_role and record.base is not None and record.state is not State.ORPHAN and not stays:
+                before[path] = self.base(key, record.base) or ""
+        if not before:
+            return {}
+        differing = self._outputs.stale | self._differing.render
+        texts = {path: self._outputs.content(path).decode() for path in now if path in differing}
+        old, new = recorded.package.rpartition(".")[2], situation.robot.target.package
+        moved = {old: new} if recorded.package != new else {}
+        return {**lost_names(before, texts, self._renamed()), **moved}
+
+    def _renamed(self) -> dict[str, str]:
+        """Old and new identifiers of elements."""
         situation, settled, recorded = self._situation, self._situation.settled, self._situation.recorded
-        if settled is None or recorded is None or self._before is None:
-            return frozenset()
-        target = Target(recorded.package, recorded.class_)
-        before = self._before if settled is situation.last else self._generate(settled, target)
-        known, kept = (
-            {identifier for kind in situation.domain.names(*version).values() for identifier in kind.values()}
-            for version in ((settled.snapshot, target), (self._snapshot, situation.robot.target))
-        )
-        if not known - kept:
-            return frozenset()
-        now = self._generated.artifacts
-        differing = changes.stale(before.artifacts, now)
-        old = (before.content(path).decode() for path in before.artifacts.keys() & (differing.render | differing.gone))
-        return vanished.names(old, (self._outputs.content(path).decode() for path in now), known - kept)
-
-    def _mentions(self, decision: Decision) -> list[Diagnostic]:
-        """Warnings about texts of the user's that mention names that have vanished."""
-        if not self.vanished:
-            return []
-        situation, found = self._situation, []
-        edited = {action.path for action in decision.actions if action.kind in _USERS and not action.held}
-        others = situation.disk.classes(situation.folder) - {action.path for action in decision.actions}
-        for key in sorted(edited | others):
-            text = decision.texts.get(key) or self._text(key)
-            for name, line in vanished.mentions(text, self.vanished)[:1]:
-                message = f"`{name}` is mentioned here, but the package has no such name any more"
-                hint = "adapt your text to what the package is now"
-                file = shown(situation.disk.path(key))
-                found.append(Diagnostic(Severity.WARNING, "vanished-name", message, file, line, hint=hint))
-        return found
-
-    def _text(self, key: str) -> str:
-        """What is in a file that is only searched: nothing if it can't be read, since it may be the user's own."""
+        if settled is None or recorded is None:
+            return {}
+        found = self._changes(settled)
+        renames = found.renames if found else {}
+        domain, target = situation.domain, Target(recorded.package, recorded.class_)
         try:
-            return self._situation.disk.text(key) or ""
-        except OutputError:
-            return ""
+            old = domain.names(settled.snapshot, target)
+        except NO_MODEL:
+            return {}  # what is recorded is no model of the domain
+        new = domain.names(self._snapshot, situation.robot.target)
+        pairs = (
+            (identifier, new.get(kind, {}).get(renames.get((kind.removesuffix("s"), name), name), identifier))
+            for kind, identifiers in old.items()
+            for name, identifier in identifiers.items()
+        )
+        return {before: after for before, after in pairs if before != after}
+
+    @functools.cached_property
+    def _dangling(self) -> DanglingNames:
+        """Finds uses of the names that the package loses."""
+        return DanglingNames(self._situation, self._lost, list(self._generated.artifacts), self._outputs.content)
+
+    def _uses(self, decision: Decision) -> list[Diagnostic]:
+        """Warnings about texts of the user's that use names that the package loses."""
+        return self._dangling.warnings(decision.actions, decision.texts) if self._lost else []
+
+    def lost_use(self, key: str, text: str) -> tuple[str, int] | None:
+        """The first name in a text for a file that the package loses, with its line."""
+        return self._dangling.first_use(key, text) if self._lost else None
 
     def _old_path(self, key: str) -> str:
         """Path of a file of the last build below the folder that the package had then."""

@@ -126,11 +126,19 @@ class UrdfDomain:
 
         return changes.describe(differences, old, new, options)
 
-    def effects(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
+    def effects(self, old: Version, new: Version) -> Sequence[Effect]:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf import changes
 
-        return changes.effects(old, new, renames)
+        return changes.effects(old, new)
+
+    def interface(
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str], options: Options
+    ) -> Sequence[Effect]:
+        """See `urdfsync.domain.Domain`."""
+        from urdfsync.urdf import changes
+
+        return changes.interface(old, new, renames, options)
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         """See `urdfsync.domain.Domain`."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Link
 from urdfsync.urdf.skeleton import Skeleton
@@ -12,8 +14,8 @@ def frame_links(skeleton: Skeleton, options: Options) -> tuple[Link, ...]:
 
     Names that are no link are left out: `check_options` reports them.
     """
+    named: Iterable[str] = () if isinstance(options.frames, str) else options.frames
     if options.frames == "all":
-        return skeleton.links
-    named = () if options.frames == "leaves" else options.frames
+        named = (link.name for link in skeleton.links[1:])  # the root link has frame_a
     wanted = {leaf.name for leaf in skeleton.leaves()}.union(named)
     return tuple(link for link in skeleton.links if link.name in wanted)

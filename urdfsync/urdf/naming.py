@@ -14,7 +14,7 @@ from types import MappingProxyType
 
 import msgspec
 
-from urdfsync.modelica import DEVICES, FUNCTIONS, KEYWORDS, RESERVED_CLASSES
+from urdfsync.modelica.names import DEVICES, FUNCTIONS, KEYWORDS, RESERVED_CLASSES
 
 Key = tuple[str, str]
 """Kind (`link` or `joint`) and URDF name."""

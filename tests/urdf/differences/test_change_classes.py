@@ -94,6 +94,12 @@ def test_the_class_of_random_changes_says_which_files_differ(random: Random, cou
     assert differing(before, after) <= candidates.render | candidates.gone
 
 
+@given(st.randoms(use_true_random=False), OPTIONS)
+def test_the_class_of_drives_says_which_files_differ(random: Random, options: Options) -> None:
+    old, new = (referenced(version, options) for version in mutations.driven_and_passive(random))
+    check(compare(old, new, urdf, options), render(old, options), render(new, options))
+
+
 def everything_found(snapshot: Snapshot, options: Options) -> Mapping[str, Import]:
     """Every mesh of a model as if it were there."""
     facts = {"bounds": [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]], "hull": [[0.0, 0.0, 0.0]]}

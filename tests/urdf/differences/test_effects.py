@@ -1,4 +1,4 @@
-"""Effects on the robot as a whole: mass, centre of mass, numbers of connectors."""
+"""Effects on the robot as a whole: mass, centre of mass."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 import support.urdfs as urdfs
 from support.packages import read
 
-from urdfsync.difference import ElementKey, Version
+from urdfsync.difference import Version
 from urdfsync.urdf.changes import effects
 
 
@@ -27,8 +27,8 @@ def joint(name: str, kind: str, parent: str, child: str, xyz: str = "0 0 0") -> 
     return urdfs.joint(name, kind, parent, child, xyz=xyz, rpy="0 0 0", axis="0 0 1", inside=limit)
 
 
-def values(old: Version, new: Version, renames: dict[ElementKey, str] | None = None) -> dict[str, tuple[Any, Any]]:
-    return {" / ".join(effect.path): (effect.old, effect.new) for effect in effects(old, new, renames or {})}
+def values(old: Version, new: Version) -> dict[str, tuple[Any, Any]]:
+    return {" / ".join(effect.path): (effect.old, effect.new) for effect in effects(old, new)}
 
 
 PAIR = (link("base", 1.0), link("tip", 3.0, "0 0 1"), joint("turn", "continuous", "base", "tip", "2 0 0"))
@@ -41,7 +41,7 @@ def test_mass_and_centre_of_mass_of_both_versions() -> None:
     before, after = found["robot / centre of mass"]
     assert before == pytest.approx((1.5, 0, 0.75), abs=1e-15)
     assert after == pytest.approx((1.0, 0, 0.5), abs=1e-15)
-    assert [effect.unit for effect in effects(version(*PAIR), heavier, {})] == ["kg", "m"]
+    assert [effect.unit for effect in effects(version(*PAIR), heavier)] == ["kg", "m"]
 
 
 def test_a_robot_without_mass_has_no_centre_of_mass() -> None:
@@ -65,38 +65,3 @@ def test_other_names_make_no_difference_to_the_last_digit() -> None:
     second = version(*links, *(joint(name, "fixed", "base", child) for name, child in zip("xyz", "dcb", strict=True)))
     found = values(first, second)
     assert all(old == new for path, (old, new) in found.items() if path.startswith("robot"))
-
-
-STAR = ('<link name="base"/>', '<link name="a"/>', '<link name="b"/>', '<link name="c"/>')
-
-
-def test_a_connector_keeps_its_name_whatever_comes_and_goes_beside_it() -> None:
-    old = version(*STAR[:1], *STAR[2:], joint("b", "continuous", "base", "b"), joint("c", "revolute", "base", "c"))
-    new = version(
-        *STAR,
-        joint("a", "continuous", "base", "a"),
-        joint("b", "continuous", "base", "b"),
-        joint("c", "prismatic", "base", "c"),
-    )
-    assert not [path for path in values(old, new) if not path.startswith("robot")]
-
-
-def test_a_connector_that_gives_way_to_a_new_element_is_named() -> None:
-    old = version(*STAR[:2], joint("turn", "continuous", "base", "a"))
-    new = version(
-        *STAR[:2],
-        '<link name="turnAxis"/>',
-        joint("turn", "continuous", "base", "a"),
-        joint("f", "fixed", "a", "turnAxis"),
-    )
-    assert values(old, new)["joint turn / connector"] == ("turnAxis", "turnAxis_2")
-
-
-def test_a_renamed_joint_shows_its_new_connector() -> None:
-    def two(first: str, second: str) -> Version:
-        joints = (joint(first, "continuous", "base", "a"), joint(second, "continuous", "base", "b"))
-        return version(*STAR[:3], *joints)
-
-    moved = values(two("u", "v"), two("u", "w"), {("joint", "v"): "w"})
-    assert moved["joint w / connector"] == ("vAxis", "wAxis")
-    assert "joint u / connector" not in moved

@@ -18,10 +18,11 @@ import msgspec
 from urdfsync.checking.diagnosis.package import Package, holds_class
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import normalised
-from urdfsync.merging.grammar import Declared, Outline, outline
-from urdfsync.merging.reading import Finding
 from urdfsync.merging.soundness import markers
-from urdfsync.modelica import is_identifier, within
+from urdfsync.modelica.lexer import Fault
+from urdfsync.modelica.names import is_identifier, within
+from urdfsync.modelica.parser import parse
+from urdfsync.modelica.syntax import Class, StoredText, declared
 from urdfsync.spelling import nearest
 
 ORDER = "package.order"
@@ -37,7 +38,7 @@ _BYTE_ORDER_MARK = "\ufeff"
 _UNREADABLE = ("not-utf8", "syntax")
 _REPEATED = "repeated"
 _WITHIN = "wrong-within"
-_NOTHING = Outline([], None, 0, [])
+_NOTHING = StoredText()
 
 
 class _Folder(msgspec.Struct, frozen=True):
@@ -165,15 +166,15 @@ def _file(package: Package, folder: _Folder, file: str, contents: _Contents) -> 
     found, said = _read(package, path, name)
     yield from said
     sound = not any(one.code in _UNREADABLE and one.severity is Severity.ERROR for one in said)
-    yield from _names(package, path, name, found.declared, sound)
+    yield from _names(package, path, name, found.classes, sound)
     if whole:
         contents.certain &= sound
-        contents.inside |= {one.path[1]: one.line for one in reversed(found.declared) if len(one.path) == 2}
+        contents.inside |= {one.path[1]: one.line for one in reversed([*declared(found.classes)]) if len(one.path) == 2}
     else:
-        contents.stored |= {one.path[0] for one in found.declared if len(one.path) == 1}
+        contents.stored |= {one.name.parts[0] for one in found.classes}
 
 
-def _read(package: Package, path: str, name: str) -> tuple[Outline, list[Diagnostic]]:
+def _read(package: Package, path: str, name: str) -> tuple[StoredText, list[Diagnostic]]:
     """What a file declares, and what is wrong with its text; `name` is the full name that its class should have."""
     fault = undecoded(package.texts[path])
     if fault:
@@ -184,11 +185,11 @@ def _read(package: Package, path: str, name: str) -> tuple[Outline, list[Diagnos
     if text.startswith(_BYTE_ORDER_MARK):
         message, hint = "the file begins with a byte order mark", "save it without: some compilers refuse it"
         said.append(package.finding(Severity.WARNING, "byte-order-mark", message, path, 1, hint=hint))
-    found = outline(text)
-    said += _syntax(package, path, text, found.findings)
-    if any(len(one.path) == 1 for one in found.declared):
+    found = parse(text)
+    said += _syntax(package, path, text, found.faults)
+    if found.classes:
         return found, [*said, *_within(package, path, name, found)]
-    if found.findings:
+    if found.faults:
         return found, said
     hint = f"write the class `{name.rpartition('.')[2]}`, or delete the file"
     return found, [*said, package.finding(Severity.ERROR, "no-class", "the file holds no class", path, hint=hint)]
@@ -203,25 +204,25 @@ def undecoded(content: bytes) -> int:
     return 0
 
 
-def _syntax(package: Package, path: str, text: str, findings: Sequence[Finding]) -> list[Diagnostic]:
+def _syntax(package: Package, path: str, text: str, found: Sequence[Fault]) -> list[Diagnostic]:
     """The first place where the text is no Modelica, or all that stands in it twice."""
-    faults = [finding for finding in findings if not finding.reason.endswith(_TWICE)]
+    faults = [fault for fault in found if not fault.reason.endswith(_TWICE)]
     if not faults:
-        return [_repeated(package, path, finding) for finding in findings]
+        return [_repeated(package, path, fault) for fault in found]
     reason, line = next(iter(markers(text)), None) or min(faults, key=lambda fault: fault.line)
-    more = len(findings) - 1
+    more = len(found) - 1
     places = f"{more} more place{'s' if more > 1 else ''}"
     hint = f"correct it first: {places} in the file may look wrong because of it" if more else ""
     return [package.finding(Severity.ERROR, "syntax", f"the file {reason}", path, line, hint=hint)]
 
 
-def _repeated(package: Package, path: str, finding: Finding) -> Diagnostic:
-    if finding.reason.startswith(_ALLOWED_TWICE):
-        return package.finding(Severity.WARNING, _REPEATED, f"the file {finding.reason}", path, finding.line)
-    return package.finding(Severity.ERROR, "syntax", f"the file {finding.reason}", path, finding.line)
+def _repeated(package: Package, path: str, fault: Fault) -> Diagnostic:
+    if fault.reason.startswith(_ALLOWED_TWICE):
+        return package.finding(Severity.WARNING, _REPEATED, f"the file {fault.reason}", path, fault.line)
+    return package.finding(Severity.ERROR, "syntax", f"the file {fault.reason}", path, fault.line)
 
 
-def _within(package: Package, path: str, name: str, found: Outline) -> Iterator[Diagnostic]:
+def _within(package: Package, path: str, name: str, found: StoredText) -> Iterator[Diagnostic]:
     """Whether a file says in which package it stands; `name` is the full name of its class."""
     parent = name.rpartition(".")[0]
     if (found.within or "") == parent:
@@ -235,23 +236,22 @@ def _within(package: Package, path: str, name: str, found: Outline) -> Iterator[
     yield package.finding(Severity.ERROR, _WITHIN, message, path, line, hint=hint)
 
 
-def _names(package: Package, path: str, name: str, declared: Sequence[Declared], sound: bool) -> Iterator[Diagnostic]:
+def _names(package: Package, path: str, name: str, stored: Sequence[Class], sound: bool) -> Iterator[Diagnostic]:
     """Whether a file holds the class that its name says, and no other one."""
     expected = name.rpartition(".")[2]
-    stored = [one for one in declared if len(one.path) == 1]
     if not stored:
         return
-    main = next((one for one in stored if one.path == (expected,)), stored[0])
-    if main.path != (expected,):
+    main = next((one for one in stored if str(one.name) == expected), stored[0])
+    if str(main.name) != expected:
         place = "folder" if path.endswith(PACKAGE) else "file"
-        message = f"the class is called `{main.path[0]}`, but its {place} `{expected}`"
+        message = f"the class is called `{main.name}`, but its {place} `{expected}`"
         hint = f"give class and {place} the same name"
-        yield package.finding(Severity.ERROR, "wrong-name", message, path, main.line, hint=hint)
+        yield package.finding(Severity.ERROR, "wrong-name", message, path, main.name.line, hint=hint)
     for other in stored if sound else ():
         if other is not main:
-            message = f"the file holds `{other.path[0]}` besides `{main.path[0]}`"
+            message = f"the file holds `{other.name}` besides `{main.name}`"
             hint = "a file in a package holds one class: give it one of its own"
-            yield package.finding(Severity.ERROR, "second-class", message, path, other.line, hint=hint)
+            yield package.finding(Severity.ERROR, "second-class", message, path, other.name.line, hint=hint)
 
 
 # --- folders ----------------------------------------------------------------------------------------------------------

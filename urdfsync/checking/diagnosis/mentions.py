@@ -9,8 +9,9 @@ from collections.abc import Iterable, Iterator, Sequence
 import msgspec
 
 from urdfsync.checking.diagnosis.package import Package
-from urdfsync.merging.grammar import Declared, outline
-from urdfsync.merging.reading import Reader, Token, is_identifier
+from urdfsync.modelica.lexer import Token, is_identifier, lex
+from urdfsync.modelica.parser import parse
+from urdfsync.modelica.syntax import Declared, declared
 
 _BRACKETS = {"[": 1, "]": -1}
 
@@ -44,7 +45,7 @@ class Mentions(msgspec.Struct, frozen=True, dict=True):
     @functools.cached_property
     def declared(self) -> dict[str, Sequence[Declared]]:
         """Per file what it declares."""
-        return {path: outline(self.package.text(path)).declared for path in self.paths}
+        return {path: [*declared(parse(self.package.text(path)).classes)] for path in self.paths}
 
     @functools.cached_property
     def _by_name(self) -> dict[str, list[Mention]]:
@@ -85,7 +86,7 @@ def _beginnings(name: str) -> Iterator[str]:
 
 
 def _mentions(path: str, text: str) -> Iterator[Mention]:
-    found = Reader(text).found
+    found, _ = lex(text)
     before = ""
     for at, token in enumerate(found):
         if before != "." and is_identifier(token.text):

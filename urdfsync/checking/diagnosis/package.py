@@ -9,7 +9,7 @@ from pathlib import Path, PurePosixPath
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.merging.reading import Reader
+from urdfsync.modelica.lexer import lex
 
 _NOT_CLASSES = frozenset({"Resources"})
 """Folders of a package that hold no classes, whatever is in them."""
@@ -69,7 +69,7 @@ def holds_class(path: PurePosixPath) -> bool:
 
 def _is_model(text: str, name: str) -> bool:
     """Whether a file begins with a class of this name that can be compiled by itself."""
-    words = [token.text for token in Reader(text).found]
+    words = [token.text for token in lex(text)[0]]
     start = words.index(";") + 1 if words[0] == "within" and ";" in words else 0
     head = list(itertools.takewhile((_MODELS | _PREFIXES).__contains__, words[start:]))
     return not _MODELS.isdisjoint(head) and "partial" not in head and words[start + len(head)] == name

@@ -60,7 +60,7 @@ class Placement(msgspec.Struct, frozen=True):
 
 
 class RowNeeds(msgspec.Struct, frozen=True):
-    """What a row must hold: lines above it, a band of couplings, connectors above its joints, frames below its links."""
+    """What a row must hold: lines and couplings above it, connectors above its joints, frames below its links."""
 
     tracks: int
     band: bool
@@ -69,7 +69,7 @@ class RowNeeds(msgspec.Struct, frozen=True):
 
 
 class Row(msgspec.Struct, frozen=True):
-    """Heights of a row: its spine, the middle of its band, its tracks from the top; `bottom` is where the next begins."""
+    """Heights of a row: its spine, the middle of its band, its tracks from the top; `bottom` is its end."""
 
     spine: int
     band: int

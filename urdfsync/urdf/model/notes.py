@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfsync.literals import html
+from urdfsync.modelica.literals import html
 from urdfsync.urdf.robot import Joint
 
 _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
@@ -48,8 +48,8 @@ def joint_note(joint: Joint) -> str:
 def robot_note(name: str) -> str:
     """Documentation of the robot model, as HTML."""
     return (
-        f"Links and joints of robot {name}, connected. Each can be exchanged in a model that extends this one. A drive of "
-        "joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. "
+        f"Links and joints of robot {name}, connected. Each can be exchanged in a model that extends this one. A drive "
+        "of joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. "
         f"{_EDIT}"
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-from urdfsync.literals import INFINITY, real
+from urdfsync.modelica.literals import INFINITY, real
 from urdfsync.urdf.robot import Joint, Origin, Vector
 from urdfsync.urdf.skeleton import MOTIONS
 

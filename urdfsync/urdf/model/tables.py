@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import msgspec
 
-from urdfsync.literals import INFINITY
+from urdfsync.modelica.literals import INFINITY
 from urdfsync.urdf.robot import Joint
 from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from urdfsync.domain import Probe, Target
-from urdfsync.literals import vector
+from urdfsync.modelica.literals import vector
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course

@@ -1,11 +1,13 @@
-"""Modelica's names and expressions (language specification 3.6, appendix A.2.7), as far as telling what is missing.
+"""Modelica's names and expressions (language specification 3.6, appendix A.2.7): what is missing, and which names.
 
 Precedence is not looked at: operands and operators just have to alternate, with signs where a sum can begin.
 """
 
 from __future__ import annotations
 
-from urdfsync.merging.reading import Reader, is_identifier
+from urdfsync.modelica.lexer import is_identifier
+from urdfsync.modelica.reader import Reader
+from urdfsync.modelica.syntax import Name
 
 _ARITHMETIC = frozenset("+-*/^")
 _OPERATORS = frozenset("or and < <= > >= == <> :".split()) | _ARITHMETIC
@@ -14,21 +16,23 @@ CALLED = frozenset({"assert", "der", "initial", "pure"})
 
 
 class ExpressionReader(Reader):
-    """Reads names and expressions. All methods raise FaultError where something is missing."""
+    """Reads names and expressions. All methods raise FaultError where something is missing.
+
+    Names in expressions are added to `uses`, without the indices of loops and reductions.
+    """
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
         self._subscripts = 0
 
-    def name(self) -> str:
+    def name(self) -> Name:
         """A name, possibly with dots."""
-        start = self.at
-        self.accept(".")
-        self.identifier()
+        line, is_global = self.line, bool(self.accept("."))
+        parts = [self.identifier()]
         while self.word == "." and is_identifier(self.following):
             self.step()
-            self.identifier()
-        return self.since(start)
+            parts.append(self.identifier())
+        return Name(tuple(parts), line, is_global)
 
     def description(self) -> None:
         """A description string, if there is one."""
@@ -54,13 +58,14 @@ class ExpressionReader(Reader):
 
     def reference(self) -> None:
         """A reference to a component or function."""
-        self.accept(".")
-        self.identifier()
+        line, is_global = self.line, bool(self.accept("."))
+        parts = [self.identifier()]
         self.subscripts()
         while self.word == "." and is_identifier(self.following):
             self.step()
-            self.identifier()
+            parts.append(self.identifier())
             self.subscripts()
+        self.uses.append(Name(tuple(parts), line, is_global, is_called=self.word == "("))
 
     def expression(self) -> None:
         """Any expression."""
@@ -133,9 +138,10 @@ class ExpressionReader(Reader):
         self.expect("]")
 
     def _item(self) -> None:
+        start = len(self.uses)
         self.expression()
         if self.accept("for"):
-            self.indices()
+            self.forget(self.indices(), start)
 
     def call(self) -> None:
         """The arguments of a function."""
@@ -150,16 +156,21 @@ class ExpressionReader(Reader):
         elif names:
             raise self.lack("the name of an argument")
         if self.accept("function"):
-            self.name()
+            self.uses.append(self.name()._replace(is_called=True))
             self.call()
         else:
             self._item()
 
-    def indices(self) -> None:
-        """The indices of a loop or of a reduction."""
+    def indices(self) -> set[str]:
+        """The indices of a loop or of a reduction; returns their names."""
+        found = set()
         while True:
-            self.identifier()
+            found.add(self.identifier())
             if self.accept("in"):
                 self.expression()
             if not self.accept(","):
-                return
+                return found
+
+    def forget(self, indices: set[str], start: int) -> None:
+        """Drop the names of indices from those that were read since there were `start` of them."""
+        self.uses[start:] = [name for name in self.uses[start:] if name.is_global or name.parts[0] not in indices]

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from urdfsync.literals import capitalize_first, html, matrix, numbers_only, real, string, vector
+from urdfsync.modelica.literals import capitalize_first, html, matrix, numbers_only, real, string, vector
 
 NUMBER = re.compile(r"-?[0-9]+(\.[0-9]*)?([eE][+-]?[0-9]+)?", re.ASCII)
 """A sign and UNSIGNED-NUMBER of the Modelica language specification 3.6, section 2.4.1."""

@@ -1,40 +1,20 @@
-"""Reading a text of Modelica token by token: what is missing where, and going on behind it."""
+"""Read Modelica token by token: say what is missing where, and go on behind it."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from collections.abc import Callable
 
-from urdfsync.merging.tokens import NEWLINE, is_comment, tokens
-from urdfsync.modelica import KEYWORDS
+from urdfsync.modelica.lexer import Fault, is_identifier, lex
+from urdfsync.modelica.syntax import Name
 
 DEEPEST = 50
-"""How many brackets, classes and blocks are read within each other."""
+"""How many brackets, classes and blocks are read within each other: deeper ones would exhaust Python's stack."""
+SECTIONS = frozenset({"equation", "algorithm", "public", "protected"})
 
 _LONGEST = 60
 """Characters of what is quoted from a text."""
-
-SECTIONS = frozenset({"equation", "algorithm", "public", "protected"})
-
-_FINE = re.compile(r":=|==|<=|>=|<>|[^\W\d]\w*|\d+(?:\.\d*)?(?:[eE][-+]?\d+)?|\S")
 _QUOTE = '"'
-_STRING = re.compile(r'"(?:[^"\\]|\\.)*"', re.DOTALL)
-_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
-
-
-class Finding(NamedTuple):
-    """What is wrong with a text, in words for a sentence (`lacks ; before x`), and in which line, from 1."""
-
-    reason: str
-    line: int
-
-
-class Token(NamedTuple):
-    """What a compiler sees of a text, and the line in which it begins."""
-
-    text: str
-    line: int
 
 
 class FaultError(Exception):
@@ -42,12 +22,7 @@ class FaultError(Exception):
 
     def __init__(self, reason: str, line: int) -> None:
         super().__init__(reason)
-        self.finding = Finding(reason, line)
-
-
-def is_identifier(word: str) -> bool:
-    """Whether a token can be the name of something."""
-    return (word[:1].isalpha() or word[:1] == "_" or (word[:1] == "'" and len(word) > 1)) and word not in KEYWORDS
+        self.fault = Fault(reason, line)
 
 
 def short(text: str) -> str:
@@ -56,34 +31,14 @@ def short(text: str) -> str:
 
 
 class Reader:
-    """Goes through tokens from the first to the last; what is wrong with them is in `findings`."""
+    """Goes through tokens from the first to the last; what is wrong with them is in `faults`."""
 
     def __init__(self, text: str) -> None:
-        self.findings: list[Finding] = []
-        self.found = list(self._significant(text.removeprefix("\ufeff")))
+        self.found, self.faults = lex(text)
         self.at = 0
+        self.uses: list[Name] = []
+        """Names that were read and do not belong to any syntax value yet."""
         self._depth = 0
-
-    def _significant(self, text: str) -> Iterator[Token]:
-        """The tokens that a compiler sees, arrays and dotted names in their parts; the last one is empty."""
-        line = 1
-        for token in tokens(text):
-            first = token[0]
-            if is_comment(token):
-                if token.startswith("/*") and not _COMMENT.fullmatch(token):
-                    self.findings.append(Finding("has a comment without an end", line))
-            elif first == _QUOTE:
-                if not _STRING.fullmatch(token):
-                    self.findings.append(Finding("has a string without an end", line))
-                yield Token(token, line)
-            elif first == "'":
-                if len(token) == 1:
-                    self.findings.append(Finding("has a quoted name without an end", line))
-                yield Token(token, line)
-            else:
-                yield from (Token(part, line) for part in _FINE.findall(token))
-            line += token.count(NEWLINE)
-        yield Token("", line)
 
     @property
     def word(self) -> str:
@@ -127,28 +82,35 @@ class Reader:
         return self.step()
 
     def fault(self, reason: str) -> FaultError:
-        """That something is wrong with this token."""
+        """Say that something is wrong with this token."""
         return FaultError(reason, self.line)
 
     def lack(self, what: str) -> FaultError:
-        """That something is missing before this token."""
+        """Say that something is missing before this token."""
         before = "a string" if self.word[:1] == _QUOTE else f"`{short(self.word)}`" if self.word else "its end"
         return self.fault(f"lacks {what} before {before}")
 
     def once(self, seen: set[str], key: str, reason: str) -> None:
         """Note that something is there twice if its key is in `seen`; else put it there."""
         if key in seen:
-            self.findings.append(Finding(reason, self.found[self.at - 1].line))
+            self.faults.append(Fault(reason, self.found[self.at - 1].line))
         seen.add(key)
+
+    def taken(self, start: int) -> tuple[Name, ...]:
+        """Take the names that were read since there were `start` of them."""
+        names = tuple(self.uses[start:])
+        del self.uses[start:]
+        return names
 
     def each(self, read: Callable[[], None]) -> None:
         """Read one element or equation and its semicolon; if something is wrong with it, go on behind it."""
-        start = self.at
+        start, uses = self.at, len(self.uses)
         try:
             self.deeper(read)
             self.expect(";")
-        except FaultError as fault:
-            self.findings.append(fault.finding)
+        except FaultError as error:
+            self.faults.append(error.fault)
+            del self.uses[uses:]
             while self.word not in (";", "end", "", *SECTIONS):
                 self.step()
             if self.word == ";" or self.at == start:

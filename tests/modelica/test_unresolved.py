@@ -1,0 +1,284 @@
+"""Names that mean nothing: each is found, with what was meant, and nothing else is called missing."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import pytest
+
+from urdfsync.checking.libraries import library
+from urdfsync.classfiles import StoredClasses
+from urdfsync.modelica.parser import parse
+from urdfsync.modelica.scopes import UNKNOWN, Element, Missing, Node, Scopes, Stored, Unknown
+from urdfsync.modelica.syntax import Name
+from urdfsync.modelica.unresolved import Kind, Unresolved, unresolved
+
+REPOSITORY = Path(__file__).parents[2]
+
+MARKED_PLANT = """\
+package Plant "A crane of two links"
+  package Parts
+    connector Pin
+      Real u;
+      flow Real i;
+    end Pin;
+    record Friction
+      parameter Real damping = 0;
+    end Friction;
+    record Numbers
+      parameter Real mass(min = 0) = 1;
+      parameter ~Friction friction;
+    end Numbers;
+    partial model PartialPart
+      replaceable parameter ~Numbers numbers;
+      ~Pin pin;
+    end PartialPart;
+    type Shape = enumeration(round, flat);
+    function twice
+      input Real u;
+      output Real y;
+    algorithm
+      y := 2*~u;
+    end twice;
+  end Parts;
+  package Links
+    record BoomNumbers = ~Parts.~Numbers(~mass = 4);
+    model Boom
+      extends ~Parts.~PartialPart(redeclare ~BoomNumbers ~numbers);
+      parameter ~Parts.~Shape shape = ~Parts.~Shape.~round;
+      Real x(~start = 0, fixed = true);
+    equation
+      der(~x) = ~Parts.~twice(~numbers.~mass)*~pin.~u + time;
+      for k in 1:3 loop
+        assert(k*~x < 1, "too far");
+      end for;
+    end Boom;
+  end Links;
+  model Crane
+    parameter Real g = 9.81;
+    ~Parts.~Pin boomPin;
+    replaceable ~Links.~Boom boom constrainedby ~Parts.~PartialPart(~numbers(~mass = 2));
+  equation
+    connect(~boom.~pin, ~boomPin);
+  end Crane;
+  model Test
+    replaceable ~Crane crane(~g = 1) constrainedby ~Crane;
+  equation
+    ~crane.~boomPin.~u = 0;
+  end Test;
+end Plant;
+"""
+
+MARKED_USER = """\
+package User
+  import Plant.~Parts;
+  import F = Plant.~Parts.~Friction;
+  import Plant.~Links.*;
+  model Telescope
+    extends ~Parts.~PartialPart;
+    Real length = sum(step for step in {1, 2});
+  end Telescope;
+  model MyCrane
+    extends Plant.~Crane(redeclare ~Telescope ~boom(~length(~start = 1)));
+    ~Boom spare(~numbers(~friction(~damping = 3)), ~shape = ~Parts.~Shape.~flat);
+    ~F friction;
+  equation
+    connect(~boom.~pin, ~spare.~pin);
+    ~boom.~length = ~friction.~damping;
+  end MyCrane;
+  model MyTest
+    extends Plant.~Test(redeclare ~MyCrane ~crane);
+    Real way = ~crane.~boom.~length;
+  end MyTest;
+  model Heavy
+    extends Plant.~Test(~crane(~boom(~numbers(~mass = 7))));
+  end Heavy;
+end User;
+"""
+
+
+PLANT, USER = MARKED_PLANT.replace("~", ""), MARKED_USER.replace("~", "")
+"""Without the marks, which stand before each use of a name."""
+
+
+class Texts:
+    """Sources from texts with one class each."""
+
+    def __init__(self, *texts: str) -> None:
+        found = [one for text in texts for one in parse(text).classes]
+        self.classes: dict[tuple[str, ...], Stored] = {(str(one.name),): Stored(one, f"{one.name}.mo") for one in found}
+
+    def stored(self, name: tuple[str, ...]) -> Stored | Unknown | None:
+        return UNKNOWN if name == ("Modelica",) else self.classes.get(name)
+
+    def names_in(self, name: tuple[str, ...]) -> Iterable[str]:
+        return [other[-1] for other in self.classes if other[:-1] == name]
+
+
+def found(*texts: str) -> list[Unresolved]:
+    sources = Texts(*texts)
+    scopes = Scopes(sources)
+    nodes = (scopes.node(name) for name in sources.classes)
+    return [one for node in nodes if isinstance(node, Node) for one in unresolved(node, scopes)]
+
+
+def told(body: str) -> list[str]:
+    """What is found in a model of the user's that extends nothing: line, what lacks what, and what was meant."""
+    text = f"model Mine\n{body}\nend Mine;\n"
+    return [
+        f"{one.line}: {one.owner.rpartition('.')[2]} {one.name} [{one.part}] {one.meant}".rstrip()
+        for one in found(PLANT, USER, text)
+    ]
+
+
+def test_nothing_is_said_of_what_is_right() -> None:
+    assert found(PLANT, USER) == []
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        pytest.param("extends Plant.Crane(redeclare User.Telescope bom);", "2: Crane bom [bom] boom", id="redeclare"),
+        pytest.param("Plant.Crane c(boom(numbers(mas = 3)));", "2: BoomNumbers mas [mas] mass", id="modifier"),
+        pytest.param(
+            "Plant.Crane c(boom(numbers(friction(dampin = 5))));", "2: Friction dampin [dampin] damping", id="record"
+        ),
+        pytest.param(
+            "extends Plant.Test(crane(boom(\n numbs(mass = 1))));",
+            "3: Boom numbs [numbs] numbers",
+            id="line of a modifier",
+        ),
+        pytest.param(
+            "Plant.Crane c;\nPlant.Parts.Pin p;\nequation\nconnect(c.bomPin, p);",
+            "5: Crane c.bomPin [bomPin] c.boomPin",
+            id="connect",
+        ),
+        pytest.param("Real x = crane.boomPin.u;", "2: Mine crane.boomPin.u [crane]", id="no component"),
+        pytest.param("Plant.Links.Bom b;", "2: Links Plant.Links.Bom [Bom] Plant.Links.Boom", id="type"),
+        pytest.param("import Plant.Links.Bom;", "2: Links Plant.Links.Bom [Bom] Plant.Links.Boom", id="import"),
+        pytest.param("Nowhere n;", "2: Mine Nowhere [Nowhere]", id="type without dots"),
+        pytest.param(
+            "extends Plant.Crane(redeclare User.Telescop boom);",
+            "2: User User.Telescop [Telescop] User.Telescope",
+            id="new type",
+        ),
+        pytest.param(
+            "Real y = Plant.Parts.twic(2);", "2: Parts Plant.Parts.twic [twic] Plant.Parts.twice", id="function"
+        ),
+        pytest.param("Real y(strat = 2);", "2: Real strat [strat] start", id="attribute"),
+        pytest.param(
+            "Plant.Parts.Shape s = Plant.Parts.Shape.rund;",
+            "2: Shape Plant.Parts.Shape.rund [rund] Plant.Parts.Shape.round",
+            id="literal",
+        ),
+        pytest.param(
+            "extends Plant.Crane(redeclare User.Telescope boom(lenth = 3));",
+            "2: Telescope lenth [lenth] length",
+            id="modifier of what is redeclared",
+        ),
+        pytest.param("Plant.Crane c(g = grav);\nparameter Real grave;", "2: Mine grav [grav] grave", id="value"),
+        pytest.param(
+            "parameter Real[:] num;\nReal x[size(num, 1)] = {nun[i] for i in 1:2};",
+            "3: Mine nun [nun] num",
+            id="in a reduction",
+        ),
+    ],
+)
+def test_a_name_that_means_nothing_is_found(body: str, expected: str) -> None:
+    assert told(body) == [expected]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        pytest.param("extends Modelica.Blocks.Base;\nReal x = whatever.is.inherited;", id="unknown base"),
+        pytest.param("Modelica.Blocks.Sources.Sine sine(f = 3);\nReal y = sine.y;", id="unknown type"),
+        pytest.param("Library.Thing thing(a = 1);\nReal y = thing.b;", id="library that is not here"),
+        pytest.param("Plant.Crane c(redeclare Modelica.Thing boom);\nReal y = c.boom.own.x;", id="unknown new type"),
+        pytest.param("import Plant.Parts.{twice, P = Pin};\nP p;\nReal y = twice(p.u);", id="imported names"),
+        pytest.param("replaceable package M = Plant.Links constrainedby Plant.Parts;\nM.Other o;", id="open package"),
+        pytest.param(
+            "outer Plant.Crane crane;\nReal u = crane.boomPin.u + Connections.root(crane.boomPin.u);", id="outer"
+        ),
+        pytest.param(
+            "expandable connector Bus\nend Bus;\nBus bus;\nPlant.Parts.Pin p;\nequation\nconnect(bus.any, p);",
+            id="expandable connector",
+        ),
+        pytest.param("extends User.MyCrane;\nredeclare User.Telescope boom;\nequation\nboom.length = 1;", id="element"),
+        pytest.param(".Plant.Crane Plant;\nReal u = Plant.boomPin.u;", id="hidden by a component"),
+        pytest.param("model B = A;\nmodel A = B;\nA a(x = 1);", id="circle"),
+        pytest.param("extends Mine;\nReal x = y;", id="its own base"),
+    ],
+)
+def test_nothing_is_said_of_what_cannot_be_told(body: str) -> None:
+    assert told(body) == []
+
+
+def test_a_redeclaration_inside_of_a_modifier_is_told_apart() -> None:
+    (one,) = found(PLANT, USER, "model Mine\n extends Plant.Test(crane(redeclare User.Telescope boom));\nend Mine;\n")
+    assert (one.kind, one.owner, one.name, one.line) == (Kind.NESTED_REDECLARE, "Plant.Crane", "boom", 2)
+    assert told("Plant.Crane crane(redeclare User.Telescope boom);") == []
+    assert [
+        one.kind for one in found(PLANT, USER, "model M\n Plant.Test t(crane(redeclare Nowhere boom));\nend M;")
+    ] == [
+        Kind.NESTED_REDECLARE,
+        Kind.CLASS,
+    ]
+
+
+def test_what_a_name_means() -> None:
+    scopes = Scopes(Texts(PLANT, USER))
+    mine = scopes.node(("User", "MyTest"))
+    assert isinstance(mine, Node)
+    boom = scopes.lookup(Name(("crane", "boom"), 1), mine)
+    assert isinstance(boom, Element)
+    assert {str(one) for one in boom.types} == {"Plant.Links.Boom", "Plant.Parts.PartialPart", "User.Telescope"}
+    assert isinstance(scopes.lookup(Name(("crane", "boom", "width"), 1), mine), Missing)
+    assert scopes.lookup(Name(("Modelica", "Constants", "pi"), 1), mine) is UNKNOWN
+
+
+@pytest.mark.parametrize("text", [MARKED_PLANT, MARKED_USER], ids=["package", "user"])
+def test_every_misspelled_use_is_found(text: str) -> None:
+    """A name with another letter at its end is missing at this place."""
+    places = [match.start() for match in re.finditer("~", text)]
+    assert len(places) > 25
+    for place in places:
+        end = next(match.end() for match in re.finditer(r"\w+", text) if match.start() == place + 1)
+        damaged = f"{text[:end]}q{text[end:]}".replace("~", "")
+        line, name = text.count("\n", 0, place) + 1, f"{text[place + 1 : end]}q"
+        others = (PLANT,) if text is MARKED_USER else (USER,)
+        assert (line, name) in [(one.line, one.part) for one in found(damaged, *others)]
+
+
+def stored_below(sources: StoredClasses, name: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
+    yield name
+    for inner in sources.names_in(name):
+        yield from stored_below(sources, (*name, inner))
+
+
+def faults_in(top: str) -> list[str]:
+    places = [REPOSITORY / "modelica", *library.folders(os.environ, library.home())]
+    if library.find(top, places) is None:
+        pytest.skip(f"there is no library {top}")
+    sources = StoredClasses("None", Path("None"), {}, {}, lambda name: library.find(name, places))
+    scopes, count, faults = Scopes(sources), 0, []
+    for name in stored_below(sources, (top,)):
+        node = scopes.node(name)
+        if isinstance(node, Node):
+            count += 1
+            faults += [f"{node.file}:{one.line}: {one.name}" for one in unresolved(node, scopes)]
+    assert count > 100
+    return faults
+
+
+@pytest.mark.slow
+def test_nothing_is_missing_in_our_library() -> None:
+    assert faults_in("UrdfSync") == []
+
+
+@pytest.mark.slow
+def test_nothing_is_missing_in_the_standard_library() -> None:
+    assert faults_in("Modelica") == []

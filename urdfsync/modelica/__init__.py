@@ -1,0 +1,1 @@
+"""Modelica as text: names, literals, tokens, syntax trees, and what names mean."""

@@ -1,0 +1,146 @@
+"""The parts of Modelica text that give names a meaning: classes, components, modifiers, and uses of names.
+
+The parser makes these values. Lines count from 1. Annotations, descriptions and the arithmetic of expressions are
+left out; of an expression only the names in it remain.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import msgspec
+
+from urdfsync.modelica.lexer import Fault
+
+
+class Name(NamedTuple):
+    """A name with dots, where it is used; subscripts are left out."""
+
+    parts: tuple[str, ...]
+    line: int
+    is_global: bool = False
+    """Whether it begins with a dot, so that it is looked for among the top-level classes alone."""
+    is_called: bool = False
+    """Whether it is called as a function or record constructor."""
+
+    def __str__(self) -> str:
+        return ".".join(self.parts)
+
+
+class Modifier(msgspec.Struct, frozen=True):
+    """One argument of a modification: `mass = 3`, `inertial(mass = 3)`, `redeclare Elastic elbow(c = 1)`."""
+
+    name: Name
+    """Of the modified element; with more than one part in annotations alone."""
+    arguments: tuple[Modifier, ...] = ()
+    uses: tuple[Name, ...] = ()
+    """Names in its value."""
+    is_redeclared: bool = False
+    type: Name | None = None
+    """The new type, if a component is declared anew (`redeclare`, `replaceable`)."""
+    definition: Class | None = None
+    """The new class, if a class is declared anew; its own name is `name`."""
+    constraint: Extends | None = None
+    """The class after `constrainedby`."""
+    is_break: bool = False
+    """Whether it takes an inherited component away (`extends A(break x)`)."""
+
+
+class Extends(msgspec.Struct, frozen=True):
+    """A class that another one is made from, with its modifiers: `extends`, `constrainedby`, `type A = B(…)`."""
+
+    type: Name
+    arguments: tuple[Modifier, ...] = ()
+
+
+class Component(msgspec.Struct, frozen=True):
+    """A declared component; those of one declaration (`Real x, y;`) are one value each."""
+
+    name: Name
+    type: Name
+    prefixes: frozenset[str] = frozenset()
+    """Such as `parameter`, `inner`, `replaceable`, `redeclare`."""
+    arguments: tuple[Modifier, ...] = ()
+    uses: tuple[Name, ...] = ()
+    """Names in its value, sizes and condition."""
+    constraint: Extends | None = None
+
+
+class Import(msgspec.Struct, frozen=True):
+    """An import clause."""
+
+    name: Name
+    """The class or package that is imported."""
+    alias: str = ""
+    """The short name, empty if none is given."""
+    members: tuple[tuple[str, str], ...] = ()
+    """Short name and name of what is taken out of the package: `import A.{b, c = d}`."""
+    is_everything: bool = False
+    """Whether it ends in `.*`."""
+
+
+class Connection(NamedTuple):
+    """A connect equation."""
+
+    first: Name
+    second: Name
+
+
+class Class(msgspec.Struct, frozen=True):
+    """A class definition."""
+
+    name: Name
+    kind: str
+    """Such as `model`, `record`, `operator function`."""
+    prefixes: frozenset[str] = frozenset()
+    """Such as `partial`, `encapsulated`, `replaceable`, `redeclare`."""
+    alias: Extends | None = None
+    """The class that a short definition stands for: `type Angle = Real(unit = "rad")`."""
+    literals: tuple[str, ...] | None = None
+    """Of an enumeration; empty for `enumeration(:)`."""
+    is_extension: bool = False
+    """Whether it is `model extends A`, which goes on with the inherited class of this name."""
+    is_derivative: bool = False
+    """Whether it is a function that is defined as the derivative of another one."""
+    arguments: tuple[Modifier, ...] = ()
+    """Modifiers of the class that `is_extension` goes on with."""
+    constraint: Extends | None = None
+    imports: tuple[Import, ...] = ()
+    extends: tuple[Extends, ...] = ()
+    classes: tuple[Class, ...] = ()
+    components: tuple[Component, ...] = ()
+    connections: tuple[Connection, ...] = ()
+    uses: tuple[Name, ...] = ()
+    """Names in equations and statements, those in connections included, without the indices of loops."""
+
+
+class StoredText(msgspec.Struct, frozen=True):
+    """A file of Modelica, as far as it could be read."""
+
+    faults: tuple[Fault, ...] = ()
+    """Everything wrong with its syntax, and everything in it that is there twice."""
+    within: str | None = None
+    """The package that its `within` clause names; None if it has none."""
+    within_line: int = 0
+    classes: tuple[Class, ...] = ()
+
+
+class Declared(NamedTuple):
+    """A class or component that a text declares."""
+
+    path: tuple[str, ...]
+    """Its name, after those of the classes around it."""
+    line: int
+    type: str = ""
+    """A component's type; empty for a class."""
+
+
+def declared(classes: tuple[Class, ...], around: tuple[str, ...] = ()) -> Iterator[Declared]:
+    """All classes and components that are declared in classes, a class before its parts."""
+    for one in classes:
+        path = (*around, one.name.parts[0])
+        yield Declared(path, one.name.line)
+        for component in one.components:
+            yield Declared((*path, component.name.parts[0]), component.name.line, str(component.type))
+        yield from declared(one.classes, path)

@@ -1,0 +1,170 @@
+"""Find names in classes that mean nothing, and modifiers of elements that do not exist."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Collection, Iterator
+from typing import NamedTuple
+
+from urdfsync.modelica.scopes import UNKNOWN, Element, Missing, Node, Scopes, Type, Types
+from urdfsync.modelica.syntax import Class, Component, Extends, Modifier, Name
+from urdfsync.spelling import nearest
+
+_RATHER_ALIKE, _ALIKE = 0.6, 0.75
+"""Likeness (see `difflib`) of a misspelled name; what may be the name of a library has to be more alike."""
+
+
+class Kind(enum.Enum):
+    """What is wrong with a name."""
+
+    CLASS = "class"
+    """It is used as a class, and there is none."""
+    FUNCTION = "function"
+    """It is called, and there is no function or record of this name."""
+    ELEMENT = "element"
+    """A class has no element of this name."""
+    NESTED_REDECLARE = "nested-redeclare"
+    """Legal: it redeclares an element inside of an element."""
+
+
+class Unresolved(NamedTuple):
+    """One place at which something is wrong with a name."""
+
+    kind: Kind
+    name: str
+    """The name as it is written, with dots."""
+    part: str
+    """The part of it that means nothing."""
+    owner: str
+    """The full name of the class that lacks it."""
+    line: int
+    near: Element | None = None
+    """The element whose name is most like it."""
+    is_field: bool = False
+    """Whether the owner is a record."""
+    is_part: bool = False
+    """Whether it can only be a component that is made of others, no parameter: it is redeclared, or connected."""
+
+    @property
+    def meant(self) -> str:
+        """The name with what is most like the part instead of it; empty if nothing is like it."""
+        if self.near is None:
+            return ""
+        parts = self.name.split(".")
+        return ".".join(self.near.name if part == self.part else part for part in parts)
+
+
+def unresolved(node: Node, scopes: Scopes, doubtful: Collection[str] = ()) -> Iterator[Unresolved]:
+    """All that is wrong with names in a class and in the classes inside of it.
+
+    Nothing is said of what can't be told, nor of what seems to be in a library that is not at hand, unless a part of it
+    is one of the `doubtful` names.
+    """
+    yield from _Walk(scopes, doubtful)._class(node)
+
+
+class _Walk:
+    def __init__(self, scopes: Scopes, doubtful: Collection[str]) -> None:
+        self._scopes, self._doubtful = scopes, doubtful
+
+    def _class(self, node: Node) -> Iterator[Unresolved]:
+        scopes, definition = self._scopes, node.definition
+        for used, scope in ((definition.alias, node.parent), (definition.constraint, node.parent)):
+            if used is not None:
+                yield from self._used(used, scope)
+        if definition.is_extension:
+            yield from self._arguments(definition.arguments, scopes.bases(node)[:1], node)
+        for base in definition.extends:
+            yield from self._missing(base.type, scopes.lookup_base(base.type, node), node, Kind.CLASS)
+            yield from self._arguments(base.arguments, scopes.types_of(base, node), node)
+        for one in definition.imports:
+            found = scopes.lookup(one.name._replace(is_global=True), None)
+            yield from self._missing(one.name, found, None, Kind.CLASS)
+        for component in definition.components:
+            yield from self._component(component, node)
+        ends = {end for connection in definition.connections for end in connection}
+        for name in definition.uses:
+            yield from self._use(name, node, is_part=name in ends)
+        for inner in definition.classes:
+            child = scopes.node((*node.name, inner.name.parts[0]))
+            if isinstance(child, Node) and child.definition is inner:
+                yield from self._class(child)
+
+    def _used(self, used: Extends, scope: Node | None) -> Iterator[Unresolved]:
+        """A class with modifiers."""
+        yield from self._type(used.type, scope)
+        yield from self._arguments(used.arguments, self._scopes.types_of(used, scope), scope)
+
+    def _component(self, component: Component, node: Node) -> Iterator[Unresolved]:
+        yield from self._type(component.type, node)
+        yield from self._arguments(component.arguments, self._scopes.types_in(component, node), node)
+        if component.constraint:
+            yield from self._used(component.constraint, node)
+        for name in component.uses:
+            yield from self._use(name, node)
+
+    def _type(self, name: Name, scope: Node | None) -> Iterator[Unresolved]:
+        yield from self._missing(name, self._scopes.lookup(name, scope), scope, Kind.CLASS)
+
+    def _use(self, name: Name, scope: Node | None, *, is_part: bool = False) -> Iterator[Unresolved]:
+        kind = Kind.FUNCTION if name.is_called else Kind.ELEMENT
+        yield from self._missing(name, self._scopes.lookup(name, scope), scope, kind, is_part=is_part)
+
+    def _arguments(
+        self, arguments: tuple[Modifier, ...], types: Types, scope: Node | None, depth: int = 0
+    ) -> Iterator[Unresolved]:
+        """Modifiers of something that may have one of these types."""
+        for one in arguments:
+            found = self._scopes.part(types, one.name.parts[0])
+            part = Name(one.name.parts[:1], one.name.line)
+            redeclares = one.is_redeclared or one.is_break
+            yield from self._missing(part, found, scope, Kind.ELEMENT, is_part=redeclares)
+            if depth and one.is_redeclared and isinstance(found, Element):
+                owner = next((str(type_) for type_ in types if type_ is not UNKNOWN), "")
+                yield Unresolved(Kind.NESTED_REDECLARE, str(one.name), str(one.name), owner, one.name.line)
+            yield from self._redeclared(one, scope)
+            if isinstance(found, Element):
+                yield from self._arguments(one.arguments, found.types, scope, depth + 1)
+            for name in one.uses:
+                yield from self._use(name, scope)
+
+    def _redeclared(self, modifier: Modifier, scope: Node | None) -> Iterator[Unresolved]:
+        """The new type of what is redeclared."""
+        if modifier.type is not None:
+            yield from self._type(modifier.type, scope)
+        if modifier.definition is not None and modifier.definition.alias is not None:
+            yield from self._used(modifier.definition.alias, scope)
+        if modifier.constraint is not None:
+            yield from self._used(modifier.constraint, scope)
+
+    def _missing(
+        self, name: Name, found: object, scope: Node | None, kind: Kind, *, is_part: bool = False
+    ) -> Iterator[Unresolved]:
+        if found is UNKNOWN:
+            part = next((part for part in name.parts if part in self._doubtful), "")
+            if part:
+                yield Unresolved(kind, str(name), part, "", name.line)
+        if not isinstance(found, Missing):
+            return
+        if found.types:
+            known = self._scopes.names_in(found.types)
+            type_ = next((type_ for type_ in found.types if type_ is not UNKNOWN), None)
+            owner = str(type_)
+            is_field = type_ is not None and isinstance(type_.node, Node) and type_.node.definition.kind == "record"
+        else:
+            known = self._scopes.names_around(scope)
+            owner, is_field = str(scope) if scope else "", False
+        if kind is Kind.FUNCTION and len(name.parts) > 1 and found.part != name.parts[-1]:
+            kind = Kind.ELEMENT  # a component on the way to the function
+        if kind is Kind.CLASS:
+            known = {key: element for key, element in known.items() if isinstance(element.declaration, Class)}
+        is_library = not found.types and len(name.parts) > 1 and found.part[:1].isupper()
+        near = known.get(nearest(found.part, known.keys() - {found.part}, _ALIKE if is_library else _RATHER_ALIKE))
+        if is_library and near is None and found.part not in self._doubtful:
+            return  # it may be a library that is not at hand: a compiler says so
+        yield Unresolved(kind, str(name), found.part, owner, name.line, near, is_field, is_part)
+
+
+def first_type(element: Element) -> Type | None:
+    """The first class that is known of an element."""
+    return next((one for one in element.types if one is not UNKNOWN), None)

@@ -1,0 +1,170 @@
+"""Names that a package loses with a build, and where the user's texts use them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TypeAlias
+
+from urdfsync.classfiles import StoredClasses
+from urdfsync.config import library_folder, shown
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.modelica.lexer import lex
+from urdfsync.modelica.names import LIBRARY
+from urdfsync.modelica.parser import parse
+from urdfsync.modelica.scopes import Node, Scopes
+from urdfsync.modelica.syntax import Class
+from urdfsync.modelica.unresolved import Kind, Unresolved, unresolved
+from urdfsync.plan import Action, State
+from urdfsync.plan import Kind as ActionKind
+from urdfsync.planning.situation import Situation
+
+Name: TypeAlias = tuple[str, ...]
+
+
+_EDITED = frozenset({ActionKind.KEEP, ActionKind.INCLUDED, ActionKind.MERGE, ActionKind.MOVE})
+"""What happens to files that are as the user wants them."""
+_KEPT = frozenset({ActionKind.NEEDED, ActionKind.ORPHAN})
+"""What happens to files that stay although they are no longer generated."""
+
+
+class DanglingNames:
+    """Finds uses of lost names in texts of the user's: edited files, own classes, files around the package."""
+
+    def __init__(
+        self,
+        situation: Situation,
+        lost: Mapping[str, str],
+        paths: Sequence[str],
+        content: Callable[[str], bytes],
+    ) -> None:
+        """`lost` has new names by lost ones; `content` gives the texts of generated files, whose paths are `paths`."""
+        self._situation, self._lost, self._paths, self._content = situation, lost, paths, content
+
+    def first_use(self, key: str, text: str) -> tuple[str, int] | None:
+        """The first lost name in a text for a file of the package, with its line; None if there is none."""
+        if self._lost.keys().isdisjoint(words(text)):
+            return None
+        scopes = Scopes(self._planned({key: text}, {}))
+        uses = find_uses(self._class_name(key), text, scopes, self._lost, self._lost)
+        return (uses[0].part, uses[0].line) if uses else None
+
+    def warnings(self, actions: Iterable[Action], written: Mapping[str, str]) -> list[Diagnostic]:
+        """One warning for each lost name in each file; `written` are texts that files are about to get."""
+        situation, known = self._situation, {action.path: action for action in actions}
+        kept = {path for path, action in known.items() if action.kind in _KEPT}
+        edited = {path for path, action in known.items() if action.kind in _EDITED and not action.held}
+        own = situation.disk.classes(situation.folder) - known.keys()
+        texts = {key: written.get(key) or situation.disk.any_text(key) for key in sorted(edited | own | kept)}
+        before = situation.recorded.folder if situation.recorded else situation.folder
+        others = situation.disk.users_files({situation.folder, before})
+        sources = self._planned(texts, others)
+        scopes = Scopes(sources)
+        doubtful = self._lost.keys() - {path.rpartition("/")[2].removesuffix(".mo") for path in kept}
+        asked = [(self._class_name(key), situation.disk.path(key), texts[key]) for key in sorted(edited | own)]
+        asked += [(name, Path(one.file), "") for name, one in sources.users.items()]
+        asked += [((), path, others[path].decode(errors="replace")) for path in sources.unread]
+        found = []
+        for name, file, text in asked:
+            uses: dict[str, list[Unresolved]] = {}
+            for use in find_uses(name, text, scopes, self._lost, doubtful):
+                uses.setdefault(use.part, []).append(use)
+            found += [self._warning(file, one) for one in uses.values()]
+        return found
+
+    def _warning(self, file: Path, uses: Sequence[Unresolved]) -> Diagnostic:
+        name, first = uses[0].part, uses[0].line
+        new, lines = self._lost[name], sorted({use.line for use in uses} - {first})
+        message = f"`{uses[0].name}` is used here, but the package has no `{name}` any more"
+        hints = [f"it is `{new}` now" if new else "adapt your text to what the package is now"]
+        if lines:
+            hints.append(f"also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines))}")
+        return Diagnostic(Severity.WARNING, "vanished-name", message, shown(file), first, hint="; ".join(hints))
+
+    def _planned(self, texts: Mapping[str, str], others: Mapping[Path, bytes]) -> StoredClasses:
+        """The classes as they will be after the build: `texts` of the package by their keys, `others` of the user's."""
+        situation, recorded, robot = self._situation, self._situation.recorded, self._situation.robot
+        files = recorded.files if recorded else {}
+        generated = {situation.key(path) for path in self._paths}
+        old = {key for key, record in files.items() if record.state is not State.ORPHAN}
+        own = {key: situation.disk.any_text(key) for key in situation.disk.classes(situation.folder) - old - generated}
+        found = {path: self._content(path) for path in self._paths}
+        for key, text in {**own, **texts}.items():
+            found[key.removeprefix(situation.key(""))] = text.encode(errors="replace")
+
+        def find(name: str) -> Path | None:
+            if name == LIBRARY != robot.target.package.partition(".")[0]:
+                return library_folder() / LIBRARY
+            places = (robot.output / name, robot.output / f"{name}.mo")
+            return next((path for path in places if path.is_file() or (path / "package.mo").is_file()), None)
+
+        package = robot.target.package
+        gone = recorded.package if recorded and recorded.package != package else ""
+        return StoredClasses(package, robot.folder, found, others, find, gone)
+
+    def _class_name(self, key: str) -> Name:
+        *folders, file = key.removeprefix(self._situation.key("")).removesuffix(".mo").split("/")
+        package = self._situation.robot.target.package.split(".")
+        return (*package, *folders) if file == "package" else (*package, *folders, file)
+
+
+def lost_names(before: Mapping[str, str], now: Mapping[str, str], renamed: Mapping[str, str]) -> dict[str, str]:
+    """The names of classes and components that texts declared before and do not declare now, with their new names.
+
+    Texts are given by the paths of their files below the package; those that are the same in both may be left out.
+    `renamed` are old and new identifiers of elements: names that begin with the old one may begin with the new one now.
+    A new name is empty if there is none.
+    """
+    old, new = _declared(before), _declared(now)
+    gone = old - new
+    names = {path[-1] for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
+    known = {path[-1] for path in new}
+    return {name: _new_name(name, known, renamed) for name in sorted(names)}
+
+
+def find_uses(
+    name: Name, text: str, scopes: Scopes, lost: Collection[str], doubtful: Collection[str]
+) -> list[Unresolved]:
+    """The places in a stored class that use lost names and mean nothing, in their order.
+
+    `name` is the full name of the class, `text` that of its file. Where a class on the way can't be read, `doubtful`
+    names count as meaning nothing; in a text that is no Modelica, lost ones wherever they stand.
+    """
+    node = scopes.node(name)
+    if not isinstance(node, Node):
+        tokens = (token for token in lex(text)[0] if token.text in lost)
+        return [Unresolved(Kind.ELEMENT, token.text, token.text, "", token.line) for token in tokens]
+    found = (one for one in unresolved(node, scopes, doubtful) if one.kind is not Kind.NESTED_REDECLARE)
+    return sorted((one for one in found if one.part in lost), key=lambda one: one.line)
+
+
+def words(text: str) -> set[str]:
+    """All names and keywords in a text, without those in strings and comments."""
+    return {token.text for token in lex(text)[0]}
+
+
+def _declared(texts: Mapping[str, str]) -> set[Name]:
+    """The full names, below the package, of all that texts declare."""
+    found: set[Name] = set()
+    for path, text in texts.items():
+        folder = tuple(path.split("/")[:-1])
+        found.update(_names(parse(text).classes, folder[:-1] if path.endswith("/package.mo") else folder))
+    return found
+
+
+def _names(classes: tuple[Class, ...], around: Name) -> Iterator[Name]:
+    for one in classes:
+        path = (*around, one.name.parts[0])
+        yield path
+        yield from ((*path, component.name.parts[0]) for component in one.components)
+        yield from _names(one.classes, path)
+
+
+def _new_name(name: str, known: Collection[str], renamed: Mapping[str, str]) -> str:
+    """What is called like a name but for the identifier of its element; the longest such identifier counts."""
+    for old, new in sorted(renamed.items(), key=lambda pair: -len(pair[0])):
+        if name.lower().startswith(old.lower()):
+            first = new[:1].upper() if name[:1].isupper() else new[:1].lower()
+            candidates = (f"{first}{new[1:]}{name[len(old) :]}", f"{new}{name[len(old) :]}")
+            return next((candidate for candidate in candidates if candidate in known), "")
+    return ""
