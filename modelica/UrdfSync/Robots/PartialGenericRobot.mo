@@ -104,6 +104,7 @@ equation
   for i in 1:n loop
     cosine[i] = if data.jointTree[i, 2] == 1 then cos(q[i]) else 1;
     sine[i] = if data.jointTree[i, 2] == 1 then sin(q[i]) else 0;
+    // UrdfSync.Dynamics.turn would be called anew for each of the nine elements: rumoca evaluates functions in equations so.
     R[i, :, :] = data.jointRotations[i, :, :]*[
       cosine[i] + e_t[i, 1]*e_t[i, 1]*(1 - cosine[i]), e_t[i, 1]*e_t[i, 2]*(1 - cosine[i]) - e_t[i, 3]*sine[i], e_t[i, 1]*e_t[i, 3]*(1 - cosine[i]) + e_t[i, 2]*sine[i];
       e_t[i, 2]*e_t[i, 1]*(1 - cosine[i]) + e_t[i, 3]*sine[i], cosine[i] + e_t[i, 2]*e_t[i, 2]*(1 - cosine[i]), e_t[i, 2]*e_t[i, 3]*(1 - cosine[i]) - e_t[i, 1]*sine[i];

@@ -8,7 +8,8 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
     annotation (choicesAllMatching=true);
 
   parameter Integer tool = UrdfSync.Dynamics.toolLink(data.jointTree, data.linkBodies)
-    "Number of the link whose frame is frame_b: that of the last link, if nobody says otherwise";
+    "Number of the link whose frame is frame_b; as it is, the one at the end of the longest chain of moving joints"
+    annotation (Evaluate=true);
 
   parameter Boolean checkLimits = true
     "= true, if a joint that passes one of its limits is reported by a warning";

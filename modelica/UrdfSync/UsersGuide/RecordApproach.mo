@@ -49,8 +49,7 @@ a copy of these numbers then: an edit in it changes no such model.
 <dt><a href=\"modelica://UrdfSync.Robots.ArticulatedRobot\">Robots.ArticulatedRobot</a></dt>
 <dd>Articulated-body equations: explicit in the accelerations, for tools that do not solve the equations of motion as one system of the size of the number of axes.</dd>
 <dt><a href=\"modelica://UrdfSync.Robots.MultiBodyGenericRobot\">Robots.MultiBodyGenericRobot</a></dt>
-<dd>The published formulation, arrays of multibody components. OpenModelica translates it; with rumoca, the compiler of <code>urdfsync check</code>, it does
-not compile.</dd>
+<dd>The published formulation, arrays of multibody components. OpenModelica (sources of August 2026) translated and simulated it, before it had <code>frame_b</code>; rumoca does not translate it.</dd>
 <dt><a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a></dt>
 <dd>Functions that take <code>data.tree</code>, which follows from the tables: mass matrix, inverse dynamics, Coriolis and gravity forces, the Jacobian of any link, poses. They can be used
 without the models; <a href=\"modelica://UrdfSync.Examples.ComputedTorque\">Examples.ComputedTorque</a> and
