@@ -134,8 +134,8 @@ equation
     J_A[i, :, :] = J[i, :, :] + [J_s1[data.firstJoints[i], 1], J_s1[data.firstJoints[i], 2], J_s1[data.firstJoints[i], 3]; J_s2[data.firstJoints[i], 1], J_s2[data.firstJoints[i], 2], J_s2[data.firstJoints[i], 3]; J_s3[data.firstJoints[i], 1], J_s3[data.firstJoints[i], 2], J_s3[data.firstJoints[i], 3]];
     H_A[i, :, :] = [0, -h[i, 3], h[i, 2]; h[i, 3], 0, -h[i, 1]; -h[i, 2], h[i, 1], 0] + [H_s1[data.firstJoints[i], 1], H_s1[data.firstJoints[i], 2], H_s1[data.firstJoints[i], 3]; H_s2[data.firstJoints[i], 1], H_s2[data.firstJoints[i], 2], H_s2[data.firstJoints[i], 3]; H_s3[data.firstJoints[i], 1], H_s3[data.firstJoints[i], 2], H_s3[data.firstJoints[i], 3]];
     M_A[i, :, :] = [m_b[i], 0, 0; 0, m_b[i], 0; 0, 0, m_b[i]] + [M_s1[data.firstJoints[i], 1], M_s1[data.firstJoints[i], 2], M_s1[data.firstJoints[i], 3]; M_s2[data.firstJoints[i], 1], M_s2[data.firstJoints[i], 2], M_s2[data.firstJoints[i], 3]; M_s3[data.firstJoints[i], 1], M_s3[data.firstJoints[i], 2], M_s3[data.firstJoints[i], 3]];
-    t_A[i, :] = cross(w[i, :], J[i, :, :]*w[i, :]) + t_s[data.firstJoints[i], :];
-    f_A[i, :] = cross(w[i, :], cross(w[i, :], h[i, :])) + f_s[data.firstJoints[i], :];
+    t_A[i, :] = cross(w[i, :], J[i, :, :]*w[i, :]) - t_tool[i, :] + t_s[data.firstJoints[i], :];
+    f_A[i, :] = cross(w[i, :], cross(w[i, :], h[i, :])) - f_tool[i, :] + f_s[data.firstJoints[i], :];
   end for;
 
   for i in 1:n loop
@@ -193,6 +193,15 @@ The articulated-body algorithm (Featherstone: The calculation of robot dynamics 
 2008, section 7.3), written as equations in the axes of the bodies: one joint after the other is solved for its acceleration, so that no tool has to
 solve a system of equations where all axes move freely. Mimic joints join axes, and are solved as a small system. It takes about three times as many
 equations as <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a>, and gives the same motion.
+</p>
+<pre>
+U = I_A*e,   D = e'*U,   u = effort - e'*p_A
+a = (u - U'*a_p)/D
+I_A of the carrier += X*(I_A - U*U'/D)*X'
+</pre>
+<p>
+for each joint, with its axis <code>e = {e_t, e_s}</code>, the articulated inertia <code>I_A</code> and the bias force <code>p_A</code> of its body, and the spatial acceleration <code>a_p</code> that comes
+from its carrier. <code>D</code> is in kg.m2, <code>u</code> in N.m, <code>a</code> in 1/s2: see <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a>.
 </p>
 <p>
 Symmetric 6 x 6 inertias are kept as three matrices: torque per angular acceleration <code>J</code>, torque per acceleration <code>H</code> (force per angular

@@ -59,6 +59,9 @@ equation
   connect(frame_a, link[1].frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}}, color={95, 95, 95}, thickness=0.5));
 
+  connect(link[tool].frame_a, frame_b)
+    annotation (Line(points={{-60, 0}, {-66, 0}, {-66, -90}, {92, -90}, {92, 0}, {100, 0}}, color={95, 95, 95}, thickness=0.5));
+
   for k in 1:nJoints loop
     connect(link[data.connectionMatrix[k, 1]].frame_a, origin[k].frame_a)
       annotation (Line(points={{-60, 0}, {-66, 0}, {-66, -20}, {-26, -20}, {-26, 0}, {-20, 0}}, color={95, 95, 95}, thickness=0.5));
