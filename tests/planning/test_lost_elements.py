@@ -43,14 +43,15 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def built(*names: str) -> list[str]:
-    """What a build says of a robot with a third link, if its joint and it have these names."""
+    """What a build says of lost names, of a robot with a third link, if its joint and it have these names."""
     more = (link(names[1], 0.7), joint(names[0], "revolute", "upper", names[1], inside=[limit()])) if names else ()
     Path("arm.urdf").write_text(robot(*BASE, *more))
     loaded = config.load(Path("urdfsync.toml").absolute())
     (result,) = build(loaded, loaded.robots, Request())
     assert not result.failed
     assert not result.conflicts
-    return [f"{Path(one.file).name}:{one.line}: {one.message}; {one.hint}" for one in result.diagnostics]
+    found = (one for one in result.diagnostics if one.code == "vanished-name")
+    return [f"{Path(one.file).name}:{one.line}: {one.message}; {one.hint}" for one in found]
 
 
 def test_uses_of_what_goes_are_named_and_its_record_stays(project: Path) -> None:
