@@ -23,27 +23,15 @@ model CustomArm "Six-axis arm with an elastic elbow, a geared turret, a valve bl
     "Inertial sensor"
     annotation (Placement(transformation(extent={{226, -90}, {246, -70}})));
 
-  Modelica.Blocks.Interfaces.RealOutput imu_f[3](each unit = "m/s2")
-    "What the accelerometer shows, in axes of link \"mounting_flange\""
-    annotation (Placement(transformation(origin={262, -278}, extent={{-10, -10}, {10, 10}}, rotation=-90),
-      iconTransformation(extent={{100, -60}, {120, -40}})));
-
-  Modelica.Blocks.Interfaces.RealOutput imu_w[3](each unit = "rad/s")
-    "What the gyroscope shows, in axes of link \"mounting_flange\""
-    annotation (Placement(transformation(origin={242, -278}, extent={{-10, -10}, {10, 10}}, rotation=-90),
-      iconTransformation(extent={{100, -90}, {120, -70}})));
-
 equation
   connect(forearm.frame_a, valveBlock.frame_a)
     annotation (Line(points={{120, -26}, {116, -26}, {116, -80}, {130, -80}}, color={95, 95, 95}, thickness=0.5));
   connect(mounting_flange.frame_a, imu.frame_a)
     annotation (Line(points={{216, -26}, {212, -26}, {212, -80}, {226, -80}}, color={95, 95, 95}, thickness=0.5));
-  connect(imu.f, imu_f)
-    annotation (Line(points={{247, -76}, {262, -76}, {262, -278}}, color={0, 0, 127}));
-  connect(imu.w, imu_w)
-    annotation (Line(points={{247, -84}, {252, -84}, {252, -100}, {242, -100}, {242, -278}}, color={0, 0, 127}));
 
-  annotation (Documentation(info="<html>
+  annotation (
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -278}, {420, 62}})),
+    Documentation(info="<html>
 <p>
 The generated robot with two joints exchanged and two parts attached. What was there keeps its name and its connectors, so this robot fits wherever the generated one
 does: in its Run and Test models, in a bench of one's own.

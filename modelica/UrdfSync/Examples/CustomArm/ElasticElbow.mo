@@ -33,13 +33,13 @@ model ElasticElbow "Elbow whose gear gives way between the motor and the arm"
     phi(start = phi_start, fixed = fixedStart),
     w(start = w_start, fixed = fixedStart))
     "Motor and gear"
-    annotation (Placement(transformation(extent={{-60, 40}, {-40, 60}})));
+    annotation (Placement(transformation(extent={{-40, 40}, {-20, 60}})));
 
   Modelica.Mechanics.Rotational.Components.SpringDamper gear(
     c = c,
     d = d)
     "Elasticity of the gear"
-    annotation (Placement(transformation(extent={{-10, 40}, {10, 60}})));
+    annotation (Placement(transformation(extent={{0, 40}, {20, 60}})));
 
 equation
   assert(not (checkLimits and checkEffort) or 0.999999*abs(axis.tau) <= parameters.limits.effort + 1e-6,
@@ -49,13 +49,13 @@ equation
   connect(joint.frame_b, frame_b)
     annotation (Line(points={{50, 0}, {100, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(axis, motor.flange_a)
-    annotation (Line(points={{0, 100}, {0, 80}, {-80, 80}, {-80, 50}, {-60, 50}}, color={0, 0, 0}));
+    annotation (Line(points={{0, 100}, {0, 76}, {-50, 76}, {-50, 50}, {-40, 50}}, color={0, 0, 0}));
   connect(motor.flange_b, gear.flange_a)
-    annotation (Line(points={{-40, 50}, {-10, 50}}, color={0, 0, 0}));
+    annotation (Line(points={{-20, 50}, {0, 50}}, color={0, 0, 0}));
   connect(gear.flange_b, joint.axis)
-    annotation (Line(points={{10, 50}, {40, 50}, {40, 10}}, color={0, 0, 0}));
+    annotation (Line(points={{20, 50}, {40, 50}, {40, 10}}, color={0, 0, 0}));
   connect(support, joint.support)
-    annotation (Line(points={{-60, 100}, {-60, 90}, {-90, 90}, {-90, 24}, {34, 24}, {34, 10}}, color={0, 0, 0}));
+    annotation (Line(points={{-60, 100}, {-60, 24}, {34, 24}, {34, 10}}, color={0, 0, 0}));
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={

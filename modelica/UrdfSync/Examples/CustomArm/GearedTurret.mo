@@ -29,11 +29,11 @@ model GearedTurret "Turret with a gear and the rotor of its motor"
     useSupport = true,
     ratio = ratio)
     "Gear without losses: those are in the friction of the joint"
-    annotation (Placement(transformation(extent={{-10, 40}, {10, 60}})));
+    annotation (Placement(transformation(extent={{0, 40}, {20, 60}})));
 
   Modelica.Mechanics.Rotational.Components.Inertia rotor(J = J_rotor)
     "Rotor of the motor"
-    annotation (Placement(transformation(extent={{-60, 40}, {-40, 60}})));
+    annotation (Placement(transformation(extent={{-40, 40}, {-20, 60}})));
 
 equation
   assert(not (checkLimits and checkEffort) or 0.999999*abs(axis.tau) <= parameters.limits.effort + 1e-6,
@@ -43,15 +43,15 @@ equation
   connect(joint.frame_b, frame_b)
     annotation (Line(points={{50, 0}, {100, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(rotor.flange_b, gear.flange_a)
-    annotation (Line(points={{-40, 50}, {-10, 50}}, color={0, 0, 0}));
+    annotation (Line(points={{-20, 50}, {0, 50}}, color={0, 0, 0}));
   connect(gear.flange_b, joint.axis)
-    annotation (Line(points={{10, 50}, {40, 50}, {40, 10}}, color={0, 0, 0}));
+    annotation (Line(points={{20, 50}, {40, 50}, {40, 10}}, color={0, 0, 0}));
   connect(axis, joint.axis)
     annotation (Line(points={{0, 100}, {0, 76}, {40, 76}, {40, 10}}, color={0, 0, 0}));
   connect(support, joint.support)
-    annotation (Line(points={{-60, 100}, {-60, 80}, {-80, 80}, {-80, 24}, {34, 24}, {34, 10}}, color={0, 0, 0}));
+    annotation (Line(points={{-60, 100}, {-60, 24}, {34, 24}, {34, 10}}, color={0, 0, 0}));
   connect(gear.support, joint.support)
-    annotation (Line(points={{0, 40}, {0, 24}, {34, 24}, {34, 10}}, color={0, 0, 0}));
+    annotation (Line(points={{10, 40}, {10, 24}, {34, 24}, {34, 10}}, color={0, 0, 0}));
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
