@@ -14,6 +14,10 @@ model ElasticElbow "Elbow whose gear gives way between the motor and the arm"
   parameter Modelica.Units.SI.RotationalDampingConstant d = 40
     "Damping of the gear";
 
+  parameter Modelica.Units.SI.Angle phi_elastic_start = 0
+    "Start value of phi_elastic: zero, if the gear is relaxed"
+    annotation (Dialog(tab="Initialization"));
+
   Modelica.Units.SI.Angle phi_elastic = gear.phi_rel
     "How far the arm is ahead of the motor";
 
@@ -22,7 +26,7 @@ model ElasticElbow "Elbow whose gear gives way between the motor and the arm"
     checkLimits = checkLimits,
     checkEffort = false,
     stateSelect = stateSelect,
-    phi_start = phi_start,
+    phi_start = phi_start + phi_elastic_start,
     w_start = w_start,
     fixedStart = true)
     "The generated joint: geometry, friction and limits"
@@ -67,8 +71,8 @@ its position and its limits mean what they mean without the spring.
 </p>
 <p>
 The arm swings against the motor: it has a position and a speed of its own, even where the position of <code>axis</code> is prescribed. So the
-start values of <code>joint</code> are always fixed, those of <code>motor</code> only with <code>fixedStart</code>. The arm begins with the spring relaxed and sags
-within the first tenths of a second.
+start values of <code>joint</code> are always fixed, those of <code>motor</code> only with <code>fixedStart</code>. With <code>phi_elastic_start = 0</code> the arm
+begins with the spring relaxed, and sags within the first tenths of a second.
 </p>
 </html>"));
 end ElasticElbow;
