@@ -13,7 +13,7 @@ from support.corpus import REPOSITORY
 from support.modelica import compile_task, execute
 
 from urdfsync import cli
-from urdfsync.cli import Exit
+from urdfsync.outcome import Exit
 
 PAGE = REPOSITORY / "docs" / "templates.md"
 TEMPLATE = "link/model.mo.jinja"
@@ -36,7 +36,7 @@ def project(folder: Path, configuration: str) -> Path:
 
 def build(folder: Path) -> Path:
     """Build a project by the command; its package."""
-    assert cli.main(["build", "--config", str(folder / "urdfsync.toml")]) == Exit.OK
+    assert cli.main(["build", "--config", str(folder / "urdfsync.toml")]) == Exit.IN_STEP
     return folder / "modelica" / "Arm"
 
 
