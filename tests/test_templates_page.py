@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from support.corpus import REPOSITORY
-from support.modelica import compile_task, execute
+from support.modelica import Task, execute
 
 from urdfsync import cli
 from urdfsync.outcome import Exit
@@ -87,7 +87,8 @@ def test_nothing_but_the_models_of_links_has_changed(default: Path, marked: Path
 
 @pytest.mark.slow
 def test_the_package_and_the_sensor_at_a_marker_compile(marked: Path, modelica_library: Path) -> None:
-    (marked.parent / "Tracked.mo").write_text(block("modelica", "Tracked"), encoding="utf-8")
-    tasks = [compile_task("Tracked")]
-    outcomes = execute(modelica_library, [marked, marked.parent / "Tracked.mo"], tasks)
-    assert [outcome.error for outcome in outcomes] == [""]
+    # rumoca loads no package for a text unless the text imports it
+    imports = "  import Modelica;\n  import UrdfSync;\n  import Arm;\n"
+    source = block("modelica", "Tracked").replace("  import Modelica;\n", imports, 1)
+    (outcome,) = execute(modelica_library, [marked], [Task(source, "Tracked")])
+    assert outcome.error == ""
