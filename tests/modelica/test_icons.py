@@ -102,7 +102,7 @@ def test_no_two_icons_look_the_same() -> None:
 def test_each_shape_and_the_sweep_draw_a_picture() -> None:
     bare = icons.icon("UrdfSync.Visualizers.PartialShape").graphics
     assert [name for name in SHAPES if len(icons.icon(name).graphics) <= len(bare)] == []
-    assert icons.icon("UrdfSync.Robots.Sweep").graphics
+    assert icons.icon("UrdfSync.Robots.AxisSweeps").graphics
 
 
 def test_a_sheet_holds_every_icon() -> None:
