@@ -41,7 +41,7 @@ Key = tuple[str, str]
 CONNECTORS = {"Frame_b": "frame", "Flange_a": "axis", "Flange_b": "support", "RealInput": "input", "RealOutput": "output"}
 _STATEMENT = re.compile(r'(?:[^;"]|"(?:[^"\\]|\\.)*")*;')
 _CONNECTOR = re.compile(rf"\s*Modelica\.[\w.]+\.({'|'.join(CONNECTORS)}) (\w+)")
-_PART = re.compile(r"\s*replaceable (?:Links|Joints)\.\w+ (\w+) constrainedby ")
+_PART = re.compile(r"\s*replaceable (?:Links|Joints)\.\w+ (\w+)\b")
 _ELEMENT = re.compile(r'\b(link|joint) \\"((?:[^"\\]|\\\\)*)\\"', re.IGNORECASE)
 
 
@@ -121,8 +121,10 @@ def versions(history: str, frames: str = "leaves") -> Sequence[Built]:
         artifacts = [a for a in DOMAIN.artifacts(snapshot, {}, TARGET, options) if a.path in FILES]
         texts = {a.path: RENDERER.render(a.template, a.data) for a in artifacts if not isinstance(a, Order)}
         robot, run = declared(texts["Bot.mo"]), declared(texts["BotRun.mo"])
-        assert robot and run
-        found.append(Built(number, snapshot, texts, robot, run, Elements(content)))
+        elements = Elements(content)
+        parts = sorted(one.element for one in robot.values() if one.what == "part")
+        assert parts == sorted([*(("link", name) for name in elements.links), *(("joint", name) for name in elements.joints)])
+        found.append(Built(number, snapshot, texts, robot, run, elements))
     return found
 
 
