@@ -17,7 +17,9 @@ import pytest
 from lxml import etree
 from support import replay
 from support.packages import RENDERER, read
+from support.replay import Project
 
+from urdfsync import cli
 from urdfsync.classfiles import StoredClasses
 from urdfsync.difference import Effect, Version
 from urdfsync.domain import Order, Snapshot, Target
@@ -38,7 +40,13 @@ Key = tuple[str, str]
 
 # --- what a version offers, from its generated text ---------------------------------------------------------------
 
-CONNECTORS = {"Frame_b": "frame", "Flange_a": "axis", "Flange_b": "support", "RealInput": "input", "RealOutput": "output"}
+CONNECTORS = {
+    "Frame_b": "frame",
+    "Flange_a": "axis",
+    "Flange_b": "support",
+    "RealInput": "input",
+    "RealOutput": "output",
+}
 _STATEMENT = re.compile(r'(?:[^;"]|"(?:[^"\\]|\\.)*")*;')
 _CONNECTOR = re.compile(rf"\s*Modelica\.[\w.]+\.({'|'.join(CONNECTORS)}) (\w+)")
 _PART = re.compile(r"\s*replaceable (?:Links|Joints)\.\w+ (\w+)\b")
@@ -123,7 +131,9 @@ def versions(history: str, frames: str = "leaves") -> Sequence[Built]:
         robot, run = declared(texts["Bot.mo"]), declared(texts["BotRun.mo"])
         elements = Elements(content)
         parts = sorted(one.element for one in robot.values() if one.what == "part")
-        assert parts == sorted([*(("link", name) for name in elements.links), *(("joint", name) for name in elements.joints)])
+        assert parts == sorted(
+            [*(("link", name) for name in elements.links), *(("joint", name) for name in elements.joints)]
+        )
         found.append(Built(number, snapshot, texts, robot, run, elements))
     return found
 
@@ -262,3 +272,56 @@ def test_a_bench_of_version_1_fits_every_later_version(
         assert meaningless(text, new, modelica_library, tmp_path) == set(gone), f"version {new.number}"
         unexcused = [name for name, thing in gone.items() if not excuse(name, thing, first, new)]
         assert not unexcused, f"version {new.number}"
+
+
+# --- the command line ---------------------------------------------------------------------------------------------
+
+STEPS = ("upkie_camera", "stompymicro_robot_fixed", "so101_new_calib")
+"""Histories with leaves that get children, joints that stop, and names that come back."""
+
+
+@pytest.mark.parametrize("ending", STEPS)
+def test_build_and_diff_name_each_case(
+    corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], ending: str
+) -> None:
+    history = next(name for name in NAMES if name.endswith(ending))
+    project = Project(tmp_path / "project", replay.base_of(replay.histories()[history]))
+    monkeypatch.chdir(project.root)
+
+    def said(*command: str) -> str:
+        capsys.readouterr()
+        cli.main([*command, "--verbose"])
+        streams = capsys.readouterr()
+        return " ".join((streams.out + streams.err).split())
+
+    cases = 0
+    first, *later = versions(history)
+    project.save(replay.histories()[history][first.number])
+    assert not project.build().failed
+    for old, new in itertools.pairwise((first, *later)):
+        gone = {name: one for name, one in lost(old.robot, new.robot).items() if one.what != "part"}
+        expected = {name: one for name, one in gone.items() if one.element in new.elements}
+        if not gone:
+            continue
+        if old.number != first.number:
+            project.save(replay.histories()[history][old.number])
+            project.build()
+        project.save(replay.histories()[history][new.number])
+        for command in (("diff", "bot.urdf"), ("build",)):
+            text = said(*command)
+            for name, (what, (kind, element)) in expected.items():
+                cases += 1
+                if command[0] == "diff":
+                    assert re.search(rf"{kind} {re.escape(element)} {what} (was )?{name}\b", text), name
+                else:
+                    assert f"{kind} {element}: its {what} `{name}` " in text
+                if what == "frame" and Declared(what, (kind, element)) not in new.robot.values():
+                    assert f'list "{element}" in `frames` to keep it' in text
+            if command[0] == "build":
+                assert ("[connector-changed]" in text) == bool(expected or renamed(old, new))
+    assert cases
+
+
+def renamed(old: Built, new: Built) -> bool:
+    """Whether a step gives elements other names."""
+    return bool(DOMAIN.renames(old.snapshot, new.snapshot))

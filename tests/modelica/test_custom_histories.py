@@ -1,0 +1,218 @@
+"""A robot of the user's that extends the generated one goes through histories: built, compiled, and right each time.
+
+The user's package stands beside the generated one: a joint with a rotor takes the place of one joint, and a payload
+hangs on an inner link. Pinocchio says by how much the torques of all axes differ then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pinocchio
+import pytest
+from lxml import etree
+from numpy.typing import NDArray
+from support import replay
+from support.marks import LONG
+from support.modelica import Run, Task, execute
+from support.packages import read
+from support.replay import Project
+
+from urdfsync.difference import ElementKey
+from urdfsync.domain import Target
+from urdfsync.outcome import Result
+from urdfsync.urdf.domain import DOMAIN
+
+ROTOR = 0.03
+"""Inertia about the joint's axis, in kg.m2."""
+MASS, CENTRE, INERTIA = 0.7, (0.02, -0.05, 0.08), (0.002, 0.003, 0.004)
+"""The payload: about its centre of mass, in axes of its link."""
+
+PACKAGE = """\
+package Mine "What a user keeps beside the generated package"
+  model RotorJoint "The joint with the inertia of its drive"
+    extends UrdfSync.Interfaces.PartialRevoluteJoint(redeclare Bot.Joints.{class_}Parameters parameters);
+    Bot.Joints.{class_} rigid(
+      parameters = parameters, checkLimits = false, fixedStart = fixedStart, phi_start = phi_start, w_start = w_start);
+    Modelica.Mechanics.Rotational.Components.Inertia rotor(J = {rotor});
+  equation
+    connect(frame_a, rigid.frame_a);
+    connect(rigid.frame_b, frame_b);
+    connect(rigid.support, support);
+    connect(axis, rotor.flange_a);
+    connect(rotor.flange_b, rigid.axis);
+  end RotorJoint;
+
+  model MyRobot
+    extends Bot.Bot(redeclare RotorJoint {joint});
+    Modelica.Mechanics.MultiBody.Parts.Body payload(
+      m = {mass}, r_CM = {{{centre}}}, I_11 = {inertia[0]}, I_22 = {inertia[1]}, I_33 = {inertia[2]}, animation = false);
+  equation
+    connect({link}.frame_a, payload.frame_a);
+  end MyRobot;
+
+  model MyTest
+    extends Bot.BotTest(redeclare MyRobot robot);
+  end MyTest;
+end Mine;
+"""
+
+
+class History(NamedTuple):
+    """Versions whose structures differ, and the elements that are customised; `links` in each version."""
+
+    name: str
+    versions: Sequence[int]
+    joint: str
+    links: Sequence[str]
+
+
+HISTORIES = [
+    pytest.param(History("so101_new_calib", (3, 4), "elbow_flex", ("lower_arm", "lower_arm_link")), id="renamed-links"),
+    pytest.param(History("spirit_meshes", (0, 2, 3), "10", ("upper2",) * 3), id="other-sensors", marks=LONG),
+    pytest.param(
+        History(
+            "stompymicro_robot_fixed",
+            (0, 1, 2),
+            "left_knee_pitch",
+            ("DRIVING_ROTOR_PLATE_9",) * 2 + ("knee_pitch_right_2",),
+        ),
+        id="stiff-arms",
+        marks=LONG,
+    ),
+]
+
+
+def warnings(result: Result) -> list[str]:
+    """What a build says of the user's files."""
+    return [str(one) for one in result.diagnostics if "Mine" in one.file]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("history", HISTORIES)
+def test_an_extension_survives_and_its_torques_differ_as_pinocchio_says(
+    corpus: Path, modelica_library: Path, tmp_path: Path, history: History
+) -> None:
+    contents = next(all_of for name, all_of in replay.histories().items() if name.endswith(history.name))
+    project = Project(tmp_path / "project")
+    file = project.package.parent / "Mine" / "package.mo"
+    link = history.links[0]
+    for number, content in enumerate(contents):
+        if number < history.versions[0] or read(content).snapshot is None:
+            continue
+        project.save(content)
+        if not file.exists():
+            assert not project.build().failed
+            file.parent.mkdir()
+            file.write_text(text_of(content, history.joint, link))
+        before = file.read_text()
+        result = project.build()
+        assert not result.failed
+        assert file.read_text() == before
+        if number not in history.versions:
+            assert warnings(result) == []
+            continue
+        now = history.links[history.versions.index(number)]
+        found = warnings(result)
+        if now == link:
+            assert found == []
+        else:
+            (found_one,) = found
+            assert "`payload" not in found_one
+            is_renamed = ("link", link) in renames(contents[number - 1], content)
+            assert (f"it is `{component(content, 'links', now)}` now" in found_one) == is_renamed
+            assert ("adapt your text" in found_one) != is_renamed
+            link = now
+            file.write_text(text_of(content, history.joint, link))
+            assert warnings(project.build()) == []
+        compare(content, project, modelica_library, history.joint, link)
+
+
+def component(content: bytes, kind: str, name: str) -> str:
+    """How a link or joint is called in the robot model."""
+    snapshot = read(content).snapshot
+    assert snapshot is not None
+    return DOMAIN.names(snapshot, Target("Bot", "Bot"))[kind][name]
+
+
+def renames(old: bytes, new: bytes) -> Mapping[ElementKey, str]:
+    """The elements that a step only gives another name."""
+    before, after = read(old).snapshot, read(new).snapshot
+    assert before is not None
+    assert after is not None
+    return DOMAIN.renames(before, after)
+
+
+def text_of(content: bytes, joint: str, link: str) -> str:
+    """The user's package."""
+    names = {"joint": component(content, "joints", joint), "link": component(content, "links", link)}
+    class_ = names["joint"][0].upper() + names["joint"][1:]
+    centre = ", ".join(map(str, CENTRE))
+    return PACKAGE.format(class_=class_, rotor=ROTOR, mass=MASS, centre=centre, inertia=INERTIA, **names)
+
+
+def compare(content: bytes, project: Project, library: Path, joint: str, link: str) -> None:
+    """Simulate the plain robot's Test and the user's, and compare what all axes have to give."""
+    plain, loaded = (pinocchio.buildModelFromXML(text) for text in (stripped(content), stripped(content, link)))
+    names = list(plain.names[1:])
+    parts = [component(content, "joints", name) for name in names]
+    efforts = [f"robot.{part}Axis.tau" for part in parts]
+    motion = [f"robot.{part}.revolute.{value}" for value in ("phi", "w", "a") for part in parts]
+    imports = "import Modelica; import UrdfSync; import Bot; import Mine;"
+    tasks = [
+        Task(f"model {name} {imports} extends {base}; end {name};", name, [Run(1.5, 0.3)], [*efforts, *values])
+        for name, base, values in (("Plain", "Bot.BotTest", motion), ("Custom", "Mine.MyTest", []))
+    ]
+    outcomes = execute(library, [project.package, project.package.parent / "Mine"], tasks)
+    assert [one.error for one in outcomes] == ["", ""]
+    (one,), (other,) = (outcome.runs for outcome in outcomes)
+    assert (one.error, other.error) == ("", "")
+    assert len(one.times) >= 6
+    expected = []
+    for instant in range(len(one.times)):
+        q, w, a = np.array([one.values[name][instant] for name in motion]).reshape(3, -1)
+        difference = torques(loaded, q, w, a) - torques(plain, q, w, a)
+        difference[names.index(joint)] += ROTOR * a[names.index(joint)]
+        expected.append(difference)
+    found = np.array([other.values[name] - one.values[name] for name in efforts]).T
+    np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-9)
+    accelerations = one.values[motion[2 * len(names) + names.index(joint)]]
+    assert np.abs(accelerations).max() * ROTOR > 1e-3  # the rotor shows,
+    assert (np.abs(found).max(axis=0) > 1e-3).sum() > 1  # and so does the payload, at other axes
+
+
+def torques(
+    model: pinocchio.Model, q: NDArray[np.float64], w: NDArray[np.float64], a: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """What moves a robot so, without friction; gravity is that of the Modelica Standard Library's world."""
+    model.gravity.linear = np.array([0, 0, -9.80665])
+    where = pinocchio.neutral(model)
+    where = pinocchio.integrate(model, where, q)
+    return np.array(pinocchio.rnea(model, model.createData(), where, w, a))
+
+
+def stripped(content: bytes, link: str = "") -> str:
+    """The URDF with masses alone, and with the payload at a link."""
+    root = etree.fromstring(content)
+    for kind in ("visual", "collision"):
+        for element in root.findall(f"link/{kind}"):
+            element.getparent().remove(element)
+    if link:
+        assert root.find(f"link[@name='{link}']") is not None
+        centre = " ".join(map(str, CENTRE))
+        ixx, iyy, izz = INERTIA
+        root.append(
+            etree.fromstring(
+                f'<link name="payload"><inertial><origin xyz="{centre}"/><mass value="{MASS}"/>'
+                f'<inertia ixx="{ixx}" iyy="{iyy}" izz="{izz}" ixy="0" ixz="0" iyz="0"/></inertial></link>'
+            )
+        )
+        root.append(
+            etree.fromstring(
+                f'<joint name="payload" type="fixed"><parent link="{link}"/><child link="payload"/></joint>'
+            )
+        )
+    return str(etree.tostring(root, encoding="unicode"))
