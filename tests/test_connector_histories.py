@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 import itertools
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -84,7 +84,7 @@ class Elements:
         root = etree.fromstring(content, etree.XMLParser(recover=True))
         self.joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
         self.links = {link.get("name", "") for link in root.findall("link")}
-        parents = {joint.find("parent").get("link") for joint in self.joints.values()}
+        parents = {parent.get("link") for parent in root.findall("joint/parent")}
         self.leaves = self.links - parents
 
     def __contains__(self, element: Key) -> bool:

@@ -49,7 +49,8 @@ package Mine "What a user keeps beside the generated package"
   model MyRobot
     extends Bot.Bot(redeclare RotorJoint {joint});
     Modelica.Mechanics.MultiBody.Parts.Body payload(
-      m = {mass}, r_CM = {{{centre}}}, I_11 = {inertia[0]}, I_22 = {inertia[1]}, I_33 = {inertia[2]}, animation = false);
+      m = {mass}, r_CM = {{{centre}}}, I_11 = {inertia[0]}, I_22 = {inertia[1]}, I_33 = {inertia[2]},
+      animation = false);
   equation
     connect({link}.frame_a, payload.frame_a);
   end MyRobot;
@@ -197,9 +198,9 @@ def torques(
 def stripped(content: bytes, link: str = "") -> str:
     """The URDF with masses alone, and with the payload at a link."""
     root = etree.fromstring(content)
-    for kind in ("visual", "collision"):
-        for element in root.findall(f"link/{kind}"):
-            element.getparent().remove(element)
+    for element in root.findall("link"):
+        for shape in (*element.findall("visual"), *element.findall("collision")):
+            element.remove(shape)
     if link:
         assert root.find(f"link[@name='{link}']") is not None
         centre = " ".join(map(str, CENTRE))
