@@ -40,8 +40,7 @@ model TranslationalSweep "Moves one axis smoothly to the roomier end of its rang
 
   Modelica.Mechanics.Translational.Sources.Accelerate accelerate(
     useSupport = true,
-    s(start = s_start, fixed = true),
-    v(start = 0, fixed = true))
+    s(start = s_start))
     "Moves the axis"
     annotation (Placement(transformation(extent={{0, -10}, {20, 10}})));
 
@@ -57,6 +56,9 @@ equation
 <p>
 The axis begins at rest and moves as <code>s = s_start + (s_end - s_start)*(1 - cos(2*pi*time/period))/2</code>. The range and the speed limit are
 kept with a margin of 10 %. An axis without room stays where it is.
+</p>
+<p>
+The joint that is moved has to begin at <code>s_start</code> and at rest: its own start values are those that count.
 </p>
 <p>
 The acceleration is given and integrated, which is exact to the tolerance of the solver: a given position would have to be differentiated
