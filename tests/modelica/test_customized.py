@@ -163,7 +163,8 @@ def efforts_of(model: pin.Model, q: Array, v: Array, a: Array, lossless: tuple[s
     keeps = np.array([name not in lossless for name in AXES])
     losses = keeps * (model.damping * v + model.friction * np.tanh(STEEPNESS * v))
     data = model.createData()
-    return np.array([pin.rnea(model, data, *row) for row in zip(q, v, a, strict=True)]) + losses
+    efforts = np.array([pin.rnea(model, data, *row) for row in zip(q, v, a, strict=True)])
+    return np.asarray(efforts + losses)
 
 
 def moves(q: Array) -> bool:
