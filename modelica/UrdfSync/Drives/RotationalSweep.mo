@@ -32,10 +32,10 @@ model RotationalSweep "Moves one axis smoothly to the roomier end of its range a
     "Housing of the drive"
     annotation (Placement(transformation(extent={{-10, -110}, {10, -90}})));
 
-  Modelica.Units.SI.Angle phi(start = phi_start, fixed = true, stateSelect = StateSelect.prefer)
+  Modelica.Units.SI.Angle phi(start = phi_start, stateSelect = StateSelect.prefer)
     "Position of the axis relative to the housing";
 
-  Modelica.Units.SI.AngularVelocity w(start = 0, fixed = true, stateSelect = StateSelect.prefer)
+  Modelica.Units.SI.AngularVelocity w(start = 0, stateSelect = StateSelect.prefer)
     "Speed of the axis relative to the housing";
 
 equation
@@ -48,6 +48,9 @@ equation
 <p>
 The axis begins at rest and moves as <code>phi = phi_start + (phi_end - phi_start)*(1 - cos(2*pi*time/period))/2</code>. The range and the speed limit are
 kept with a margin of 10 %. An axis without room stays where it is.
+</p>
+<p>
+The joint that is moved has to begin at <code>phi_start</code> and at rest: its own start values are those that count.
 </p>
 <p>
 The acceleration is given and integrated, which is exact to the tolerance of the solver: a given position would have to be differentiated

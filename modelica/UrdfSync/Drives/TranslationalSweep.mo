@@ -32,10 +32,10 @@ model TranslationalSweep "Moves one axis smoothly to the roomier end of its rang
     "Housing of the drive"
     annotation (Placement(transformation(extent={{-10, -110}, {10, -90}})));
 
-  Modelica.Units.SI.Position s(start = s_start, fixed = true, stateSelect = StateSelect.prefer)
+  Modelica.Units.SI.Position s(start = s_start, stateSelect = StateSelect.prefer)
     "Position of the axis relative to the housing";
 
-  Modelica.Units.SI.Velocity v(start = 0, fixed = true, stateSelect = StateSelect.prefer)
+  Modelica.Units.SI.Velocity v(start = 0, stateSelect = StateSelect.prefer)
     "Speed of the axis relative to the housing";
 
 equation
@@ -48,6 +48,9 @@ equation
 <p>
 The axis begins at rest and moves as <code>s = s_start + (s_end - s_start)*(1 - cos(2*pi*time/period))/2</code>. The range and the speed limit are
 kept with a margin of 10 %. An axis without room stays where it is.
+</p>
+<p>
+The joint that is moved has to begin at <code>s_start</code> and at rest: its own start values are those that count.
 </p>
 <p>
 The acceleration is given and integrated, which is exact to the tolerance of the solver: a given position would have to be differentiated
