@@ -16,7 +16,7 @@ from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, robot
 
 from urdfsync.domain import Target
-from urdfsync.urdf.physics.reference import STEEPNESS
+from urdfsync.urdf.physics.reference import SLIDING_STEEPNESS, TURNING_STEEPNESS
 
 pytestmark = pytest.mark.slow
 
@@ -161,9 +161,11 @@ def efforts_of(model: pin.Model, q: Array, v: Array, a: Array, lossless: tuple[s
     """What all axes need for a motion, losses included, except in joints that have none: a row per instant."""
     assert list(model.names)[1:] == list(AXES)
     keeps = np.array([name not in lossless for name in AXES])
-    losses = keeps * (model.damping * v + model.friction * np.tanh(STEEPNESS * v))
+    sharp = np.array([SLIDING_STEEPNESS if kind == "prismatic" else TURNING_STEEPNESS for kind, *_ in AXES.values()])
+    losses: Array = keeps * (model.damping * v + model.friction * np.tanh(sharp * v / 2))
     data = model.createData()
-    return np.array([pin.rnea(model, data, *row) for row in zip(q, v, a, strict=True)]) + losses
+    driven: Array = np.array([pin.rnea(model, data, *row) for row in zip(q, v, a, strict=True)])
+    return np.asarray(driven + losses)
 
 
 def moves(q: Array) -> bool:
