@@ -40,7 +40,7 @@ from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 from urdfsync.urdf.source import read_robot
 
 COUNTED = ("file", "moving joints", "axes", "links")
-FUNCTIONS = ("found", "mass", "inertias", "bias", "gravity", "jacobian", "poses")
+FUNCTIONS = ("found", "mass", "inertias", "bias", "gravity", "jacobian", "places", "turns")
 """Base and tool link, mass matrix, its diagonal, all forces, those of gravity, Jacobians of all links, and poses."""
 EXACT = 1e-12
 APPROACHES = ("package", *generic.FORMS)

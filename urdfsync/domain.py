@@ -348,7 +348,7 @@ class Domain(Protocol):
         ...
 
     def interface(
-        self, old: Version, new: Version, renames: Mapping[ElementKey, str], options: Any
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Any
     ) -> Sequence[Effect]:
         """What users may have connected to, and what is there by another name now, or no more; old is None for new."""
         ...

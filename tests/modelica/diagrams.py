@@ -27,7 +27,7 @@ _MARGIN = 20
 
 @dataclasses.dataclass(frozen=True)
 class Component:
-    """A component of a model, with the corners at which its icon's -100 and 100 lie in the diagram."""
+    """A component of a model, with the corners of its icon in the diagram."""
 
     kind: str
     """Full name of its class."""
@@ -42,7 +42,9 @@ class Component:
     def place(self, point: Point) -> Point:
         """Where a point of the icon lies in the diagram. No component of the library is turned."""
         (x1, y1), (x2, y2) = self.corners
-        return (x1 + (x2 - x1) * (point[0] + 100) / 200, y1 + (y2 - y1) * (point[1] + 100) / 200)
+        (left, bottom), (right, top) = self.icon.extent
+        across, up = (point[0] - left) / (right - left), (point[1] - bottom) / (top - bottom)
+        return (x1 + (x2 - x1) * across, y1 + (y2 - y1) * up)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -99,7 +101,8 @@ def draw(shown: Diagram) -> str:
     ]
     for component in shown.components:
         (left, top), (right, bottom) = component.place((-100, 100)), component.place((100, -100))
-        place = f"translate({(left + right) / 2:g} {-(top + bottom) / 2:g})"
+        x, y = component.place((0, 0))
+        place = f"translate({x:g} {-y:g})"
         scale = f"scale({(right - left) / 200:g} {(top - bottom) / 200:g})"
         parts.append(f'<g transform="{place} {scale}">\n{_picture(component)}\n</g>')
     thin = (Call("Line", {**line.arguments, "thickness": line.get("thickness", 0.25) / 2}) for line in shown.lines)

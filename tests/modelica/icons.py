@@ -138,6 +138,8 @@ class Icon:
 
     graphics: tuple[Call, ...] = ()
     connectors: tuple[Connector, ...] = ()
+    extent: tuple[Point, Point] = ((-100, -100), (100, 100))
+    """Lower left and upper right corner of its coordinate system."""
 
 
 _CONNECTOR = re.compile(
@@ -169,9 +171,13 @@ def icon(name: str, library: Path = LIBRARY) -> Icon:
         graphic for note in annotations_in(text) for graphic in note.get("Icon", Call("Icon", {})).get("graphics", [])
     ]
     connectors = [_connector(kind, annotations_in(note)[0]) for kind, note in _CONNECTOR.findall(text)]
+    notes = [note.get("Icon") for note in annotations_in(text) if note.get("Icon")]
+    system = next((note.get("coordinateSystem") for note in notes), None)
+    lower, upper = system.get("extent") if system else next((base.extent for base in inherited), Icon.extent)
     return Icon(
         (*(graphic for base in inherited for graphic in base.graphics), *own),
         (*(mark for base in inherited for mark in base.connectors), *filter(None, connectors)),
+        ((lower[0], lower[1]), (upper[0], upper[1])),
     )
 
 
@@ -314,13 +320,16 @@ def draw(shown: Icon, name: str) -> str:
 def sheet(names: Sequence[str], library: Path = LIBRARY, columns: int = 5) -> str:
     """One SVG with the icons of the named classes, in rows; a thin frame shows the extent of each."""
     cell = 340
+    columns = min(columns, len(names))
     rows = math.ceil(len(names) / columns)
+    tallest = max(icon(name, library).extent[1][1] for name in names)
+    above = max(0, tallest - 100)
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{columns * cell}" height="{rows * cell}">',
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{columns * cell}" height="{rows * (cell + above):g}">',
         '<rect width="100%" height="100%" fill="#ffffff"/>',
     ]
     for number, name in enumerate(names):
-        x, y = (number % columns + 0.5) * cell, (number // columns + 0.5) * cell
+        x, y = (number % columns + 0.5) * cell, (number // columns + 1) * (cell + above) - cell / 2
         frame = '<rect x="-100" y="-100" width="200" height="200" fill="none" stroke="#e8e8e8"/>'
         drawn = draw(icon(name, library), name.rpartition(".")[2])
         parts.append(f'<g transform="translate({x:g} {y:g})">\n{frame}\n{drawn}\n</g>')

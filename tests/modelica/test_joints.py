@@ -22,7 +22,7 @@ from urdfsync.modelica.literals import vector
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reading import read
-from urdfsync.urdf.physics.reference import STEEPNESS, Reference
+from urdfsync.urdf.physics.reference import Reference
 from urdfsync.urdf.skeleton import MOTIONS, Motion
 
 pytestmark = pytest.mark.slow
@@ -198,8 +198,7 @@ def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> 
     q, v = state.q, reference.projection @ [course.speed for course in courses]  # the base is at rest
     q[:7] = pin.neutral(model)[:7]
     upper = np.triu(pin.crba(model, data, q))
-    losses = model.damping * v + model.friction * np.tanh(STEEPNESS * v)
-    load = pin.nonLinearEffects(model, data, q, v) + losses
+    load = pin.nonLinearEffects(model, data, q, v) + reference.losses(v)
     return np.asarray(np.linalg.solve(b.T @ (upper + np.triu(upper, 1).T) @ b, -b.T @ load))
 
 

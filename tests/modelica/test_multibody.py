@@ -50,18 +50,19 @@ def tables(own: generic.Robot) -> Mapping[str, Table]:
         "data.connectionMatrix": [[numbers[each.parent], numbers[each.child]] for each in skeleton.joints],
         "data.moveableJoints": [[k, 1] for k, each in enumerate(skeleton.joints, 1) if each.type in MOTIONS],
         "data.linkBodies": [[body] for body in found.link_bodies],
-        "turning": [[i] for i, kind in enumerate(kinds, 1) if kind == 1],
-        "sliding": [[i] for i, kind in enumerate(kinds, 1) if kind == 2],
+        "data.turning": [[i] for i, kind in enumerate(kinds, 1) if kind == 1],
+        "data.sliding": [[i] for i, kind in enumerate(kinds, 1) if kind == 2],
     }
 
 
 def written_out(text: str, known: Mapping[str, Table]) -> str:
     """The class without arrays of components, loops and conditions."""
     sizes = {"nLinks": len(known["data.linkBodies"]), "nJoints": len(known["data.connectionMatrix"])}
-    sizes |= {"nTurning": len(known["turning"]), "nSliding": len(known["sliding"])}
+    sizes |= {f"{kind}Joints": len(known[kind]) for kind in ("data.turning", "data.sliding")}
     text = re.sub(r"\n +annotation \((?:Line|Placement)\(.*\)\);", ";", text)
     text = re.sub(r"^  final parameter Integer .*?;\n", "", text, flags=re.MULTILINE | re.DOTALL)
-    component = re.compile(r'^  (Modelica\.\S+) (\w+)\[(\w+)\]\(([^"]*)\)\s+"[^"]*";', re.MULTILINE)
+    text = text.replace("link[tool]", "link[1]")  # nothing is attached to it
+    component = re.compile(r'^  (Modelica\.\S+) (\w+)\[([\w.]+)\]\(([^"]*)\)\s+"[^"]*";', re.MULTILINE)
     names = [found[2] for found in component.finditer(text)]
     text = component.sub(
         lambda found: "\n".join(
@@ -73,7 +74,7 @@ def written_out(text: str, known: Mapping[str, Table]) -> str:
         r"\{(UrdfSync[^{}]*) for k in 1:nLinks\}", lambda found: f"{{{each(found[1], sizes['nLinks'], ', ')}}}", text
     )
     text = re.sub(
-        r"  for k in 1:(\w+) loop\n(.*?)\n  end for;",
+        r"  for k in 1:([\w.]+) loop\n(.*?)\n  end for;",
         lambda found: each(found[2], sizes[found[1]], "\n"),
         text,
         flags=re.DOTALL,
@@ -98,7 +99,7 @@ def one(modifiers: str, k: int) -> str:
     text = modifiers.replace("each ", "").replace("[:, ", f"[{k}, ")
     text = re.sub(r"data\.linkMasses", rf"\g<0>[{k}]", text)
     text = re.sub(r"data\.(?:linkCenters|jointPositions)", lambda found: row(f"{found[0]}[{k}, %d]"), text)
-    text = re.sub(r"(data\.jointAxes)\[(\w+), :\]", lambda found: row(f"{found[1]}[{found[2]}[{k}], %d]"), text)
+    text = re.sub(r"(data\.jointAxes)\[([\w.]+), :\]", lambda found: row(f"{found[1]}[{found[2]}[{k}], %d]"), text)
     return re.sub(
         r"(\S+to_deg)\((\S+) \{3, 2, 1\}\]\)", lambda found: row(f"{found[1]}({found[2]} %d])", (3, 2, 1)), text
     )
@@ -127,11 +128,11 @@ def source(own: generic.Robot, task: Task) -> str:
     assert count == 4
     found = structure(own.skeleton)
     axes = [
-        (f"revolute_{known['turning'].index([i]) + 1}", k, "w_phi", "w", "a_phi")
+        (f"revolute_{known['data.turning'].index([i]) + 1}", k, "w_phi", "w", "a_phi")
         for k, i in enumerate(found.axes["rotational"], 1)
     ]
     axes += [
-        (f"prismatic_{known['sliding'].index([i]) + 1}", k, "v_s", "v", "a_s")
+        (f"prismatic_{known['data.sliding'].index([i]) + 1}", k, "v_s", "v", "a_s")
         for k, i in enumerate(found.axes["translational"], 1)
     ]
     moved = "".join(f"  {name}.{v} = {speed}[{k}];\n  {name}.a = {a}[{k}];\n" for name, k, speed, v, a in axes)

@@ -171,7 +171,7 @@ class RcNetwork:
         return ()
 
     def interface(
-        self, old: Version, new: Version, renames: Mapping[ElementKey, str], options: Options
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Options
     ) -> Sequence[Effect]:
         return ()
 

@@ -23,16 +23,14 @@ package Functions_
   import UrdfSync;
   import Bot;
   function jacobians
-    input Integer jointTree[:, 2];
-    input Real frames[size(jointTree, 1), 15];
-    input Integer linkBodies[:];
-    input Real links[size(linkBodies, 1), 12];
-    input Real q[size(jointTree, 1)];
-    output Real J[size(linkBodies, 1), 6, size(jointTree, 1)];
+    input UrdfSync.Records.RigidBodyTree tree;
+    input UrdfSync.Types.JointPosition q[:];
+    input Integer links[:];
+    output Real J[size(links, 1), 6, size(q, 1)];
   algorithm
-    J := zeros(size(linkBodies, 1), 6, size(jointTree, 1));
-    for k in 1:size(linkBodies, 1) loop
-      J[k, :, :] := UrdfSync.Dynamics.jacobian(jointTree, frames, linkBodies, links, q, k);
+    J := zeros(size(links, 1), 6, size(q, 1));
+    for k in 1:size(links, 1) loop
+      J[k, :, :] := UrdfSync.Dynamics.jacobian(tree, q, links[k]);
     end for;
   end jacobians;
   model Functions
@@ -40,12 +38,6 @@ package Functions_
     parameter Integer n = data.movingJoints;
     parameter Integer base = UrdfSync.Dynamics.baseLink(data.connectionMatrix);
     parameter Integer tool = UrdfSync.Dynamics.toolLink(data.jointTree, data.linkBodies);
-    parameter Real links[{links}, 12] =
-      UrdfSync.Dynamics.linkFrames(data.connectionMatrix, data.linkBodies, data.jointPositions, data.jointAngles);
-    parameter Real frames[n, 15] = UrdfSync.Dynamics.jointFrames(
-      data.connectionMatrix, data.linkBodies, data.jointPositions, data.jointAngles, data.jointAxes);
-    parameter Real bodies[n + 1, 10] = UrdfSync.Dynamics.bodyInertias(
-      data.linkBodies, links, data.linkMasses, data.linkCenters, data.inertialAngles, data.linkInertias, n);
     parameter Real a[n] = {a};
     parameter Real b[n] = {b};
     Real q[n];
@@ -57,7 +49,8 @@ package Functions_
     {variable} bias[n];
     {variable} gravity[n];
     {variable} jacobian[{links}, 6, n];
-    {variable} poses[{links}, 12];
+    {variable} places[{links}, 3];
+    {variable} turns[{links}, 3, 3];
   equation
     der(moved) = 1;
     for i in 1:n loop
@@ -66,12 +59,12 @@ package Functions_
     end for;
   {opening}
     found {sign} {{base, tool}};
-    mass {sign} UrdfSync.Dynamics.massMatrix(data.jointTree, frames, bodies, q);
-    inertias {sign} UrdfSync.Dynamics.jointInertias(data.jointTree, frames, bodies, q);
-    bias {sign} UrdfSync.Dynamics.nonlinearEffects(data.jointTree, frames, bodies, q, v);
-    gravity {sign} UrdfSync.Dynamics.gravityEfforts(data.jointTree, frames, bodies, q);
-    jacobian {sign} jacobians(data.jointTree, frames, data.linkBodies, links, q);
-    poses {sign} UrdfSync.Dynamics.linkPoses(data.jointTree, frames, data.linkBodies, links, q);
+    mass {sign} UrdfSync.Dynamics.massMatrix(data.tree, q);
+    inertias {sign} UrdfSync.Dynamics.jointInertias(data.tree, q);
+    bias {sign} UrdfSync.Dynamics.nonlinearEffects(data.tree, q, v, {{0, 0, -{gravity}}});
+    gravity {sign} UrdfSync.Dynamics.gravityEfforts(data.tree, q, {{0, 0, -{gravity}}});
+    jacobian {sign} jacobians(data.tree, q, 1:{links});
+    (places, turns) {sign} UrdfSync.Dynamics.linkPoses(data.tree, q, 1:{links});
   {closing}
   end Functions;
 end Functions_;
@@ -118,7 +111,8 @@ class Functions:
             "bias": (n,),
             "gravity": (n,),
             "jacobian": (len(self.links), 6, n),
-            "poses": (len(self.links), 12),
+            "places": (len(self.links), 3),
+            "turns": (len(self.links), 3, 3),
         }
 
     def task(self, form: Form) -> Task:
@@ -127,6 +121,7 @@ class Functions:
             links=len(self.links),
             a=_numbers(self._a),
             b=_numbers(self._b),
+            gravity=repr(motion.GRAVITY),
             **dataclasses.asdict(form),
         )
         values = [name for part, shape in self._shapes.items() for name in _elements(part, shape)]
@@ -173,7 +168,8 @@ class Functions:
             "bias": bias,
             "gravity": gravity,
             "jacobian": np.array(jacobians),
-            "poses": np.array([[*place.rotation.ravel(), *place.translation] for place in places]),
+            "places": np.array([place.translation for place in places]),
+            "turns": np.array([place.rotation for place in places]),
         }
 
     def _state(self, moved: float) -> tuple[Array, Array, list[int]]:

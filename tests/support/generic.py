@@ -18,7 +18,7 @@ from urdfsync.modelica.literals import vector
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reading import read
-from urdfsync.urdf.physics.reference import STEEPNESS, Reference, State
+from urdfsync.urdf.physics.reference import Reference, State
 from urdfsync.urdf.skeleton import Skeleton
 
 FORMS = ("GenericRobot", "ArticulatedRobot")
@@ -171,7 +171,7 @@ def _rates(robot: Robot, y: Array, floats: bool) -> Array:
     state.v[:3], state.v[3:6] = axes.T @ velocity, turning
     pin, model = reference.pin, reference.model
     bias = pin.rnea(model, model.createData(), state.q, state.v, np.zeros(model.nv))
-    bias += model.damping * state.v + model.friction * np.tanh(STEEPNESS * state.v)
+    bias += reference.losses(state.v)
     upper = np.triu(pin.crba(model, model.createData(), state.q))
     inertia = upper + np.triu(upper, 1).T
     free = np.hstack([np.eye(model.nv, 6), reference.projection]) if floats else reference.projection

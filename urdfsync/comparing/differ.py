@@ -10,7 +10,6 @@ import os
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import msgspec
 
@@ -72,16 +71,16 @@ def _with_last_build(subject: Subject, robot: RobotConfig, config: Config, reque
     name = shown(subject.source)
     new = Version(inputs.read(situation.domain, subject.options, situation.content, name)[0])
     try:
-        effects = _effects(situation.domain, last, new, found.renames, subject.options)
+        effects = _effects(situation.domain, last, new, found.renames, subject)
     except NO_MODEL:
         return comparison  # what is recorded is no model of the domain
     return msgspec.structs.replace(comparison, effects=tuple(effects))
 
 
 def _effects(
-    domain: Domain, old: Version, new: Version, renames: Mapping[ElementKey, str], options: Any
+    domain: Domain, old: Version, new: Version, renames: Mapping[ElementKey, str], subject: Subject
 ) -> Sequence[Effect]:
-    return [*domain.effects(old, new), *domain.interface(old, new, renames, options)]
+    return [*domain.effects(old, new), *domain.interface(old, new, renames, subject.target, subject.options)]
 
 
 class _Versions:
@@ -107,7 +106,7 @@ class _Versions:
         actions = self._actions(old.version, new.version) if found.changes else Actions()
         effects: Sequence[Effect] = ()
         if found.changes:
-            effects = _effects(domain, old.version, new.version, found.renames, subject.options)
+            effects = _effects(domain, old.version, new.version, found.renames, subject)
         said = {(known.code, known.message) for known in old.diagnostics}
         result = Result(
             subject.name,

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from urdfsync import changes, profiling
 from urdfsync.changes import Changes, Stale
 from urdfsync.config import shown
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.difference import ElementKey, Version
 from urdfsync.domain import Role, Target
 from urdfsync.moves import places
@@ -52,7 +52,7 @@ class Renewal:
         decision = self._decide(found.renames if found else {})
         found = found if settled is last else self._changes(settled)
         said = [*self._said, *self._imported.diagnostics, *situation.parents.diagnostics]
-        said += [*self._moved(decision), *self._uses(decision)]
+        said += [*self._moved(decision), *self._uses(decision), *self._lost_connectors(found)]
         said.sort(key=lambda diagnostic: (diagnostic.file, diagnostic.line))
         news = found if found and (found.changes or found.generator) else None
         if situation.request.dry:
@@ -209,25 +209,37 @@ class Renewal:
         return next((text for text in found if text is not None), None)
 
     @functools.cached_property
-    def _lost(self) -> dict[str, str]:
-        """The names that the package loses, with their new names."""
-        recorded, situation = self._situation.recorded, self._situation
+    def _replaced(self) -> dict[str, str]:
+        """Hashes of what was written last to files that get another text, or none; of records, only those that go."""
+        recorded, now = self._situation.recorded, self._generated.artifacts
         if recorded is None or self._situation.recovered is not None:
             return {}
-        now, before = self._generated.artifacts, dict[str, str]()
+        found = {}
         for key, record in recorded.files.items():
             path = self._old_path(key)
-            stays = path in now and (path not in self._outputs.stale or record.role is Role.RECORD)
-            text_role = record.role in (Role.MODEL, Role.RECORD, Role.PACKAGE)
-            if text_role and record.base is not None and record.state is not State.ORPHAN and not stays:
-                before[path] = self.base(key, record.base) or ""
-        if not before:
+            stays = path in now and (record.role is Role.RECORD or not self._is_new(path, record))
+            is_text = record.role in (Role.MODEL, Role.RECORD, Role.PACKAGE) and record.state is not State.ORPHAN
+            if is_text and not stays and record.base is not None:
+                found[path] = record.base
+        return found
+
+    @functools.cached_property
+    def _lost(self) -> dict[str, str]:
+        """The names that the package loses, with their new names."""
+        recorded, package = self._situation.recorded, self._situation.robot.target.package
+        before = {path: self._outputs.base(path, digest) or "" for path, digest in self._replaced.items()}
+        if recorded is None or not before:
             return {}
-        differing = self._outputs.stale | self._differing.render
-        texts = {path: self._outputs.content(path).decode() for path in now if path in differing}
-        old, new = recorded.package.rpartition(".")[2], situation.robot.target.package
-        moved = {old: new} if recorded.package != new else {}
-        return {**lost_names(before, texts, self._renamed()), **moved}
+        records = {self._old_path(key): record for key, record in recorded.files.items()}
+        changed = [path for path in self._generated.artifacts if self._is_new(path, records.get(path))]
+        now = {path: self._outputs.content(path).decode() for path in changed}
+        moved = {recorded.package.rpartition(".")[2]: package} if recorded.package != package else {}
+        return {**lost_names(before, now, self._renamed()), **moved}
+
+    def _is_new(self, path: str, record: FileRecord | None) -> bool:
+        """Whether the text of a generated file can be another one than what was written last."""
+        waits = record is None or record.state in (State.WAITING, State.CONFLICT)
+        return waits or path in self._outputs.stale
 
     def _renamed(self) -> dict[str, str]:
         """Old and new identifiers of elements."""
@@ -252,15 +264,34 @@ class Renewal:
     @functools.cached_property
     def _dangling(self) -> DanglingNames:
         """Finds uses of the names that the package loses."""
-        return DanglingNames(self._situation, self._lost, list(self._generated.artifacts), self._outputs.content)
+        return DanglingNames(self._situation, list(self._generated.artifacts), self._outputs.content)
+
+    def _lost_connectors(self, found: Changes | None) -> list[Diagnostic]:
+        """Notes on what users may have connected to, and what has another name now, or none."""
+        situation, settled = self._situation, self._situation.settled
+        if settled is None or found is None or not found.is_structural:
+            return []
+        notes = []
+        robot = situation.robot
+        for one in situation.domain.interface(settled, self.now, found.renames, robot.target, robot.options):
+            element, connector = one.path
+            if one.old is not None:
+                now = f"is now `{one.new}`" if one.new else "is gone"
+                message = f"{element}: its {connector} `{one.old}` {now}"
+                place = shown(situation.robot.source), self._lines.get(element, 0)
+                notes.append(Diagnostic(Severity.NOTE, "connector-changed", message, *place, hint=one.hint))
+        return notes
 
     def _uses(self, decision: Decision) -> list[Diagnostic]:
         """Warnings about texts of the user's that use names that the package loses."""
-        return self._dangling.warnings(decision.actions, decision.texts) if self._lost else []
+        if not self._replaced:
+            return []
+        texts = self._dangling.users_texts(decision.actions, decision.texts)  # parsing a large package takes longer
+        return self._dangling.warnings(texts, self._lost) if texts and self._lost else []
 
     def lost_use(self, key: str, text: str) -> tuple[str, int] | None:
         """The first name in a text for a file that the package loses, with its line."""
-        return self._dangling.first_use(key, text) if self._lost else None
+        return self._dangling.first_use(key, text, self._lost) if self._lost else None
 
     def _old_path(self, key: str) -> str:
         """Path of a file of the last build below the folder that the package had then."""

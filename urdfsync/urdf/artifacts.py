@@ -10,8 +10,8 @@ import msgspec
 
 from urdfsync.domain import Artifact, Import, Order, Parts, Piece, Recipe, Role, Target
 from urdfsync.urdf.kept import Kept
-from urdfsync.urdf.model import assembly, bench, notes, shapes
-from urdfsync.urdf.model.assembly import RecordJoint, RecordLink
+from urdfsync.urdf.model import bench, notes, records, shapes, stance
+from urdfsync.urdf.model.records import RecordJoint, RecordLink
 from urdfsync.urdf.model.robot import robot_data
 from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
@@ -117,7 +117,7 @@ def _of_structure(structure: Skeleton, target: Target, options: Options) -> list
         files += _subpackage("Joints", target, [structure.joint(joint.name) for joint in joints]) if joints else ()
         files += _robot(structure, target, options)
     if has_bench(structure.joints, options):
-        bench = Recipe(assembly.generic_data, (structure, target, options))
+        bench = Recipe(records.generic_data, (structure, target, options))
         files.append(Artifact(f"{target.name}Generic.mo", Role.MODEL, "robot/generic.mo.jinja", bench, "robot"))
     return files
 
@@ -263,7 +263,7 @@ def _robot(structure: Skeleton, target: Target, options: Options) -> Iterator[Ar
 
 def _stance(context: _Context) -> Artifact:
     made_of = (_touching(context), context.imports, context.target)
-    record = Recipe(bench.stance_data, made_of)
+    record = Recipe(stance.stance_data, made_of)
     return Artifact(f"{context.target.name}Stance.mo", Role.RECORD, "robot/stance.mo.jinja", record, "robot")
 
 
@@ -281,12 +281,12 @@ def _record(context: _Context, urdf_name: str, kept: Kept) -> Artifact:
     inertials = {name: context.links[name].inertial for name in order[0]}
     joints = {name: context.joints[name] for name in order[1]}
     pieces = (
-        kept.get("tables", lambda structure: kept.piece(Recipe(assembly.structure_data, (structure,))), structure),
+        kept.get("tables", lambda structure: kept.piece(Recipe(records.structure_data, (structure,))), structure),
         list(kept.each("record links", link, inertials, structure).values()),
         list(kept.each("record joints", joint, joints, structure).values()),
     )
     ground = (_touching(context), context.imports) if stands else None
-    recipe = Recipe(assembly.record_data, (*pieces, ground, context.target, urdf_name, generic))
+    recipe = Recipe(records.record_data, (*pieces, ground, context.target, urdf_name, generic))
     return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, recipe, "robot")
 
 

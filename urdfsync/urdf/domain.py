@@ -133,12 +133,12 @@ class UrdfDomain:
         return changes.effects(old, new)
 
     def interface(
-        self, old: Version, new: Version, renames: Mapping[ElementKey, str], options: Options
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Options
     ) -> Sequence[Effect]:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf import changes
 
-        return changes.interface(old, new, renames, options)
+        return changes.interface(old, new, renames, target, options)
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         """See `urdfsync.domain.Domain`."""

@@ -20,12 +20,14 @@ Key = tuple[str, str]
 """Kind (`link` or `joint`) and URDF name."""
 
 GENERATED = frozenset(
-    "animation checklimits connectionmatrix firstjoints fixedstart followerratios followers frame_a frame_b ground "
-    "inertialangles jointangles jointaxes jointlimits jointlosses jointnames jointpositions joints jointtree "
-    "linkbodies linkcenters linkinertias linkmasses links m moveablejoints movingjoints name nextjoints parameters "
-    "phi_start resources rotationalaxes rotationalaxis rotationaljoints rotationalrange rotationalsupport s_start "
-    "showcollisions standingheight translationalaxes translationalaxis translationaljoints translationalrange "
-    "translationalsupport v_start visualizationsetup w_start world".split()
+    "animation bodyinertias bodymasses bodymoments checklimits connectionmatrix firstjoints fixedstart "
+    "followerangles followerlengths followermultipliers followers frame_a frame_b ground inertialangles jointangles "
+    "jointaxes jointnames jointorigins jointpositions jointrotations joints jointtree linkbodies linkcenters "
+    "linkinertias linkmasses linkpositions linkrotations links m moveablejoints movingjoints name nextjoints "
+    "parameters phi_start resources rotationalaxes rotationalaxis rotationaljoints rotationalrange rotationalsupport "
+    "s_start showcollisions slideaxes sliding slidingjoints slidinglimits slidinglosses standingheight "
+    "translationalaxes translationalaxis translationaljoints translationalrange translationalsupport tree turnaxes "
+    "turning turningjoints turninglimits turninglosses v_start visualizationsetup w_start world".split()
 )
 """Names, folded to lower case, that models and records of robots use beside those of links and joints."""
 

@@ -3,16 +3,19 @@ within UrdfSync.Dynamics;
 function axisStarts "Where axes start if nobody says otherwise"
   extends Modelica.Icons.Function;
 
-  input Real range[:, 3]
-    "One row per axis: {lower, upper, velocity}";
+  input Real lower[:]
+    "Per axis: smallest position";
 
-  output Real start[size(range, 1)]
-    "Positions, in rad or m";
+  input Real upper[size(lower, 1)]
+    "Per axis: largest position";
+
+  output Real start[size(lower, 1)]
+    "Per axis: position, in the same unit";
 
 algorithm
-  start := zeros(size(range, 1));
-  for i in 1:size(range, 1) loop
-    start[i] := UrdfSync.Functions.closestToZero(range[i, 1], range[i, 2]);
+  start := zeros(size(lower, 1));
+  for i in 1:size(lower, 1) loop
+    start[i] := UrdfSync.Functions.closestToZero(lower[i], upper[i]);
   end for;
 
   annotation (Documentation(info="<html>

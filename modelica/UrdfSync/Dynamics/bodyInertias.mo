@@ -1,48 +1,54 @@
 within UrdfSync.Dynamics;
 
-function bodyInertias "Inertial parameters of each body: those of its links, added up"
+function bodyInertias "Inertia tensor of each body about its origin"
   extends Modelica.Icons.Function;
 
   input Integer linkBodies[:]
     "Per link: number of the body that it is part of; 1 is the base";
 
-  input Real links[size(linkBodies, 1), 12]
-    "One row per link, as linkFrames gives them";
+  input Real linkRotations[:, 3, 3](each unit = "1")
+    "Per link: rotation in its body";
 
-  input Modelica.Units.SI.Mass linkMasses[size(linkBodies, 1)]
+  input Modelica.Units.SI.Position linkPositions[:, 3]
+    "Per link: origin in its body";
+
+  input Modelica.Units.SI.Mass linkMasses[:]
     "Per link: mass";
 
-  input Modelica.Units.SI.Position linkCenters[size(linkBodies, 1), 3]
+  input Modelica.Units.SI.Position linkCenters[:, 3]
     "Per link: centre of mass in the link frame";
 
-  input Modelica.Units.SI.Angle inertialAngles[size(linkBodies, 1), 3]
+  input Modelica.Units.SI.Angle inertialAngles[:, 3]
     "Per link: roll, pitch and yaw of the inertial frame in the link frame";
 
-  input Modelica.Units.SI.MomentOfInertia linkInertias[size(linkBodies, 1), 6](each min = -Modelica.Constants.inf)
-    "Per link: elements {xx, yy, zz, xy, xz, yz} in the inertial frame";
+  input Modelica.Units.SI.MomentOfInertia linkInertias[:, 6](each min = -Modelica.Constants.inf)
+    "Per link: elements {xx, yy, zz, xy, xz, yz} about the centre of mass, in the inertial frame";
 
   input Integer n
     "Number of moving joints";
 
-  output Real bodies[n + 1, 10]
-    "One row per body: {m, m*c[3], xx, yy, zz, xy, xz, yz}, about the origin of the body and in its axes";
+  output Modelica.Units.SI.MomentOfInertia J[n + 1, 3, 3](each min = -Modelica.Constants.inf)
+    "Per body: tensor about the origin of the body, in its axes";
 
 protected
-  Real J[6] = zeros(6);
-  Integer b = 1;
+  Modelica.Units.SI.Position d[3] = zeros(3);
+  Modelica.Units.SI.MomentOfInertia I[3, 3](each min = -Modelica.Constants.inf) = zeros(3, 3);
 algorithm
-  bodies := zeros(n + 1, 10);
+  J := zeros(n + 1, 3, 3);
   for k in 1:size(linkBodies, 1) loop
-    b := linkBodies[k];
-    J := linkInertias[k, :];
-    bodies[b, :] := bodies[b, :] + UrdfSync.Dynamics.moved(
-      UrdfSync.Dynamics.moved({linkMasses[k], 0, 0, 0, J[1], J[2], J[3], J[4], J[5], J[6]}, UrdfSync.Functions.rotation(inertialAngles[k, :]), linkCenters[k, :]),
-      UrdfSync.Dynamics.rotationOf(links[k, :]), links[k, 10:12]);
+    d := linkPositions[k, :] + linkRotations[k, :, :]*linkCenters[k, :];
+    I := UrdfSync.Functions.inertiaInLinkAxes(inertialAngles[k, :], linkInertias[k, :]);
+    J[linkBodies[k], :, :] := J[linkBodies[k], :, :] + linkRotations[k, :, :]*I*transpose(linkRotations[k, :, :]) - linkMasses[k]*skew(d)*skew(d);
   end for;
 
   annotation (Documentation(info="<html>
 <p>
-All ten parameters of a body are sums over its links, taken in the order of the links; a link without mass adds nothing.
+The sum over the links of
+</p>
+<pre>R*I*R' - m*skew(d)*skew(d),   d = r + R*c</pre>
+<p>
+where <code>R</code> and <code>r</code> place the link in the body, <code>c</code> is its centre of mass in m, and <code>I</code> in kg.m2 its tensor about that, in link axes. The
+second term is the rule of parallel axes (Featherstone: Rigid Body Dynamics Algorithms, 2008, section 2.13). A link without mass adds nothing.
 </p>
 </html>"));
 end bodyInertias;

@@ -3,32 +3,24 @@ within UrdfSync.Dynamics;
 function gravityEfforts "Efforts that hold a robot against gravity"
   extends Modelica.Icons.Function;
 
-  input Integer jointTree[:, 2]
-    "One row per moving joint: {number of the body that carries it, 1 if it turns or 2 if it slides}";
+  input UrdfSync.Records.RigidBodyTree tree
+    "Bodies and joints: the component tree of the robot's record";
 
-  input Real frames[size(jointTree, 1), 15]
-    "One row per moving joint, as jointFrames gives them";
+  input UrdfSync.Types.JointPosition q[:]
+    "Positions of the moving joints";
 
-  input Real bodies[size(jointTree, 1) + 1, 10]
-    "One row per body, as bodyInertias gives them";
-
-  input Real q[size(jointTree, 1)]
-    "Positions of the moving joints, in rad or m";
-
-  input Modelica.Units.SI.Acceleration g_a[3] = {0, 0, -9.81}
+  input Modelica.Units.SI.Acceleration g_a[3] = {0, 0, -Modelica.Constants.g_n}
     "Gravity, resolved in the base frame";
 
-  output Real tau_g[size(jointTree, 1)]
+  output UrdfSync.Types.JointEffort tau_g[size(q, 1)]
     "Efforts of the moving joints at rest";
 
-protected
-  Real tau[size(jointTree, 1) + 6] = UrdfSync.Dynamics.inverseDynamics(jointTree, frames, bodies, {0, 0, 0}, {0, 0, 0}, -g_a, q, zeros(size(jointTree, 1)), zeros(size(jointTree, 1)));
 algorithm
-  tau_g := tau[1:size(jointTree, 1)];
+  tau_g := UrdfSync.Dynamics.inverseDynamics(tree, q, zeros(size(q, 1)), zeros(size(q, 1)), zeros(3), zeros(3), -g_a);
 
   annotation (Documentation(info="<html>
 <p>
-The vector of nonlinear effects at speed zero; what is left of it at other speeds are the Coriolis and centrifugal forces.
+The vector of nonlinear effects at speed zero, <code>h(q, 0)</code>; what is left of it at other speeds are the Coriolis and centrifugal forces.
 </p>
 </html>"));
 end gravityEfforts;

@@ -3,68 +3,56 @@ within UrdfSync.Dynamics;
 function jacobian "Geometric Jacobian of a link"
   extends Modelica.Icons.Function;
 
-  input Integer jointTree[:, 2]
-    "One row per moving joint: {number of the body that carries it, 1 if it turns or 2 if it slides}";
+  input UrdfSync.Records.RigidBodyTree tree
+    "Bodies and joints: the component tree of the robot's record";
 
-  input Real frames[size(jointTree, 1), 15]
-    "One row per moving joint, as jointFrames gives them";
+  input UrdfSync.Types.JointPosition q[:]
+    "Positions of the moving joints";
 
-  input Integer linkBodies[:]
-    "Per link: number of the body that it is part of; 1 is the base";
-
-  input Real links[size(linkBodies, 1), 12]
-    "One row per link, as linkFrames gives them";
-
-  input Real q[size(jointTree, 1)]
-    "Positions of the moving joints, in rad or m";
-
-  input Integer link = UrdfSync.Dynamics.toolLink(jointTree, linkBodies)
+  input Integer link = UrdfSync.Dynamics.toolLink(tree.jointTree, tree.linkBodies)
     "Number of the link";
 
-  output Real J[6, size(jointTree, 1)]
-    "Velocity of the origin of the link, and below its angular velocity, per speed of each moving joint, resolved in the base frame";
+  output Real J[6, size(q, 1)]
+    "Rows 1 to 3: velocity of the origin of the link in m/s, rows 4 to 6: its angular velocity in rad/s, per velocity of each moving joint, resolved in the base frame";
 
 protected
-  Integer n = size(jointTree, 1);
   Integer p = 1;
-  Integer j = 1;
-  Real R[size(jointTree, 1) + 1, 3, 3] = zeros(size(jointTree, 1) + 1, 3, 3);
-  Real r[size(jointTree, 1) + 1, 3] = zeros(size(jointTree, 1) + 1, 3);
-  Real e[size(jointTree, 1), 3] = zeros(size(jointTree, 1), 3);
-  Real Q[3, 3] = identity(3);
-  Real o[3] = zeros(3);
+  Integer b = 1;
+  Real R[size(q, 1) + 1, 3, 3](each unit = "1") = zeros(size(q, 1) + 1, 3, 3);
+  Modelica.Units.SI.Position r[size(q, 1) + 1, 3] = zeros(size(q, 1) + 1, 3);
+  Real e_t[size(q, 1), 3](each unit = "1") = zeros(size(q, 1), 3);
+  Modelica.Units.SI.Position e_s[size(q, 1), 3] = zeros(size(q, 1), 3);
+  Real Q[3, 3](each unit = "1") = identity(3);
+  Modelica.Units.SI.Position o[3] = zeros(3);
 algorithm
-  J := zeros(6, n);
+  J := zeros(6, size(q, 1));
   R[1, :, :] := identity(3);
-  for i in 1:n loop
-    p := jointTree[i, 1];
-    Q := R[p, :, :]*UrdfSync.Dynamics.rotationOf(frames[i, :]);
-    e[i, :] := Q*frames[i, 13:15];
-    r[i + 1, :] := r[p, :] + R[p, :, :]*frames[i, 10:12];
-    if jointTree[i, 2] == 2 then
-      R[i + 1, :, :] := Q;
-      r[i + 1, :] := r[i + 1, :] + e[i, :]*q[i];
-    else
-      R[i + 1, :, :] := Q*UrdfSync.Dynamics.turn(frames[i, 13:15], q[i]);
-    end if;
+  for i in 1:size(q, 1) loop
+    p := tree.jointTree[i, 1];
+    Q := R[p, :, :]*tree.jointRotations[i, :, :];
+    e_t[i, :] := Q*tree.turnAxes[i, :];
+    e_s[i, :] := Q*tree.slideAxes[i, :];
+    R[i + 1, :, :] := R[p, :, :]*tree.jointRotations[i, :, :]*UrdfSync.Dynamics.turn(tree.turnAxes[i, :], if tree.jointTree[i, 2] == 1 then q[i] else 0);
+    r[i + 1, :] := r[p, :] + R[p, :, :]*tree.jointOrigins[i, :] + e_s[i, :]*q[i];
   end for;
-  j := linkBodies[link];
-  o := r[j, :] + R[j, :, :]*links[link, 10:12];
-  for s in 1:n loop
-    if j > 1 then
-      if jointTree[max(1, j - 1), 2] == 2 then
-        J[1:3, max(1, j - 1)] := e[max(1, j - 1), :];
-      else
-        J[1:3, max(1, j - 1)] := cross(e[max(1, j - 1), :], o - r[j, :]);
-        J[4:6, max(1, j - 1)] := e[max(1, j - 1), :];
-      end if;
-      j := jointTree[max(1, j - 1), 1];
+  b := tree.linkBodies[link];
+  o := r[b, :] + R[b, :, :]*tree.linkPositions[link, :];
+  for i in size(q, 1):-1:1 loop
+    if b == i + 1 then
+      J[1:3, i] := cross(e_t[i, :], o - r[b, :]) + e_s[i, :];
+      J[4:6, i] := e_t[i, :];
+      b := tree.jointTree[i, 1];
     end if;
   end for;
 
   annotation (Documentation(info="<html>
 <p>
-A turning joint contributes <code>{e x r, e}</code>, a sliding joint <code>{e, 0}</code> (Siciliano et al.: Robotics, section 3.1.3).
+</p>
+<pre>{v, w} = J*der(q)</pre>
+<p>
+A joint that turns contributes the column <code>{e_t x (o - r), e_t}</code>, one that slides <code>{e_s, 0}</code>, with the origin <code>r</code> of the body that the joint moves and
+the origin <code>o</code> of the link (Siciliano et al.: Robotics, 2009, section 3.1.3). Joints that do not carry the link have a column of zeros. The upper rows are in m,
+the lower ones without unit. The columns of followers are their own: a leader moves the link by its column plus multiplier times the follower's one.
 </p>
 </html>"));
 end jacobian;

@@ -1,51 +1,43 @@
 within UrdfSync.Dynamics;
 
-function jointInertias "Masses and moments of inertia that joints move, one at a time"
+function jointInertias "Moments of inertia that joints move, one at a time"
   extends Modelica.Icons.Function;
 
-  input Integer jointTree[:, 2]
-    "One row per moving joint: {number of the body that carries it, 1 if it turns or 2 if it slides}";
+  input UrdfSync.Records.RigidBodyTree tree
+    "Bodies and joints: the component tree of the robot's record";
 
-  input Real frames[size(jointTree, 1), 15]
-    "One row per moving joint, as jointFrames gives them";
+  input UrdfSync.Types.JointPosition q[:]
+    "Positions of the moving joints";
 
-  input Real bodies[size(jointTree, 1) + 1, 10]
-    "One row per body, as bodyInertias gives them";
-
-  input Real q[size(jointTree, 1)]
-    "Positions of the moving joints, in rad or m";
-
-  output Real D[size(jointTree, 1)]
-    "Per moving joint: mass if it slides, moment of inertia about its axis if it turns, of all bodies behind it";
+  output Modelica.Units.SI.MomentOfInertia D[size(q, 1)]
+    "Per moving joint: that of all bodies behind it about its axis; where it slides their mass, times the square of unitLength";
 
 protected
-  Integer n = size(jointTree, 1);
-  Integer i = 1;
   Integer p = 1;
-  Real c[size(jointTree, 1) + 1, 10] = bodies;
-  Real R[3, 3] = identity(3);
-  Real e[3] = zeros(3);
-  Real d = 0;
+  Real R[3, 3](each unit = "1") = identity(3);
+  Modelica.Units.SI.Position r[3] = zeros(3);
+  Modelica.Units.SI.Mass m[size(q, 1) + 1] = tree.bodyMasses;
+  Real h[size(q, 1) + 1, 3](each unit = "kg.m") = tree.bodyMoments;
+  Modelica.Units.SI.MomentOfInertia J[size(q, 1) + 1, 3, 3](each min = -Modelica.Constants.inf) = tree.bodyInertias;
 algorithm
-  D := zeros(n);
-  for k in 1:n loop
-    i := n + 1 - k;
-    p := jointTree[i, 1];
-    e := frames[i, 13:15];
-    R := UrdfSync.Dynamics.rotationOf(frames[i, :]);
-    if jointTree[i, 2] == 2 then
-      D[i] := c[i + 1, 1];
-      c[p, :] := c[p, :] + UrdfSync.Dynamics.moved(c[i + 1, :], R, frames[i, 10:12] + R*e*q[i]);
-    else
-      d := e*([c[i + 1, 5], c[i + 1, 8], c[i + 1, 9]; c[i + 1, 8], c[i + 1, 6], c[i + 1, 10]; c[i + 1, 9], c[i + 1, 10], c[i + 1, 7]]*e);
-      D[i] := if d > 1e-13*(c[i + 1, 5] + c[i + 1, 6] + c[i + 1, 7]) then d else 0;
-      c[p, :] := c[p, :] + UrdfSync.Dynamics.moved(c[i + 1, :], R*UrdfSync.Dynamics.turn(e, q[i]), frames[i, 10:12]);
+  D := zeros(size(q, 1));
+  for i in size(q, 1):-1:1 loop
+    p := tree.jointTree[i, 1];
+    R := tree.jointRotations[i, :, :]*UrdfSync.Dynamics.turn(tree.turnAxes[i, :], if tree.jointTree[i, 2] == 1 then q[i] else 0);
+    r := tree.jointOrigins[i, :] + tree.jointRotations[i, :, :]*tree.slideAxes[i, :]*q[i];
+    D[i] := tree.turnAxes[i, :]*(J[i + 1, :, :]*tree.turnAxes[i, :]) + m[i + 1]*(tree.slideAxes[i, :]*tree.slideAxes[i, :]);
+    if tree.jointTree[i, 2] == 1 and D[i] <= 1e-13*(J[i + 1, 1, 1] + J[i + 1, 2, 2] + J[i + 1, 3, 3]) then
+      D[i] := 0;
     end if;
+    J[p, :, :] := J[p, :, :] + UrdfSync.Dynamics.movedInertia(m[i + 1], h[i + 1, :], J[i + 1, :, :], R, r);
+    h[p, :] := h[p, :] + R*h[i + 1, :] + m[i + 1]*r;
+    m[p] := m[p] + m[i + 1];
   end for;
 
   annotation (Documentation(info="<html>
 <p>
-The diagonal of the mass matrix (Featherstone: Rigid Body Dynamics Algorithms, section 6.2). Where it is zero, the free motion of the joint has no solution;
+The diagonal of the mass matrix, <code>e_t*J*e_t + m*e_s*e_s</code> (Featherstone: Rigid Body Dynamics Algorithms, 2008, section 6.2), with <code>m</code> and <code>J</code> of
+all that the joint moves. Where it is zero, the free motion of the joint has no solution;
 so what only rounding has left of a moment of inertia is given as zero.
 </p>
 </html>"));

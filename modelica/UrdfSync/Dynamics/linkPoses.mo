@@ -1,22 +1,16 @@
 within UrdfSync.Dynamics;
 
-function linkPoses "Forward kinematics: where all links are"
+function linkPoses "Forward kinematics: where links are"
   extends Modelica.Icons.Function;
 
-  input Integer jointTree[:, 2]
-    "One row per moving joint: {number of the body that carries it, 1 if it turns or 2 if it slides}";
+  input UrdfSync.Records.RigidBodyTree tree
+    "Bodies and joints: the component tree of the robot's record";
 
-  input Real frames[size(jointTree, 1), 15]
-    "One row per moving joint, as jointFrames gives them";
+  input UrdfSync.Types.JointPosition q[:]
+    "Positions of the moving joints";
 
-  input Integer linkBodies[:]
-    "Per link: number of the body that it is part of; 1 is the base";
-
-  input Real links[size(linkBodies, 1), 12]
-    "One row per link, as linkFrames gives them";
-
-  input Real q[size(jointTree, 1)]
-    "Positions of the moving joints, in rad or m";
+  input Integer links[:]
+    "Numbers of the links";
 
   input Real R_base[3, 3](each unit = "1") = identity(3)
     "Rotation of the base frame in the frame of reference: v_reference = R_base*v_base";
@@ -24,43 +18,45 @@ function linkPoses "Forward kinematics: where all links are"
   input Modelica.Units.SI.Position r_base[3] = zeros(3)
     "Origin of the base frame in the frame of reference";
 
-  output Real poses[size(linkBodies, 1), 12]
-    "One row per link: {rotation matrix by rows, position}";
+  output Modelica.Units.SI.Position r_0[size(links, 1), 3]
+    "Per link: origin, resolved in the frame of reference";
+
+  output Real R_0[size(links, 1), 3, 3](each unit = "1")
+    "Per link: v_reference = R_0*v_link";
 
 protected
-  Real R[size(jointTree, 1) + 1, 3, 3] = zeros(size(jointTree, 1) + 1, 3, 3);
-  Real r[size(jointTree, 1) + 1, 3] = zeros(size(jointTree, 1) + 1, 3);
-  Real Q[3, 3] = identity(3);
+  Real R[size(q, 1) + 1, 3, 3](each unit = "1") = zeros(size(q, 1) + 1, 3, 3);
+  Modelica.Units.SI.Position r[size(q, 1) + 1, 3] = zeros(size(q, 1) + 1, 3);
   Integer p = 1;
 algorithm
-  poses := zeros(size(linkBodies, 1), 12);
   R[1, :, :] := R_base;
   r[1, :] := r_base;
-  for i in 1:size(jointTree, 1) loop
-    if jointTree[i, 2] > 0 then
-      p := jointTree[i, 1];
-      Q := R[p, :, :]*UrdfSync.Dynamics.rotationOf(frames[i, :]);
-      r[i + 1, :] := r[p, :] + R[p, :, :]*frames[i, 10:12];
-      if jointTree[i, 2] == 2 then
-        R[i + 1, :, :] := Q;
-        r[i + 1, :] := r[i + 1, :] + Q*frames[i, 13:15]*q[i];
-      else
-        R[i + 1, :, :] := Q*UrdfSync.Dynamics.turn(frames[i, 13:15], q[i]);
-      end if;
+  // rumoca refuses a loop over an empty table that reads it outside of a condition: hence the condition, which always holds.
+  for i in 1:size(q, 1) loop
+    if tree.jointTree[i, 2] > 0 then
+      p := tree.jointTree[i, 1];
+      R[i + 1, :, :] := R[p, :, :]*tree.jointRotations[i, :, :]*UrdfSync.Dynamics.turn(tree.turnAxes[i, :], if tree.jointTree[i, 2] == 1 then q[i] else 0);
+      r[i + 1, :] := r[p, :] + R[p, :, :]*(tree.jointOrigins[i, :] + tree.jointRotations[i, :, :]*tree.slideAxes[i, :]*q[i]);
     end if;
   end for;
-  for k in 1:size(linkBodies, 1) loop
-    p := linkBodies[k];
-    Q := R[p, :, :]*UrdfSync.Dynamics.rotationOf(links[k, :]);
-    poses[k, 1:3] := Q[1, :];
-    poses[k, 4:6] := Q[2, :];
-    poses[k, 7:9] := Q[3, :];
-    poses[k, 10:12] := r[p, :] + R[p, :, :]*links[k, 10:12];
+  r_0 := zeros(size(links, 1), 3);
+  R_0 := zeros(size(links, 1), 3, 3);
+  for k in 1:size(links, 1) loop
+    p := tree.linkBodies[links[k]];
+    r_0[k, :] := r[p, :] + R[p, :, :]*tree.linkPositions[links[k], :];
+    R_0[k, :, :] := R[p, :, :]*tree.linkRotations[links[k], :, :];
   end for;
 
   annotation (Documentation(info="<html>
 <p>
-From the base outwards, body by body, then each link in its body.
+From the base outwards, body by body, then each link in its body. Body <code>i + 1</code> is in the body <code>p</code> that carries it at
+</p>
+<pre>
+R[i + 1] = R[p]*R_joint*turn(e_t, q)
+r[i + 1] = r[p] + R[p]*(r_joint + R_joint*e_s*q)
+</pre>
+<p>
+(Featherstone: Rigid Body Dynamics Algorithms, 2008, section 4.3): a joint that turns has <code>e_s = 0</code>, one that slides does not turn.
 </p>
 </html>"));
 end linkPoses;

@@ -3,7 +3,7 @@ within UrdfSync.Records;
 record PlanarJoint "Numbers of a planar joint"
   extends UrdfSync.Records.Joint;
 
-  Modelica.Mechanics.MultiBody.Types.Axis axis = {1, 0, 0}
+  parameter Modelica.Mechanics.MultiBody.Types.Axis axis = {1, 0, 0}
     "Normal of the plane: a unit vector in the joint frame";
 
   TranslationalDynamics translation

@@ -19,6 +19,14 @@ record Robot "Numbers of a whole robot: what all robots have"
     "Number of moving joints: those that turn or slide"
     annotation (Evaluate=true);
 
+  parameter Integer turningJoints(min = 0) = 0
+    "Number of moving joints that turn"
+    annotation (Evaluate=true);
+
+  parameter Integer slidingJoints(min = 0) = 0
+    "Number of moving joints that slide"
+    annotation (Evaluate=true);
+
   parameter Integer rotationalAxes(min = 0) = 0
     "Number of driven axes that turn"
     annotation (Evaluate=true);
@@ -43,6 +51,14 @@ record Robot "Numbers of a whole robot: what all robots have"
     "Per link: number of the body that it is part of; 1 is the base, i + 1 is what moving joint i moves"
     annotation (Evaluate=true);
 
+  parameter Integer turning[:] = fill(0, 0)
+    "Moving joints that turn"
+    annotation (Evaluate=true);
+
+  parameter Integer sliding[:] = fill(0, 0)
+    "Moving joints that slide"
+    annotation (Evaluate=true);
+
   parameter Integer rotationalJoints[:] = fill(0, 0)
     "Per driven axis that turns: number of its moving joint"
     annotation (Evaluate=true);
@@ -52,7 +68,7 @@ record Robot "Numbers of a whole robot: what all robots have"
     annotation (Evaluate=true);
 
   parameter Integer followers[:, 2] = fill(0, 0, 2)
-    "One row per moving joint that follows another one: {its number, number of the driven one at the head, 0 if that does not move}"
+    "One row per moving joint that follows another one, leaders first: {its number, number of its leader, 0 if that does not move}"
     annotation (Evaluate=true);
 
   parameter Real jointAxes[:, 3](each unit = "1") = fill(0, 0, 3)
@@ -68,14 +84,26 @@ record Robot "Numbers of a whole robot: what all robots have"
   Modelica.Units.SI.Angle jointAngles[:, 3] = fill(0, 0, 3)
     "Per joint, fixed ones included: roll, pitch and yaw in the frame of the parent link";
 
-  Real jointLimits[:, 4] = fill(0, 0, 4)
-    "Per moving joint: {lower, upper, velocity, effort}";
+  TurningLimits turningLimits
+    "Limits of the moving joints that turn";
 
-  Real jointLosses[:, 2] = fill(0, 0, 2)
-    "Per moving joint: {damping, friction}";
+  SlidingLimits slidingLimits
+    "Limits of the moving joints that slide";
 
-  Real followerRatios[:, 2] = fill(0, 0, 2)
-    "Per row of followers: {multiplier, offset} to the head";
+  TurningLosses turningLosses
+    "Losses of the moving joints that turn";
+
+  SlidingLosses slidingLosses
+    "Losses of the moving joints that slide";
+
+  Real followerMultipliers[:] = fill(0, 0)
+    "Per row of followers: rad or m of the joint per rad or m of its leader";
+
+  Modelica.Units.SI.Angle followerAngles[:] = fill(0, 0)
+    "Per row of followers: position where the leader is at zero; zero for a joint that slides";
+
+  Modelica.Units.SI.Position followerLengths[:] = fill(0, 0)
+    "Per row of followers: position where the leader is at zero; zero for a joint that turns";
 
   Modelica.Units.SI.Mass linkMasses[:] = {0}
     "Per link: mass";
@@ -88,6 +116,63 @@ record Robot "Numbers of a whole robot: what all robots have"
 
   Modelica.Units.SI.MomentOfInertia linkInertias[:, 6](each min = -Modelica.Constants.inf) = fill(0, 1, 6)
     "Per link: elements {xx, yy, zz, xy, xz, yz} about the centre of mass, in the inertial frame";
+
+  // rumoca does not find the sizes of arrays that a function gives where they are modifiers of a record: so they are components here.
+  final Real linkRotations[size(linkBodies, 1), 3, 3](each unit = "1") =
+    UrdfSync.Dynamics.linkRotations(connectionMatrix, linkBodies, jointAngles)
+    "Per link: rotation in its body";
+
+  final Modelica.Units.SI.Position linkPositions[size(linkBodies, 1), 3] =
+    UrdfSync.Dynamics.linkPositions(connectionMatrix, linkBodies, jointPositions, linkRotations)
+    "Per link: origin in its body";
+
+  final Real jointRotations[size(jointTree, 1), 3, 3](each unit = "1") =
+    UrdfSync.Dynamics.jointRotations(connectionMatrix, linkBodies, jointTree, jointAngles, linkRotations)
+    "Per moving joint: rotation at position zero in the body that carries it";
+
+  final Modelica.Units.SI.Position jointOrigins[size(jointTree, 1), 3] =
+    UrdfSync.Dynamics.jointOrigins(connectionMatrix, linkBodies, jointTree, jointPositions, linkRotations, linkPositions)
+    "Per moving joint: origin at position zero in the body that carries it";
+
+  final Real turnAxes[size(jointTree, 1), 3](each unit = "1") = UrdfSync.Dynamics.turnAxes(jointTree, jointAxes)
+    "Per moving joint: unit vector along its axis; zero if it slides";
+
+  final Modelica.Units.SI.Position slideAxes[size(jointTree, 1), 3] = UrdfSync.Dynamics.slideAxes(jointTree, jointAxes)
+    "Per moving joint: vector of one metre along its axis; zero if it turns";
+
+  final Modelica.Units.SI.Mass bodyMasses[size(jointTree, 1) + 1] =
+    UrdfSync.Dynamics.bodyMasses(linkBodies, linkMasses, size(jointTree, 1))
+    "Per body: mass";
+
+  final Real bodyMoments[size(jointTree, 1) + 1, 3](each unit = "kg.m") =
+    UrdfSync.Dynamics.bodyMoments(linkBodies, linkRotations, linkPositions, linkMasses, linkCenters, size(jointTree, 1))
+    "Per body: mass times centre of mass";
+
+  final Modelica.Units.SI.MomentOfInertia bodyInertias[size(jointTree, 1) + 1, 3, 3](each min = -Modelica.Constants.inf) =
+    UrdfSync.Dynamics.bodyInertias(
+      linkBodies,
+      linkRotations,
+      linkPositions,
+      linkMasses,
+      linkCenters,
+      inertialAngles,
+      linkInertias,
+      size(jointTree, 1))
+    "Per body: inertia tensor about its origin";
+
+  final RigidBodyTree tree(
+    jointTree = jointTree,
+    linkBodies = linkBodies,
+    linkRotations = linkRotations,
+    linkPositions = linkPositions,
+    jointRotations = jointRotations,
+    jointOrigins = jointOrigins,
+    turnAxes = turnAxes,
+    slideAxes = slideAxes,
+    bodyMasses = bodyMasses,
+    bodyMoments = bodyMoments,
+    bodyInertias = bodyInertias)
+    "Bodies and joints, for the functions of Dynamics";
 
   annotation (Documentation(info="<html>
 <p>
@@ -103,12 +188,12 @@ number stands in the record twice, and a modifier of a link or joint reaches the
 <p>
 <i>Bodies:</i> links that fixed joints connect move as one body. Body 1 is that of the root link, and moving joint <code>i</code> moves body
 <code>i + 1</code>. A <i>moving joint</i> is revolute, continuous or prismatic; moving joints are counted in the order of the joints, so that what
-carries a joint has a smaller number than what it moves. The tables say which link belongs to which body;
-<a href=\"modelica://UrdfSync.Dynamics.bodyInertias\">Dynamics.bodyInertias</a> adds up the numbers.
+carries a joint has a smaller number than what it moves. The tables say which link belongs to which body; what stands after them, from
+<code>linkRotations</code> on, follows from the tables by functions of <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a>.
 </p>
 <p>
 <i>Driven axes</i> are the moving joints that follow no other one, turning and sliding ones apart, each in the order of the joints. In a chain of
-mimic joints each follower names the joint at its head, and its ratio is that of the whole chain.
+mimic joints each follower names the joint that it follows itself, and has the numbers of its own <code>&lt;mimic&gt;</code> element.
 </p>
 <p>
 A robot with a planar or floating joint has no such tables: they keep the values of a single link.

@@ -7,22 +7,18 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
     "Numbers of the whole robot"
     annotation (choicesAllMatching=true);
 
+  parameter Integer tool = UrdfSync.Dynamics.toolLink(data.jointTree, data.linkBodies)
+    "Number of the link whose frame is frame_b; as it is, the one at the end of the longest chain of moving joints"
+    annotation (Evaluate=true);
+
   parameter Boolean checkLimits = true
     "= true, if a joint that passes one of its limits is reported by a warning";
-
-  parameter UrdfSync.Types.RotationalSteepness rotationalSteepness = 100
-    "How sharply the dry friction of turning joints changes its sign around standstill"
-    annotation (Dialog(group="Friction"));
-
-  parameter UrdfSync.Types.TranslationalSteepness translationalSteepness = 100
-    "How sharply the dry friction of sliding joints changes its sign around standstill"
-    annotation (Dialog(group="Friction"));
 
   parameter Boolean fixedStart = true
     "= true, if the simulation begins at the start values below; = false, if they are guesses, for axes that are driven by position"
     annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
 
-  parameter Modelica.Units.SI.Angle phi_start[data.rotationalAxes] = UrdfSync.Dynamics.axisStarts(rotationalRange)
+  parameter Modelica.Units.SI.Angle phi_start[data.rotationalAxes] = UrdfSync.Dynamics.axisStarts(phi_min, phi_max)
     "Start values of the positions of the axes that turn"
     annotation (Dialog(tab="Initialization"));
 
@@ -30,7 +26,7 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
     "Start values of the speeds of the axes that turn"
     annotation (Dialog(tab="Initialization"));
 
-  parameter Modelica.Units.SI.Position s_start[data.translationalAxes] = UrdfSync.Dynamics.axisStarts(translationalRange)
+  parameter Modelica.Units.SI.Position s_start[data.translationalAxes] = UrdfSync.Dynamics.axisStarts(s_min, s_max)
     "Start values of the positions of the axes that slide"
     annotation (Dialog(tab="Initialization"));
 
@@ -47,44 +43,29 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
   final parameter Integer nFollowers = size(data.followers, 1)
     "Number of moving joints that follow others";
 
-  final parameter Real rotationalRange[data.rotationalAxes, 3] = UrdfSync.Dynamics.axisRanges(
-    data.jointLimits,
-    data.followers,
-    data.followerRatios,
-    data.rotationalJoints)
-    "Ranges of rotationalAxis, those of joints that follow an axis included: {lower, upper, velocity}";
+  final parameter Modelica.Units.SI.Angle phi_min[data.rotationalAxes] =
+    UrdfSync.Dynamics.axisValues(axisEnds[:, 1], data.rotationalJoints)
+    "Smallest positions of the axes that turn, with those of joints that follow them respected";
 
-  final parameter Real translationalRange[data.translationalAxes, 3] = UrdfSync.Dynamics.axisRanges(
-    data.jointLimits,
-    data.followers,
-    data.followerRatios,
-    data.translationalJoints)
-    "Ranges of translationalAxis, those of joints that follow an axis included: {lower, upper, velocity}";
+  final parameter Modelica.Units.SI.Angle phi_max[data.rotationalAxes] =
+    UrdfSync.Dynamics.axisValues(axisEnds[:, 2], data.rotationalJoints)
+    "Largest positions of the axes that turn, likewise";
 
-  final parameter Real linkFrames[nLinks, 12] = UrdfSync.Dynamics.linkFrames(
-    data.connectionMatrix,
-    data.linkBodies,
-    data.jointPositions,
-    data.jointAngles)
-    "One row per link: its frame in the body that it is part of";
+  final parameter Modelica.Units.SI.AngularVelocity w_max[data.rotationalAxes] =
+    UrdfSync.Dynamics.axisValues(axisVelocities, data.rotationalJoints)
+    "Largest speeds of the axes that turn, likewise";
 
-  final parameter Real jointFrames[n, 15] = UrdfSync.Dynamics.jointFrames(
-    data.connectionMatrix,
-    data.linkBodies,
-    data.jointPositions,
-    data.jointAngles,
-    data.jointAxes)
-    "One row per moving joint: its frame at position zero in the body that carries it, and its axis";
+  final parameter Modelica.Units.SI.Position s_min[data.translationalAxes] =
+    unitLength*UrdfSync.Dynamics.axisValues(axisEnds[:, 1], data.translationalJoints)
+    "Smallest positions of the axes that slide, likewise";
 
-  final parameter Real bodies[n + 1, 10] = UrdfSync.Dynamics.bodyInertias(
-    data.linkBodies,
-    linkFrames,
-    data.linkMasses,
-    data.linkCenters,
-    data.inertialAngles,
-    data.linkInertias,
-    n)
-    "One row per body: {mass, first moment, inertia about its origin}";
+  final parameter Modelica.Units.SI.Position s_max[data.translationalAxes] =
+    unitLength*UrdfSync.Dynamics.axisValues(axisEnds[:, 2], data.translationalJoints)
+    "Largest positions of the axes that slide, likewise";
+
+  final parameter Modelica.Units.SI.Velocity v_max[data.translationalAxes] =
+    unitLength*UrdfSync.Dynamics.axisValues(axisVelocities, data.translationalJoints)
+    "Largest speeds of the axes that slide, likewise";
 
   final parameter Modelica.Units.SI.Mass m = sum(data.linkMasses)
     "Mass of the whole robot";
@@ -92,6 +73,10 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
   Modelica.Mechanics.MultiBody.Interfaces.Frame_a frame_a
     "Frame of the root link"
     annotation (Placement(transformation(extent={{-116, -16}, {-84, 16}})));
+
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b
+    "Frame of the link tool, to attach things to"
+    annotation (Placement(transformation(extent={{84, -16}, {116, 16}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis[data.rotationalAxes]
     "Drives"
@@ -145,52 +130,103 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
   Modelica.Units.SI.Acceleration a_s[data.translationalAxes]
     "Accelerations of the axes that slide";
 
-  Real q[n]
-    "Positions of the moving joints, in rad or m";
+  UrdfSync.Types.JointPosition q[n]
+    "Positions of the moving joints";
 
-  Real v[n]
-    "Speeds of the moving joints";
+  UrdfSync.Types.JointVelocity v[n]
+    "Velocities of the moving joints";
 
-  Real a[n]
+  UrdfSync.Types.JointAcceleration a[n]
     "Accelerations of the moving joints";
 
-  Real effort[n]
-    "Torques and forces that move what is behind the joints";
+  UrdfSync.Types.JointEffort effort[n]
+    "Efforts that move what is behind the joints";
 
-  Real load[n]
-    "The same with losses";
+  UrdfSync.Types.JointEffort load[n]
+    "The same with losses and with the loads of joints that follow";
 
-  Real drive[n]
-    "Loads of the drives, those of joints that follow included; zero for joints that follow";
+  UrdfSync.Types.JointEffort drive[n]
+    "Efforts of the drives; zero for joints that follow";
 
 protected
+  constant Modelica.Units.SI.Length unitLength = UrdfSync.Dynamics.unitLength
+    "Makes numbers without unit of the positions of joints that slide: they share vectors with those that turn";
+
   parameter Integer driven[n] = UrdfSync.Dynamics.drivenJoints(n, data.followers)
     "1 for joints with a drive, 0 for those that follow"
     annotation (Evaluate=true);
 
-  parameter Real shares[n, nFollowers + 1] = UrdfSync.Dynamics.followerShares(n, data.followers, data.followerRatios)
-    "Motion of each follower per motion of each joint; the last column is empty, so that there is one";
+  parameter UrdfSync.Types.JointPosition lower[n] = UrdfSync.Dynamics.jointVector(
+    n,
+    data.turning,
+    data.turningLimits.lower,
+    data.sliding,
+    data.slidingLimits.lower,
+    1/unitLength)
+    "Smallest positions of the moving joints";
 
-  parameter Real q_start[n] = UrdfSync.Dynamics.startPositions(
+  parameter UrdfSync.Types.JointPosition upper[n] = UrdfSync.Dynamics.jointVector(
+    n,
+    data.turning,
+    data.turningLimits.upper,
+    data.sliding,
+    data.slidingLimits.upper,
+    1/unitLength)
+    "Largest positions of the moving joints";
+
+  parameter UrdfSync.Types.JointVelocity velocity[n] = UrdfSync.Dynamics.jointVector(
+    n,
+    data.turning,
+    data.turningLimits.velocity,
+    data.sliding,
+    data.slidingLimits.velocity,
+    1/unitLength)
+    "Largest velocities of the moving joints";
+
+  parameter UrdfSync.Types.JointEffort effortLimits[n] = UrdfSync.Dynamics.jointVector(
+    n,
+    data.turning,
+    data.turningLimits.effort,
+    data.sliding,
+    data.slidingLimits.effort,
+    unitLength)
+    "Largest efforts of the moving joints";
+
+  parameter UrdfSync.Types.JointPosition axisEnds[n, 2] =
+    UrdfSync.Dynamics.axisEnds(lower, upper, data.followers, data.followerMultipliers, followerOffsets)
+    "Ranges of the moving joints, those of joints that follow included: {smallest position, largest position}";
+
+  parameter UrdfSync.Types.JointVelocity axisVelocities[n] =
+    UrdfSync.Dynamics.axisVelocities(velocity, data.followers, data.followerMultipliers)
+    "Largest velocities of the moving joints, those of joints that follow included";
+
+  parameter UrdfSync.Types.JointPosition followerOffsets[nFollowers] = data.followerAngles + data.followerLengths/unitLength
+    "Positions of the joints that follow where their leaders are at zero";
+
+  parameter Real shares[n, nFollowers + 1](each unit = "1") = UrdfSync.Dynamics.followerShares(n, data.followers, data.followerMultipliers)
+    "Motion of each follower per motion of its leader; the last column is empty, so that there is one";
+
+  parameter UrdfSync.Types.JointPosition q_start[n] = UrdfSync.Dynamics.startPositions(
     n,
     data.rotationalJoints,
     phi_start,
     data.translationalJoints,
     s_start,
     data.followers,
-    data.followerRatios)
+    data.followerMultipliers,
+    followerOffsets)
     "Positions of the moving joints at the start values";
 
-  parameter Real jointInertias[n] = UrdfSync.Dynamics.jointInertias(data.jointTree, jointFrames, bodies, q_start)
-    "Masses and moments of inertia that joints move at the start values, joints that follow them aside";
+  parameter Modelica.Units.SI.MomentOfInertia jointInertias[n] = UrdfSync.Dynamics.jointInertias(data.tree, q_start)
+    "Inertias that joints move at the start values, joints that follow them aside";
 
-  parameter Real axisInertias[n] = UrdfSync.Dynamics.axisInertias(jointInertias, data.followers, data.followerRatios)
+  parameter Modelica.Units.SI.MomentOfInertia axisInertias[n] = UrdfSync.Dynamics.axisInertias(jointInertias, data.followers, data.followerMultipliers)
     "The same, joints that follow them included";
 
-  parameter Real steepness[n] = {(if data.jointTree[i, 2] == 1 then rotationalSteepness else translationalSteepness) for i in 1:n}
-    "Steepness of the dry friction";
+  UrdfSync.Types.JointEffort loss[n]
+    "Efforts that damping and dry friction take";
 
-  Real followerLoad[nFollowers + 1]
+  UrdfSync.Types.JointEffort followerLoad[nFollowers + 1]
     "Loads of the joints that follow others";
 
 equation
@@ -198,16 +234,28 @@ equation
     getInstanceName() + ": robot " + data.name + " has planar or floating joints, so its record has no tables. Use the package approach, or write in the "
     + "URDF a planar joint as two prismatic joints and a continuous one, and leave out a floating joint at the root: put the robot on a FreeBase");
   for i in 1:n loop
-    assert(not checkLimits or q[i] >= data.jointLimits[i, 1] - 1e-6,
+    assert(not checkLimits or q[i] >= lower[i] - 1e-6,
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is below its lower position limit", AssertionLevel.warning);
-    assert(not checkLimits or q[i] <= data.jointLimits[i, 2] + 1e-6,
+    assert(not checkLimits or q[i] <= upper[i] + 1e-6,
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is above its upper position limit", AssertionLevel.warning);
-    assert(not checkLimits or 0.999999*abs(v[i]) <= data.jointLimits[i, 3] + 1e-6,
+    assert(not checkLimits or 0.999999*abs(v[i]) <= velocity[i] + 1e-6,
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is faster than its velocity limit", AssertionLevel.warning);
-    assert(not checkLimits or 0.999999*abs(drive[i]) <= data.jointLimits[i, 4] + 1e-6,
+    assert(not checkLimits or 0.999999*abs(drive[i]) <= effortLimits[i] + 1e-6,
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is driven above its effort limit", AssertionLevel.warning);
     assert(not fixedStart or driven[i] == 0 or axisInertias[i] > 0,
       getInstanceName() + " (joint " + data.jointNames[i].name + ") has no inertia about or along its axis: it can be driven by position only", AssertionLevel.warning);
+    load[i] = effort[i] + loss[i] + shares[i, :]*followerLoad;
+    drive[i] = driven[i]*load[i];
+  end for;
+
+  for k in 1:data.turningJoints loop
+    loss[data.turning[k]] = data.turningLosses.damping[k]*v[data.turning[k]]
+      + data.turningLosses.friction[k]*tanh(0.5*data.turningLosses.steepness[k]*v[data.turning[k]]);
+  end for;
+
+  for k in 1:data.slidingJoints loop
+    loss[data.sliding[k]] = unitLength*(data.slidingLosses.damping[k]*unitLength*v[data.sliding[k]]
+      + data.slidingLosses.friction[k]*tanh(0.5*data.slidingLosses.steepness[k]*unitLength*v[data.sliding[k]]));
   end for;
 
   for k in 1:data.rotationalAxes loop
@@ -226,24 +274,20 @@ equation
     s[k] = translationalAxis[k].s - translationalSupport[k].s;
     v_s[k] = der(s[k]);
     a_s[k] = der(v_s[k]);
-    q[data.translationalJoints[k]] = s[k];
-    v[data.translationalJoints[k]] = v_s[k];
-    a[data.translationalJoints[k]] = a_s[k];
-    translationalAxis[k].f = drive[data.translationalJoints[k]];
+    unitLength*q[data.translationalJoints[k]] = s[k];
+    unitLength*v[data.translationalJoints[k]] = v_s[k];
+    unitLength*a[data.translationalJoints[k]] = a_s[k];
+    unitLength*translationalAxis[k].f = drive[data.translationalJoints[k]];
   end for;
 
+  // rumoca evaluates q[data.followers[k, 2]] also where the leader does not move and its number is 0: hence the max.
   for k in 1:nFollowers loop
-    q[data.followers[k, 1]] = (if data.followers[k, 2] > 0 then data.followerRatios[k, 1]*q[max(1, data.followers[k, 2])] else 0) + data.followerRatios[k, 2];
-    v[data.followers[k, 1]] = if data.followers[k, 2] > 0 then data.followerRatios[k, 1]*v[max(1, data.followers[k, 2])] else 0;
-    a[data.followers[k, 1]] = if data.followers[k, 2] > 0 then data.followerRatios[k, 1]*a[max(1, data.followers[k, 2])] else 0;
+    q[data.followers[k, 1]] = (if data.followers[k, 2] > 0 then data.followerMultipliers[k]*q[max(1, data.followers[k, 2])] else 0) + followerOffsets[k];
+    v[data.followers[k, 1]] = if data.followers[k, 2] > 0 then data.followerMultipliers[k]*v[max(1, data.followers[k, 2])] else 0;
+    a[data.followers[k, 1]] = if data.followers[k, 2] > 0 then data.followerMultipliers[k]*a[max(1, data.followers[k, 2])] else 0;
     followerLoad[k] = load[data.followers[k, 1]];
   end for;
   followerLoad[nFollowers + 1] = 0;
-
-  for i in 1:n loop
-    drive[i] = driven[i]*(load[i] + shares[i, :]*followerLoad);
-    load[i] = effort[i] + data.jointLosses[i, 1]*v[i] + data.jointLosses[i, 2]*tanh(0.5*steepness[i]*v[i]);
-  end for;
 
   annotation (Documentation(info="<html>
 <p>
@@ -256,11 +300,23 @@ simulations, integers and axes of joints cannot.
 <p>
 <code>frame_a</code> is connected to what carries the robot: to the world, or for a robot that moves freely to a
 <a href=\"modelica://UrdfSync.Robots.FreeBase\">FreeBase</a>. Driven axes have flanges as the robot model of the package approach has them, in the same
-order; where nothing is connected the axis moves freely. The constants <code>data.&lt;joint&gt;Axis</code> are their numbers.
+order; where nothing is connected the axis moves freely. <code>frame_b</code> is the frame of the link <code>tool</code>: a body, a sensor or a contact that is connected to it is part of the
+motion. The constants <code>data.&lt;joint&gt;Axis</code> are their numbers.
 </p>
 <p>
-<i>Losses</i> are those of <a href=\"modelica://UrdfSync.Friction.Rotational\">Friction</a>: <code>d*v + f*tanh(s*v/2)</code>.
-<i>Mimic joints:</i> <code>q = k*q_head + c</code>, and the axis of the head bears <code>k</code> times the load of the follower (principle of virtual work).
+<i>Losses and mimic joints.</i> The equations of motion give <code>effort</code>, torque in N.m or force in N, of each joint. The drives have to give more:
+</p>
+<pre>
+load  = effort + d*v + f_d*tanh(s*v/2) + sum(k*load_follower)     d, f_d, s: damping, dry friction, steepness
+q     = k*q_leader + c                                            of a joint that follows; k, c: multiplier, offset
+drive = load                                                      of a joint that does not follow
+</pre>
+<p>
+The sum over the followers of a joint is the principle of virtual work. Damping and friction are those of <a href=\"modelica://UrdfSync.Friction.Rotational\">Friction</a>.
+</p>
+<p>
+<i>Units.</i> <code>q</code>, <code>v</code>, <code>a</code>, <code>effort</code>, <code>load</code> and <code>drive</code> hold joints that turn and joints that slide, by the metre
+<code>unitLength</code>: see <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a>.
 </p>
 <p>
 <i>Limits</i> are checked as in the package approach: a warning names the joint. Another warning names a joint whose element on the diagonal of the mass

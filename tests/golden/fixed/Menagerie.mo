@@ -41,27 +41,27 @@ model Menagerie "Robot Menagerie"
 
   Modelica.Mechanics.Translational.Interfaces.Flange_a liftAxis
     "Axis of joint \"lift\""
-    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-105, 275}, {-95, 285}})));
+    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-104, 276}, {-96, 284}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_b liftSupport
     "Housing of the drive of joint \"lift\""
-    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-105, 265}, {-95, 275}})));
+    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-104, 266}, {-96, 274}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis_2
     "Axis of joint \"rotational\""
-    annotation (Placement(transformation(extent={{-52, -334}, {-40, -322}}), iconTransformation(extent={{-105, 255}, {-95, 265}})));
+    annotation (Placement(transformation(extent={{-52, -334}, {-40, -322}}), iconTransformation(extent={{-104, 256}, {-96, 264}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b rotationalSupport_2
     "Housing of the drive of joint \"rotational\""
-    annotation (Placement(transformation(extent={{-66, -334}, {-54, -322}}), iconTransformation(extent={{-105, 245}, {-95, 255}})));
+    annotation (Placement(transformation(extent={{-66, -334}, {-54, -322}}), iconTransformation(extent={{-104, 246}, {-96, 254}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a shoulderAxis
     "Axis of joint \"shoulder\""
-    annotation (Placement(transformation(extent={{-52, -444}, {-40, -432}}), iconTransformation(extent={{-105, 235}, {-95, 245}})));
+    annotation (Placement(transformation(extent={{-52, -444}, {-40, -432}}), iconTransformation(extent={{-104, 236}, {-96, 244}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b shoulderSupport
     "Housing of the drive of joint \"shoulder\""
-    annotation (Placement(transformation(extent={{-66, -444}, {-54, -432}}), iconTransformation(extent={{-105, 225}, {-95, 235}})));
+    annotation (Placement(transformation(extent={{-66, -444}, {-54, -432}}), iconTransformation(extent={{-104, 226}, {-96, 234}})));
 
   final parameter Modelica.Units.SI.Mass m =
     chassis.m +
@@ -516,18 +516,18 @@ equation
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 290}}), graphics={
       Rectangle(extent={{-100, 100}, {100, 290}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
-      Text(extent={{-90, 266}, {20, 284}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="lift"),
-      Text(extent={{-90, 246}, {20, 264}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="rotational"),
-      Text(extent={{-90, 226}, {20, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="shoulder"),
-      Text(extent={{20, 273}, {88, 287}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="end_link"),
-      Text(extent={{20, 253}, {88, 267}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="pinion"),
-      Text(extent={{20, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="gelenk__"),
-      Text(extent={{20, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="time_link"),
-      Text(extent={{20, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="cON_link"),
-      Text(extent={{20, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="l_arm_link"),
-      Text(extent={{20, 153}, {88, 167}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="nut"),
-      Text(extent={{20, 133}, {88, 147}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="a_b___c_______1_0______d____e"),
-      Text(extent={{20, 113}, {88, 127}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="balloon")}),
+      Text(extent={{-90, 266}, {0, 284}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="lift"),
+      Text(extent={{-90, 246}, {0, 264}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="rotational"),
+      Text(extent={{-90, 226}, {0, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="shoulder"),
+      Text(extent={{0, 273}, {88, 287}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="end_link"),
+      Text(extent={{0, 253}, {88, 267}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="pinion"),
+      Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="gelenk__"),
+      Text(extent={{0, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="time_link"),
+      Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="cON_link"),
+      Text(extent={{0, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="l_arm_link"),
+      Text(extent={{0, 153}, {88, 167}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="nut"),
+      Text(extent={{0, 133}, {88, 147}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="a_b___c_______1_0______d____e"),
+      Text(extent={{0, 113}, {88, 127}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="balloon")}),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -716}, {88, 70}})),
     Documentation(info="<html>
 <p>

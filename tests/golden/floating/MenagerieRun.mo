@@ -12,11 +12,11 @@ model MenagerieRun "Run robot Menagerie with positions from outside: the model t
 
   Modelica.Blocks.Interfaces.RealInput lift_s(unit = "m")
     "Where joint \"lift\" is to go"
-    annotation (Placement(transformation(extent={{-140, 360}, {-120, 380}}), iconTransformation(extent={{-120, 265}, {-100, 285}})));
+    annotation (Placement(transformation(extent={{-140, 360}, {-120, 380}}), iconTransformation(extent={{-116, 267}, {-100, 283}})));
 
   Modelica.Blocks.Interfaces.RealOutput lift_f(unit = "N") = robot.liftAxis.f
     "What the drive of joint \"lift\" has to give"
-    annotation (Placement(transformation(extent={{340, 360}, {360, 380}}), iconTransformation(extent={{100, 265}, {120, 285}})));
+    annotation (Placement(transformation(extent={{340, 360}, {360, 380}}), iconTransformation(extent={{100, 267}, {116, 283}})));
 
   Modelica.Mechanics.Translational.Sources.Position liftDrive(
     useSupport = true,
@@ -27,11 +27,11 @@ model MenagerieRun "Run robot Menagerie with positions from outside: the model t
 
   Modelica.Blocks.Interfaces.RealInput rotational_phi(unit = "rad")
     "Where joint \"rotational\" is to go"
-    annotation (Placement(transformation(extent={{-140, 330}, {-120, 350}}), iconTransformation(extent={{-120, 245}, {-100, 265}})));
+    annotation (Placement(transformation(extent={{-140, 330}, {-120, 350}}), iconTransformation(extent={{-116, 247}, {-100, 263}})));
 
   Modelica.Blocks.Interfaces.RealOutput rotational_tau(unit = "N.m") = robot.rotationalAxis_2.tau
     "What the drive of joint \"rotational\" has to give"
-    annotation (Placement(transformation(extent={{340, 330}, {360, 350}}), iconTransformation(extent={{100, 245}, {120, 265}})));
+    annotation (Placement(transformation(extent={{340, 330}, {360, 350}}), iconTransformation(extent={{100, 247}, {116, 263}})));
 
   Modelica.Mechanics.Rotational.Sources.Position rotationalDrive(
     useSupport = true,
@@ -42,11 +42,11 @@ model MenagerieRun "Run robot Menagerie with positions from outside: the model t
 
   Modelica.Blocks.Interfaces.RealInput shoulder_phi(unit = "rad")
     "Where joint \"shoulder\" is to go"
-    annotation (Placement(transformation(extent={{-140, 300}, {-120, 320}}), iconTransformation(extent={{-120, 225}, {-100, 245}})));
+    annotation (Placement(transformation(extent={{-140, 300}, {-120, 320}}), iconTransformation(extent={{-116, 227}, {-100, 243}})));
 
   Modelica.Blocks.Interfaces.RealOutput shoulder_tau(unit = "N.m") = robot.shoulderAxis.tau
     "What the drive of joint \"shoulder\" has to give"
-    annotation (Placement(transformation(extent={{340, 300}, {360, 320}}), iconTransformation(extent={{100, 225}, {120, 245}})));
+    annotation (Placement(transformation(extent={{340, 300}, {360, 320}}), iconTransformation(extent={{100, 227}, {116, 243}})));
 
   Modelica.Mechanics.Rotational.Sources.Position shoulderDrive(
     useSupport = true,
@@ -83,7 +83,7 @@ equation
       Text(extent={{-94, 266}, {94, 284}}, textColor={64, 64, 64}, textString="lift"),
       Text(extent={{-94, 246}, {94, 264}}, textColor={64, 64, 64}, textString="rotational"),
       Text(extent={{-94, 226}, {94, 244}}, textColor={64, 64, 64}, textString="shoulder")}),
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -220}, {360, 405}})),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -280}, {360, 405}})),
     Documentation(info="<html>
 <p>
 Robot Menagerie in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

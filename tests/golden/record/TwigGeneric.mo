@@ -13,29 +13,33 @@ model TwigGeneric "Robot Twig from its record alone: every axis moves inside its
   Modelica.Mechanics.Rotational.Sources.Position rotationalDrive[2](
     each useSupport = true,
     each exact = true)
-    "Moves each axis as asked"
+    "Moves each axis that turns as asked"
     annotation (Placement(transformation(extent={{-20, 20}, {0, 40}})));
+
+  UrdfSync.Robots.AxisSweeps rotationalSweep(
+    n = 2,
+    start = robot.phi_start,
+    lower = robot.phi_min,
+    upper = robot.phi_max,
+    velocity = robot.w_max,
+    reach = 1)
+    "There and back, by up to 1 rad"
+    annotation (Placement(transformation(extent={{-60, 20}, {-40, 40}})));
 
   Modelica.Mechanics.Translational.Sources.Position translationalDrive[1](
     each useSupport = true,
     each exact = true)
-    "Moves each axis as asked"
+    "Moves each axis that slides as asked"
     annotation (Placement(transformation(extent={{-20, 60}, {0, 80}})));
 
-  UrdfSync.Robots.Sweep rotationalSweep(
-    n = 2,
-    start = robot.phi_start,
-    range = robot.rotationalRange,
-    reach = 1)
-    "There and back"
-    annotation (Placement(transformation(extent={{-60, 20}, {-40, 40}})));
-
-  UrdfSync.Robots.Sweep translationalSweep(
+  UrdfSync.Robots.AxisSweeps translationalSweep(
     n = 1,
     start = robot.s_start,
-    range = robot.translationalRange,
+    lower = robot.s_min,
+    upper = robot.s_max,
+    velocity = robot.v_max,
     reach = 0.1)
-    "There and back"
+    "There and back, by up to 0.1 m"
     annotation (Placement(transformation(extent={{-60, 60}, {-40, 80}})));
 
 equation
@@ -45,12 +49,12 @@ equation
     annotation (Line(points={{0, 30}, {28, 30}, {28, -20}}, color={0, 0, 0}));
   connect(rotationalDrive.support, robot.rotationalSupport)
     annotation (Line(points={{-10, 20}, {-10, 10}, {34, 10}, {34, -20}}, color={0, 0, 0}));
+  connect(rotationalSweep.y, rotationalDrive.phi_ref)
+    annotation (Line(points={{-39, 30}, {-22, 30}}, color={0, 0, 127}));
   connect(translationalDrive.flange, robot.translationalAxis)
     annotation (Line(points={{0, 70}, {46, 70}, {46, -20}}, color={0, 127, 0}));
   connect(translationalDrive.support, robot.translationalSupport)
     annotation (Line(points={{-10, 60}, {-10, 50}, {52, 50}, {52, -20}}, color={0, 127, 0}));
-  connect(rotationalSweep.y, rotationalDrive.phi_ref)
-    annotation (Line(points={{-39, 30}, {-22, 30}}, color={0, 0, 127}));
   connect(translationalSweep.y, translationalDrive.s_ref)
     annotation (Line(points={{-39, 70}, {-22, 70}}, color={0, 0, 127}));
 

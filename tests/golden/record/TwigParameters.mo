@@ -6,22 +6,19 @@ record TwigParameters "Numbers of robot Twig as a whole"
     connectionMatrix = [1, 2; 2, 3; 3, 4; 3, 5; 5, 6; 3, 7; 1, 8; 1, 9],
     moveableJoints = [2, 1; 3, 1; 4, 1; 6, 1; 7, 1; 8, 1],
     movingJoints = 6,
+    turningJoints = 5,
+    slidingJoints = 1,
     rotationalAxes = 2,
     translationalAxes = 1,
     jointTree = {{1, 1}, {2, 1}, {2, 2}, {2, 1}, {1, 1}, {1, 1}},
     firstJoints = {1, 2, 7, 7, 7, 7, 7},
     nextJoints = {5, 3, 4, 7, 6, 7},
     linkBodies = {1, 1, 2, 3, 4, 4, 5, 6, 7},
+    turning = {1, 2, 4, 5, 6},
+    sliding = {3},
     rotationalJoints = {1, 6},
     translationalJoints = {3},
-    followers = {{5, 0}, {2, 3}, {4, 3}},
-    jointNames(name = {
-      bend.name,
-      first.name,
-      grow.name,
-      second.name,
-      thorn.name,
-      turn.name}),
+    followers = {{5, 0}, {2, 3}, {4, 2}},
     jointAxes = {
       bend.axis,
       first.axis,
@@ -29,20 +26,6 @@ record TwigParameters "Numbers of robot Twig as a whole"
       second.axis,
       thorn.axis,
       turn.axis},
-    jointLimits = {
-      {bend.limits.lower, bend.limits.upper, bend.limits.velocity, bend.limits.effort},
-      {first.limits.lower, first.limits.upper, first.limits.velocity, first.limits.effort},
-      {grow.limits.lower, grow.limits.upper, grow.limits.velocity, grow.limits.effort},
-      {-Modelica.Constants.inf, Modelica.Constants.inf, second.limits.velocity, second.limits.effort},
-      {thorn.limits.lower, thorn.limits.upper, thorn.limits.velocity, thorn.limits.effort},
-      {-Modelica.Constants.inf, Modelica.Constants.inf, turn.limits.velocity, turn.limits.effort}},
-    jointLosses = {
-      {bend.dynamics.damping, bend.dynamics.friction},
-      {first.dynamics.damping, first.dynamics.friction},
-      {grow.dynamics.damping, grow.dynamics.friction},
-      {second.dynamics.damping, second.dynamics.friction},
-      {thorn.dynamics.damping, thorn.dynamics.friction},
-      {turn.dynamics.damping, turn.dynamics.friction}},
     jointPositions = {
       hold_joint.origin.xyz,
       bend.origin.xyz,
@@ -61,10 +44,18 @@ record TwigParameters "Numbers of robot Twig as a whole"
       second.origin.rpy,
       thorn.origin.rpy,
       turn.origin.rpy},
-    followerRatios = {
-      {thorn.mimic.multiplier, thorn.mimic.offset},
-      {first.mimic.multiplier, first.mimic.offset},
-      {second.mimic.multiplier*first.mimic.multiplier, second.mimic.multiplier*first.mimic.offset + second.mimic.offset}},
+    followerMultipliers = {
+      thorn.mimic.multiplier,
+      first.mimic.multiplier,
+      second.mimic.multiplier},
+    followerAngles = {
+      thorn.mimic.offset,
+      first.mimic.offset,
+      second.mimic.offset},
+    followerLengths = {
+      0,
+      0,
+      0},
     linkMasses = {
       stem.inertial.mass,
       jointTree_link.inertial.mass,
@@ -113,7 +104,75 @@ record TwigParameters "Numbers of robot Twig as a whole"
       {spike.inertial.inertia.ixx, spike.inertial.inertia.iyy, spike.inertial.inertia.izz,
        spike.inertial.inertia.ixy, spike.inertial.inertia.ixz, spike.inertial.inertia.iyz},
       {vane.inertial.inertia.ixx, vane.inertial.inertia.iyy, vane.inertial.inertia.izz,
-       vane.inertial.inertia.ixy, vane.inertial.inertia.ixz, vane.inertial.inertia.iyz}});
+       vane.inertial.inertia.ixy, vane.inertial.inertia.ixz, vane.inertial.inertia.iyz}},
+    jointNames(
+      name = {
+        bend.name,
+        first.name,
+        grow.name,
+        second.name,
+        thorn.name,
+        turn.name}),
+    turningLimits(
+      lower = {
+        bend.limits.lower,
+        first.limits.lower,
+        -Modelica.Constants.inf,
+        thorn.limits.lower,
+        -Modelica.Constants.inf},
+      upper = {
+        bend.limits.upper,
+        first.limits.upper,
+        Modelica.Constants.inf,
+        thorn.limits.upper,
+        Modelica.Constants.inf},
+      velocity = {
+        bend.limits.velocity,
+        first.limits.velocity,
+        second.limits.velocity,
+        thorn.limits.velocity,
+        turn.limits.velocity},
+      effort = {
+        bend.limits.effort,
+        first.limits.effort,
+        second.limits.effort,
+        thorn.limits.effort,
+        turn.limits.effort}),
+    turningLosses(
+      damping = {
+        bend.dynamics.damping,
+        first.dynamics.damping,
+        second.dynamics.damping,
+        thorn.dynamics.damping,
+        turn.dynamics.damping},
+      friction = {
+        bend.dynamics.friction,
+        first.dynamics.friction,
+        second.dynamics.friction,
+        thorn.dynamics.friction,
+        turn.dynamics.friction},
+      steepness = {
+        bend.dynamics.steepness,
+        first.dynamics.steepness,
+        second.dynamics.steepness,
+        thorn.dynamics.steepness,
+        turn.dynamics.steepness}),
+    slidingLimits(
+      lower = {
+        grow.limits.lower},
+      upper = {
+        grow.limits.upper},
+      velocity = {
+        grow.limits.velocity},
+      effort = {
+        grow.limits.effort}),
+    slidingLosses(
+      damping = {
+        grow.dynamics.damping},
+      friction = {
+        grow.dynamics.friction},
+      steepness = {
+        grow.dynamics.steepness}));
 
   constant Integer bendAxis = 1
     "Number of joint \"bend\" in rotationalAxis";
@@ -365,7 +424,7 @@ record TwigParameters "Numbers of robot Twig as a whole"
 
   annotation (Documentation(info="<html>
 <p>
-All numbers of robot Twig in one record, with the tables by which <code>UrdfSync.Robots.GenericRobot</code> reads how links and joints hang together. The tables refer to the numbers below them. A model that is generated per link and joint takes its numbers from its own record.
+All numbers of robot Twig in one record, with the tables by which <code>UrdfSync.Robots.GenericRobot</code> reads how links and joints hang together. The tables refer to the numbers below them. Where the package has models of the links and joints, these read the records of their elements, and the numbers here are a copy: an edit here changes no such model.
 </p>
 </html>"));
 end TwigParameters;

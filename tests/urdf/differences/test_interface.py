@@ -8,9 +8,11 @@ import support.urdfs as urdfs
 from support.packages import read
 
 from urdfsync.difference import ElementKey, Version
+from urdfsync.domain import Target
 from urdfsync.urdf.changes import interface
 from urdfsync.urdf.options import Options
 
+TARGET = Target("Robot", "Robot")
 STAR = tuple(urdfs.link(name, 1.0) for name in ("base", "a", "b", "c"))
 
 
@@ -28,7 +30,7 @@ def joint(name: str, kind: str, parent: str, child: str, *inside: str) -> str:
 def changed(
     old: Version, new: Version, renames: dict[ElementKey, str] | None = None, **options: Any
 ) -> dict[str, tuple[Any, ...]]:
-    found = interface(old, new, renames or {}, Options(**options))
+    found = interface(old, new, renames or {}, TARGET, Options(**options))
     return {" / ".join(one.path): (one.old, one.new) for one in found}
 
 
@@ -47,7 +49,7 @@ def test_a_leaf_that_is_none_any_more_loses_its_frame_and_an_option_keeps_it() -
     old = version(*STAR[:2], joint("turn", "continuous", "base", "a"))
     new = version(*STAR[:3], joint("turn", "continuous", "base", "a"), joint("tip", "fixed", "a", "b"))
     assert changed(old, new) == {"link a / frame": ("aFrame", None)}
-    (found,) = interface(old, new, {}, Options())
+    (found,) = interface(old, new, {}, TARGET, Options())
     assert found.hint == 'list "a" in `frames` to keep it'
     assert changed(old, new, frames=("a",)) == {}
     assert changed(new, old) == {"link a / frame": (None, "aFrame")}

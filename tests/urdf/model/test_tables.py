@@ -14,12 +14,14 @@ from hypothesis import strategies as st
 from support.trees import SCALAR, robots
 
 from urdfsync.urdf.model.numbers import joint_numbers
-from urdfsync.urdf.model.tables import Structure, has_tables, obstacles, ratios, record_tables, structure
+from urdfsync.urdf.model.tables import Structure, has_tables, obstacles, record_tables, structure
 from urdfsync.urdf.robot import Joint, Link, Mimic, Robot
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: has_tables(robot.joints))
 few = settings(max_examples=30)  # trees are small, and take their time to be drawn
+FIELD = re.compile(r"(\w+) = (\{[^{}]*\})")
+"""A field of an array of records."""
 REFERENCE = re.compile(r"\b[a-z]\w*(?:\.[a-zA-Z_]\w*)+")
 
 GRIPPER = (
@@ -39,13 +41,21 @@ def skeleton(*joints: Joint) -> Skeleton:
 
 
 def tables(of: Skeleton) -> Mapping[str, str]:
-    """The modifiers by their names, on one line each."""
-    found = {}
+    """The modifiers by their names, on one line each; those of arrays of records by `name.field`."""
+    found: dict[str, str] = {}
     for modifier in record_tables(of):
-        text = " ".join(modifier.split()).replace("(name = ", " = ")
-        name, _, value = text.partition(" = ")
-        found[name] = value.removesuffix(")")
+        text = " ".join(modifier.split())
+        if record := re.fullmatch(r"(\w+)\((.*)\)", text):
+            found |= {f"{record[1]}.{field}": value for field, value in FIELD.findall(record[2])}
+        else:
+            name, _, value = text.partition(" = ")
+            found[name] = value
     return found
+
+
+def entries(value: str) -> list[str]:
+    """The entries of an array without arrays in it."""
+    return [entry.strip() for entry in value.strip("{} ").split(",")] if value else []
 
 
 def moving(of: Skeleton) -> list[Joint]:
@@ -67,22 +77,39 @@ def test_a_gripper() -> None:
     assert found.first_joints == (1, 2, 6, 6, 5, 6)
     assert found.next_joints == (6, 3, 4, 6, 6)
     assert found.axes == {"rotational": (1,), "translational": (4,)}
-    assert found.followers == ((2, 0), (3, 4), (5, 4))
+    assert found.moving == {"rotational": (1, 2, 5), "translational": (3, 4)}
+    assert found.followers == ((2, 0), (3, 4), (5, 3))
 
 
 def test_the_text_of_a_gripper() -> None:
     found = tables(skeleton(*GRIPPER))
     assert found["movingJoints"] == "5"
     assert found["jointTree"] == "{{1, 1}, {2, 1}, {2, 2}, {2, 2}, {5, 1}}"
-    assert found["followerRatios"] == (
-        "{ {lock.mimic.multiplier, lock.mimic.offset}, {other.mimic.multiplier, other.mimic.offset}, "
-        "{pinion.mimic.multiplier*other.mimic.multiplier, pinion.mimic.multiplier*other.mimic.offset + "
-        "pinion.mimic.offset}}"
-    )
-    assert found["jointLimits"].startswith("{ {-Modelica.Constants.inf, Modelica.Constants.inf, turn.limits.velocity, ")
-    assert (
-        "{slide.limits.lower, slide.limits.upper, slide.limits.velocity, slide.limits.effort}" in found["jointLimits"]
-    )
+    assert found["turning"] == "{1, 2, 5}"
+    assert found["sliding"] == "{3, 4}"
+    assert found["followers"] == "{{2, 0}, {3, 4}, {5, 3}}"
+    assert entries(found["followerMultipliers"]) == [f"{name}.mimic.multiplier" for name in ("lock", "other", "pinion")]
+    assert entries(found["followerAngles"]) == ["lock.mimic.offset", "0", "pinion.mimic.offset"]
+    assert entries(found["followerLengths"]) == ["0", "other.mimic.offset", "0"]
+    assert entries(found["jointNames.name"])[0] == "turn.name"
+    assert entries(found["turningLimits.lower"])[:2] == ["-Modelica.Constants.inf", "lock.limits.lower"]
+    assert entries(found["turningLimits.velocity"])[0] == "turn.limits.velocity"
+    assert entries(found["slidingLimits.effort"]) == ["other.limits.effort", "slide.limits.effort"]
+    assert entries(found["slidingLosses.steepness"]) == ["other.dynamics.steepness", "slide.dynamics.steepness"]
+
+
+def test_the_text_of_a_chain_of_mimic_joints_grows_with_its_length() -> None:
+    """Each follower has its own ratio only, not the product of the chain before it."""
+
+    def length(count: int) -> int:
+        followers = (
+            Joint(f"j{n}", "revolute", f"l{n}", f"l{n + 1}", mimic=Mimic(f"j{n - 1}", 0.5, 0.1))
+            for n in range(10001, 10000 + count)
+        )
+        return sum(map(len, record_tables(skeleton(Joint("j10000", "revolute", "l10000", "l10001"), *followers))))
+
+    small, middle, large = (length(count) for count in (200, 400, 800))
+    assert large - middle == pytest.approx(2 * (middle - small), rel=0.01)
 
 
 def test_an_element_more_is_a_line_more() -> None:
@@ -106,7 +133,7 @@ def test_ten_numbers_stand_on_a_line() -> None:
 
 def test_tables_that_would_be_empty_are_left_out() -> None:
     found = tables(skeleton(Joint("j", "revolute", "a", "b")))
-    assert not {"translationalAxes", "translationalJoints", "followers", "followerRatios"} & found.keys()
+    assert not {"translationalAxes", "translationalJoints", "followers", "followerMultipliers"} & found.keys()
     assert found["rotationalAxes"] == "1"
 
 
@@ -193,12 +220,13 @@ def test_followers_are_where_the_whole_chain_puts_them(robot: Robot, positions: 
         return joint.mimic.multiplier * position(leader) + joint.mimic.offset
 
     assert {number for number, _ in found.followers} == set(range(1, len(names) + 1)) - driven
-    for (number, head), ratio in zip(found.followers, ratios(of).values(), strict=True):
-        assert head == 0 or head in driven
-        multiplier, offset = (eval(text, {}, mimics) for text in (ratio.multiplier, ratio.offset))
-        follower = moving(of)[number - 1]
-        expected = multiplier * (place[names[head - 1]] if head else 0.0) + offset
-        assert expected == pytest.approx(position(follower), abs=1e-9)
+    text = tables(of)
+    places = {number: place[names[number - 1]] for number in driven}
+    columns = [entries(text.get(f"follower{name}", "")) for name in ("Multipliers", "Angles", "Lengths")]
+    for (number, leader), *terms in zip(found.followers, *columns, strict=True):
+        multiplier, angle, length = (eval(term, {}, mimics) for term in terms)
+        places[number] = (multiplier * places[leader] if leader else 0.0) + angle + length
+        assert places[number] == pytest.approx(position(moving(of)[number - 1]), abs=1e-9)
 
 
 @few
@@ -243,6 +271,13 @@ def test_rows_are_as_many_as_there_are_elements(robot: Robot) -> None:
     for name in ("linkBodies", "linkMasses", "linkCenters", "inertialAngles", "linkInertias"):
         assert rows(name) == len(of.links)
     assert rows("jointPositions") == rows("jointAngles") == len(of.joints)
-    for name in ("jointTree", "nextJoints", "jointNames", "jointAxes", "jointLimits", "jointLosses"):
+    for name in ("jointTree", "nextJoints", "jointNames.name", "jointAxes"):
         assert rows(name) == int(found.get("movingJoints", "0")) == len(moving(of))
     assert rows("firstJoints") == len(moving(of)) + 1
+    for kind, motion in (("turning", "rotational"), ("sliding", "translational")):
+        count = sum(MOTIONS[joint.type] == motion for joint in moving(of))
+        assert int(found.get(f"{kind}Joints", "0")) == rows(kind) == count
+        for field in ("Limits.lower", "Limits.upper", "Limits.velocity", "Limits.effort"):
+            assert rows(f"{kind}{field}") == count
+        for field in ("Losses.damping", "Losses.friction", "Losses.steepness"):
+            assert rows(f"{kind}{field}") == count

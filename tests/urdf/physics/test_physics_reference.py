@@ -12,7 +12,7 @@ from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.reading import read
-from urdfsync.urdf.physics.reference import STEEPNESS, Frame, Instant, Reference, Relative, State
+from urdfsync.urdf.physics.reference import Frame, Instant, Reference, Relative, State
 from urdfsync.urdf.robot import Joint
 from urdfsync.urdf.skeleton import Skeleton
 from urdfsync.urdf.source import read_robot
@@ -71,7 +71,7 @@ def test_hybrid_dynamics_are_forward_dynamics_with_the_efforts_that_they_give() 
     model = bot.reference.model
     efforts = np.concatenate([instant.force, instant.torque, np.zeros(model.nv - 6)])
     efforts += bot.reference.projection @ instant.efforts
-    losses = model.damping * state.v + model.friction * np.tanh(STEEPNESS * state.v)
+    losses = bot.reference.losses(state.v)
     assert np.count_nonzero(losses) == 5
     data = model.createData()
     a = pin.aba(model, data, state.q, state.v, efforts - losses)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from urdfsync.difference import Effect, ElementKey, Version
+from urdfsync.domain import Target
 from urdfsync.urdf.drives import driven_joints
 from urdfsync.urdf.model.robot import connector_names
 from urdfsync.urdf.options import Options
@@ -12,14 +13,16 @@ from urdfsync.urdf.skeleton import Skeleton
 from urdfsync.urdf.snapshot import from_snapshot
 
 
-def interface(old: Version, new: Version, renames: Mapping[ElementKey, str], options: Options) -> Sequence[Effect]:
+def interface(
+    old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Options
+) -> Sequence[Effect]:
     """The connectors that elements of both versions get, lose, or have by another name, as `options` have it now.
 
     With positions in one vector, also its order where that is another one for joints of both versions.
     """
     if "package" not in options.approach:
         return ()
-    before, after = (Skeleton.of(from_snapshot(version.snapshot)) for version in (old, new))
+    before, after = (Skeleton.of(from_snapshot(version.snapshot), (target.name,)) for version in (old, new))
     one, other = connector_names(before, options), connector_names(after, options)
     links = {renames.get(("link", link.name), link.name) for link in before.links} & {link.name for link in after.links}
     joints = {renames.get(("joint", joint.name), joint.name) for joint in before.joints}

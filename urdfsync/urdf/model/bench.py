@@ -1,16 +1,14 @@
-"""Template data of `<Robot>Run.mo` and `<Robot>Test.mo`, and of the record of how a mobile robot stands."""
+"""Template data of `<Robot>Run.mo` and `<Robot>Test.mo`."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Import, Target
+from urdfsync.domain import Target
 from urdfsync.urdf.drives import driven_joints
 from urdfsync.urdf.model import notes
-from urdfsync.urdf.model.assembly import standing_height
 from urdfsync.urdf.model.robot import connector_names, drive_rows, icon_top
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.skeleton import Motion, Skeleton
@@ -59,14 +57,4 @@ def bench_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str
         "icon_top": top,
         "run_note": notes.run_note(target.name),
         "test_note": notes.test_note(target.name),
-    }
-
-
-def stance_data(ground: Skeleton, imports: Mapping[str, Import], target: Target) -> dict[str, Any]:
-    """Data of the record of how a mobile robot stands; `ground` has the joints, and what may touch the ground."""
-    return {
-        "within": target.package,
-        "record": f"{target.name}Stance",
-        "title": f"robot {target.name}",
-        "height": standing_height(ground, imports),
     }

@@ -9,6 +9,11 @@ _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the U
 
 _GENERIC = "<code>UrdfSync.Robots.GenericRobot</code>"
 
+_COPY = (
+    "Where the package has models of the links and joints, these read the records of their elements, and the numbers "
+    "here are a copy: an edit here changes no such model."
+)
+
 _MOTIONS = {
     "fixed": "does not move",
     "continuous": "turns without end stops",
@@ -59,10 +64,10 @@ def record_note(name: str, generic: bool) -> str:
     numbers = f"All numbers of robot {name} in one record"
     if not generic:
         reason = "since a joint is planar or floating"
-        return f"{numbers}, for studies that need them all. {_GENERIC} can't take it, {reason}."
+        return f"{numbers}, for studies that need them all. {_GENERIC} can't take it, {reason}. {_COPY}"
     return (
         f"{numbers}, with the tables by which {_GENERIC} reads how links and joints hang together. The tables refer to "
-        "the numbers below them. A model that is generated per link and joint takes its numbers from its own record."
+        f"the numbers below them. {_COPY}"
     )
 
 

@@ -19,7 +19,7 @@ from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 _TURNS: Mapping[Motion, int] = {"rotational": 1, "translational": 2}
 _PER_LINE = 10  # of numbers, so that the fourth line begins with number 31
 _INDENT = "\n      "
-_RECORDS = "jointNames"  # an array of records, not of strings
+_ENDS: Mapping[str, str] = {"lower": f"-{INFINITY}", "upper": INFINITY}
 
 
 class Structure(msgspec.Struct, frozen=True):
@@ -33,18 +33,12 @@ class Structure(msgspec.Struct, frozen=True):
     """Per body: the first joint that it carries; the number of joints + 1 if there is none."""
     next_joints: tuple[int, ...]
     """Per moving joint: the next one on the same body; the number of joints + 1 if there is none."""
+    moving: Mapping[Motion, tuple[int, ...]]
+    """The moving joints of each kind."""
     axes: Mapping[Motion, tuple[int, ...]]
     """Per driven axis of each kind: its moving joint."""
     followers: tuple[tuple[int, int], ...]
-    """Per joint that follows another one, leaders first: its number and that of the driven one at the head, or 0."""
-
-
-class Ratio(msgspec.Struct, frozen=True):
-    """What a follower is to the joint at the head of its chain: Modelica expressions of multiplier and offset."""
-
-    head: str
-    multiplier: str
-    offset: str
+    """Per joint that follows another one, leaders first: its number and that of its leader, 0 if that does not move."""
 
 
 def obstacles(joints: Iterable[Joint]) -> Iterator[Joint]:
@@ -71,27 +65,19 @@ def structure(skeleton: Skeleton) -> Structure:
         joint_tree=tuple((body, _TURNS[MOTIONS[joint.type]]) for body, joint in zip(carriers, moving, strict=True)),
         first_joints=first,
         next_joints=following,
+        moving={
+            motion: tuple(numbers[joint.name] for joint in moving if MOTIONS[joint.type] == motion) for motion in _TURNS
+        },
         axes={motion: tuple(numbers[joint.name] for joint in skeleton.axes(motion)) for motion in _TURNS},
-        followers=tuple((numbers[name], numbers.get(ratio.head, 0)) for name, ratio in ratios(skeleton).items()),
+        followers=tuple(
+            (numbers[joint.name], numbers.get(joint.mimic.joint, 0)) for joint in _followers(skeleton) if joint.mimic
+        ),
     )
 
 
-def ratios(skeleton: Skeleton) -> Mapping[str, Ratio]:
-    """Per follower, leaders first, its ratio to the joint at the head of the chain, in terms of the record."""
-    found: dict[str, Ratio] = {}
-    for joint in skeleton.leaders_first():
-        if joint.type not in MOTIONS or joint.mimic is None:
-            continue
-        own = f"{skeleton.joint(joint.name).component}.mimic"
-        multiplier, offset = f"{own}.multiplier", f"{own}.offset"
-        leader = found.get(joint.mimic.joint)
-        if leader is None:
-            found[joint.name] = Ratio(joint.mimic.joint, multiplier, offset)
-        else:
-            inner = f"({leader.offset})" if "+" in leader.offset else leader.offset
-            offset = f"{multiplier}*{inner} + {offset}"
-            found[joint.name] = Ratio(leader.head, f"{multiplier}*{leader.multiplier}", offset)
-    return found
+def _followers(skeleton: Skeleton) -> list[Joint]:
+    """The moving joints that follow others, leaders first."""
+    return [joint for joint in skeleton.leaders_first() if joint.type in MOTIONS and joint.mimic is not None]
 
 
 def record_tables(skeleton: Skeleton) -> list[str]:
@@ -104,26 +90,34 @@ def record_tables(skeleton: Skeleton) -> list[str]:
     joints = [skeleton.joint(joint.name).component for joint in skeleton.joints]
     tables = {
         "movingJoints": _count(moving),
+        "turningJoints": _count(integers.moving["rotational"]),
+        "slidingJoints": _count(integers.moving["translational"]),
         "rotationalAxes": _count(integers.axes["rotational"]),
         "translationalAxes": _count(integers.axes["translational"]),
         "jointTree": _pairs(integers.joint_tree),
         "firstJoints": _integers(integers.first_joints),
         "nextJoints": _integers(integers.next_joints),
         "linkBodies": _integers(integers.link_bodies),
+        "turning": _integers(integers.moving["rotational"]),
+        "sliding": _integers(integers.moving["translational"]),
         "rotationalJoints": _integers(integers.axes["rotational"]),
         "translationalJoints": _integers(integers.axes["translational"]),
         "followers": _pairs(integers.followers),
-        **_moving_tables(skeleton, moving),
+        "jointAxes": _column(f"{skeleton.joint(joint.name).component}.axis" for joint in moving),
         "jointPositions": _column(f"{joint}.origin.xyz" for joint in joints),
         "jointAngles": _column(f"{joint}.origin.rpy" for joint in joints),
-        "followerRatios": _column(f"{{{ratio.multiplier}, {ratio.offset}}}" for ratio in ratios(skeleton).values()),
+        **_follower_tables(skeleton),
         **_link_tables([skeleton.link(link.name).component for link in skeleton.links]),
     }
-    return [_modifier(name, value) for name, value in tables.items() if value]
-
-
-def _modifier(name: str, value: str) -> str:
-    return f"{name}(name = {value})" if name == _RECORDS else f"{name} = {value}"
+    records = {
+        "jointNames": _names(skeleton, moving),
+        **_records(skeleton, "turning", [joint for joint in moving if MOTIONS[joint.type] == "rotational"]),
+        **_records(skeleton, "sliding", [joint for joint in moving if MOTIONS[joint.type] == "translational"]),
+    }
+    return [
+        *(f"{name} = {value}" for name, value in tables.items() if value),
+        *(f"{name}({value})" for name, value in records.items() if value),
+    ]
 
 
 def _moving(skeleton: Skeleton) -> list[Joint]:
@@ -140,21 +134,48 @@ def _carried(carriers: Sequence[int]) -> tuple[tuple[int, ...], tuple[int, ...]]
     return tuple(first), tuple(following)
 
 
-def _moving_tables(skeleton: Skeleton, moving: Sequence[Joint]) -> dict[str, str]:
-    names = [skeleton.joint(joint.name).component for joint in moving]
+def _follower_tables(skeleton: Skeleton) -> dict[str, str]:
+    """Numbers of each follower to its own leader, so that the text grows with the number of followers only."""
+    followers = _followers(skeleton)
+    offsets = {
+        motion: [
+            f"{skeleton.joint(joint.name).component}.mimic.offset" if MOTIONS[joint.type] == motion else "0"
+            for joint in followers
+        ]
+        for motion in _TURNS
+    }
     return {
-        "jointNames": _column(f"{name}.name" for name in names),
-        "jointAxes": _column(f"{name}.axis" for name in names),
-        "jointLimits": _column(_limits(joint, name) for joint, name in zip(moving, names, strict=True)),
-        "jointLosses": _column(f"{{{name}.dynamics.damping, {name}.dynamics.friction}}" for name in names),
+        "followerMultipliers": _column(f"{skeleton.joint(j.name).component}.mimic.multiplier" for j in followers),
+        "followerAngles": _column(offsets["rotational"]),
+        "followerLengths": _column(offsets["translational"]),
     }
 
 
-def _limits(joint: Joint, name: str) -> str:
-    ends = f"{name}.limits.lower, {name}.limits.upper"
-    if joint.type == "continuous":  # whatever its record says
-        ends = f"-{INFINITY}, {INFINITY}"
-    return f"{{{ends}, {name}.limits.velocity, {name}.limits.effort}}"
+def _names(skeleton: Skeleton, joints: Sequence[Joint]) -> str:
+    """A modifier of an array of records: not every tool can pick a message out of an array of strings."""
+    return _field("name", (f"{skeleton.joint(joint.name).component}.name" for joint in joints))
+
+
+def _records(skeleton: Skeleton, kind: str, joints: Sequence[Joint]) -> dict[str, str]:
+    """Limits and losses of the joints of one kind, as modifiers of arrays of records."""
+    names = [skeleton.joint(joint.name).component for joint in joints]
+    limits = []
+    for field in ("lower", "upper", "velocity", "effort"):
+        entries = [
+            _ENDS[field] if joint.type == "continuous" and field in _ENDS else f"{name}.limits.{field}"
+            for joint, name in zip(joints, names, strict=True)
+        ]  # a continuous joint has no ends, whatever its record says
+        limits.append(_field(field, entries))
+    losses = [
+        _field(field, (f"{name}.dynamics.{field}" for name in names)) for field in ("damping", "friction", "steepness")
+    ]
+    return {f"{kind}Limits": ",".join(limits), f"{kind}Losses": ",".join(losses)} if joints else {}
+
+
+def _field(name: str, entries: Iterable[str]) -> str:
+    """One field of all elements of an array of records."""
+    text = f",{_INDENT}  ".join(entries)
+    return f"{_INDENT}{name} = {{{_INDENT}  {text}}}" if text else ""
 
 
 def _link_tables(names: Sequence[str]) -> dict[str, str]:

@@ -19,8 +19,11 @@ from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course, Planar, Start
 from urdfsync.urdf.physics.reading import Array, Reading, pinocchio
 
-STEEPNESS = 50
-"""In s/rad or s/m: the dry friction of generated joints is f·tanh(50·v)."""
+TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
+"""In s/rad and s/m: the dry friction of generated joints is f·tanh(s·v/2)."""
+
+_SLIDING = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")
+"""How Pinocchio calls joints that slide."""
 
 _SINGULAR = 1e-12
 """Ratio of the least to the greatest eigenvalue of an inertia that counts as singular."""
@@ -72,6 +75,8 @@ class Reference:
         loose = [np.arange(part.idx_v, part.idx_v + part.nv) for name in free for part in self._parts(name)]
         self.loose = np.concatenate([np.zeros(0, dtype=int), *loose])
         """Where free joints are in Pinocchio's velocity."""
+        self.steepness = self._steepness()
+        """Of the dry friction, for each coordinate of Pinocchio's velocity."""
         self.bodies = [self.pin.Inertia(inertia) for inertia in self.model.inertias]
         """The robot's own, per joint of Pinocchio."""
 
@@ -111,6 +116,10 @@ class Reference:
         self.pin.updateFramePlacements(self.model, data)
         return Instant(self, data, load[:3], load[3:6], self.projection.T @ load)
 
+    def losses(self, v: Array) -> Array:
+        """Efforts of damping and dry friction at velocity v."""
+        return np.asarray(self.model.damping * v + self.model.friction * np.tanh(self.steepness * v / 2))
+
     def is_singular(self, state: State) -> bool:
         """Whether free joints carry so little inertia that their accelerations have no solution."""
         values = np.linalg.eigvalsh(self.free_inertia(state))
@@ -132,8 +141,15 @@ class Reference:
 
     def _load(self, data: Any, q: Array, v: Array, a: Array) -> Array:
         """Efforts in all joints, losses included."""
-        losses = self.model.damping * v + self.model.friction * np.tanh(STEEPNESS * v)
-        return np.asarray(self.pin.rnea(self.model, data, q, v, a) + losses)
+        return np.asarray(self.pin.rnea(self.model, data, q, v, a) + self.losses(v))
+
+    def _steepness(self) -> Array:
+        """In s/rad or s/m, as the default of the records."""
+        steepness = np.full(self.model.nv, float(TURNING_STEEPNESS))
+        for joint in self.model.joints:
+            if joint.shortname().startswith(_SLIDING):
+                steepness[joint.idx_v] = SLIDING_STEEPNESS
+        return steepness
 
     def _mimic(self, reading: Reading) -> tuple[Array, Array]:
         """B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per driven axis."""

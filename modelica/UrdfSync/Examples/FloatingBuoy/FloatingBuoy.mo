@@ -9,11 +9,11 @@ model FloatingBuoy "Robot FloatingBuoy"
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a clapper_swingAxis
     "Axis of joint \"clapper_swing\""
-    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-105, 115}, {-95, 125}})));
+    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-104, 116}, {-96, 124}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b clapper_swingSupport
     "Housing of the drive of joint \"clapper_swing\""
-    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-105, 105}, {-95, 115}})));
+    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-104, 106}, {-96, 114}})));
 
   final parameter Modelica.Units.SI.Mass m =
     world_link.m +
@@ -82,8 +82,8 @@ equation
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 130}}), graphics={
       Rectangle(extent={{-100, 100}, {100, 130}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
-      Text(extent={{-90, 106}, {20, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="clapper_swing"),
-      Text(extent={{20, 113}, {88, 127}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="clapper")}),
+      Text(extent={{-90, 106}, {0, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="clapper_swing"),
+      Text(extent={{0, 113}, {88, 127}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="clapper")}),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -44}, {84, 34}})),
     Documentation(info="<html>
 <p>

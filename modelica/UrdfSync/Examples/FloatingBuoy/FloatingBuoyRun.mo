@@ -10,11 +10,11 @@ model FloatingBuoyRun "Run robot FloatingBuoy with positions from outside: the m
 
   Modelica.Blocks.Interfaces.RealInput clapper_swing_phi(unit = "rad")
     "Where joint \"clapper_swing\" is to go"
-    annotation (Placement(transformation(extent={{-140, 120}, {-120, 140}}), iconTransformation(extent={{-120, 105}, {-100, 125}})));
+    annotation (Placement(transformation(extent={{-140, 120}, {-120, 140}}), iconTransformation(extent={{-116, 107}, {-100, 123}})));
 
   Modelica.Blocks.Interfaces.RealOutput clapper_swing_tau(unit = "N.m") = robot.clapper_swingAxis.tau
     "What the drive of joint \"clapper_swing\" has to give"
-    annotation (Placement(transformation(extent={{340, 120}, {360, 140}}), iconTransformation(extent={{100, 105}, {120, 125}})));
+    annotation (Placement(transformation(extent={{340, 120}, {360, 140}}), iconTransformation(extent={{100, 107}, {116, 123}})));
 
   Modelica.Mechanics.Rotational.Sources.Position clapper_swingDrive(
     useSupport = true,
@@ -37,7 +37,7 @@ equation
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 130}}), graphics={
       Rectangle(extent={{-100, 100}, {100, 130}}, lineColor={110, 110, 110}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
       Text(extent={{-94, 106}, {94, 124}}, textColor={64, 64, 64}, textString="clapper_swing")}),
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -220}, {360, 165}})),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -280}, {360, 165}})),
     Documentation(info="<html>
 <p>
 Robot FloatingBuoy in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

@@ -10,11 +10,11 @@ model PlanarPlatformRun "Run robot PlanarPlatform with positions from outside: t
 
   Modelica.Blocks.Interfaces.RealInput boom_swing_phi(unit = "rad")
     "Where joint \"boom_swing\" is to go"
-    annotation (Placement(transformation(extent={{-140, 120}, {-120, 140}}), iconTransformation(extent={{-120, 105}, {-100, 125}})));
+    annotation (Placement(transformation(extent={{-140, 120}, {-120, 140}}), iconTransformation(extent={{-116, 107}, {-100, 123}})));
 
   Modelica.Blocks.Interfaces.RealOutput boom_swing_tau(unit = "N.m") = robot.boom_swingAxis.tau
     "What the drive of joint \"boom_swing\" has to give"
-    annotation (Placement(transformation(extent={{340, 120}, {360, 140}}), iconTransformation(extent={{100, 105}, {120, 125}})));
+    annotation (Placement(transformation(extent={{340, 120}, {360, 140}}), iconTransformation(extent={{100, 107}, {116, 123}})));
 
   Modelica.Mechanics.Rotational.Sources.Position boom_swingDrive(
     useSupport = true,
@@ -37,7 +37,7 @@ equation
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 130}}), graphics={
       Rectangle(extent={{-100, 100}, {100, 130}}, lineColor={110, 110, 110}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
       Text(extent={{-94, 106}, {94, 124}}, textColor={64, 64, 64}, textString="boom_swing")}),
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -220}, {360, 165}})),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -280}, {360, 165}})),
     Documentation(info="<html>
 <p>
 Robot PlanarPlatform in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

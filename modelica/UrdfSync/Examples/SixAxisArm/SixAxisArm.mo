@@ -21,59 +21,59 @@ model SixAxisArm "Robot SixAxisArm"
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a turretAxis
     "Axis of joint \"turret\""
-    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-105, 235}, {-95, 245}})));
+    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-104, 236}, {-96, 244}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b turretSupport
     "Housing of the drive of joint \"turret\""
-    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-105, 225}, {-95, 235}})));
+    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-104, 226}, {-96, 234}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a shoulderAxis
     "Axis of joint \"shoulder\""
-    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-105, 215}, {-95, 225}})));
+    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-104, 216}, {-96, 224}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b shoulderSupport
     "Housing of the drive of joint \"shoulder\""
-    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-105, 205}, {-95, 215}})));
+    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-104, 206}, {-96, 214}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a elbowAxis
     "Axis of joint \"elbow\""
-    annotation (Placement(transformation(extent={{44, 14}, {56, 26}}), iconTransformation(extent={{-105, 195}, {-95, 205}})));
+    annotation (Placement(transformation(extent={{44, 14}, {56, 26}}), iconTransformation(extent={{-104, 196}, {-96, 204}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b elbowSupport
     "Housing of the drive of joint \"elbow\""
-    annotation (Placement(transformation(extent={{30, 14}, {42, 26}}), iconTransformation(extent={{-105, 185}, {-95, 195}})));
+    annotation (Placement(transformation(extent={{30, 14}, {42, 26}}), iconTransformation(extent={{-104, 186}, {-96, 194}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a forearm_rollAxis
     "Axis of joint \"forearm_roll\""
-    annotation (Placement(transformation(extent={{92, 14}, {104, 26}}), iconTransformation(extent={{-105, 175}, {-95, 185}})));
+    annotation (Placement(transformation(extent={{92, 14}, {104, 26}}), iconTransformation(extent={{-104, 176}, {-96, 184}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b forearm_rollSupport
     "Housing of the drive of joint \"forearm_roll\""
-    annotation (Placement(transformation(extent={{78, 14}, {90, 26}}), iconTransformation(extent={{-105, 165}, {-95, 175}})));
+    annotation (Placement(transformation(extent={{78, 14}, {90, 26}}), iconTransformation(extent={{-104, 166}, {-96, 174}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a wrist_pitchAxis
     "Axis of joint \"wrist_pitch\""
-    annotation (Placement(transformation(extent={{140, 14}, {152, 26}}), iconTransformation(extent={{-105, 155}, {-95, 165}})));
+    annotation (Placement(transformation(extent={{140, 14}, {152, 26}}), iconTransformation(extent={{-104, 156}, {-96, 164}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b wrist_pitchSupport
     "Housing of the drive of joint \"wrist_pitch\""
-    annotation (Placement(transformation(extent={{126, 14}, {138, 26}}), iconTransformation(extent={{-105, 145}, {-95, 155}})));
+    annotation (Placement(transformation(extent={{126, 14}, {138, 26}}), iconTransformation(extent={{-104, 146}, {-96, 154}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a flange_rollAxis
     "Axis of joint \"flange_roll\""
-    annotation (Placement(transformation(extent={{188, 14}, {200, 26}}), iconTransformation(extent={{-105, 135}, {-95, 145}})));
+    annotation (Placement(transformation(extent={{188, 14}, {200, 26}}), iconTransformation(extent={{-104, 136}, {-96, 144}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b flange_rollSupport
     "Housing of the drive of joint \"flange_roll\""
-    annotation (Placement(transformation(extent={{174, 14}, {186, 26}}), iconTransformation(extent={{-105, 125}, {-95, 135}})));
+    annotation (Placement(transformation(extent={{174, 14}, {186, 26}}), iconTransformation(extent={{-104, 126}, {-96, 134}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_a gripper_strokeAxis
     "Axis of joint \"gripper_stroke\""
-    annotation (Placement(transformation(extent={{332, -130}, {344, -118}}), iconTransformation(extent={{-105, 115}, {-95, 125}})));
+    annotation (Placement(transformation(extent={{332, -130}, {344, -118}}), iconTransformation(extent={{-104, 116}, {-96, 124}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_b gripper_strokeSupport
     "Housing of the drive of joint \"gripper_stroke\""
-    annotation (Placement(transformation(extent={{318, -130}, {330, -118}}), iconTransformation(extent={{-105, 105}, {-95, 115}})));
+    annotation (Placement(transformation(extent={{318, -130}, {330, -118}}), iconTransformation(extent={{-104, 106}, {-96, 114}})));
 
   final parameter Modelica.Units.SI.Mass m =
     base_link.m +
@@ -438,17 +438,17 @@ equation
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 250}}), graphics={
       Rectangle(extent={{-100, 100}, {100, 250}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
-      Text(extent={{-90, 226}, {20, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="turret"),
-      Text(extent={{-90, 206}, {20, 224}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="shoulder"),
-      Text(extent={{-90, 186}, {20, 204}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="elbow"),
-      Text(extent={{-90, 166}, {20, 184}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="forearm_roll"),
-      Text(extent={{-90, 146}, {20, 164}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="wrist_pitch"),
-      Text(extent={{-90, 126}, {20, 144}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="flange_roll"),
-      Text(extent={{-90, 106}, {20, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="gripper_stroke"),
-      Text(extent={{20, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_right"),
-      Text(extent={{20, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="grasp_point"),
-      Text(extent={{20, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_left"),
-      Text(extent={{20, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="drive_pinion")}),
+      Text(extent={{-90, 226}, {0, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="turret"),
+      Text(extent={{-90, 206}, {0, 224}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="shoulder"),
+      Text(extent={{-90, 186}, {0, 204}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="elbow"),
+      Text(extent={{-90, 166}, {0, 184}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="forearm_roll"),
+      Text(extent={{-90, 146}, {0, 164}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="wrist_pitch"),
+      Text(extent={{-90, 126}, {0, 144}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="flange_roll"),
+      Text(extent={{-90, 106}, {0, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="gripper_stroke"),
+      Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_right"),
+      Text(extent={{0, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="grasp_point"),
+      Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_left"),
+      Text(extent={{0, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="drive_pinion")}),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -278}, {420, 62}})),
     Documentation(info="<html>
 <p>

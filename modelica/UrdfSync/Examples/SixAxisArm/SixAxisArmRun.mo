@@ -10,11 +10,11 @@ model SixAxisArmRun "Run robot SixAxisArm with positions from outside: the model
 
   Modelica.Blocks.Interfaces.RealInput turret_phi(unit = "rad")
     "Where joint \"turret\" is to go"
-    annotation (Placement(transformation(extent={{-140, 300}, {-120, 320}}), iconTransformation(extent={{-120, 225}, {-100, 245}})));
+    annotation (Placement(transformation(extent={{-140, 300}, {-120, 320}}), iconTransformation(extent={{-116, 227}, {-100, 243}})));
 
   Modelica.Blocks.Interfaces.RealOutput turret_tau(unit = "N.m") = robot.turretAxis.tau
     "What the drive of joint \"turret\" has to give"
-    annotation (Placement(transformation(extent={{340, 300}, {360, 320}}), iconTransformation(extent={{100, 225}, {120, 245}})));
+    annotation (Placement(transformation(extent={{340, 300}, {360, 320}}), iconTransformation(extent={{100, 227}, {116, 243}})));
 
   Modelica.Mechanics.Rotational.Sources.Position turretDrive(
     useSupport = true,
@@ -25,11 +25,11 @@ model SixAxisArmRun "Run robot SixAxisArm with positions from outside: the model
 
   Modelica.Blocks.Interfaces.RealInput shoulder_phi(unit = "rad")
     "Where joint \"shoulder\" is to go"
-    annotation (Placement(transformation(extent={{-140, 270}, {-120, 290}}), iconTransformation(extent={{-120, 205}, {-100, 225}})));
+    annotation (Placement(transformation(extent={{-140, 270}, {-120, 290}}), iconTransformation(extent={{-116, 207}, {-100, 223}})));
 
   Modelica.Blocks.Interfaces.RealOutput shoulder_tau(unit = "N.m") = robot.shoulderAxis.tau
     "What the drive of joint \"shoulder\" has to give"
-    annotation (Placement(transformation(extent={{340, 270}, {360, 290}}), iconTransformation(extent={{100, 205}, {120, 225}})));
+    annotation (Placement(transformation(extent={{340, 270}, {360, 290}}), iconTransformation(extent={{100, 207}, {116, 223}})));
 
   Modelica.Mechanics.Rotational.Sources.Position shoulderDrive(
     useSupport = true,
@@ -40,11 +40,11 @@ model SixAxisArmRun "Run robot SixAxisArm with positions from outside: the model
 
   Modelica.Blocks.Interfaces.RealInput elbow_phi(unit = "rad")
     "Where joint \"elbow\" is to go"
-    annotation (Placement(transformation(extent={{-140, 240}, {-120, 260}}), iconTransformation(extent={{-120, 185}, {-100, 205}})));
+    annotation (Placement(transformation(extent={{-140, 240}, {-120, 260}}), iconTransformation(extent={{-116, 187}, {-100, 203}})));
 
   Modelica.Blocks.Interfaces.RealOutput elbow_tau(unit = "N.m") = robot.elbowAxis.tau
     "What the drive of joint \"elbow\" has to give"
-    annotation (Placement(transformation(extent={{340, 240}, {360, 260}}), iconTransformation(extent={{100, 185}, {120, 205}})));
+    annotation (Placement(transformation(extent={{340, 240}, {360, 260}}), iconTransformation(extent={{100, 187}, {116, 203}})));
 
   Modelica.Mechanics.Rotational.Sources.Position elbowDrive(
     useSupport = true,
@@ -55,11 +55,11 @@ model SixAxisArmRun "Run robot SixAxisArm with positions from outside: the model
 
   Modelica.Blocks.Interfaces.RealInput forearm_roll_phi(unit = "rad")
     "Where joint \"forearm_roll\" is to go"
-    annotation (Placement(transformation(extent={{-140, 210}, {-120, 230}}), iconTransformation(extent={{-120, 165}, {-100, 185}})));
+    annotation (Placement(transformation(extent={{-140, 210}, {-120, 230}}), iconTransformation(extent={{-116, 167}, {-100, 183}})));
 
   Modelica.Blocks.Interfaces.RealOutput forearm_roll_tau(unit = "N.m") = robot.forearm_rollAxis.tau
     "What the drive of joint \"forearm_roll\" has to give"
-    annotation (Placement(transformation(extent={{340, 210}, {360, 230}}), iconTransformation(extent={{100, 165}, {120, 185}})));
+    annotation (Placement(transformation(extent={{340, 210}, {360, 230}}), iconTransformation(extent={{100, 167}, {116, 183}})));
 
   Modelica.Mechanics.Rotational.Sources.Position forearm_rollDrive(
     useSupport = true,
@@ -70,11 +70,11 @@ model SixAxisArmRun "Run robot SixAxisArm with positions from outside: the model
 
   Modelica.Blocks.Interfaces.RealInput wrist_pitch_phi(unit = "rad")
     "Where joint \"wrist_pitch\" is to go"
-    annotation (Placement(transformation(extent={{-140, 180}, {-120, 200}}), iconTransformation(extent={{-120, 145}, {-100, 165}})));
+    annotation (Placement(transformation(extent={{-140, 180}, {-120, 200}}), iconTransformation(extent={{-116, 147}, {-100, 163}})));
 
   Modelica.Blocks.Interfaces.RealOutput wrist_pitch_tau(unit = "N.m") = robot.wrist_pitchAxis.tau
     "What the drive of joint \"wrist_pitch\" has to give"
-    annotation (Placement(transformation(extent={{340, 180}, {360, 200}}), iconTransformation(extent={{100, 145}, {120, 165}})));
+    annotation (Placement(transformation(extent={{340, 180}, {360, 200}}), iconTransformation(extent={{100, 147}, {116, 163}})));
 
   Modelica.Mechanics.Rotational.Sources.Position wrist_pitchDrive(
     useSupport = true,
@@ -85,11 +85,11 @@ model SixAxisArmRun "Run robot SixAxisArm with positions from outside: the model
 
   Modelica.Blocks.Interfaces.RealInput flange_roll_phi(unit = "rad")
     "Where joint \"flange_roll\" is to go"
-    annotation (Placement(transformation(extent={{-140, 150}, {-120, 170}}), iconTransformation(extent={{-120, 125}, {-100, 145}})));
+    annotation (Placement(transformation(extent={{-140, 150}, {-120, 170}}), iconTransformation(extent={{-116, 127}, {-100, 143}})));
 
   Modelica.Blocks.Interfaces.RealOutput flange_roll_tau(unit = "N.m") = robot.flange_rollAxis.tau
     "What the drive of joint \"flange_roll\" has to give"
-    annotation (Placement(transformation(extent={{340, 150}, {360, 170}}), iconTransformation(extent={{100, 125}, {120, 145}})));
+    annotation (Placement(transformation(extent={{340, 150}, {360, 170}}), iconTransformation(extent={{100, 127}, {116, 143}})));
 
   Modelica.Mechanics.Rotational.Sources.Position flange_rollDrive(
     useSupport = true,
@@ -100,11 +100,11 @@ model SixAxisArmRun "Run robot SixAxisArm with positions from outside: the model
 
   Modelica.Blocks.Interfaces.RealInput gripper_stroke_s(unit = "m")
     "Where joint \"gripper_stroke\" is to go"
-    annotation (Placement(transformation(extent={{-140, 120}, {-120, 140}}), iconTransformation(extent={{-120, 105}, {-100, 125}})));
+    annotation (Placement(transformation(extent={{-140, 120}, {-120, 140}}), iconTransformation(extent={{-116, 107}, {-100, 123}})));
 
   Modelica.Blocks.Interfaces.RealOutput gripper_stroke_f(unit = "N") = robot.gripper_strokeAxis.f
     "What the drive of joint \"gripper_stroke\" has to give"
-    annotation (Placement(transformation(extent={{340, 120}, {360, 140}}), iconTransformation(extent={{100, 105}, {120, 125}})));
+    annotation (Placement(transformation(extent={{340, 120}, {360, 140}}), iconTransformation(extent={{100, 107}, {116, 123}})));
 
   Modelica.Mechanics.Translational.Sources.Position gripper_strokeDrive(
     useSupport = true,
@@ -169,7 +169,7 @@ equation
       Text(extent={{-94, 146}, {94, 164}}, textColor={64, 64, 64}, textString="wrist_pitch"),
       Text(extent={{-94, 126}, {94, 144}}, textColor={64, 64, 64}, textString="flange_roll"),
       Text(extent={{-94, 106}, {94, 124}}, textColor={64, 64, 64}, textString="gripper_stroke")}),
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -220}, {360, 345}})),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -280}, {360, 345}})),
     Documentation(info="<html>
 <p>
 Robot SixAxisArm in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

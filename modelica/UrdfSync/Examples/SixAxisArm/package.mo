@@ -6,7 +6,7 @@ package SixAxisArm "Robot SixAxisArm: links, joints, robot and benches"
   annotation (
     Documentation(info="<html>
 <p>
-Made by urdfsync from a URDF. Every file can be edited: urdfsync keeps what you changed, brings everything else up to date, and reports where both changed.
+Made by urdfsync from a URDF. <code>SixAxisArmGeneric</code> simulates the robot as <code>UrdfSync.Robots.GenericRobot</code> reads it from <code>SixAxisArmParameters</code>. Every file can be edited: urdfsync keeps what you changed, brings everything else up to date, and reports where both changed.
 </p>
 </html>"));
 end SixAxisArm;

@@ -25,67 +25,67 @@ model WheeledRobot "Robot WheeledRobot"
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a caster_swivelAxis
     "Axis of joint \"caster_swivel\""
-    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-105, 255}, {-95, 265}})));
+    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-104, 256}, {-96, 264}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b caster_swivelSupport
     "Housing of the drive of joint \"caster_swivel\""
-    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-105, 245}, {-95, 255}})));
+    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-104, 246}, {-96, 254}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a caster_rollAxis
     "Axis of joint \"caster_roll\""
-    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-105, 235}, {-95, 245}})));
+    annotation (Placement(transformation(extent={{-4, 14}, {8, 26}}), iconTransformation(extent={{-104, 236}, {-96, 244}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b caster_rollSupport
     "Housing of the drive of joint \"caster_roll\""
-    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-105, 225}, {-95, 235}})));
+    annotation (Placement(transformation(extent={{-18, 14}, {-6, 26}}), iconTransformation(extent={{-104, 226}, {-96, 234}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a drive_leftAxis
     "Axis of joint \"drive_left\""
-    annotation (Placement(transformation(extent={{-52, -64}, {-40, -52}}), iconTransformation(extent={{-105, 215}, {-95, 225}})));
+    annotation (Placement(transformation(extent={{-52, -64}, {-40, -52}}), iconTransformation(extent={{-104, 216}, {-96, 224}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b drive_leftSupport
     "Housing of the drive of joint \"drive_left\""
-    annotation (Placement(transformation(extent={{-66, -64}, {-54, -52}}), iconTransformation(extent={{-105, 205}, {-95, 215}})));
+    annotation (Placement(transformation(extent={{-66, -64}, {-54, -52}}), iconTransformation(extent={{-104, 206}, {-96, 214}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a drive_rightAxis
     "Axis of joint \"drive_right\""
-    annotation (Placement(transformation(extent={{-52, -142}, {-40, -130}}), iconTransformation(extent={{-105, 195}, {-95, 205}})));
+    annotation (Placement(transformation(extent={{-52, -142}, {-40, -130}}), iconTransformation(extent={{-104, 196}, {-96, 204}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b drive_rightSupport
     "Housing of the drive of joint \"drive_right\""
-    annotation (Placement(transformation(extent={{-66, -142}, {-54, -130}}), iconTransformation(extent={{-105, 185}, {-95, 195}})));
+    annotation (Placement(transformation(extent={{-66, -142}, {-54, -130}}), iconTransformation(extent={{-104, 186}, {-96, 194}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_a liftAxis
     "Axis of joint \"lift\""
-    annotation (Placement(transformation(extent={{-4, -220}, {8, -208}}), iconTransformation(extent={{-105, 175}, {-95, 185}})));
+    annotation (Placement(transformation(extent={{-4, -220}, {8, -208}}), iconTransformation(extent={{-104, 176}, {-96, 184}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_b liftSupport
     "Housing of the drive of joint \"lift\""
-    annotation (Placement(transformation(extent={{-18, -220}, {-6, -208}}), iconTransformation(extent={{-105, 165}, {-95, 175}})));
+    annotation (Placement(transformation(extent={{-18, -220}, {-6, -208}}), iconTransformation(extent={{-104, 166}, {-96, 174}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a head_panAxis
     "Axis of joint \"head_pan\""
-    annotation (Placement(transformation(extent={{44, -220}, {56, -208}}), iconTransformation(extent={{-105, 155}, {-95, 165}})));
+    annotation (Placement(transformation(extent={{44, -220}, {56, -208}}), iconTransformation(extent={{-104, 156}, {-96, 164}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b head_panSupport
     "Housing of the drive of joint \"head_pan\""
-    annotation (Placement(transformation(extent={{30, -220}, {42, -208}}), iconTransformation(extent={{-105, 145}, {-95, 155}})));
+    annotation (Placement(transformation(extent={{30, -220}, {42, -208}}), iconTransformation(extent={{-104, 146}, {-96, 154}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a head_tiltAxis
     "Axis of joint \"head_tilt\""
-    annotation (Placement(transformation(extent={{92, -220}, {104, -208}}), iconTransformation(extent={{-105, 135}, {-95, 145}})));
+    annotation (Placement(transformation(extent={{92, -220}, {104, -208}}), iconTransformation(extent={{-104, 136}, {-96, 144}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b head_tiltSupport
     "Housing of the drive of joint \"head_tilt\""
-    annotation (Placement(transformation(extent={{78, -220}, {90, -208}}), iconTransformation(extent={{-105, 125}, {-95, 135}})));
+    annotation (Placement(transformation(extent={{78, -220}, {90, -208}}), iconTransformation(extent={{-104, 126}, {-96, 134}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a lidar_spinAxis
     "Axis of joint \"lidar_spin\""
-    annotation (Placement(transformation(extent={{-4, -298}, {8, -286}}), iconTransformation(extent={{-105, 115}, {-95, 125}})));
+    annotation (Placement(transformation(extent={{-4, -298}, {8, -286}}), iconTransformation(extent={{-104, 116}, {-96, 124}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b lidar_spinSupport
     "Housing of the drive of joint \"lidar_spin\""
-    annotation (Placement(transformation(extent={{-18, -298}, {-6, -286}}), iconTransformation(extent={{-105, 105}, {-95, 115}})));
+    annotation (Placement(transformation(extent={{-18, -298}, {-6, -286}}), iconTransformation(extent={{-104, 106}, {-96, 114}})));
 
   final parameter Modelica.Units.SI.Mass m =
     base_link.m +
@@ -387,19 +387,19 @@ equation
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 270}}), graphics={
       Rectangle(extent={{-100, 100}, {100, 270}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
-      Text(extent={{-90, 246}, {20, 264}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="caster_swivel"),
-      Text(extent={{-90, 226}, {20, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="caster_roll"),
-      Text(extent={{-90, 206}, {20, 224}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="drive_left"),
-      Text(extent={{-90, 186}, {20, 204}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="drive_right"),
-      Text(extent={{-90, 166}, {20, 184}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="lift"),
-      Text(extent={{-90, 146}, {20, 164}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="head_pan"),
-      Text(extent={{-90, 126}, {20, 144}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="head_tilt"),
-      Text(extent={{-90, 106}, {20, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="lidar_spin"),
-      Text(extent={{20, 253}, {88, 267}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="caster_wheel"),
-      Text(extent={{20, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="wheel_left"),
-      Text(extent={{20, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="wheel_right"),
-      Text(extent={{20, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="camera_optical_frame"),
-      Text(extent={{20, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="lidar")}),
+      Text(extent={{-90, 246}, {0, 264}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="caster_swivel"),
+      Text(extent={{-90, 226}, {0, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="caster_roll"),
+      Text(extent={{-90, 206}, {0, 224}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="drive_left"),
+      Text(extent={{-90, 186}, {0, 204}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="drive_right"),
+      Text(extent={{-90, 166}, {0, 184}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="lift"),
+      Text(extent={{-90, 146}, {0, 164}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="head_pan"),
+      Text(extent={{-90, 126}, {0, 144}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="head_tilt"),
+      Text(extent={{-90, 106}, {0, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="lidar_spin"),
+      Text(extent={{0, 253}, {88, 267}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="caster_wheel"),
+      Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="wheel_left"),
+      Text(extent={{0, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="wheel_right"),
+      Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="camera_optical_frame"),
+      Text(extent={{0, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="lidar")}),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -356}, {228, 34}})),
     Documentation(info="<html>
 <p>

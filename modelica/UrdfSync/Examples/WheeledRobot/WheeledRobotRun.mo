@@ -14,11 +14,11 @@ model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the m
 
   Modelica.Blocks.Interfaces.RealInput drive_left_phi(unit = "rad")
     "Where joint \"drive_left\" is to go"
-    annotation (Placement(transformation(extent={{-140, 270}, {-120, 290}}), iconTransformation(extent={{-120, 205}, {-100, 225}})));
+    annotation (Placement(transformation(extent={{-140, 270}, {-120, 290}}), iconTransformation(extent={{-116, 207}, {-100, 223}})));
 
   Modelica.Blocks.Interfaces.RealOutput drive_left_tau(unit = "N.m") = robot.drive_leftAxis.tau
     "What the drive of joint \"drive_left\" has to give"
-    annotation (Placement(transformation(extent={{340, 270}, {360, 290}}), iconTransformation(extent={{100, 205}, {120, 225}})));
+    annotation (Placement(transformation(extent={{340, 270}, {360, 290}}), iconTransformation(extent={{100, 207}, {116, 223}})));
 
   Modelica.Mechanics.Rotational.Sources.Position drive_leftDrive(
     useSupport = true,
@@ -29,11 +29,11 @@ model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the m
 
   Modelica.Blocks.Interfaces.RealInput drive_right_phi(unit = "rad")
     "Where joint \"drive_right\" is to go"
-    annotation (Placement(transformation(extent={{-140, 240}, {-120, 260}}), iconTransformation(extent={{-120, 185}, {-100, 205}})));
+    annotation (Placement(transformation(extent={{-140, 240}, {-120, 260}}), iconTransformation(extent={{-116, 187}, {-100, 203}})));
 
   Modelica.Blocks.Interfaces.RealOutput drive_right_tau(unit = "N.m") = robot.drive_rightAxis.tau
     "What the drive of joint \"drive_right\" has to give"
-    annotation (Placement(transformation(extent={{340, 240}, {360, 260}}), iconTransformation(extent={{100, 185}, {120, 205}})));
+    annotation (Placement(transformation(extent={{340, 240}, {360, 260}}), iconTransformation(extent={{100, 187}, {116, 203}})));
 
   Modelica.Mechanics.Rotational.Sources.Position drive_rightDrive(
     useSupport = true,
@@ -44,11 +44,11 @@ model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the m
 
   Modelica.Blocks.Interfaces.RealInput lift_s(unit = "m")
     "Where joint \"lift\" is to go"
-    annotation (Placement(transformation(extent={{-140, 210}, {-120, 230}}), iconTransformation(extent={{-120, 165}, {-100, 185}})));
+    annotation (Placement(transformation(extent={{-140, 210}, {-120, 230}}), iconTransformation(extent={{-116, 167}, {-100, 183}})));
 
   Modelica.Blocks.Interfaces.RealOutput lift_f(unit = "N") = robot.liftAxis.f
     "What the drive of joint \"lift\" has to give"
-    annotation (Placement(transformation(extent={{340, 210}, {360, 230}}), iconTransformation(extent={{100, 165}, {120, 185}})));
+    annotation (Placement(transformation(extent={{340, 210}, {360, 230}}), iconTransformation(extent={{100, 167}, {116, 183}})));
 
   Modelica.Mechanics.Translational.Sources.Position liftDrive(
     useSupport = true,
@@ -59,11 +59,11 @@ model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the m
 
   Modelica.Blocks.Interfaces.RealInput head_pan_phi(unit = "rad")
     "Where joint \"head_pan\" is to go"
-    annotation (Placement(transformation(extent={{-140, 180}, {-120, 200}}), iconTransformation(extent={{-120, 145}, {-100, 165}})));
+    annotation (Placement(transformation(extent={{-140, 180}, {-120, 200}}), iconTransformation(extent={{-116, 147}, {-100, 163}})));
 
   Modelica.Blocks.Interfaces.RealOutput head_pan_tau(unit = "N.m") = robot.head_panAxis.tau
     "What the drive of joint \"head_pan\" has to give"
-    annotation (Placement(transformation(extent={{340, 180}, {360, 200}}), iconTransformation(extent={{100, 145}, {120, 165}})));
+    annotation (Placement(transformation(extent={{340, 180}, {360, 200}}), iconTransformation(extent={{100, 147}, {116, 163}})));
 
   Modelica.Mechanics.Rotational.Sources.Position head_panDrive(
     useSupport = true,
@@ -74,11 +74,11 @@ model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the m
 
   Modelica.Blocks.Interfaces.RealInput head_tilt_phi(unit = "rad")
     "Where joint \"head_tilt\" is to go"
-    annotation (Placement(transformation(extent={{-140, 150}, {-120, 170}}), iconTransformation(extent={{-120, 125}, {-100, 145}})));
+    annotation (Placement(transformation(extent={{-140, 150}, {-120, 170}}), iconTransformation(extent={{-116, 127}, {-100, 143}})));
 
   Modelica.Blocks.Interfaces.RealOutput head_tilt_tau(unit = "N.m") = robot.head_tiltAxis.tau
     "What the drive of joint \"head_tilt\" has to give"
-    annotation (Placement(transformation(extent={{340, 150}, {360, 170}}), iconTransformation(extent={{100, 125}, {120, 145}})));
+    annotation (Placement(transformation(extent={{340, 150}, {360, 170}}), iconTransformation(extent={{100, 127}, {116, 143}})));
 
   Modelica.Mechanics.Rotational.Sources.Position head_tiltDrive(
     useSupport = true,
@@ -89,11 +89,11 @@ model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the m
 
   Modelica.Blocks.Interfaces.RealInput lidar_spin_phi(unit = "rad")
     "Where joint \"lidar_spin\" is to go"
-    annotation (Placement(transformation(extent={{-140, 120}, {-120, 140}}), iconTransformation(extent={{-120, 105}, {-100, 125}})));
+    annotation (Placement(transformation(extent={{-140, 120}, {-120, 140}}), iconTransformation(extent={{-116, 107}, {-100, 123}})));
 
   Modelica.Blocks.Interfaces.RealOutput lidar_spin_tau(unit = "N.m") = robot.lidar_spinAxis.tau
     "What the drive of joint \"lidar_spin\" has to give"
-    annotation (Placement(transformation(extent={{340, 120}, {360, 140}}), iconTransformation(extent={{100, 105}, {120, 125}})));
+    annotation (Placement(transformation(extent={{340, 120}, {360, 140}}), iconTransformation(extent={{100, 107}, {116, 123}})));
 
   Modelica.Mechanics.Rotational.Sources.Position lidar_spinDrive(
     useSupport = true,
@@ -151,7 +151,7 @@ equation
       Text(extent={{-94, 146}, {94, 164}}, textColor={64, 64, 64}, textString="head_pan"),
       Text(extent={{-94, 126}, {94, 144}}, textColor={64, 64, 64}, textString="head_tilt"),
       Text(extent={{-94, 106}, {94, 124}}, textColor={64, 64, 64}, textString="lidar_spin")}),
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -220}, {360, 375}})),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -280}, {360, 375}})),
     Documentation(info="<html>
 <p>
 Robot WheeledRobot in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

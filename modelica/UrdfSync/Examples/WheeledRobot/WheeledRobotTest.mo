@@ -88,7 +88,7 @@ equation
 
   annotation (
     experiment(StopTime=10, Interval=0.02, Tolerance=1e-6),
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-120, -220}, {340, 375}})),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-120, -280}, {340, 375}})),
     Documentation(info="<html>
 <p>
 Simulates without inputs: every axis of robot WheeledRobot moves inside its limits and comes back. A warning in the log names a joint that passes one of its limits all the same, for example that of its effort. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

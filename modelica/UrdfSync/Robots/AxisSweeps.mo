@@ -1,24 +1,30 @@
 within UrdfSync.Robots;
 
-block Sweep "Smooth way to the roomier end of each range and back"
+block AxisSweeps "Smooth ways of all axes of one kind to the roomier ends of their ranges and back"
   extends Modelica.Blocks.Interfaces.MO(final nout = n);
 
   parameter Integer n(min = 1) = 1
     "Number of axes";
 
   parameter Real start[n] = zeros(n)
-    "Positions at the beginning, in rad or m";
+    "Positions at the beginning, all in rad or all in m";
 
-  parameter Real range[n, 3] = fill(1, n, 3)
-    "One row per axis: {lower, upper, velocity}";
+  parameter Real lower[n] = fill(-1, n)
+    "Smallest positions";
+
+  parameter Real upper[n] = fill(1, n)
+    "Largest positions";
+
+  parameter Real velocity[n] = fill(1, n)
+    "Largest velocities";
 
   parameter Real reach = 1
-    "Longest way, in rad or m";
+    "Longest way";
 
   parameter Modelica.Units.SI.Time period = 10
     "Time of the way there and back";
 
-  final parameter Real turn[n] = UrdfSync.Functions.sweepEnds(start, range, period, reach)
+  final parameter Real turn[n] = UrdfSync.Dynamics.sweepTurns(start, lower, upper, velocity, period, reach)
     "Turning points";
 
 equation
@@ -40,8 +46,8 @@ equation
             color={186, 98, 20}, thickness=0.75)}),
     Documentation(info="<html>
 <p>
-Each axis begins at rest, moves along a cosine to its turning point and comes back. Ranges and speed limits are kept with a margin
-of 10 %. An axis without room stays where it is.
+Each axis begins at rest, moves along a cosine to its turning point and comes back. Ranges and velocities are kept with a margin
+of 10 %. An axis without room stays where it is. The benches of robots that are read from a record drive all their axes so.
 </p>
 </html>"));
-end Sweep;
+end AxisSweeps;

@@ -1,4 +1,4 @@
-"""Template data of whole robots: tables, axes, couplings, starts, and the height to stand at."""
+"""Template data of the record of a whole robot, and the height that a mobile one stands at."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from support.trees import robots
 from urdfsync.domain import Artifact, Import, Target
 from urdfsync.urdf.artifacts import artifacts
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.assembly import standing_height, vectors
+from urdfsync.urdf.model.records import record_axes
+from urdfsync.urdf.model.stance import standing_height
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,
@@ -85,11 +86,10 @@ def test_the_tables_say_what_the_tree_is(robot: Robot) -> None:
     assert all(child == row + 1 for row, (_, child) in enumerate(found["connection_matrix"], start=1))
 
 
-def test_only_joints_that_follow_nothing_can_be_driven() -> None:
-    rotational, translational = vectors(GRIPPER)
-    assert [(axis.name, axis.number) for axis in rotational["axes"]] == [("turn", 1)]
-    assert [(axis.name, axis.number) for axis in translational["axes"]] == [("slide", 1)]
-    assert vectors(skeleton(Joint("j", "fixed", "a", "b"))) == []
+def test_only_joints_that_follow_nothing_have_an_axis_in_the_record() -> None:
+    axes = [(axis.constant, axis.vector, axis.number) for axis in record_axes(GRIPPER)]
+    assert axes == [("turnAxis", "rotationalAxis", 1), ("slideAxis", "translationalAxis", 1)]
+    assert record_axes(skeleton(Joint("j", "fixed", "a", "b"))) == []
 
 
 @pytest.mark.parametrize(("shape", "height"), [(Sphere(0.3), 0.3), (Box((1, 1, 0.5)), 0.25), (Cylinder(0.2, 0.6), 0.3)])

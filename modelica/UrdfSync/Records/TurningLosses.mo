@@ -1,0 +1,20 @@
+within UrdfSync.Records;
+
+record TurningLosses "Losses of all joints that turn"
+  extends UrdfSync.Icons.Parameters;
+
+  Modelica.Units.SI.RotationalDampingConstant damping[:] = fill(0, 0)
+    "Viscous damping";
+
+  Modelica.Units.SI.Torque friction[:] = fill(0, 0)
+    "Dry friction";
+
+  UrdfSync.Types.RotationalSteepness steepness[:] = fill(0, 0)
+    "How sharply the dry friction changes its sign around standstill";
+
+  annotation (Documentation(info="<html>
+<p>
+A table of <a href=\"modelica://UrdfSync.Records.Robot\">Records.Robot</a>: one number per joint, in the order of the joints. Each refers to the <a href=\"modelica://UrdfSync.Records.RotationalDynamics\">dynamics</a> record of its joint.
+</p>
+</html>"));
+end TurningLosses;
