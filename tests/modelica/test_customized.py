@@ -58,8 +58,8 @@ CHANGES = f"""robot(
 PAYLOAD = pin.Inertia(1.75, np.array([0.05, -0.1, 0.2]), np.diag([0.01, 0.02, 0.03]))
 STIFFNESS, DAMPING = 1e6, 1e4
 """Of the gear: it yields by a few millionths, and swings no more after a tenth of a second."""
-DRIVE = ["robot.elbowAxis.phi", "elbowDrive.accelerate.w", "elbowDrive.accelerate.a"]
-"""Motion before the gear."""
+DRIVE = ["robot.elbowAxis.phi", "elbowDrive.w"]
+"""Position and speed before the gear."""
 
 USERS = f"""
 package Users_
@@ -198,9 +198,11 @@ def test_a_gear_that_hardly_yields_needs_the_torques_of_a_rigid_joint(found: Map
     series = found["RedeclaredTest"]
     q, v, a, efforts = measured(series)
     later = series.times > 1
-    for motion, name in zip((q, v, a), DRIVE, strict=True):
+    for motion, name in zip((q, v), DRIVE, strict=True):
         assert 0 < np.abs(series.values[name] - motion[:, 1])[later].max() < 1e-4
         motion[:, 1] = series.values[name]
+    frequency = 2 * np.pi / 10
+    a[:, 1] = frequency**2 / 2 * (q[series.times == 5, 1] - q[0, 1]) * np.cos(frequency * series.times)
     expected = efforts_of(loaded(model_of(BEFORE)), q, v, a, lossless=("elbow",))
     assert efforts[later] == pytest.approx(expected[later], abs=1e-4 * np.abs(expected).max())
     unloaded = efforts_of(model_of(BEFORE), q, v, a, lossless=("elbow",))

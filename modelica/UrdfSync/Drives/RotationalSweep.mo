@@ -50,10 +50,7 @@ The axis begins at rest and moves as <code>phi = phi_start + (phi_end - phi_star
 kept with a margin of 10 %. An axis without room stays where it is.
 </p>
 <p>
-The joint that is moved has to begin at <code>phi_start</code> and at rest: its own start values are those that count.
-</p>
-<p>
-The acceleration is given and integrated, which is exact to the tolerance of the solver: a given position would have to be differentiated
+The joint that is moved has to begin there and at rest: its own start values are those that count. The acceleration is given and integrated, which is exact to the tolerance of the solver: a given position would have to be differentiated
 twice through the equations of the robot, which takes compilers much longer where the base moves freely.
 </p>
 </html>"));
