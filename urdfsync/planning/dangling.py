@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TypeAlias
@@ -26,6 +27,7 @@ Name: TypeAlias = tuple[str, ...]
 
 _EDITED = frozenset({ActionKind.KEEP, ActionKind.INCLUDED, ActionKind.MERGE, ActionKind.MOVE})
 """What happens to files that are as the user wants them."""
+_CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
 _KEPT = frozenset({ActionKind.NEEDED, ActionKind.ORPHAN})
 """What happens to files that stay although they are no longer generated."""
 
@@ -155,8 +157,12 @@ def find_uses(
 
 
 def words(text: str) -> set[str]:
-    """All names and keywords in a text, without those in strings and comments."""
-    return {token.text for token in lex(text)[0]}
+    """All names and keywords in a text, without those in strings and comments, and without the classes in it.
+
+    An edited file whose element has another name may still declare its class by the old one. The text need not parse.
+    """
+    found = [token.text for token in lex(text)[0]]
+    return set(found) - {name for kind, name in itertools.pairwise(found) if kind in _CLASS_KINDS}
 
 
 def _declared(texts: Mapping[str, str]) -> set[Name]:
