@@ -12,7 +12,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.modelica.parser import parse
-from urdfsync.modelica.scopes import Node, Scopes
+from urdfsync.modelica.scopes import Element, Node, Scopes, Type
 from urdfsync.modelica.syntax import Class
 from urdfsync.modelica.unresolved import Kind, Unresolved, unresolved
 from urdfsync.plan import Action, State
@@ -34,23 +34,33 @@ class DanglingNames:
     def __init__(
         self,
         situation: Situation,
-        lost: Mapping[str, str],
         paths: Sequence[str],
         content: Callable[[str], bytes],
+        before: Mapping[str, str],
+        now: Mapping[str, str],
+        renamed: Mapping[str, str],
     ) -> None:
-        """`lost` has new names by lost ones; `content` gives the texts of generated files, whose paths are `paths`."""
-        self._situation, self._lost, self._paths, self._content = situation, lost, paths, content
+        """`content` gives the texts of generated files, whose paths are `paths`; for the others see `lost_names`."""
+        self._situation, self._paths, self._content = situation, paths, content
+        self._generated = Scopes(self._planned({}, {}))
+        self._lost = lost_names(before, now, renamed, self._is_inherited)
+        """New names by lost ones."""
+        recorded, package = situation.recorded, situation.robot.target.package
+        if recorded and recorded.package != package:
+            self._lost[recorded.package.rpartition(".")[2]] = package
 
     def first_use(self, key: str, text: str) -> tuple[str, int] | None:
         """The first lost name in a text for a file of the package, with its line; None if there is none."""
         if self._lost.keys().isdisjoint(words(text)):
             return None
         scopes = Scopes(self._planned({key: text}, {}))
-        uses = find_uses(self._class_name(key), text, scopes, self._lost, self._lost)
+        uses = self._uses(self._class_name(key), text, scopes, self._lost)
         return (uses[0].part, uses[0].line) if uses else None
 
     def warnings(self, actions: Iterable[Action], written: Mapping[str, str]) -> list[Diagnostic]:
         """One warning for each lost name in each file; `written` are texts that files are about to get."""
+        if not self._lost:
+            return []
         situation, known = self._situation, {action.path: action for action in actions}
         kept = {path for path, action in known.items() if action.kind in _KEPT}
         edited = {path for path, action in known.items() if action.kind in _EDITED and not action.held}
@@ -67,10 +77,23 @@ class DanglingNames:
         found = []
         for name, file, text in asked:
             uses: dict[str, list[Unresolved]] = {}
-            for use in find_uses(name, text, scopes, self._lost, doubtful):
+            for use in self._uses(name, text, scopes, doubtful):
                 uses.setdefault(use.part, []).append(use)
             found += [self._warning(file, one) for one in uses.values()]
         return found
+
+    def _uses(self, name: Name, text: str, scopes: Scopes, doubtful: Collection[str]) -> list[Unresolved]:
+        """As `find_uses`, without what the generated text of the class says, too: that is in order."""
+        uses = find_uses(name, text, scopes, self._lost, doubtful)
+        if not uses or name not in {self._class_name(self._situation.key(path)) for path in self._paths}:
+            return uses
+        generated = {use.name for use in find_uses(name, "", self._generated, self._lost, doubtful)}
+        return [use for use in uses if use.name not in generated]
+
+    def _is_inherited(self, path: Name) -> bool:
+        """Whether a class below the package still has an element, from a class that it extends."""
+        node = self._generated.node((*self._situation.robot.target.package.split("."), *path[:-1]))
+        return isinstance(node, Node) and isinstance(self._generated.part((Type(node),), path[-1]), Element)
 
     def _warning(self, file: Path, uses: Sequence[Unresolved]) -> Diagnostic:
         name, first = uses[0].part, uses[0].line
@@ -108,15 +131,17 @@ class DanglingNames:
         return (*package, *folders) if file == "package" else (*package, *folders, file)
 
 
-def lost_names(before: Mapping[str, str], now: Mapping[str, str], renamed: Mapping[str, str]) -> dict[str, str]:
+def lost_names(
+    before: Mapping[str, str], now: Mapping[str, str], renamed: Mapping[str, str], is_inherited: Callable[[Name], bool]
+) -> dict[str, str]:
     """The names of classes and components that texts declared before and do not declare now, with their new names.
 
     Texts are given by the paths of their files below the package; those that are the same in both may be left out.
     `renamed` are old and new identifiers of elements: names that begin with the old one may begin with the new one now.
-    A new name is empty if there is none.
+    A new name is empty if there is none. What `is_inherited`, by its path, is not lost.
     """
     old, new = _declared(before), _declared(now)
-    gone = old - new
+    gone = {path for path in old - new if not is_inherited(path)}
     names = {path[-1] for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
     known = {path[-1] for path in new}
     return {name: _new_name(name, known, renamed) for name in sorted(names)}

@@ -15,7 +15,7 @@ from urdfsync.domain import Role, Target
 from urdfsync.moves import places
 from urdfsync.plan import FileRecord, State, Wanted
 from urdfsync.planning import imports, inputs, leftovers
-from urdfsync.planning.dangling import DanglingNames, lost_names
+from urdfsync.planning.dangling import DanglingNames
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.generate import Generated, artifacts
 from urdfsync.planning.outputs import Outputs
@@ -209,11 +209,11 @@ class Renewal:
         return next((text for text in found if text is not None), None)
 
     @functools.cached_property
-    def _lost(self) -> dict[str, str]:
-        """The names that the package loses, with their new names."""
+    def _dangling(self) -> DanglingNames | None:
+        """Finds uses of the names that the package loses; None if no class changes or goes."""
         recorded, situation = self._situation.recorded, self._situation
         if recorded is None or self._situation.recovered is not None:
-            return {}
+            return None
         now, before = self._generated.artifacts, dict[str, str]()
         for key, record in recorded.files.items():
             path = self._old_path(key)
@@ -222,12 +222,10 @@ class Renewal:
             if text_role and record.base is not None and record.state is not State.ORPHAN and not stays:
                 before[path] = self.base(key, record.base) or ""
         if not before:
-            return {}
+            return None
         differing = self._outputs.stale | self._differing.render
         texts = {path: self._outputs.content(path).decode() for path in now if path in differing}
-        old, new = recorded.package.rpartition(".")[2], situation.robot.target.package
-        moved = {old: new} if recorded.package != new else {}
-        return {**lost_names(before, texts, self._renamed()), **moved}
+        return DanglingNames(situation, list(now), self._outputs.content, before, texts, self._renamed())
 
     def _renamed(self) -> dict[str, str]:
         """Old and new identifiers of elements."""
@@ -249,11 +247,6 @@ class Renewal:
         )
         return {before: after for before, after in pairs if before != after}
 
-    @functools.cached_property
-    def _dangling(self) -> DanglingNames:
-        """Finds uses of the names that the package loses."""
-        return DanglingNames(self._situation, self._lost, list(self._generated.artifacts), self._outputs.content)
-
     def _lost_connectors(self, found: Changes | None) -> list[Diagnostic]:
         """Notes on what users may have connected to, and what has another name now, or none."""
         situation, settled = self._situation, self._situation.settled
@@ -272,11 +265,11 @@ class Renewal:
 
     def _uses(self, decision: Decision) -> list[Diagnostic]:
         """Warnings about texts of the user's that use names that the package loses."""
-        return self._dangling.warnings(decision.actions, decision.texts) if self._lost else []
+        return self._dangling.warnings(decision.actions, decision.texts) if self._dangling else []
 
     def lost_use(self, key: str, text: str) -> tuple[str, int] | None:
         """The first name in a text for a file that the package loses, with its line."""
-        return self._dangling.first_use(key, text) if self._lost else None
+        return self._dangling.first_use(key, text) if self._dangling else None
 
     def _old_path(self, key: str) -> str:
         """Path of a file of the last build below the folder that the package had then."""
