@@ -117,7 +117,7 @@ equation
   annotation (Diagram(coordinateSystem(extent={{-120, -100}, {100, 80}})));
 end B;
 """
-    drawn = diagram.read(text, lambda name: Diagram(STANDARD, (), (), {"frame_b": (100, 0)}))
+    drawn = diagram.read(text, lambda name: Diagram(STANDARD, STANDARD, (), (), {"frame_b": (100, 0)}))
     assert drawn.extent == (-120, -100, 100, 80)
     assert [(c.name, c.box) for c in drawn.components] == [
         ("world", (-100, -60, -80, -40)),
@@ -129,3 +129,51 @@ end B;
     assert line.points == ((-80, -50), (0.5, -50), (100, -2))
     assert port(drawn, line.start, diagram.library_diagram) == (-80, -50)
     assert port(drawn, line.end, diagram.library_diagram) == (100, -2)
+
+
+ROBOT = """
+within A;
+
+model Robot "Example with an icon that grows with its connectors"
+  Modelica.Mechanics.Rotational.Interfaces.Flange_a elbowAxis
+    "Axis"
+    annotation (Placement(
+      transformation(extent={{-10, 0}, {0, 10}}),
+      iconTransformation(extent={{-105, 235}, {-95, 245}})));
+
+  replaceable Joints.Elbow elbow constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+    phi_start = 0.5,
+    checkLimits = checkLimits)
+    "Joint"
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{40, -10}, {60, 10}})));
+
+equation
+  connect(elbow.axis, elbowAxis)
+    annotation (Line(points={{50, 10}, {-5, 5}}));
+
+  annotation (Icon(coordinateSystem(extent={{-100, -100}, {100, 250}}), graphics={Line(points={{0, 0}, {1, 1}})}));
+end Robot;
+"""
+BENCH = """
+within A;
+
+model Bench "Example with a robot at one and a half times its size"
+  extends Robot;
+
+  replaceable Robot robot constrainedby Robot(fixedStart = false)
+    annotation (Placement(transformation(extent={{20, -200}, {320, 325}})));
+
+  annotation (Icon(graphics={Line(points={{0, 0}, {1, 1}})}));
+end Bench;
+"""
+
+
+def test_an_icon_that_grows_is_scaled_to_its_place() -> None:
+    joint = Diagram(STANDARD, STANDARD, (), (), {"axis": (0, 100)})
+    robot = diagram.read(ROBOT, lambda name: {"Joints.Elbow": joint}[name])
+    assert (robot.extent, robot.icon) == (STANDARD, (-100, -100, 100, 250))
+    assert [(c.name, c.type) for c in robot.components][1] == ("elbow", "Joints.Elbow")
+    assert astray(robot, lambda name: joint) == []
+    bench = diagram.read(BENCH, lambda name: robot)
+    assert bench.icon == robot.icon, "inherited, since its own icon says nothing of it"
+    assert port(bench, "robot.elbowAxis", lambda name: robot) == (20, 310)

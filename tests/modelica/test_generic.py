@@ -50,6 +50,15 @@ LADDER = robot(
 )
 """Two sliding joints first; a base without mass; a name with a space."""
 
+CHAIN = robot(
+    *(link(name, 1.0) for name in ("base", "one", "two", "three", "four")),
+    joint("first", "revolute", "base", "one", axis="0 1 0", inside=[dynamics(0.4, 0.2), limit()]),
+    joint("second", "prismatic", "one", "two", axis="1 0 0", inside=[mimic("first", 0.1, 0.02), limit()]),
+    joint("third", "revolute", "two", "three", axis="0 0 1", inside=[mimic("second", -4.0, 0.3), limit()]),
+    joint("fourth", "prismatic", "three", "four", axis="0 1 0", inside=[mimic("third", 0.2, -0.1), limit()]),
+)
+"""Three joints that follow one another, and so the first one."""
+
 MASSLESS = robot(
     *(link(name, mass) for name, mass in {"base": 1.0, "arm": 1.0, "tip": None}.items()),
     joint("lift", "revolute", "base", "arm", axis="0 1 0", inside=[limit()]),
@@ -120,6 +129,7 @@ AXES = {"my_elbowAxis": 2, "lidAxis": 1, "rollAxis": 3, "railAxis": 1}
 def test_poses_and_efforts_of_prescribed_motion_agree_with_pinocchio(modelica_library: Path, tmp_path: Path) -> None:
     """Base and axes move; efforts of all axes, what acts on the base, mass and centre are compared."""
     cases = [in_form(name, form) for name, form in PRESCRIBED]
+    cases.append(physics.prepare(CHAIN.encode(), "Chain", approach=("record",)))
     for comparison in physics.compare(modelica_library, tmp_path, cases):
         assert comparison.agrees, comparison.worst()
 
@@ -317,7 +327,7 @@ def dropped(file: str, changes: Sequence[tuple[str, str]]) -> tuple[Array, Array
     own.reference.model.gravity.linear = np.array([0, 0, -9.80665])
     positions = start_positions(own.skeleton)
     start = [motion.Course(positions[name], 0.0, 0.0) for name in own.reference.axes]
-    end = generic.free_motion(own, start, MOMENT, 400)
+    end = generic.free_motion(own, start, MOMENT, 2000)
     return generic.link_place(own, np.array(start)[:, 0], TOOLS[file]), generic.link_place(own, end, TOOLS[file])
 
 

@@ -23,7 +23,7 @@ from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Reference
-from urdfsync.urdf.skeleton import MOTIONS
+from urdfsync.urdf.skeleton import MOTIONS, Motion
 
 pytestmark = pytest.mark.slow
 
@@ -175,15 +175,19 @@ def release_of_axes(name: str, urdf: str) -> Release:
     package = generate(urdf.encode(), Target(name, name))
     axes = motion.driven_axes(package.skeleton)
     courses = [motion.axis_course(joint) for joint in axes]
-    modifiers = []
-    for kind, q, v in (("rotational", "phi", "w"), ("translational", "s", "v")):
-        chosen = [course for joint, course in zip(axes, courses, strict=True) if MOTIONS[joint.type] == kind]
-        if chosen:
-            modifiers += [f"{q}_start = {vector(course.position for course in chosen)}"]
-            modifiers += [f"{v}_start = {vector(course.speed for course in chosen)}"]
+    modifiers = [
+        start(package.skeleton.joint(joint.name).component, MOTIONS[joint.type], course.position, course.speed)
+        for joint, course in zip(axes, courses, strict=True)
+    ]
     inner = {"rotational": "revolute", "translational": "prismatic"}
     values = [f"robot.{package.skeleton.joint(j.name).component}.{inner[MOTIONS[j.type]]}.a" for j in axes]
     return release(package, ", ".join(modifiers), values, accelerations(urdf, [j.name for j in axes], courses))
+
+
+def start(component: str, kind: Motion, position: float, speed: float) -> str:
+    """The modifier by which a joint begins there."""
+    q, v = ("phi", "w") if kind == "rotational" else ("s", "v")
+    return f"{component}({q}_start = {position!r}, {v}_start = {speed!r})"
 
 
 def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> Array:
@@ -218,7 +222,7 @@ def release_of_level_plane() -> Release:
     skate = f"s_start = {{{x}, {y}}}, v_start = {{{d_x}, {d_y}}}, phi_start = {phi}, w_start = {d_phi}"
     return release(
         generate(urdf.encode(), Target("Level", "Level")),
-        f"phi_start = {{{turn}}}, w_start = {{{d_turn}}}, skate({skate})",
+        f"{start('turn', 'rotational', turn, d_turn)}, skate({skate})",
         ["robot.skate.prismatic_x.a", "robot.skate.prismatic_y.a", "robot.skate.revolute.a", "robot.turn.revolute.a"],
         np.array([*slides, a[2], a[3]]),
     )
@@ -252,7 +256,10 @@ def release_of_mobile() -> Release:
     angular = [f"robot.chassis.body.z_a[{i}]" for i in (1, 2, 3)]
     return release(
         package,
-        f"phi_start = {vector(wheels)}, w_start = {vector(speeds)}",
+        ", ".join(
+            start(f"{side}_axle", "rotational", wheel, speed)
+            for side, wheel, speed in zip(("left", "right"), wheels, speeds, strict=True)
+        ),
         [*linear, *angular, "robot.left_axle.revolute.a", "robot.right_axle.revolute.a"],
         mobile_accelerations(wheels, speeds),
         f"{ground}; UrdfSync.Robots.FreeBase base({starts});",

@@ -61,6 +61,7 @@ def written_out(text: str, known: Mapping[str, Table]) -> str:
     sizes |= {f"{kind}Joints": len(known[kind]) for kind in ("data.turning", "data.sliding")}
     text = re.sub(r"\n +annotation \((?:Line|Placement)\(.*\)\);", ";", text)
     text = re.sub(r"^  final parameter Integer .*?;\n", "", text, flags=re.MULTILINE | re.DOTALL)
+    text = text.replace("link[tool]", "link[1]")  # nothing is attached to it
     component = re.compile(r'^  (Modelica\.\S+) (\w+)\[([\w.]+)\]\(([^"]*)\)\s+"[^"]*";', re.MULTILINE)
     names = [found[2] for found in component.finditer(text)]
     text = component.sub(

@@ -32,7 +32,8 @@ def without_coupling(text: str) -> str:
     """The robot without the component by which grip follows elbow: it slides as the forces want."""
     text, parts = re.subn(r"\n  UrdfSync\.Couplings\.\w+ gripMimic\(.*?;\n", "\n", text, flags=re.DOTALL)
     text, connections = re.subn(r"  connect\(gripMimic\..*?;\n", "", text, flags=re.DOTALL)
-    assert (parts, connections) == (1, 2)
+    text, ranges = re.subn(r"\n +\w+ = m\w\w\(\{[^\n]*gripMimic\.[^\n]*", "", text)
+    assert (parts, connections, ranges) == (1, 2, 6)
     return text
 
 

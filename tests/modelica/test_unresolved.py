@@ -282,3 +282,23 @@ def test_nothing_is_missing_in_our_library() -> None:
 @pytest.mark.slow
 def test_nothing_is_missing_in_the_standard_library() -> None:
     assert faults_in("Modelica") == []
+
+
+@pytest.mark.slow
+def test_every_use_in_a_generated_package_can_be_told() -> None:
+    """Each name in its equations means something, and nothing once it is misspelled: no lookup ends in the unknown."""
+    places = [REPOSITORY / "modelica", *library.folders(os.environ, library.home())]
+    if library.find("Modelica", places) is None:
+        pytest.skip("there is no Modelica Standard Library")
+    sources = StoredClasses("None", Path("None"), {}, {}, lambda name: library.find(name, places))
+    scopes, count = Scopes(sources), 0
+    for stored in stored_below(sources, ("UrdfSync", "Examples", "SixAxisArm")):
+        node = scopes.node(stored)
+        assert isinstance(node, Node)
+        for name in {one for one in node.definition.uses if not one.is_called and one.parts != ("time",)}:
+            assert isinstance(scopes.lookup(name, node), Element), (stored, name)
+            for index, part in enumerate(name.parts):
+                parts = (*name.parts[:index], f"{part}q", *name.parts[index + 1 :])
+                assert isinstance(scopes.lookup(name._replace(parts=parts), node), Missing), (stored, name, part)
+                count += 1
+    assert count > 500

@@ -18,7 +18,7 @@ STANDARD: Box = (-100, -100, 100, 100)
 """Coordinate system of an icon, and of a diagram that says nothing."""
 
 _TWO_FRAMES = {"frame_a": (-100.0, 0.0), "frame_b": (100.0, 0.0)}
-_POSITION = {"flange": (100.0, 0.0), "support": (0.0, -100.0)}
+_SOURCE = {"flange": (100.0, 0.0), "support": (0.0, -100.0)}
 STANDARD_LIBRARY: Mapping[str, Mapping[str, Point]] = {
     "Mechanics.MultiBody.Interfaces.PartialOneFrame_a": {"frame_a": (-100, 0)},
     "Mechanics.MultiBody.Interfaces.PartialTwoFrames": _TWO_FRAMES,
@@ -29,10 +29,13 @@ STANDARD_LIBRARY: Mapping[str, Mapping[str, Point]] = {
     "Mechanics.MultiBody.Parts.FixedRotation": _TWO_FRAMES,
     "Mechanics.MultiBody.World": {"frame_b": (100, 0)},
     "Mechanics.Rotational.Interfaces.PartialTwoFlanges": {"flange_a": (-100, 0), "flange_b": (100, 0)},
-    "Mechanics.Rotational.Sources.Position": _POSITION | {"phi_ref": (-120, 0)},
+    "Mechanics.Rotational.Sources.Accelerate": _SOURCE | {"a_ref": (-120, 0)},
+    "Mechanics.Rotational.Sources.Position": _SOURCE | {"phi_ref": (-120, 0)},
     "Mechanics.Translational.Interfaces.PartialTwoFlanges": {"flange_a": (-100, 0), "flange_b": (100, 0)},
-    "Mechanics.Translational.Sources.Position": _POSITION | {"s_ref": (-120, 0)},
+    "Mechanics.Translational.Sources.Accelerate": _SOURCE | {"a_ref": (-120, 0)},
+    "Mechanics.Translational.Sources.Position": _SOURCE | {"s_ref": (-120, 0)},
     "Blocks.Interfaces.MO": {"y": (110, 0)},
+    "Blocks.Sources.Cosine": {"y": (110, 0)},
 }
 """Where classes of the standard library have their connectors, on their icons."""
 
@@ -66,6 +69,8 @@ class Diagram:
     """What a class shows, with all that it inherits."""
 
     extent: Box
+    icon: Box
+    """Coordinate system of the icon: an instance in another diagram is this, scaled to its place."""
     components: tuple[Component, ...]
     lines: tuple[Line, ...]
     ports: Mapping[str, Point]
@@ -90,14 +95,14 @@ def of_package(package: Package) -> Mapping[str, Diagram]:
 def library_diagram(name: str) -> Diagram:
     """The diagram of a class of UrdfSync; of a class of the standard library its connectors only."""
     if name.startswith("Modelica."):
-        return Diagram(STANDARD, (), (), STANDARD_LIBRARY.get(name.removeprefix("Modelica."), {}))
+        return Diagram(STANDARD, STANDARD, (), (), STANDARD_LIBRARY.get(name.removeprefix("Modelica."), {}))
     path = REPOSITORY / "modelica" / f"{name.replace('.', '/')}.mo"
     return read(path.read_text("utf-8"), library_diagram)
 
 
 def read(text: str, find: Find) -> Diagram:
     """The diagram of the class in `text`; `find` gives those of the classes that it refers to."""
-    extent = STANDARD
+    extent = icon = STANDARD
     components: list[Component] = []
     lines: list[Line] = []
     ports: dict[str, Point] = {}
@@ -105,18 +110,18 @@ def read(text: str, find: Find) -> Diagram:
         first = statement[0].text
         if first == "extends":
             base = find(_name(statement[1:]))
-            extent = base.extent
+            extent, icon = base.extent, base.icon
             ports |= base.ports
             components += base.components
             lines += base.lines
         elif first == "connect":
             lines.append(_line(statement))
         elif first == "annotation":
-            extent = _extent(statement, "Diagram") or extent
+            extent, icon = _system(statement, "Diagram") or extent, _system(statement, "Icon") or icon
         elif box := _extent(statement, "transformation"):
             components.append(_component(statement, box))
     ports |= {c.name: _center(c.icon) for c in components if c.is_connector}
-    return Diagram(extent, tuple(components), tuple(lines), ports)
+    return Diagram(extent, icon, tuple(components), tuple(lines), ports)
 
 
 def port(diagram: Diagram, reference: str, find: Find) -> Point:
@@ -127,9 +132,11 @@ def port(diagram: Diagram, reference: str, find: Find) -> Point:
         return diagram.ports[reference]  # inherited from a class of the standard library: there icon and diagram agree
     if not connector:
         return _center(component.box)
-    x, y = find(component.type).ports[connector]
+    drawn = find(component.type)
+    x, y = drawn.ports[connector]
     left, bottom, right, top = component.box
-    return (left + right) / 2 + x / 200 * (right - left), (bottom + top) / 2 + y / 200 * (top - bottom)
+    x1, y1, x2, y2 = drawn.icon
+    return left + (x - x1) / (x2 - x1) * (right - left), bottom + (y - y1) / (y2 - y1) * (top - bottom)
 
 
 def overlaps(components: Sequence[Component]) -> list[tuple[str, str]]:
@@ -205,6 +212,13 @@ def _reference(texts: Sequence[str]) -> str:
     while "[" in text:
         text = text[: text.index("[")] + text[text.index("]") + 1 :]
     return text
+
+
+def _system(statement: Sequence[Word], owner: str) -> Box | None:
+    """The coordinate system of an icon or a diagram, if the annotation has one for it."""
+    texts = [word.text for word in statement]
+    stated = owner in texts and texts[texts.index(owner) + 1 :][:2] == ["(", "coordinateSystem"]
+    return _extent(statement, owner) if stated else None
 
 
 def _extent(statement: Sequence[Word], owner: str) -> Box | None:

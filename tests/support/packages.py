@@ -60,21 +60,15 @@ def proposed_base(content: bytes) -> str:
     return str(next(proposal.value for proposal in DOMAIN.propose(snapshot) if proposal.option == "base"))
 
 
-def generate(
-    source: Path | bytes, target: Target, *, modifiers: Mapping[str, Any] | None = None, **options: Any
-) -> Package:
-    """The package of a URDF that has no errors.
-
-    `modifiers` replace template data of that name in every artifact that has it (for example
-    `assertion_level`); `options` are those of the domain.
-    """
+def generate(source: Path | bytes, target: Target, **options: Any) -> Package:
+    """The package of a URDF that has no errors; `options` are those of the domain."""
     chosen = Options(cross_check=False, **options)
     path = source if isinstance(source, Path) else Path("robot.urdf")
     content = source if isinstance(source, bytes) else source.read_bytes()
     reading = DOMAIN.read(content, path.name, chosen)
     assert reading.snapshot is not None, _texts(reading.diagnostics)
     imports, contents = _imports(reading, path, chosen)
-    return _render(reading.snapshot, imports, contents, target, chosen, modifiers or {})
+    return _render(reading.snapshot, imports, contents, target, chosen)
 
 
 def scaled(package: Package, factor: float) -> Package:
@@ -88,7 +82,7 @@ def scaled(package: Package, factor: float) -> Package:
         return value * factor if isinstance(value, float) else value
 
     options = package.options
-    return _render(scale(to_snapshot(package.robot)), {}, {}, package.target, options, {})
+    return _render(scale(to_snapshot(package.robot)), {}, {}, package.target, options)
 
 
 def _render(
@@ -97,7 +91,6 @@ def _render(
     contents: Mapping[str, bytes],
     target: Target,
     options: Options,
-    modifiers: Mapping[str, Any],
 ) -> Package:
     texts, roles = {}, {}
     for artifact in DOMAIN.artifacts(snapshot, imports, target, options):
@@ -105,9 +98,7 @@ def _render(
             texts[artifact.path] = "".join(f"{name}\n" for name in artifact.names)
             roles[artifact.path] = Role.ORDER
         else:
-            data = artifact.data
-            changed = {key: value for key, value in modifiers.items() if key in data}
-            texts[artifact.path] = RENDERER.render(artifact.template, {**data, **changed})
+            texts[artifact.path] = RENDERER.render(artifact.template, artifact.data)
             roles[artifact.path] = artifact.role
     robot = from_snapshot(snapshot)
     return Package(target, options, robot, Skeleton.of(robot, (target.name,)), texts, roles, contents)

@@ -232,9 +232,9 @@ class Scopes:
             node.bases = found
         return found
 
-    def names_in(self, types: Types) -> dict[str, Element]:
-        """All that is known to be in classes, inherited elements included."""
-        found: dict[str, Element] = {}
+    def names_in(self, types: Types) -> dict[str, bool]:
+        """The names of all that is known to be in classes, inherited elements included; whether each is a class."""
+        found: dict[str, bool] = {}
         waiting, seen = list(types), set[Node | str]()
         while waiting:
             one = waiting.pop(0)
@@ -243,29 +243,22 @@ class Scopes:
             node = one.node
             seen.add(node)
             if isinstance(node, str):
-                found |= {name: Element(name, None, (UNKNOWN,)) for name in _PREDEFINED.get(node, "").split()}
+                found |= dict.fromkeys(_PREDEFINED.get(node, "").split(), False)
                 continue
             below = self._sources.names_in(node.name) if node.definition.kind == "package" else ()
             classes = (inner.name.parts[0] for inner in node.definition.classes)
-            for name in (*node.components, *classes, *below, *(node.definition.literals or ())):
-                if name not in found and isinstance(element := self._member(one, name), Element):
-                    found[name] = element
+            found |= dict.fromkeys((*node.components, *(node.definition.literals or ())), False)
+            found |= dict.fromkeys((*classes, *below), True)
             waiting += self.bases(node)
         return found
 
-    def names_around(self, scope: Node | None) -> dict[str, Element]:
-        """All that can be used in a class by a simple name, as far as it is known."""
-        found: dict[str, Element] = {}
+    def names_around(self, scope: Node | None) -> dict[str, bool]:
+        """The simple names that can be used in a class, as far as they are known; whether each is that of a class."""
+        found = dict.fromkeys(self._sources.names_in(()), True)
         while scope is not None:
-            found = {**self.names_in((Type(scope),)), **found}
-            for one in scope.definition.imports:
-                for name in _imported(one):
-                    if name not in found and isinstance(element := self._import(one, name), Element):
-                        found[name] = element
+            imported = (name for one in scope.definition.imports for name in _imported(one))
+            found = {**dict.fromkeys(imported, True), **self.names_in((Type(scope),)), **found}
             scope = scope.parent
-        for name in self._sources.names_in(()):
-            if name not in found and isinstance(top := self._top(name), Node):
-                found[name] = Element(name, top.definition, (Type(top),))
         return found
 
     def _first(self, name: str, scope: Node | None) -> Element | Missing | Unknown:

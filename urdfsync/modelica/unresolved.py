@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 from urdfsync.modelica.scopes import UNKNOWN, Element, Missing, Node, Scopes, Type, Types
-from urdfsync.modelica.syntax import Class, Component, Extends, Modifier, Name
+from urdfsync.modelica.syntax import Component, Extends, Modifier, Name
 from urdfsync.spelling import nearest
 
 _RATHER_ALIKE, _ALIKE = 0.6, 0.75
@@ -38,8 +38,10 @@ class Unresolved(NamedTuple):
     owner: str
     """The full name of the class that lacks it."""
     line: int
-    near: Element | None = None
-    """The element whose name is most like it."""
+    near: str = ""
+    """The known name that is most like the part; empty if none is."""
+    element: Element | None = None
+    """What that name means, if it can be told."""
     is_field: bool = False
     """Whether the owner is a record."""
     is_part: bool = False
@@ -48,10 +50,8 @@ class Unresolved(NamedTuple):
     @property
     def meant(self) -> str:
         """The name with what is most like the part instead of it; empty if nothing is like it."""
-        if self.near is None:
-            return ""
-        parts = self.name.split(".")
-        return ".".join(self.near.name if part == self.part else part for part in parts)
+        parts = self.name.split(".") if self.near else []
+        return ".".join(self.near if part == self.part else part for part in parts)
 
 
 def unresolved(node: Node, scopes: Scopes, doubtful: Collection[str] = ()) -> Iterator[Unresolved]:
@@ -173,13 +173,15 @@ class _Walk:
             owner, is_field = str(scope) if scope else "", False
         if kind is Kind.FUNCTION and len(name.parts) > 1 and found.part != name.parts[-1]:
             kind = Kind.ELEMENT  # a component on the way to the function
-        if kind is Kind.CLASS:
-            known = {key: element for key, element in known.items() if isinstance(element.declaration, Class)}
+        candidates = {key for key, is_class in known.items() if is_class or kind is not Kind.CLASS} - {found.part}
         is_library = not found.types and len(name.parts) > 1 and found.part[:1].isupper()
-        near = known.get(nearest(found.part, known.keys() - {found.part}, _ALIKE if is_library else _RATHER_ALIKE))
-        if is_library and near is None and found.part not in self._doubtful:
+        near = nearest(found.part, sorted(candidates), _ALIKE if is_library else _RATHER_ALIKE)
+        meant = Name((near,), name.line)
+        like = self._scopes.part(found.types, near) if found.types else self._scopes.lookup(meant, scope)
+        element = like if near and isinstance(like, Element) else None
+        if is_library and not near and found.part not in self._doubtful:
             return  # it may be a library that is not at hand: a compiler says so
-        yield Unresolved(kind, str(name), found.part, owner, name.line, near, is_field, is_part)
+        yield Unresolved(kind, str(name), found.part, owner, name.line, near, element, is_field, is_part)
 
 
 def first_type(element: Element) -> Type | None:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TypeAlias
+
+import msgspec
 
 from urdfsync.classfiles import StoredClasses
 from urdfsync.config import library_folder, shown
@@ -28,81 +31,83 @@ _KEPT = frozenset({ActionKind.NEEDED, ActionKind.ORPHAN})
 """What happens to files that stay although they are no longer generated."""
 
 
+class UsersTexts(msgspec.Struct, frozen=True):
+    """Texts of the user's that may use names of a package."""
+
+    own: Mapping[str, str]
+    """Edited files and own classes in the package, by their keys."""
+    kept: Mapping[str, str]
+    """Files of the package that stay although they are no longer generated; these are not looked at."""
+    around: Mapping[Path, bytes]
+    """Files below the output folder that have to do with the package."""
+
+    def __bool__(self) -> bool:
+        return bool(self.own or self.around)
+
+
 class DanglingNames:
-    """Finds uses of lost names in texts of the user's: edited files, own classes, files around the package."""
+    """Finds uses of lost names, which are given with their new names."""
 
-    def __init__(
-        self,
-        situation: Situation,
-        paths: Sequence[str],
-        content: Callable[[str], bytes],
-        before: Mapping[str, str],
-        now: Mapping[str, str],
-        renamed: Mapping[str, str],
-    ) -> None:
-        """`content` gives the texts of generated files, whose paths are `paths`; for the others see `lost_names`."""
+    def __init__(self, situation: Situation, paths: Sequence[str], content: Callable[[str], bytes]) -> None:
+        """`paths` are those of the generated files below the package, `content` gives the text of each."""
         self._situation, self._paths, self._content = situation, paths, content
-        self._generated = Scopes(self._planned({}, {}))
-        self._lost = lost_names(before, now, renamed, self._is_inherited)
-        """New names by lost ones."""
-        recorded, package = situation.recorded, situation.robot.target.package
-        if recorded and recorded.package != package:
-            self._lost[recorded.package.rpartition(".")[2]] = package
 
-    def first_use(self, key: str, text: str) -> tuple[str, int] | None:
-        """The first lost name in a text for a file of the package, with its line; None if there is none."""
-        if self._lost.keys().isdisjoint(words(text)):
-            return None
-        scopes = Scopes(self._planned({key: text}, {}))
-        uses = self._uses(self._class_name(key), text, scopes, self._lost)
-        return (uses[0].part, uses[0].line) if uses else None
+    @functools.cached_property
+    def _generated(self) -> Scopes:
+        """The package as it is generated, without edits."""
+        return Scopes(self._planned({}, {}))
 
-    def warnings(self, actions: Iterable[Action], written: Mapping[str, str]) -> list[Diagnostic]:
-        """One warning for each lost name in each file; `written` are texts that files are about to get."""
-        if not self._lost:
-            return []
-        situation, known = self._situation, {action.path: action for action in actions}
-        kept = {path for path, action in known.items() if action.kind in _KEPT}
-        edited = {path for path, action in known.items() if action.kind in _EDITED and not action.held}
-        own = situation.disk.classes(situation.folder) - known.keys()
-        texts = {key: written.get(key) or situation.disk.any_text(key) for key in sorted(edited | own | kept)}
-        before = situation.recorded.folder if situation.recorded else situation.folder
-        others = situation.disk.users_files({situation.folder, before})
-        sources = self._planned(texts, others)
-        scopes = Scopes(sources)
-        doubtful = self._lost.keys() - {path.rpartition("/")[2].removesuffix(".mo") for path in kept}
-        asked = [(self._class_name(key), situation.disk.path(key), texts[key]) for key in sorted(edited | own)]
-        asked += [(name, Path(one.file), "") for name, one in sources.users.items()]
-        asked += [((), path, others[path].decode(errors="replace")) for path in sources.unread]
-        found = []
-        for name, file, text in asked:
-            uses: dict[str, list[Unresolved]] = {}
-            for use in self._uses(name, text, scopes, doubtful):
-                uses.setdefault(use.part, []).append(use)
-            found += [self._warning(file, one) for one in uses.values()]
-        return found
-
-    def _uses(self, name: Name, text: str, scopes: Scopes, doubtful: Collection[str]) -> list[Unresolved]:
-        """As `find_uses`, without what the generated text of the class says, too: that is in order."""
-        uses = find_uses(name, text, scopes, self._lost, doubtful)
-        if not uses or name not in {self._class_name(self._situation.key(path)) for path in self._paths}:
-            return uses
-        generated = {use.name for use in find_uses(name, "", self._generated, self._lost, doubtful)}
-        return [use for use in uses if use.name not in generated]
-
-    def _is_inherited(self, path: Name) -> bool:
-        """Whether a class below the package still has an element, from a class that it extends."""
+    def is_inherited(self, path: Name) -> bool:
+        """Whether a class has an element because it extends another one; `path` counts from the package."""
         node = self._generated.node((*self._situation.robot.target.package.split("."), *path[:-1]))
         return isinstance(node, Node) and isinstance(self._generated.part((Type(node),), path[-1]), Element)
 
-    def _warning(self, file: Path, uses: Sequence[Unresolved]) -> Diagnostic:
-        name, first = uses[0].part, uses[0].line
-        new, lines = self._lost[name], sorted({use.line for use in uses} - {first})
-        message = f"`{uses[0].name}` is used here, but the package has no `{name}` any more"
-        hints = [f"it is `{new}` now" if new else "adapt your text to what the package is now"]
-        if lines:
-            hints.append(f"also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines))}")
-        return Diagnostic(Severity.WARNING, "vanished-name", message, shown(file), first, hint="; ".join(hints))
+    def users_texts(self, actions: Iterable[Action], written: Mapping[str, str]) -> UsersTexts:
+        """The texts to look at after these actions; `written` are texts that files are about to get."""
+        disk, folder, known = self._situation.disk, self._situation.folder, {action.path: action for action in actions}
+        kept = [path for path, action in known.items() if action.kind in _KEPT]
+        edited = {path for path, action in known.items() if action.kind in _EDITED and not action.held}
+        own = disk.classes(folder) - known.keys()
+        before = self._situation.recorded.folder if self._situation.recorded else folder
+        return UsersTexts(
+            {key: written.get(key) or disk.any_text(key) for key in sorted(edited | own)},
+            {key: disk.any_text(key) for key in kept},
+            disk.users_files({folder, before}),
+        )
+
+    def first_use(self, key: str, text: str, lost: Mapping[str, str]) -> tuple[str, int] | None:
+        """The first lost name in a text for a file of the package, with its line; None if there is none."""
+        if lost.keys().isdisjoint(words(text)):
+            return None
+        scopes = Scopes(self._planned({key: text}, {}))
+        uses = self._uses(self._class_name(key), text, scopes, lost, lost)
+        return (uses[0].part, uses[0].line) if uses else None
+
+    def warnings(self, texts: UsersTexts, lost: Mapping[str, str]) -> list[Diagnostic]:
+        """One warning for each lost name in each file."""
+        sources = self._planned({**texts.own, **texts.kept}, texts.around)
+        scopes = Scopes(sources)
+        doubtful = lost.keys() - {path.rpartition("/")[2].removesuffix(".mo") for path in texts.kept}
+        asked = [(self._class_name(key), self._situation.disk.path(key), text) for key, text in texts.own.items()]
+        asked += [(name, Path(one.file), "") for name, one in sources.users.items()]
+        asked += [((), path, texts.around[path].decode(errors="replace")) for path in sources.unread]
+        found = []
+        for name, file, text in asked:
+            uses: dict[str, list[Unresolved]] = {}
+            for use in self._uses(name, text, scopes, lost, doubtful):
+                uses.setdefault(use.part, []).append(use)
+            found += [_warning(file, one, lost[part]) for part, one in uses.items()]
+        return found
+
+    def _uses(
+        self, name: Name, text: str, scopes: Scopes, lost: Collection[str], doubtful: Collection[str]
+    ) -> list[Unresolved]:
+        """As `find_uses`, without what the generated text of the class says, too: that is in order."""
+        uses = find_uses(name, text, scopes, lost, doubtful)
+        if not uses or name not in {self._class_name(self._situation.key(path)) for path in self._paths}:
+            return uses
+        generated = {use.name for use in find_uses(name, "", self._generated, lost, doubtful)}
+        return [use for use in uses if use.name not in generated]
 
     def _planned(self, texts: Mapping[str, str], others: Mapping[Path, bytes]) -> StoredClasses:
         """The classes as they will be after the build: `texts` of the package by their keys, `others` of the user's."""
@@ -129,6 +134,15 @@ class DanglingNames:
         *folders, file = key.removeprefix(self._situation.key("")).removesuffix(".mo").split("/")
         package = self._situation.robot.target.package.split(".")
         return (*package, *folders) if file == "package" else (*package, *folders, file)
+
+
+def _warning(file: Path, uses: Sequence[Unresolved], new: str) -> Diagnostic:
+    first, lines = uses[0].line, sorted({use.line for use in uses} - {uses[0].line})
+    message = f"`{uses[0].name}` is used here, but the package has no `{uses[0].part}` any more"
+    hints = [f"it is `{new}` now" if new else "adapt your text to what the package is now"]
+    if lines:
+        hints.append(f"also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines))}")
+    return Diagnostic(Severity.WARNING, "vanished-name", message, shown(file), first, hint="; ".join(hints))
 
 
 def lost_names(

@@ -15,7 +15,7 @@ from urdfsync.domain import Role, Target
 from urdfsync.moves import places
 from urdfsync.plan import FileRecord, State, Wanted
 from urdfsync.planning import imports, inputs, leftovers
-from urdfsync.planning.dangling import DanglingNames
+from urdfsync.planning.dangling import DanglingNames, lost_names
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.generate import Generated, artifacts
 from urdfsync.planning.outputs import Outputs
@@ -209,23 +209,37 @@ class Renewal:
         return next((text for text in found if text is not None), None)
 
     @functools.cached_property
-    def _dangling(self) -> DanglingNames | None:
-        """Finds uses of the names that the package loses; None if no class changes or goes."""
-        recorded, situation = self._situation.recorded, self._situation
+    def _replaced(self) -> dict[str, str]:
+        """Hashes of what was written last to files that get another text, or none; of records, only those that go."""
+        recorded, now = self._situation.recorded, self._generated.artifacts
         if recorded is None or self._situation.recovered is not None:
-            return None
-        now, before = self._generated.artifacts, dict[str, str]()
+            return {}
+        found = {}
         for key, record in recorded.files.items():
             path = self._old_path(key)
-            stays = path in now and (path not in self._outputs.stale or record.role is Role.RECORD)
-            text_role = record.role in (Role.MODEL, Role.RECORD, Role.PACKAGE)
-            if text_role and record.base is not None and record.state is not State.ORPHAN and not stays:
-                before[path] = self.base(key, record.base) or ""
-        if not before:
-            return None
-        differing = self._outputs.stale | self._differing.render
-        texts = {path: self._outputs.content(path).decode() for path in now if path in differing}
-        return DanglingNames(situation, list(now), self._outputs.content, before, texts, self._renamed())
+            stays = path in now and (record.role is Role.RECORD or not self._is_new(path, record))
+            is_text = record.role in (Role.MODEL, Role.RECORD, Role.PACKAGE) and record.state is not State.ORPHAN
+            if is_text and not stays and record.base is not None:
+                found[path] = record.base
+        return found
+
+    @functools.cached_property
+    def _lost(self) -> dict[str, str]:
+        """The names that the package loses, with their new names."""
+        recorded, package = self._situation.recorded, self._situation.robot.target.package
+        before = {path: self._outputs.base(path, digest) or "" for path, digest in self._replaced.items()}
+        if recorded is None or not before:
+            return {}
+        records = {self._old_path(key): record for key, record in recorded.files.items()}
+        changed = [path for path in self._generated.artifacts if self._is_new(path, records.get(path))]
+        now = {path: self._outputs.content(path).decode() for path in changed}
+        moved = {recorded.package.rpartition(".")[2]: package} if recorded.package != package else {}
+        return {**lost_names(before, now, self._renamed(), self._dangling.is_inherited), **moved}
+
+    def _is_new(self, path: str, record: FileRecord | None) -> bool:
+        """Whether the text of a generated file can be another one than what was written last."""
+        waits = record is None or record.state in (State.WAITING, State.CONFLICT)
+        return waits or path in self._outputs.stale
 
     def _renamed(self) -> dict[str, str]:
         """Old and new identifiers of elements."""
@@ -236,7 +250,7 @@ class Renewal:
         renames = found.renames if found else {}
         domain, target = situation.domain, Target(recorded.package, recorded.class_)
         try:
-            old = domain.names(settled.snapshot, target)
+            old = recorded.names if settled is situation.last else domain.names(settled.snapshot, target)
         except NO_MODEL:
             return {}  # what is recorded is no model of the domain
         new = domain.names(self._snapshot, situation.robot.target)
@@ -246,6 +260,11 @@ class Renewal:
             for name, identifier in identifiers.items()
         )
         return {before: after for before, after in pairs if before != after}
+
+    @functools.cached_property
+    def _dangling(self) -> DanglingNames:
+        """Finds uses of the names that the package loses."""
+        return DanglingNames(self._situation, list(self._generated.artifacts), self._outputs.content)
 
     def _lost_connectors(self, found: Changes | None) -> list[Diagnostic]:
         """Notes on what users may have connected to, and what has another name now, or none."""
@@ -265,11 +284,14 @@ class Renewal:
 
     def _uses(self, decision: Decision) -> list[Diagnostic]:
         """Warnings about texts of the user's that use names that the package loses."""
-        return self._dangling.warnings(decision.actions, decision.texts) if self._dangling else []
+        if not self._replaced:
+            return []
+        texts = self._dangling.users_texts(decision.actions, decision.texts)  # parsing a large package takes longer
+        return self._dangling.warnings(texts, self._lost) if texts and self._lost else []
 
     def lost_use(self, key: str, text: str) -> tuple[str, int] | None:
         """The first name in a text for a file that the package loses, with its line."""
-        return self._dangling.first_use(key, text) if self._dangling else None
+        return self._dangling.first_use(key, text, self._lost) if self._lost else None
 
     def _old_path(self, key: str) -> str:
         """Path of a file of the last build below the folder that the package had then."""
@@ -281,7 +303,8 @@ class Renewal:
         if recorded is None:
             return {}
         before, now = self._before.artifacts if self._before else {}, self._generated.artifacts
-        alike = recorded.folder == situation.folder and not renames and self._is_placed_alike()
+        given = self._identified_anew()
+        alike = recorded.folder == situation.folder and not renames and not given and self._is_placed_alike()
         if alike and not any(record.origin for record in recorded.special.values()):
             return {}
         texts = {
@@ -290,9 +313,28 @@ class Renewal:
             if record.role is not Role.IMPORT and record.state is not State.ORPHAN
         }
         old = {path: (a.owner, a.template) for path, a in before.items() if path in texts}
+        old |= {path: (before[place].owner, before[place].template) for path, place in given.items()}
         renamed = changes.moves(old, {path: (a.owner, a.template) for path, a in now.items()}, renames)
         targets = {situation.old_key(path): situation.key(renamed.get(path, path)) for path in texts}
         return places(recorded.files, targets, {situation.key(path) for path in now})
+
+    def _identified_anew(self) -> Mapping[str, str]:
+        """Where the last model would have files today that an older program called otherwise, by their paths."""
+        situation, last, recorded = self._situation, self._situation.last, self._situation.recorded
+        if last is None or recorded is None or self._before is None:
+            return {}
+        names = situation.domain.names(last.snapshot, Target(recorded.package, recorded.class_))
+        owners = {
+            f"{kind.removesuffix('s')} {name}"
+            for kind, identifiers in recorded.names.items()
+            for name, identifier in identifiers.items()
+            if names.get(kind, {}).get(name, identifier) != identifier
+        }
+        if not owners:
+            return {}
+        files = {self._old_path(key): (one.owner, str(one.role)) for key, one in recorded.files.items()}
+        today = {path: (one.owner, str(one.role)) for path, one in self._before.artifacts.items()}
+        return changes.moves({path: key for path, key in files.items() if key[0] in owners}, today, {})
 
     def _is_placed_alike(self) -> bool:
         """Whether every file of the last build still is one: of the same element, from the same template."""

@@ -68,6 +68,10 @@ beside its world. A default ground at height 0 is used instead.",
 The ground is the plane <code>z = height</code> of the world, whose gravity must act along <code>-z</code>. Declare it as
 <code>inner</code> in the model that is simulated, with the weight of the robot as <code>load</code>.
 </p>
+<pre>
+stiffness = load/penetration                              N/m
+damping   = 2*dampingRatio/sqrt(g_n*penetration)          s/m
+</pre>
 <p>
 The load sets the stiffness, so that light and heavy robots sink in by the same small depth: <code>penetration</code>
 divided by the number of points that share the weight. A load that is too large makes the ground harder than necessary, which

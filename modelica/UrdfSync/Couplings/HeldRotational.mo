@@ -14,8 +14,12 @@ equation
   follower.phi = parameters.offset;
 
   annotation (Documentation(info="<html>
+<pre>
+phi_follower = c
+</pre>
 <p>
-A fixed joint is at position zero all the time; what follows it is held at the offset.
+The offset <code>c</code> is in rad. A fixed joint is at position zero all the time; so what follows it is held at the offset, and the multiplier has no effect. The coupling takes whatever
+torque that needs, in N.m.
 </p>
 </html>"));
 end HeldRotational;

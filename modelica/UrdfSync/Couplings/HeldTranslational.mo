@@ -14,8 +14,12 @@ equation
   follower.s = parameters.offset;
 
   annotation (Documentation(info="<html>
+<pre>
+s_follower = c
+</pre>
 <p>
-A fixed joint is at position zero all the time; what follows it is held at the offset.
+The offset <code>c</code> is in m. A fixed joint is at position zero all the time; so what follows it is held at the offset, and the multiplier has no effect. The coupling takes whatever
+force that needs, in N.
 </p>
 </html>"));
 end HeldTranslational;

@@ -45,9 +45,23 @@ equation
   leader.f + parameters.multiplier*follower.tau = 0;
 
   annotation (Documentation(info="<html>
+<pre>
+phi_follower = k*s_leader + c
+f_leader = -k*tau_follower
+</pre>
+<table border=\"1\" cellspacing=\"0\" cellpadding=\"4\">
+<tr><th align=\"left\">symbol</th><th align=\"left\">parameter</th><th align=\"left\">unit</th><th align=\"left\">meaning</th></tr>
+<tr><td><code>s_leader</code></td><td></td><td>m</td><td>position of the joint that is followed</td></tr>
+<tr><td><code>phi_follower</code></td><td></td><td>rad</td><td>position of the joint that follows</td></tr>
+<tr><td><code>k</code></td><td><code>multiplier</code></td><td>rad/m</td><td>motion of the follower per motion of the leader</td></tr>
+<tr><td><code>c</code></td><td><code>offset</code></td><td>rad</td><td>position of the follower where the leader is at zero</td></tr>
+<tr><td><code>f_leader</code></td><td></td><td>N</td><td>force into the coupling at the leader's axis</td></tr>
+<tr><td><code>tau_follower</code></td><td></td><td>N.m</td><td>torque into the coupling at the follower's axis</td></tr>
+</table>
 <p>
-The position relation of URDF's <code>&lt;mimic&gt;</code> element, and the balance of power without loss that follows from it
-(principle of virtual work).
+The first equation is the position relation of URDF's <code>&lt;mimic&gt;</code> element. The second one is the balance of power
+<code>f_leader*der(s_leader) + tau_follower*der(phi_follower) = 0</code> of a coupling without loss, inertia and play, for every motion that the first one allows
+(principle of virtual work; Featherstone: Rigid Body Dynamics Algorithms, 2008, section 3.2).
 </p>
 </html>"));
 end TranslationalToRotational;

@@ -32,26 +32,17 @@ model RotationalSweep "Moves one axis smoothly to the roomier end of its range a
     "Housing of the drive"
     annotation (Placement(transformation(extent={{-10, -110}, {10, -90}})));
 
-  Modelica.Blocks.Sources.Cosine acceleration(
-    amplitude = 2*(Modelica.Constants.pi/period)^2*(phi_end - phi_start),
-    f = 1/period)
-    "Second derivative of the way"
-    annotation (Placement(transformation(extent={{-60, -10}, {-40, 10}})));
+  Modelica.Units.SI.Angle phi(start = phi_start, fixed = true, stateSelect = StateSelect.prefer)
+    "Position of the axis relative to the housing";
 
-  Modelica.Mechanics.Rotational.Sources.Accelerate accelerate(
-    useSupport = true,
-    phi(start = phi_start, fixed = true),
-    w(start = 0, fixed = true))
-    "Moves the axis"
-    annotation (Placement(transformation(extent={{0, -10}, {20, 10}})));
+  Modelica.Units.SI.AngularVelocity w(start = 0, fixed = true, stateSelect = StateSelect.prefer)
+    "Speed of the axis relative to the housing";
 
 equation
-  connect(acceleration.y, accelerate.a_ref)
-    annotation (Line(points={{-39, 0}, {-2, 0}}, color={0, 0, 127}));
-  connect(accelerate.flange, flange)
-    annotation (Line(points={{20, 0}, {100, 0}}, color={0, 0, 0}));
-  connect(accelerate.support, support)
-    annotation (Line(points={{10, -10}, {10, -60}, {0, -60}, {0, -100}}, color={0, 0, 0}));
+  phi = flange.phi - support.phi;
+  w = der(phi);
+  der(w) = 2*(Modelica.Constants.pi/period)^2*(phi_end - phi_start)*cos(2*Modelica.Constants.pi*time/period);
+  flange.tau + support.tau = 0;
 
   annotation (Documentation(info="<html>
 <p>

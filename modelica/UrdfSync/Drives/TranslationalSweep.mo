@@ -32,26 +32,17 @@ model TranslationalSweep "Moves one axis smoothly to the roomier end of its rang
     "Housing of the drive"
     annotation (Placement(transformation(extent={{-10, -110}, {10, -90}})));
 
-  Modelica.Blocks.Sources.Cosine acceleration(
-    amplitude = 2*(Modelica.Constants.pi/period)^2*(s_end - s_start),
-    f = 1/period)
-    "Second derivative of the way"
-    annotation (Placement(transformation(extent={{-60, -10}, {-40, 10}})));
+  Modelica.Units.SI.Position s(start = s_start, fixed = true, stateSelect = StateSelect.prefer)
+    "Position of the axis relative to the housing";
 
-  Modelica.Mechanics.Translational.Sources.Accelerate accelerate(
-    useSupport = true,
-    s(start = s_start, fixed = true),
-    v(start = 0, fixed = true))
-    "Moves the axis"
-    annotation (Placement(transformation(extent={{0, -10}, {20, 10}})));
+  Modelica.Units.SI.Velocity v(start = 0, fixed = true, stateSelect = StateSelect.prefer)
+    "Speed of the axis relative to the housing";
 
 equation
-  connect(acceleration.y, accelerate.a_ref)
-    annotation (Line(points={{-39, 0}, {-2, 0}}, color={0, 0, 127}));
-  connect(accelerate.flange, flange)
-    annotation (Line(points={{20, 0}, {100, 0}}, color={0, 127, 0}));
-  connect(accelerate.support, support)
-    annotation (Line(points={{10, -10}, {10, -60}, {0, -60}, {0, -100}}, color={0, 127, 0}));
+  s = flange.s - support.s;
+  v = der(s);
+  der(v) = 2*(Modelica.Constants.pi/period)^2*(s_end - s_start)*cos(2*Modelica.Constants.pi*time/period);
+  flange.f + support.f = 0;
 
   annotation (Documentation(info="<html>
 <p>

@@ -9,7 +9,7 @@ model ComputedTorque "An arm that follows a motion, by inverse dynamics and feed
   parameter Modelica.Units.SI.AngularFrequency bandwidth = 40
     "Eigenfrequency of the error, with a damping ratio of 1";
 
-  parameter Modelica.Units.SI.Time rise = 1
+  parameter Modelica.Units.SI.Time rise = 0.6
     "Time of the motion";
 
   parameter Modelica.Units.SI.Angle start[6] = {0, 0.4, 0.6, 0, 0.5, 0}
@@ -105,7 +105,7 @@ algorithm
   end when;
 
   annotation (
-    experiment(StopTime=1.2, Interval=0.01, Tolerance=1e-6),
+    experiment(StopTime=0.8, Interval=0.01, Tolerance=1e-6),
     Documentation(info="<html>
 <p>
 Computed-torque control, also known as inverse dynamics control (Siciliano et al.: Robotics, 2009, section 8.5.2). The inverse dynamics

@@ -40,13 +40,12 @@ another record:
 </p>
 <pre>
 model WheeledBench = UrdfSync.Examples.GenericRobot(
-  redeclare record Parameters = UrdfSync.Examples.WheeledRobot.WheeledRobotParameters,
-  robot(data(rotationalAxes = 7, translationalAxes = 1)));
+  redeclare record Parameters = UrdfSync.Examples.WheeledRobot.WheeledRobotParameters);
 </pre>
 <p>
-The last line repeats what the record says. Only rumoca, the compiler behind <code>urdfsync check</code>, needs it, where the numbers of axes are not those
-of the record before: see <a href=\"modelica://UrdfSync.UsersGuide.RecordApproach\">the limits</a>. <a href=\"modelica://UrdfSync.Examples.RobotStudy\">RobotStudy</a>
-has three robots on this bench.
+rumoca, the compiler behind <code>urdfsync check</code>, takes that only for robots with the same numbers of links, joints and axes: see
+<a href=\"modelica://UrdfSync.UsersGuide.RecordApproach\">the limits</a>. <a href=\"modelica://UrdfSync.Examples.RobotStudy\">RobotStudy</a>
+has three robots.
 </p>
 </html>"));
 end GenericRobot;

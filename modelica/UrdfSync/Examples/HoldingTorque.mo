@@ -9,7 +9,7 @@ model HoldingTorque "A bench by hand: a generated robot, driven by torque at one
 
   UrdfSync.Examples.PlanarPlatform.PlanarPlatform robot
     "Platform with a boom on top"
-    annotation (Placement(transformation(extent={{0, -60}, {40, -20}})));
+    annotation (Placement(transformation(extent={{0, -60}, {40, -14}})));
 
   Modelica.Mechanics.Rotational.Components.SpringDamper holder(
     c = 200,
@@ -20,17 +20,17 @@ model HoldingTorque "A bench by hand: a generated robot, driven by torque at one
 equation
   connect(world.frame_b, robot.frame_a)
     annotation (Line(points={{-40, -40}, {0, -40}}, color={95, 95, 95}, thickness=0.5));
-  connect(holder.flange_b, robot.rotationalAxis[robot.boom_swingAxis])
-    annotation (Line(points={{0, 20}, {8, 20}, {8, -20}}, color={0, 0, 0}));
-  connect(holder.flange_a, robot.rotationalSupport[robot.boom_swingAxis])
-    annotation (Line(points={{-20, 20}, {-26, 20}, {-26, 0}, {14, 0}, {14, -20}}, color={0, 0, 0}));
+  connect(holder.flange_b, robot.boom_swingAxis)
+    annotation (Line(points={{0, 20}, {0, -16}}, color={0, 0, 0}));
+  connect(holder.flange_a, robot.boom_swingSupport)
+    annotation (Line(points={{-20, 20}, {-26, 20}, {-26, -18}, {0, -18}}, color={0, 0, 0}));
 
   annotation (
     experiment(StopTime=2, Interval=0.01, Tolerance=1e-6),
     Documentation(info="<html>
 <p>
-The axis is named by its constant, <code>robot.boom_swingAxis</code>. A bench that does so stays right when the robot gets
-more joints and its axes get other numbers.
+Axis and housing of a drive are named after their joint, <code>robot.boom_swingAxis</code> and <code>robot.boom_swingSupport</code>. So a bench
+stays right when the robot gets more joints.
 </p>
 </html>"));
 end HoldingTorque;

@@ -118,37 +118,37 @@ record Robot "Numbers of a whole robot: what all robots have"
     "Per link: elements {xx, yy, zz, xy, xz, yz} about the centre of mass, in the inertial frame";
 
   // rumoca does not find the sizes of arrays that a function gives where they are modifiers of a record: so they are components here.
-  final parameter Real linkRotations[size(linkBodies, 1), 3, 3](each unit = "1") =
+  final Real linkRotations[size(linkBodies, 1), 3, 3](each unit = "1") =
     UrdfSync.Dynamics.linkRotations(connectionMatrix, linkBodies, jointAngles)
     "Per link: rotation in its body";
 
-  final parameter Modelica.Units.SI.Position linkPositions[size(linkBodies, 1), 3] =
+  final Modelica.Units.SI.Position linkPositions[size(linkBodies, 1), 3] =
     UrdfSync.Dynamics.linkPositions(connectionMatrix, linkBodies, jointPositions, linkRotations)
     "Per link: origin in its body";
 
-  final parameter Real jointRotations[size(jointTree, 1), 3, 3](each unit = "1") =
+  final Real jointRotations[size(jointTree, 1), 3, 3](each unit = "1") =
     UrdfSync.Dynamics.jointRotations(connectionMatrix, linkBodies, jointTree, jointAngles, linkRotations)
     "Per moving joint: rotation at position zero in the body that carries it";
 
-  final parameter Modelica.Units.SI.Position jointOrigins[size(jointTree, 1), 3] =
+  final Modelica.Units.SI.Position jointOrigins[size(jointTree, 1), 3] =
     UrdfSync.Dynamics.jointOrigins(connectionMatrix, linkBodies, jointTree, jointPositions, linkRotations, linkPositions)
     "Per moving joint: origin at position zero in the body that carries it";
 
-  final parameter Real turnAxes[size(jointTree, 1), 3](each unit = "1") = UrdfSync.Dynamics.turnAxes(jointTree, jointAxes)
+  final Real turnAxes[size(jointTree, 1), 3](each unit = "1") = UrdfSync.Dynamics.turnAxes(jointTree, jointAxes)
     "Per moving joint: unit vector along its axis; zero if it slides";
 
-  final parameter Modelica.Units.SI.Position slideAxes[size(jointTree, 1), 3] = UrdfSync.Dynamics.slideAxes(jointTree, jointAxes)
+  final Modelica.Units.SI.Position slideAxes[size(jointTree, 1), 3] = UrdfSync.Dynamics.slideAxes(jointTree, jointAxes)
     "Per moving joint: vector of one metre along its axis; zero if it turns";
 
-  final parameter Modelica.Units.SI.Mass bodyMasses[size(jointTree, 1) + 1] =
+  final Modelica.Units.SI.Mass bodyMasses[size(jointTree, 1) + 1] =
     UrdfSync.Dynamics.bodyMasses(linkBodies, linkMasses, size(jointTree, 1))
     "Per body: mass";
 
-  final parameter Real bodyMoments[size(jointTree, 1) + 1, 3](each unit = "kg.m") =
+  final Real bodyMoments[size(jointTree, 1) + 1, 3](each unit = "kg.m") =
     UrdfSync.Dynamics.bodyMoments(linkBodies, linkRotations, linkPositions, linkMasses, linkCenters, size(jointTree, 1))
     "Per body: mass times centre of mass";
 
-  final parameter Modelica.Units.SI.MomentOfInertia bodyInertias[size(jointTree, 1) + 1, 3, 3](each min = -Modelica.Constants.inf) =
+  final Modelica.Units.SI.MomentOfInertia bodyInertias[size(jointTree, 1) + 1, 3, 3](each min = -Modelica.Constants.inf) =
     UrdfSync.Dynamics.bodyInertias(
       linkBodies,
       linkRotations,
@@ -160,7 +160,7 @@ record Robot "Numbers of a whole robot: what all robots have"
       size(jointTree, 1))
     "Per body: inertia tensor about its origin";
 
-  final parameter RigidBodyTree tree(
+  final RigidBodyTree tree(
     jointTree = jointTree,
     linkBodies = linkBodies,
     linkRotations = linkRotations,

@@ -88,54 +88,30 @@ protected
   Modelica.Units.SI.Force f_s[n + 1, 3]
     "Sums likewise: force";
 
-  Real J_s1[n + 1, 3](each unit = "kg.m2")
-    "Sums likewise: first row of torque per angular acceleration";
+  Real J_s[n + 1, 3, 3](each unit = "kg.m2")
+    "Sums likewise: torque per angular acceleration";
 
-  Real J_s2[n + 1, 3](each unit = "kg.m2")
-    "Sums likewise: second row of torque per angular acceleration";
+  Real H_s[n + 1, 3, 3](each unit = "kg.m")
+    "Sums likewise: torque per acceleration";
 
-  Real J_s3[n + 1, 3](each unit = "kg.m2")
-    "Sums likewise: third row of torque per angular acceleration";
-
-  Real H_s1[n + 1, 3](each unit = "kg.m")
-    "Sums likewise: first row of torque per acceleration";
-
-  Real H_s2[n + 1, 3](each unit = "kg.m")
-    "Sums likewise: second row of torque per acceleration";
-
-  Real H_s3[n + 1, 3](each unit = "kg.m")
-    "Sums likewise: third row of torque per acceleration";
-
-  Real M_s1[n + 1, 3](each unit = "kg")
-    "Sums likewise: first row of force per acceleration";
-
-  Real M_s2[n + 1, 3](each unit = "kg")
-    "Sums likewise: second row of force per acceleration";
-
-  Real M_s3[n + 1, 3](each unit = "kg")
-    "Sums likewise: third row of force per acceleration";
+  Real M_s[n + 1, 3, 3](each unit = "kg")
+    "Sums likewise: force per acceleration";
 
 equation
   z[1, :] = z_a;
   b[1, :] = b_a;
-  J_s1[n + 1, :] = {0, 0, 0};
-  J_s2[n + 1, :] = {0, 0, 0};
-  J_s3[n + 1, :] = {0, 0, 0};
-  H_s1[n + 1, :] = {0, 0, 0};
-  H_s2[n + 1, :] = {0, 0, 0};
-  H_s3[n + 1, :] = {0, 0, 0};
-  M_s1[n + 1, :] = {0, 0, 0};
-  M_s2[n + 1, :] = {0, 0, 0};
-  M_s3[n + 1, :] = {0, 0, 0};
+  J_s[n + 1, :, :] = zeros(3, 3);
+  H_s[n + 1, :, :] = zeros(3, 3);
+  M_s[n + 1, :, :] = zeros(3, 3);
   t_s[n + 1, :] = {0, 0, 0};
   f_s[n + 1, :] = {0, 0, 0};
 
   for i in 1:n + 1 loop
-    J_A[i, :, :] = J[i, :, :] + [J_s1[data.firstJoints[i], 1], J_s1[data.firstJoints[i], 2], J_s1[data.firstJoints[i], 3]; J_s2[data.firstJoints[i], 1], J_s2[data.firstJoints[i], 2], J_s2[data.firstJoints[i], 3]; J_s3[data.firstJoints[i], 1], J_s3[data.firstJoints[i], 2], J_s3[data.firstJoints[i], 3]];
-    H_A[i, :, :] = [0, -h[i, 3], h[i, 2]; h[i, 3], 0, -h[i, 1]; -h[i, 2], h[i, 1], 0] + [H_s1[data.firstJoints[i], 1], H_s1[data.firstJoints[i], 2], H_s1[data.firstJoints[i], 3]; H_s2[data.firstJoints[i], 1], H_s2[data.firstJoints[i], 2], H_s2[data.firstJoints[i], 3]; H_s3[data.firstJoints[i], 1], H_s3[data.firstJoints[i], 2], H_s3[data.firstJoints[i], 3]];
-    M_A[i, :, :] = [m_b[i], 0, 0; 0, m_b[i], 0; 0, 0, m_b[i]] + [M_s1[data.firstJoints[i], 1], M_s1[data.firstJoints[i], 2], M_s1[data.firstJoints[i], 3]; M_s2[data.firstJoints[i], 1], M_s2[data.firstJoints[i], 2], M_s2[data.firstJoints[i], 3]; M_s3[data.firstJoints[i], 1], M_s3[data.firstJoints[i], 2], M_s3[data.firstJoints[i], 3]];
-    t_A[i, :] = cross(w[i, :], J[i, :, :]*w[i, :]) + t_s[data.firstJoints[i], :];
-    f_A[i, :] = cross(w[i, :], cross(w[i, :], h[i, :])) + f_s[data.firstJoints[i], :];
+    J_A[i, :, :] = J[i, :, :] + J_s[data.firstJoints[i], :, :];
+    H_A[i, :, :] = skew(h[i, :]) + H_s[data.firstJoints[i], :, :];
+    M_A[i, :, :] = m_b[i]*identity(3) + M_s[data.firstJoints[i], :, :];
+    t_A[i, :] = cross(w[i, :], J[i, :, :]*w[i, :]) - t_tool[i, :] + t_s[data.firstJoints[i], :];
+    f_A[i, :] = cross(w[i, :], cross(w[i, :], h[i, :])) - f_tool[i, :] + f_s[data.firstJoints[i], :];
   end for;
 
   for i in 1:n loop
@@ -165,18 +141,12 @@ equation
     J_c[i, :, :] = R[i, :, :]*J_r[i, :, :]*transpose(R[i, :, :]);
     H_c[i, :, :] = R[i, :, :]*H_r[i, :, :]*transpose(R[i, :, :]);
     M_c[i, :, :] = R[i, :, :]*M_r[i, :, :]*transpose(R[i, :, :]);
-    S[i, :, :] = [0, -r[i, 3], r[i, 2]; r[i, 3], 0, -r[i, 1]; -r[i, 2], r[i, 1], 0];
+    S[i, :, :] = skew(r[i, :]);
     H_o[i, :, :] = H_c[i, :, :] + S[i, :, :]*M_c[i, :, :];
-    M_s1[i, :] = M_c[i, 1, :] + M_s1[data.nextJoints[i], :];
-    M_s2[i, :] = M_c[i, 2, :] + M_s2[data.nextJoints[i], :];
-    M_s3[i, :] = M_c[i, 3, :] + M_s3[data.nextJoints[i], :];
-    H_s1[i, :] = H_o[i, 1, :] + H_s1[data.nextJoints[i], :];
-    H_s2[i, :] = H_o[i, 2, :] + H_s2[data.nextJoints[i], :];
-    H_s3[i, :] = H_o[i, 3, :] + H_s3[data.nextJoints[i], :];
+    M_s[i, :, :] = M_c[i, :, :] + M_s[data.nextJoints[i], :, :];
+    H_s[i, :, :] = H_o[i, :, :] + H_s[data.nextJoints[i], :, :];
     J_o[i, :, :] = J_c[i, :, :] - H_o[i, :, :]*S[i, :, :] + S[i, :, :]*transpose(H_c[i, :, :]);
-    J_s1[i, :] = J_o[i, 1, :] + J_s1[data.nextJoints[i], :];
-    J_s2[i, :] = J_o[i, 2, :] + J_s2[data.nextJoints[i], :];
-    J_s3[i, :] = J_o[i, 3, :] + J_s3[data.nextJoints[i], :];
+    J_s[i, :, :] = J_o[i, :, :] + J_s[data.nextJoints[i], :, :];
     z_c[i, :] = z[data.jointTree[i, 1], :]*R[i, :, :] + z_v[i, :];
     b_c[i, :] = (b[data.jointTree[i, 1], :] + cross(z[data.jointTree[i, 1], :], r[i, :]))*R[i, :, :] + b_v[i, :];
     a[i] = (u[i] - U_t[i, :]*z_c[i, :] - U_f[i, :]*b_c[i, :])/D[i];
@@ -193,6 +163,15 @@ The articulated-body algorithm (Featherstone: The calculation of robot dynamics 
 2008, section 7.3), written as equations in the axes of the bodies: one joint after the other is solved for its acceleration, so that no tool has to
 solve a system of equations where all axes move freely. Mimic joints join axes, and are solved as a small system. It takes about three times as many
 equations as <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a>, and gives the same motion.
+</p>
+<pre>
+U = I_A*e,   D = e'*U,   u = effort - e'*p_A
+a = (u - U'*a_p)/D
+I_A of the carrier += X*(I_A - U*U'/D)*X'
+</pre>
+<p>
+for each joint, with its axis <code>e = {e_t, e_s}</code>, the articulated inertia <code>I_A</code> and the bias force <code>p_A</code> of its body, and the spatial acceleration <code>a_p</code> that comes
+from its carrier. <code>D</code> is in kg.m2, <code>u</code> in N.m, <code>a</code> in 1/s2: see <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a>.
 </p>
 <p>
 Symmetric 6 x 6 inertias are kept as three matrices: torque per angular acceleration <code>J</code>, torque per acceleration <code>H</code> (force per angular

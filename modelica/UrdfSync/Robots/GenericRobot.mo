@@ -38,8 +38,8 @@ equation
   end for;
 
   for i in 1:n + 1 loop
-    f[i, :] = m_b[i]*b[i, :] + cross(z[i, :], h[i, :]) + cross(w[i, :], cross(w[i, :], h[i, :])) + f_c[data.firstJoints[i], :];
-    t[i, :] = J[i, :, :]*z[i, :] + cross(w[i, :], J[i, :, :]*w[i, :]) + cross(h[i, :], b[i, :]) + t_c[data.firstJoints[i], :];
+    f[i, :] = m_b[i]*b[i, :] + cross(z[i, :], h[i, :]) + cross(w[i, :], cross(w[i, :], h[i, :])) - f_tool[i, :] + f_c[data.firstJoints[i], :];
+    t[i, :] = J[i, :, :]*z[i, :] + cross(w[i, :], J[i, :, :]*w[i, :]) + cross(h[i, :], b[i, :]) - t_tool[i, :] + t_c[data.firstJoints[i], :];
   end for;
 
   frame_a.f = f[1, :];
@@ -49,7 +49,19 @@ equation
 <p>
 The recursive Newton-Euler algorithm (Luh, Walker, Paul: On-line computational scheme for mechanical manipulators, 1980; Featherstone: Rigid Body
 Dynamics Algorithms, 2008, section 5.3), written as equations in the axes of the bodies: velocities and accelerations from the base outwards, forces and
-torques from the leaves inwards. Gravity enters as an acceleration of the base.
+torques from the leaves inwards. Gravity enters as an acceleration of the base. For joint <code>i</code>, which moves body <code>k = i + 1</code> and is carried by body <code>p</code>:
+</p>
+<pre>
+w_k = R'*w_p + e_t*v                                                      rad/s
+z_k = R'*z_p + w_k x e_t*v + e_t*a                                        rad/s2
+b_k = R'*(b_p + z_p x r + w_p x (w_p x r)) + 2*w_k x e_s*v + e_s*a        m/s2
+f_k = m*b_k + z_k x h + w_k x (w_k x h) - f_tool + sum(R*f)               N
+t_k = J*z_k + w_k x J*w_k + h x b_k - t_tool + sum(R*t + r x R*f)         N.m
+effort = e_t*t_k + e_s*f_k                                                N.m
+</pre>
+<p>
+with mass <code>m</code>, first moment <code>h</code> and inertia <code>J</code> of the body, the axes <code>e_t</code> and <code>e_s</code> of turning and sliding joints, one of which is zero, and
+what acts at <code>frame_b</code>. The sums are over the joints that the body carries.
 </p>
 <p>
 The equations hold for prescribed and for free motion. Where axes move freely a tool has to solve them for the accelerations: a system of linear

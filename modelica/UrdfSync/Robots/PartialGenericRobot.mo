@@ -22,6 +22,30 @@ protected
   parameter Modelica.Units.SI.MomentOfInertia J[n + 1, 3, 3](each min = -Modelica.Constants.inf) = data.bodyInertias
     "Inertia tensors of the bodies about their origins";
 
+  parameter Integer toolBody = data.linkBodies[tool]
+    "Number of the body with frame_b";
+
+  parameter Real R_tool[3, 3](each unit = "1") = data.linkRotations[tool, :, :]
+    "Rotation of frame_b in its body";
+
+  parameter Modelica.Units.SI.Position r_tool[3] = data.linkPositions[tool, :]
+    "Origin of frame_b in its body";
+
+  parameter Real isTool[nLinks](each unit = "1") = {(if k == tool then 1 else 0) for k in 1:nLinks}
+    "1 for the link with frame_b, 0 for the others";
+
+  parameter Real isToolBody[n + 1](each unit = "1") = {(if i == toolBody then 1 else 0) for i in 1:n + 1}
+    "1 for the body with frame_b, 0 for the others";
+
+  Modelica.Units.SI.AngularVelocity w_tool[3]
+    "Angular velocity of the body with frame_b, resolved in it";
+
+  Modelica.Units.SI.Force f_tool[n + 1, 3]
+    "Forces through frame_b on the bodies, resolved in them";
+
+  Modelica.Units.SI.Torque t_tool[n + 1, 3]
+    "Torques through frame_b about the origins of the bodies, resolved in them";
+
   Real cosine[n](each unit = "1")
     "Of the angle; 1 for joints that slide";
 
@@ -65,6 +89,7 @@ protected
     "Acceleration of frame_a minus gravity, resolved in frame_a";
 
 equation
+  Connections.branch(frame_a.R, frame_b.R);
   r_b[1, :] = frame_a.r_0;
   x_b[1, :] = {frame_a.R.T[1, 1], frame_a.R.T[2, 1], frame_a.R.T[3, 1]};
   y_b[1, :] = {frame_a.R.T[1, 2], frame_a.R.T[2, 2], frame_a.R.T[3, 2]};
@@ -79,6 +104,7 @@ equation
   for i in 1:n loop
     cosine[i] = if data.jointTree[i, 2] == 1 then cos(q[i]) else 1;
     sine[i] = if data.jointTree[i, 2] == 1 then sin(q[i]) else 0;
+    // UrdfSync.Dynamics.turn would be called anew for each of the nine elements: rumoca evaluates functions in equations so.
     R[i, :, :] = data.jointRotations[i, :, :]*[
       cosine[i] + e_t[i, 1]*e_t[i, 1]*(1 - cosine[i]), e_t[i, 1]*e_t[i, 2]*(1 - cosine[i]) - e_t[i, 3]*sine[i], e_t[i, 1]*e_t[i, 3]*(1 - cosine[i]) + e_t[i, 2]*sine[i];
       e_t[i, 2]*e_t[i, 1]*(1 - cosine[i]) + e_t[i, 3]*sine[i], cosine[i] + e_t[i, 2]*e_t[i, 2]*(1 - cosine[i]), e_t[i, 2]*e_t[i, 3]*(1 - cosine[i]) - e_t[i, 1]*sine[i];
@@ -96,6 +122,20 @@ equation
     R_0[k, 2, :] = y_b[data.linkBodies[k], :]*data.linkRotations[k, :, :];
     R_0[k, 3, :] = z_b[data.linkBodies[k], :]*data.linkRotations[k, :, :];
     r_0[k, :] = r_b[data.linkBodies[k], :] + {x_b[data.linkBodies[k], :]*data.linkPositions[k, :], y_b[data.linkBodies[k], :]*data.linkPositions[k, :], z_b[data.linkBodies[k], :]*data.linkPositions[k, :]};
+  end for;
+
+  // rumoca does not differentiate r_0[tool, :], which what is connected to frame_b needs: hence the products.
+  for i in 1:3 loop
+    frame_b.r_0[i] = isTool*r_0[:, i];
+    for j in 1:3 loop
+      frame_b.R.T[i, j] = isTool*R_0[:, j, i];
+    end for;
+    w_tool[i] = isToolBody*w[:, i];
+  end for;
+  frame_b.R.w = w_tool*R_tool;
+  for i in 1:n + 1 loop
+    f_tool[i, :] = isToolBody[i]*(R_tool*frame_b.f);
+    t_tool[i, :] = isToolBody[i]*(R_tool*frame_b.t + cross(r_tool, R_tool*frame_b.f));
   end for;
 
   annotation (Documentation(info="<html>

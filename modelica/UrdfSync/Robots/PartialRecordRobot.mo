@@ -7,6 +7,10 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
     "Numbers of the whole robot"
     annotation (choicesAllMatching=true);
 
+  parameter Integer tool = UrdfSync.Dynamics.toolLink(data.jointTree, data.linkBodies)
+    "Number of the link whose frame is frame_b; as it is, the one at the end of the longest chain of moving joints"
+    annotation (Evaluate=true);
+
   parameter Boolean checkLimits = true
     "= true, if a joint that passes one of its limits is reported by a warning";
 
@@ -69,6 +73,10 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
   Modelica.Mechanics.MultiBody.Interfaces.Frame_a frame_a
     "Frame of the root link"
     annotation (Placement(transformation(extent={{-116, -16}, {-84, 16}})));
+
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b
+    "Frame of the link tool, to attach things to"
+    annotation (Placement(transformation(extent={{84, -16}, {116, 16}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis[data.rotationalAxes]
     "Drives"
@@ -292,11 +300,23 @@ simulations, integers and axes of joints cannot.
 <p>
 <code>frame_a</code> is connected to what carries the robot: to the world, or for a robot that moves freely to a
 <a href=\"modelica://UrdfSync.Robots.FreeBase\">FreeBase</a>. Driven axes have flanges as the robot model of the package approach has them, in the same
-order; where nothing is connected the axis moves freely. The constants <code>data.&lt;joint&gt;Axis</code> are their numbers.
+order; where nothing is connected the axis moves freely. <code>frame_b</code> is the frame of the link <code>tool</code>: a body, a sensor or a contact that is connected to it is part of the
+motion. The constants <code>data.&lt;joint&gt;Axis</code> are their numbers.
 </p>
 <p>
-<i>Losses</i> are those of <a href=\"modelica://UrdfSync.Friction.Rotational\">Friction</a>: <code>d*v + f*tanh(s*v/2)</code>.
-<i>Mimic joints:</i> <code>q = k*q_head + c</code>, and the axis of the head bears <code>k</code> times the load of the follower (principle of virtual work).
+<i>Losses and mimic joints.</i> The equations of motion give <code>effort</code>, torque in N.m or force in N, of each joint. The drives have to give more:
+</p>
+<pre>
+load  = effort + d*v + f_d*tanh(s*v/2) + sum(k*load_follower)     d, f_d, s: damping, dry friction, steepness
+q     = k*q_leader + c                                            of a joint that follows; k, c: multiplier, offset
+drive = load                                                      of a joint that does not follow
+</pre>
+<p>
+The sum over the followers of a joint is the principle of virtual work. Damping and friction are those of <a href=\"modelica://UrdfSync.Friction.Rotational\">Friction</a>.
+</p>
+<p>
+<i>Units.</i> <code>q</code>, <code>v</code>, <code>a</code>, <code>effort</code>, <code>load</code> and <code>drive</code> hold joints that turn and joints that slide, by the metre
+<code>unitLength</code>: see <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a>.
 </p>
 <p>
 <i>Limits</i> are checked as in the package approach: a warning names the joint. Another warning names a joint whose element on the diagonal of the mass

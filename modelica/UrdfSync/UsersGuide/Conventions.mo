@@ -13,7 +13,9 @@ Standard Library this is the sequence {3, 2, 1} with the angles {yaw, pitch, rol
 <li><em>Frames</em>: <code>frame_a</code> is on the side of the root, <code>frame_b</code> on the side of the leaves. Gravity acts along
 -z of the world.</li>
 <li><em>Flanges</em>: <code>axis</code> is driven, <code>support</code> is the housing.</li>
-<li><em>Order</em>: links, joints, frames, flanges and tables are depth-first from the root, siblings in natural order of their names
+<li><em>Connectors</em> of a robot are named after their link or joint: <code>wristFrame</code>, <code>elbowAxis</code>, <code>elbowSupport</code>. Vectors of
+flanges, and numbers in them, belong to the record approach.</li>
+<li><em>Order</em>: links, joints, connectors and tables are depth-first from the root, siblings in natural order of their names
 (<code>joint2</code> before <code>joint10</code>). The order of elements in the URDF does not matter.</li>
 <li><em>Names</em>: a URDF name becomes a Modelica identifier. Components begin with a small letter, classes with a capital one. The
 description string of every generated class holds the name as the URDF has it.</li>
@@ -21,8 +23,7 @@ description string of every generated class holds the name as the URDF has it.</
 <li><em>Absent numbers</em>: a missing origin is zero, a missing axis is {1, 0, 0}, a joint without <code>&lt;limit&gt;</code> has no
 limits, a link without <code>&lt;inertial&gt;</code> has no mass.</li>
 <li><em>Icons</em>: links are blue; turning joints are orange, sliding ones green, planar ones purple, floating ones teal, fixed ones grey.
-Links show their mass; joints with one axis show its number in the robot's vector of flanges (0 for a joint that follows another) and its
-direction.</li>
+Links show their mass, joints with one axis its direction.</li>
 </ul>
 </html>"));
 end Conventions;

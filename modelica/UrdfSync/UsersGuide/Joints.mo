@@ -43,7 +43,7 @@ Continuous, revolute and prismatic joints have two flanges. <code>support</code>
 The record holds limits of position (revolute, prismatic), speed and effort. Without a <code>&lt;limit&gt;</code> element all of them are
 infinite; in one, <code>lower</code> and <code>upper</code> are zero if left out, <code>velocity</code> and <code>effort</code> infinite.
 No limit holds a joint back: a warning that names the joint reports that it is passed. Effort is what the drive gives at
-<code>axis</code>, losses included; where other joints follow, the robot checks the whole of what the drive gives at its flange. A joint
+<code>axis</code>, losses included; where other joints follow, the robot checks the whole of what the drive gives at its connector <code>&hellip;Axis</code>. A joint
 that follows has no drive of its own, and its effort is not checked. <code>checkLimits = false</code> silences the warnings.
 </p>
 <h4>Losses</h4>
@@ -71,12 +71,12 @@ tau_leader + multiplier*tau_follower = 0
 </pre></blockquote>
 <p>
 The second equation is the balance of power: what the follower needs, the leader's drive has to give. Leader and follower may be of
-different kinds, and a follower may itself be followed. A joint that follows a fixed one is held at its offset. The flanges of a follower are
-not among those of the robot.
+different kinds, and a follower may itself be followed. A joint that follows a fixed one is held at its offset. The robot has no
+<code>&hellip;Axis</code> and no <code>&hellip;Support</code> for a follower.
 </p>
 <h4>Start values</h4>
 <p>
-Position and speed at the beginning are parameters. With <code>fixedStart = true</code> the simulation begins there; with
+Position and speed at the beginning are parameters of the joint: <code>robot(elbow(phi_start = 0.5))</code>. With <code>fixedStart = true</code> the simulation begins there; with
 <code>false</code> they are guesses, for axes of which a drive prescribes the position.
 </p>
 <h4>Stored, not modelled</h4>

@@ -41,7 +41,7 @@ where one point carries the whole weight. There is no stiction and no rolling re
 <h4>Start</h4>
 <p>
 The robot begins upright and at rest, where its lowest collision shape just touches the ground with all joints at their start: that
-height is <code>standingHeight</code> in the record of the whole robot. It then settles. <code>r_start</code> and <code>rpy_start</code> of
+height is <code>height</code> in the record <code>&hellip;Stance</code> of the robot's package (<code>standingHeight</code> in the record of the whole robot). It then settles. <code>r_start</code> and <code>rpy_start</code> of
 the bench let it begin elsewhere, <code>v_start</code> and <code>w_start</code> in motion.
 </p>
 </html>"));

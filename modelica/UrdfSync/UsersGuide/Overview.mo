@@ -15,14 +15,17 @@ need: they use its records, friction, couplings, shapes, contacts, functions and
 <table border=\"1\" cellspacing=\"0\" cellpadding=\"4\">
 <tr><th align=\"left\">package</th><th align=\"left\">what it holds</th></tr>
 <tr><td><a href=\"modelica://UrdfSync.Examples\">Examples</a></td>
-<td>robots that <code>urdfsync</code> generated from the URDF files in <code>Resources/robots</code></td></tr>
+<td>robots that <code>urdfsync</code> generated from the URDF files in <code>Resources/robots</code>, and models by hand that extend or drive them</td></tr>
 <tr><td><a href=\"modelica://UrdfSync.Robots\">Robots</a></td>
 <td>base classes of stationary and mobile robots and of their benches, and robots that read a whole record</td></tr>
 <tr><td><a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a></td>
 <td>mass matrix, gravity, Jacobian and poses from the tables of a record</td></tr>
 <tr><td><a href=\"modelica://UrdfSync.Links\">Links</a>, <a href=\"modelica://UrdfSync.Joints\">Joints</a></td>
 <td>link and joint models that stand alone: drop one into any multibody model and give it a record</td></tr>
+<tr><td><a href=\"modelica://UrdfSync.Interfaces\">Interfaces</a></td>
+<td>what links and joints have in common: a model of your own that extends it can take the place of a generated one</td></tr>
 <tr><td><a href=\"modelica://UrdfSync.Couplings\">Couplings</a></td><td>mimic joints</td></tr>
+<tr><td><a href=\"modelica://UrdfSync.Drives\">Drives</a></td><td>what moves the joints in Test models</td></tr>
 <tr><td><a href=\"modelica://UrdfSync.Friction\">Friction</a></td><td>damping and dry friction of joints</td></tr>
 <tr><td><a href=\"modelica://UrdfSync.Contacts\">Contacts</a></td><td>the ground, and what touches it</td></tr>
 <tr><td><a href=\"modelica://UrdfSync.Visualizers\">Visualizers</a></td><td>shapes in the animation</td></tr>
@@ -36,6 +39,8 @@ need: they use its records, friction, couplings, shapes, contacts, functions and
 <li>Open an example and simulate its <code>…Test</code> model: every joint moves inside its limits and comes back.</li>
 <li>In a folder with a URDF file, run <code>urdfsync init</code> and then <code>urdfsync build</code>.</li>
 <li>Put the folder that <code>urdfsync library</code> prints on the MODELICAPATH and open the new package.</li>
+<li>Make it yours: <a href=\"modelica://UrdfSync.Examples.CustomArm\">Examples.CustomArm</a> exchanges joints and attaches parts, without editing a generated
+file.</li>
 </ol>
 <p>
 A package per robot, with a record and a model per link and per joint, is the package approach of Pign&egrave;de and Oldemeyer

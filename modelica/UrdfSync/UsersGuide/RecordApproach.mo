@@ -20,7 +20,7 @@ equation
 </pre>
 <p>
 Another record is another robot. A bench that is to have several declares a replaceable record and uses it for <code>data</code>:
-<a href=\"modelica://UrdfSync.Examples.GenericRobot\">Examples.GenericRobot</a> does so, and the three models of
+<a href=\"modelica://UrdfSync.Examples.GenericRobot\">Examples.GenericRobot</a> does so, and models of
 <a href=\"modelica://UrdfSync.Examples.RobotStudy\">Examples.RobotStudy</a> extend it and redeclare the record. With <code>approach = [\"record\"]</code> in
 <code>urdfsync.toml</code> a package is the record and a bench with it; <code>urdfsync record robot.urdf</code> writes the record alone.
 </p>
@@ -34,6 +34,14 @@ moving joint <code>i</code> moves body <code>i + 1</code>. <a href=\"modelica://
 Numbers in the tables are references to the components of links and joints. So each number stands once in the record; a modifier such as
 <code>data(elbow(origin(xyz = {0, 0, 0.5})))</code> reaches the motion, and so does an edit by hand.
 </p>
+<p>
+Joints that turn and that slide share the vectors <code>q</code>, <code>v</code>, <code>a</code> and <code>effort</code>, as numbers whose unit is that of the joints that turn;
+limits and losses are tables of their own for either kind. <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a> says how the units fit.
+</p>
+<p>
+In a package that has models of links and joints as well, <code>approach = [\"package\", \"record\"]</code>, those models read the records of their elements. The record of the whole robot is
+a copy of these numbers then: an edit in it changes no such model.
+</p>
 <h4>Models</h4>
 <dl>
 <dt><a href=\"modelica://UrdfSync.Robots.GenericRobot\">Robots.GenericRobot</a></dt>
@@ -41,11 +49,11 @@ Numbers in the tables are references to the components of links and joints. So e
 <dt><a href=\"modelica://UrdfSync.Robots.ArticulatedRobot\">Robots.ArticulatedRobot</a></dt>
 <dd>Articulated-body equations: explicit in the accelerations, for tools that do not solve the equations of motion as one system of the size of the number of axes.</dd>
 <dt><a href=\"modelica://UrdfSync.Robots.MultiBodyGenericRobot\">Robots.MultiBodyGenericRobot</a></dt>
-<dd>The published formulation, arrays of multibody components. OpenModelica translates it; with rumoca, the compiler of <code>urdfsync check</code>, it does
-not compile.</dd>
+<dd>The published formulation, arrays of multibody components. OpenModelica (sources of August 2026) translated and simulated it, before it had <code>frame_b</code>; rumoca does not translate it.</dd>
 <dt><a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a></dt>
-<dd>Functions over the same tables: mass matrix, Coriolis and gravity forces, the Jacobian of any link, poses, base and tool link. They can be used
-without the models. For 40 robots with 2 to 30 moving joints they agree with Pinocchio to 2e-15, relative to the greatest element of a result
+<dd>Functions that take <code>data.tree</code>, which follows from the tables: mass matrix, inverse dynamics, Coriolis and gravity forces, the Jacobian of any link, poses. They can be used
+without the models; <a href=\"modelica://UrdfSync.Examples.ComputedTorque\">Examples.ComputedTorque</a> and
+<a href=\"modelica://UrdfSync.Examples.ToolPath\">Examples.ToolPath</a> control a robot with them. For 40 robots with 2 to 30 moving joints they agree with Pinocchio to 2e-15, relative to the greatest element of a result
 or of the mass matrix, as far as rumoca computes them.</dd>
 </dl>
 <p>
@@ -69,7 +77,7 @@ All of them have flanges for the driven axes, damping and dry friction, mimic jo
 <tr><td>30 moving joints, free</td><td>16.4 + 81.6 s</td><td>3.0 + 4.2 s (7 %)</td></tr>
 <tr><td>joint types</td><td>all six</td><td>revolute, continuous, prismatic, fixed</td></tr>
 <tr><td>shapes, contact with the ground</td><td>yes</td><td>no</td></tr>
-<tr><td>frames to connect parts to</td><td>of all links, by editing</td><td>of the root link</td></tr>
+<tr><td>frames to connect parts to</td><td>of all links, by editing</td><td>of the root link and of one that the parameter <code>tool</code> names</td></tr>
 <tr><td>what can be edited by hand</td><td>every link, every joint and their connections</td><td>numbers; the bench around the robot</td></tr>
 <tr><td>the structure changes</td><td>models are generated again, edits are kept or merged</td><td>the record is generated again</td></tr>
 <tr><td>numbers change</td><td>records are written, models are not</td><td>the record is written</td></tr>
@@ -98,16 +106,18 @@ ArticulatedRobot refuses every joint without inertia of its own, also where it i
 rumoca, the compiler behind <code>urdfsync check</code>, has limits of its own. Other tools should not need what is said here.
 </p>
 <ul>
-<li>A replaceable record of the bench may be redeclared from outside. If the new robot has other numbers of driven axes, they have to be repeated, as in
-<code>robot(data(rotationalAxes = 7, translationalAxes = 1))</code>; without that the bench is refused. A parameter that is redeclared from outside, as in
+<li>A replaceable record of the bench may be redeclared from outside by one with the same numbers of links, joints and axes, and other numbers of mass, length and so on. A
+bench with the record of another structure is refused (<em>expression shape mismatch</em>): name the record at the robot, as
+<a href=\"modelica://UrdfSync.Examples.RobotStudy.Wheeled\">RobotStudy.Wheeled</a> does. A parameter that is redeclared from outside, as in
 <code>bench(robot(redeclare parameter … data))</code>, is silently not followed: the record stays that of before. So is a parameter that a model redeclares
 where it extends a generic robot.</li>
 <li>Where a record extends another one, a modifier of some numbers inside <code>inertial</code>, <code>limits</code> and the like may set the other ones there to
 their defaults, silently: give all of them, as <a href=\"modelica://UrdfSync.Examples.RobotStudy.LongArmParameters\">LongArmParameters</a> does. Modifiers in the
 declaration of the robot are followed as they stand.</li>
 <li>Drives beside the robot need literal numbers as sizes.</li>
+<li>Forces can act at <code>frame_b</code>. A body or a sensor that differentiates its position or rotation is refused there (<em>structurally singular system</em>).</li>
 <li>A function in an equation is evaluated anew for each element of its result: the functions of <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a> take more
-than a minute for 12 joints. In an algorithm, as in <code>when sample(0, 0.01) then M := UrdfSync.Dynamics.massMatrix(…); end when;</code>, it is evaluated once, also for
+than a minute for 12 joints. In an algorithm, as in <code>when sample(0, 0.01) then M := UrdfSync.Dynamics.massMatrix(data.tree, q); end when;</code>, it is evaluated once, also for
 30 joints. <code>M</code> is a discrete variable then. Assign it as a whole: Jacobians that were assigned to parts of one array were silently zero.</li>
 </ul>
 </html>"));

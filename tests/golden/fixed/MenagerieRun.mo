@@ -3,7 +3,7 @@ within Zoo.Menagerie;
 model MenagerieRun "Run robot Menagerie with positions from outside: the model to export as FMU"
   extends UrdfSync.Robots.PartialBench;
 
-  replaceable Menagerie robot constrainedby Menagerie(
+  replaceable Menagerie robot(
     fixedStart = false)
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 385}})));

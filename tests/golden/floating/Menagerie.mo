@@ -80,101 +80,150 @@ model Menagerie "Robot Menagerie"
     balloon.m
     "Mass of the whole robot";
 
-  replaceable Links.Chassis chassis constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Chassis chassis(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"chassis\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-72, -36}, {-52, -16}})));
 
-  replaceable Links.L_arm l_arm constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.L_arm l_arm(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"l_arm\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -36}, {0, -16}})));
 
-  replaceable Links.End_link end_link constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.End_link end_link(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"end\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -36}, {48, -16}})));
 
-  replaceable Links.Pinion pinion constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Pinion pinion(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"pinion\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -126}, {48, -106}})));
 
-  replaceable Links.Name_link name_link constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Name_link name_link(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"name\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -216}, {0, -196}})));
 
-  replaceable Links.Gelenk__ gelenk__ constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Gelenk__ gelenk__(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"Gelenk_ä\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -216}, {48, -196}})));
 
-  replaceable Links.Time_link time_link constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Time_link time_link(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"time\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -306}, {48, -286}})));
 
-  replaceable Links.CON_link cON_link constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.CON_link cON_link(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"CON\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -384}, {0, -364}})));
 
-  replaceable Links.Upper_arm upper_arm constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Upper_arm upper_arm(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"upper arm\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -494}, {0, -474}})));
 
-  replaceable Links.L_arm_link l_arm_link constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.L_arm_link l_arm_link(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"L_arm\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -494}, {48, -474}})));
 
-  replaceable Links.Nut nut constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Nut nut(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"nut\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -584}, {48, -564}})));
 
-  replaceable Links.Table table constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Table table(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"table\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -646}, {0, -626}})));
 
-  replaceable Links.A_b___c_______1_0______d____e a_b___c_______1_0______d____e constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.A_b___c_______1_0______d____e a_b___c_______1_0______d____e(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"a\"b\\ <c> & << 1/0 >> {{d}} %e\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{28, -646}, {48, -626}})));
 
-  replaceable Links.Balloon balloon constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Balloon balloon(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"balloon\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-20, -708}, {0, -688}})));
 
-  replaceable Joints.Lift lift constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+  replaceable Joints.Lift lift(
     s_min = max({lift.parameters.limits.lower, end_jointMimic.leader_min}),
     s_max = min({lift.parameters.limits.upper, end_jointMimic.leader_max}),
     v_max = min({lift.parameters.limits.velocity, end_jointMimic.leaderSpeed_max}),
     fixedStart = fixedStart,
     checkEffort = false,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+      s_min = max({lift.parameters.limits.lower, end_jointMimic.leader_min}),
+      s_max = min({lift.parameters.limits.upper, end_jointMimic.leader_max}),
+      v_max = min({lift.parameters.limits.velocity, end_jointMimic.leaderSpeed_max}),
+      fixedStart = fixedStart,
+      checkEffort = false,
+      checkLimits = checkLimits)
     "Prismatic joint \"lift\" from link \"chassis\" to link \"l_arm\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -10}, {-36, 10}})));
 
-  replaceable Joints.End_joint end_joint constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+  replaceable Joints.End_joint end_joint(
     s_min = max({end_joint.parameters.limits.lower, pinion_jointMimic.leader_min}),
     s_max = min({end_joint.parameters.limits.upper, pinion_jointMimic.leader_max}),
     v_max = min({end_joint.parameters.limits.velocity, pinion_jointMimic.leaderSpeed_max}),
@@ -183,15 +232,30 @@ model Menagerie "Robot Menagerie"
     stateSelect = StateSelect.avoid,
     checkEffort = false,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+      s_min = max({end_joint.parameters.limits.lower, pinion_jointMimic.leader_min}),
+      s_max = min({end_joint.parameters.limits.upper, pinion_jointMimic.leader_max}),
+      v_max = min({end_joint.parameters.limits.velocity, pinion_jointMimic.leaderSpeed_max}),
+      s_start = end_joint.parameters.mimic.multiplier*lift.s_start + end_joint.parameters.mimic.offset,
+      fixedStart = false,
+      stateSelect = StateSelect.avoid,
+      checkEffort = false,
+      checkLimits = checkLimits)
     "Prismatic joint \"end\" from link \"l_arm\" to link \"end\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -10}, {16, 10}})));
 
-  replaceable Joints.Pinion_joint pinion_joint constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Pinion_joint pinion_joint(
     phi_start = pinion_joint.parameters.mimic.multiplier*end_joint.s_start + pinion_joint.parameters.mimic.offset,
     fixedStart = false,
     stateSelect = StateSelect.avoid,
     checkEffort = false,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      phi_start = pinion_joint.parameters.mimic.multiplier*end_joint.s_start + pinion_joint.parameters.mimic.offset,
+      fixedStart = false,
+      stateSelect = StateSelect.avoid,
+      checkEffort = false,
+      checkLimits = checkLimits)
     "Continuous joint \"pinion\" from link \"l_arm\" to link \"pinion\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -100}, {16, -80}})));
 
@@ -199,55 +263,89 @@ model Menagerie "Robot Menagerie"
     "Fixed joint \"mount\" from link \"chassis\" to link \"name\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -190}, {-36, -170}})));
 
-  replaceable Joints.Held_slide held_slide constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+  replaceable Joints.Held_slide held_slide(
     s_start = held_slide.parameters.mimic.offset,
     fixedStart = false,
     stateSelect = StateSelect.avoid,
     checkEffort = false,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+      s_start = held_slide.parameters.mimic.offset,
+      fixedStart = false,
+      stateSelect = StateSelect.avoid,
+      checkEffort = false,
+      checkLimits = checkLimits)
     "Prismatic joint \"held slide\" from link \"name\" to link \"Gelenk_ä\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -190}, {16, -170}})));
 
-  replaceable Joints.Held_turn held_turn constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Held_turn held_turn(
     phi_start = held_turn.parameters.mimic.offset,
     fixedStart = false,
     stateSelect = StateSelect.avoid,
     checkEffort = false,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      phi_start = held_turn.parameters.mimic.offset,
+      fixedStart = false,
+      stateSelect = StateSelect.avoid,
+      checkEffort = false,
+      checkLimits = checkLimits)
     "Revolute joint \"held turn\" from link \"name\" to link \"time\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -280}, {16, -260}})));
 
-  replaceable Joints.Rotational rotational constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Rotational rotational(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Continuous joint \"rotational\" from link \"chassis\" to link \"CON\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -358}, {-36, -338}})));
 
-  replaceable Joints.Shoulder shoulder constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Shoulder shoulder(
     phi_min = max({shoulder.parameters.limits.lower, elbowMimic.leader_min, lead_screwMimic.leader_min}),
     phi_max = min({shoulder.parameters.limits.upper, elbowMimic.leader_max, lead_screwMimic.leader_max}),
     w_max = min({shoulder.parameters.limits.velocity, elbowMimic.leaderSpeed_max, lead_screwMimic.leaderSpeed_max}),
     fixedStart = fixedStart,
     checkEffort = false,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      phi_min = max({shoulder.parameters.limits.lower, elbowMimic.leader_min, lead_screwMimic.leader_min}),
+      phi_max = min({shoulder.parameters.limits.upper, elbowMimic.leader_max, lead_screwMimic.leader_max}),
+      w_max = min({shoulder.parameters.limits.velocity, elbowMimic.leaderSpeed_max, lead_screwMimic.leaderSpeed_max}),
+      fixedStart = fixedStart,
+      checkEffort = false,
+      checkLimits = checkLimits)
     "Revolute joint \"shoulder\" from link \"chassis\" to link \"upper arm\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -468}, {-36, -448}})));
 
-  replaceable Joints.Elbow elbow constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Elbow elbow(
     phi_start = elbow.parameters.mimic.multiplier*shoulder.phi_start + elbow.parameters.mimic.offset,
     fixedStart = false,
     stateSelect = StateSelect.avoid,
     checkEffort = false,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      phi_start = elbow.parameters.mimic.multiplier*shoulder.phi_start + elbow.parameters.mimic.offset,
+      fixedStart = false,
+      stateSelect = StateSelect.avoid,
+      checkEffort = false,
+      checkLimits = checkLimits)
     "Revolute joint \"elbow\" from link \"upper arm\" to link \"L_arm\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -468}, {16, -448}})));
 
-  replaceable Joints.Lead_screw lead_screw constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+  replaceable Joints.Lead_screw lead_screw(
     s_start = lead_screw.parameters.mimic.multiplier*shoulder.phi_start + lead_screw.parameters.mimic.offset,
     fixedStart = false,
     stateSelect = StateSelect.avoid,
     checkEffort = false,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+      s_start = lead_screw.parameters.mimic.multiplier*shoulder.phi_start + lead_screw.parameters.mimic.offset,
+      fixedStart = false,
+      stateSelect = StateSelect.avoid,
+      checkEffort = false,
+      checkLimits = checkLimits)
     "Prismatic joint \"lead-screw\" from link \"upper arm\" to link \"nut\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-4, -558}, {16, -538}})));
 

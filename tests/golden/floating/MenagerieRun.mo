@@ -5,7 +5,7 @@ model MenagerieRun "Run robot Menagerie with positions from outside: the model t
     redeclare MenagerieStance stance,
     load = robot.m*world.g);
 
-  replaceable Menagerie robot constrainedby Menagerie(
+  replaceable Menagerie robot(
     fixedStart = false)
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 385}})));

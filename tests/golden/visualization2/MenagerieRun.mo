@@ -7,7 +7,7 @@ model MenagerieRun "Run robot Menagerie with positions from outside: the model t
     "Animation"
     annotation (Placement(transformation(extent={{-100, -100}, {-80, -80}})));
 
-  replaceable Menagerie robot constrainedby Menagerie(
+  replaceable Menagerie robot(
     fixedStart = false)
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 385}})));

@@ -60,7 +60,7 @@ class _Words:
     def _message(self, one: Unresolved) -> str:
         if one.kind in (Kind.CLASS, Kind.FUNCTION):
             return f"there is no {one.kind.value} `{one.name}`"
-        noun = self._noun(one.near) if one.near else "part" if one.is_part else "element"
+        noun = self._noun(one.element) if one.element else "part" if one.is_part else "element"
         if one.is_field and noun != "attribute":
             noun = "field"
         return f"{one.owner.rpartition('.')[2]} has no {noun} `{one.part}`"

@@ -36,7 +36,7 @@ algorithm
 
   annotation (Documentation(info="<html>
 <p>
-The eight corners: a box on a face stands on four of them.
+The eight corners, <code>xyz + R*{±x, ±y, ±z}/2</code> in m: a box on a face stands on four of them.
 </p>
 </html>"));
 end box;

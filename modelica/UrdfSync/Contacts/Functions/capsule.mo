@@ -27,7 +27,7 @@ algorithm
 
   annotation (Documentation(info="<html>
 <p>
-The lowest points of the two half spheres. A capsule on its side rests on both, an upright one on one of them.
+The lowest points of the two half spheres, <code>xyz ± length/2*e - radius*n</code> in m, with the unit vectors <code>e</code> along the axis and <code>n</code> upward. A capsule on its side rests on both, an upright one on one of them.
 </p>
 </html>"));
 end capsule;

@@ -53,6 +53,12 @@ algorithm
   t := wrench[4:6];
 
   annotation (Documentation(info="<html>
+<pre>
+down = r*(c*e - n)/sqrt(s2 + upright^2),   c = n*e,   s2 = 1 - c^2
+</pre>
+<p>
+is the way in m from the centre of a rim to its lowest point, with the radius <code>r</code>, the axis <code>e</code> and the upward normal <code>n</code>, unit vectors.
+</p>
 <p>
 The lowest point of each rim, which moves around the rim as the cylinder rolls: a wheel runs without bumps. Its sliding
 velocity is that of the material point, zero while the wheel rolls. An upright cylinder has no single lowest point: its point

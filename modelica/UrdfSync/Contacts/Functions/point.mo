@@ -53,15 +53,31 @@ algorithm
   wrench := cat(1, f, cross(r, f));
 
   annotation (Documentation(info="<html>
+<pre>
+p   = max(0, -height - n*r)
+v_p = v + w x r
+f_n = c*p*max(0, 1 - d*v_n)
+f   = f_n*(n - mu*v_t/sqrt(v_t*v_t + v_s^2))
+t   = r x f
+</pre>
+<table border=\"1\" cellspacing=\"0\" cellpadding=\"4\">
+<tr><th align=\"left\">symbol</th><th align=\"left\">input</th><th align=\"left\">unit</th><th align=\"left\">meaning</th></tr>
+<tr><td><code>p</code></td><td></td><td>m</td><td>depth of the point below the ground</td></tr>
+<tr><td><code>v_p</code>, <code>v_n</code>, <code>v_t</code></td><td></td><td>m/s</td><td>velocity of the material point, its upward part <code>n*v_p</code> and its part along the ground</td></tr>
+<tr><td><code>f_n</code>, <code>f</code></td><td></td><td>N</td><td>normal force, and whole force on the link</td></tr>
+<tr><td><code>t</code></td><td></td><td>N.m</td><td>torque about the origin of the link frame</td></tr>
+<tr><td><code>c</code></td><td><code>stiffness</code></td><td>N/m</td><td>stiffness of the point</td></tr>
+<tr><td><code>d</code></td><td><code>damping</code></td><td>s/m</td><td>damping, as part of the spring force</td></tr>
+<tr><td><code>mu</code></td><td><code>friction</code></td><td>1</td><td>coefficient of friction</td></tr>
+<tr><td><code>v_s</code></td><td><code>slipSpeed</code></td><td>m/s</td><td>speed at which sliding begins</td></tr>
+</table>
 <p>
-A penalty method: at depth <code>p</code> below the ground the normal force is <code>c*p*(1 - d*v_n)</code>, never negative,
-with stiffness <code>c</code>, damping <code>d</code> and upward speed <code>v_n</code>. It is the law of Hunt and Crossley
+A penalty method. The normal force is the law of Hunt and Crossley
 (Coefficient of Restitution Interpreted as Damping in Vibroimpact, Journal of Applied Mechanics 42, 1975) with a linear
 spring. The damper grows with the depth, so that the force does not jump when a point touches down or lifts off.
 </p>
 <p>
-Coulomb friction acts against the sliding velocity <code>v_t</code> of the material point, regularised around standstill:
-<code>-mu*f_n*v_t/sqrt(v_t*v_t + v_s^2)</code>. Laws of this kind are compared by Pennestrì, Rossi, Salvini and Valentini
+Coulomb friction acts against the sliding velocity <code>v_t</code> of the material point, regularised around standstill. Laws of this kind are compared by Pennestrì, Rossi, Salvini and Valentini
 (Review and comparison of dry friction force models, Nonlinear Dynamics 83, 2016). There is no stiction: under a tangential
 load below the limit of friction the point creeps, slower than the slip speed <code>v_s</code> until 70 % of that limit.
 </p>

@@ -17,7 +17,7 @@ algorithm
 
   annotation (Documentation(info="<html>
 <p>
-A sphere has one lowest point, straight below its centre.
+A sphere has one lowest point, straight below its centre: <code>xyz - radius*n</code>, in m.
 </p>
 </html>"));
 end sphere;

@@ -21,21 +21,30 @@ model FloatingBuoy "Robot FloatingBuoy"
     clapper.m
     "Mass of the whole robot";
 
-  replaceable Links.World_link world_link constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.World_link world_link(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"world\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-72, -36}, {-52, -16}})));
 
-  replaceable Links.Buoy buoy constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Buoy buoy(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"buoy\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -36}, {-4, -16}})));
 
-  replaceable Links.Clapper clapper constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Clapper clapper(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"clapper\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{24, -36}, {44, -16}})));
 
@@ -43,9 +52,12 @@ model FloatingBuoy "Robot FloatingBuoy"
     "Floating joint \"drift\" from link \"world\" to link \"buoy\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -10}, {-36, 10}})));
 
-  replaceable Joints.Clapper_swing clapper_swing constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Clapper_swing clapper_swing(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Continuous joint \"clapper_swing\" from link \"buoy\" to link \"clapper\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -10}, {12, 10}})));
 

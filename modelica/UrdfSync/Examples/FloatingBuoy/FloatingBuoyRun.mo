@@ -3,7 +3,7 @@ within UrdfSync.Examples.FloatingBuoy;
 model FloatingBuoyRun "Run robot FloatingBuoy with positions from outside: the model to export as FMU"
   extends UrdfSync.Robots.PartialBench;
 
-  replaceable FloatingBuoy robot constrainedby FloatingBuoy(
+  replaceable FloatingBuoy robot(
     fixedStart = false)
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 145}})));

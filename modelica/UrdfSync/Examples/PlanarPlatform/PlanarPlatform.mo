@@ -21,21 +21,30 @@ model PlanarPlatform "Robot PlanarPlatform"
     boom.m
     "Mass of the whole robot";
 
-  replaceable Links.World_link world_link constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.World_link world_link(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"world\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-72, -36}, {-52, -16}})));
 
-  replaceable Links.Platform platform constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Platform platform(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"platform\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -36}, {-4, -16}})));
 
-  replaceable Links.Boom boom constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Boom boom(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"boom\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{24, -36}, {44, -16}})));
 
@@ -43,9 +52,12 @@ model PlanarPlatform "Robot PlanarPlatform"
     "Planar joint \"glide\" from link \"world\" to link \"platform\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -10}, {-36, 10}})));
 
-  replaceable Joints.Boom_swing boom_swing constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Boom_swing boom_swing(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Revolute joint \"boom_swing\" from link \"platform\" to link \"boom\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -10}, {12, 10}})));
 

@@ -3,7 +3,7 @@ within UrdfSync.Examples.PlanarPlatform;
 model PlanarPlatformRun "Run robot PlanarPlatform with positions from outside: the model to export as FMU"
   extends UrdfSync.Robots.PartialBench;
 
-  replaceable PlanarPlatform robot constrainedby PlanarPlatform(
+  replaceable PlanarPlatform robot(
     fixedStart = false)
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 145}})));

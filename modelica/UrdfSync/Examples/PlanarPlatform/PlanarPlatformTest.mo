@@ -4,7 +4,7 @@ model PlanarPlatformTest "Quick check of robot PlanarPlatform: every axis moves 
   extends UrdfSync.Robots.PartialBench;
   extends Modelica.Icons.Example;
 
-  replaceable PlanarPlatform robot constrainedby PlanarPlatform(
+  replaceable PlanarPlatform robot(
     fixedStart = false)
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 145}})));

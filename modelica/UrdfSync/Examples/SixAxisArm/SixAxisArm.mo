@@ -91,117 +91,174 @@ model SixAxisArm "Robot SixAxisArm"
     drive_pinion.m
     "Mass of the whole robot";
 
-  replaceable Links.Base_link base_link constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Base_link base_link(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"base_link\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-72, -36}, {-52, -16}})));
 
-  replaceable Links.Carousel carousel constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Carousel carousel(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"carousel\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -36}, {-4, -16}})));
 
-  replaceable Links.Upper_arm upper_arm constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Upper_arm upper_arm(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"upper_arm\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{24, -36}, {44, -16}})));
 
-  replaceable Links.Elbow_housing elbow_housing constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Elbow_housing elbow_housing(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"elbow_housing\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{72, -36}, {92, -16}})));
 
-  replaceable Links.Forearm forearm constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Forearm forearm(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"forearm\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{120, -36}, {140, -16}})));
 
-  replaceable Links.Wrist wrist constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Wrist wrist(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"wrist\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{168, -36}, {188, -16}})));
 
-  replaceable Links.Mounting_flange mounting_flange constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Mounting_flange mounting_flange(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"mounting_flange\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{216, -36}, {236, -16}})));
 
-  replaceable Links.Tool0 tool0 constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Tool0 tool0(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"tool0\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{264, -36}, {284, -16}})));
 
-  replaceable Links.Gripper_body gripper_body constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Gripper_body gripper_body(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"gripper_body\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{312, -36}, {332, -16}})));
 
-  replaceable Links.Finger_right finger_right constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Finger_right finger_right(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"finger_right\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -36}, {380, -16}})));
 
-  replaceable Links.Grasp_point grasp_point constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Grasp_point grasp_point(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"grasp_point\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -98}, {380, -78}})));
 
-  replaceable Links.Finger_left finger_left constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Finger_left finger_left(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"finger_left\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -180}, {380, -160}})));
 
-  replaceable Links.Drive_pinion drive_pinion constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Drive_pinion drive_pinion(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"drive_pinion\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -270}, {380, -250}})));
 
-  replaceable Joints.Turret turret constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Turret turret(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Revolute joint \"turret\" from link \"base_link\" to link \"carousel\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -10}, {-36, 10}})));
 
-  replaceable Joints.Shoulder shoulder constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Shoulder shoulder(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Revolute joint \"shoulder\" from link \"carousel\" to link \"upper_arm\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -10}, {12, 10}})));
 
-  replaceable Joints.Elbow elbow constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Elbow elbow(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Revolute joint \"elbow\" from link \"upper_arm\" to link \"elbow_housing\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{40, -10}, {60, 10}})));
 
-  replaceable Joints.Forearm_roll forearm_roll constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Forearm_roll forearm_roll(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Revolute joint \"forearm_roll\" from link \"elbow_housing\" to link \"forearm\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{88, -10}, {108, 10}})));
 
-  replaceable Joints.Wrist_pitch wrist_pitch constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Wrist_pitch wrist_pitch(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Revolute joint \"wrist_pitch\" from link \"forearm\" to link \"wrist\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{136, -10}, {156, 10}})));
 
-  replaceable Joints.Flange_roll flange_roll constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Flange_roll flange_roll(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Revolute joint \"flange_roll\" from link \"wrist\" to link \"mounting_flange\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{184, -10}, {204, 10}})));
 
@@ -213,12 +270,18 @@ model SixAxisArm "Robot SixAxisArm"
     "Fixed joint \"gripper_mount\" from link \"tool0\" to link \"gripper_body\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{280, -10}, {300, 10}})));
 
-  replaceable Joints.Finger_coupling finger_coupling constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+  replaceable Joints.Finger_coupling finger_coupling(
     s_start = finger_coupling.parameters.mimic.multiplier*gripper_stroke.s_start + finger_coupling.parameters.mimic.offset,
     fixedStart = false,
     stateSelect = StateSelect.avoid,
     checkEffort = false,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+      s_start = finger_coupling.parameters.mimic.multiplier*gripper_stroke.s_start + finger_coupling.parameters.mimic.offset,
+      fixedStart = false,
+      stateSelect = StateSelect.avoid,
+      checkEffort = false,
+      checkLimits = checkLimits)
     "Prismatic joint \"finger_coupling\" from link \"gripper_body\" to link \"finger_right\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -10}, {348, 10}})));
 
@@ -226,22 +289,35 @@ model SixAxisArm "Robot SixAxisArm"
     "Fixed joint \"grasp_frame\" from link \"gripper_body\" to link \"grasp_point\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -72}, {348, -52}})));
 
-  replaceable Joints.Gripper_stroke gripper_stroke constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+  replaceable Joints.Gripper_stroke gripper_stroke(
     s_min = max({gripper_stroke.parameters.limits.lower, finger_couplingMimic.leader_min, pinion_couplingMimic.leader_min}),
     s_max = min({gripper_stroke.parameters.limits.upper, finger_couplingMimic.leader_max, pinion_couplingMimic.leader_max}),
     v_max = min({gripper_stroke.parameters.limits.velocity, finger_couplingMimic.leaderSpeed_max, pinion_couplingMimic.leaderSpeed_max}),
     fixedStart = fixedStart,
     checkEffort = false,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+      s_min = max({gripper_stroke.parameters.limits.lower, finger_couplingMimic.leader_min, pinion_couplingMimic.leader_min}),
+      s_max = min({gripper_stroke.parameters.limits.upper, finger_couplingMimic.leader_max, pinion_couplingMimic.leader_max}),
+      v_max = min({gripper_stroke.parameters.limits.velocity, finger_couplingMimic.leaderSpeed_max, pinion_couplingMimic.leaderSpeed_max}),
+      fixedStart = fixedStart,
+      checkEffort = false,
+      checkLimits = checkLimits)
     "Prismatic joint \"gripper_stroke\" from link \"gripper_body\" to link \"finger_left\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -154}, {348, -134}})));
 
-  replaceable Joints.Pinion_coupling pinion_coupling constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Pinion_coupling pinion_coupling(
     phi_start = pinion_coupling.parameters.mimic.multiplier*gripper_stroke.s_start + pinion_coupling.parameters.mimic.offset,
     fixedStart = false,
     stateSelect = StateSelect.avoid,
     checkEffort = false,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      phi_start = pinion_coupling.parameters.mimic.multiplier*gripper_stroke.s_start + pinion_coupling.parameters.mimic.offset,
+      fixedStart = false,
+      stateSelect = StateSelect.avoid,
+      checkEffort = false,
+      checkLimits = checkLimits)
     "Revolute joint \"pinion_coupling\" from link \"gripper_body\" to link \"drive_pinion\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -244}, {348, -224}})));
 

@@ -3,7 +3,7 @@ within UrdfSync.Examples.SixAxisArm;
 model SixAxisArmRun "Run robot SixAxisArm with positions from outside: the model to export as FMU"
   extends UrdfSync.Robots.PartialBench;
 
-  replaceable SixAxisArm robot constrainedby SixAxisArm(
+  replaceable SixAxisArm robot(
     fixedStart = false)
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 325}})));

@@ -102,99 +102,147 @@ model WheeledRobot "Robot WheeledRobot"
     lidar.m
     "Mass of the whole robot";
 
-  replaceable Links.Base_link base_link constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Base_link base_link(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"base_link\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-72, -36}, {-52, -16}})));
 
-  replaceable Links.Caster_fork caster_fork constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Caster_fork caster_fork(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"caster_fork\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -36}, {-4, -16}})));
 
-  replaceable Links.Caster_wheel caster_wheel constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Caster_wheel caster_wheel(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"caster_wheel\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{24, -36}, {44, -16}})));
 
-  replaceable Links.Wheel_left wheel_left constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Wheel_left wheel_left(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"wheel_left\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -114}, {-4, -94}})));
 
-  replaceable Links.Wheel_right wheel_right constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Wheel_right wheel_right(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"wheel_right\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -192}, {-4, -172}})));
 
-  replaceable Links.Column_guide column_guide constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Column_guide column_guide(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"column_guide\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -270}, {-4, -250}})));
 
-  replaceable Links.Column column constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Column column(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"column\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{24, -270}, {44, -250}})));
 
-  replaceable Links.Neck neck constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Neck neck(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"neck\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{72, -270}, {92, -250}})));
 
-  replaceable Links.Head head constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Head head(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"head\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{120, -270}, {140, -250}})));
 
-  replaceable Links.Camera_optical_frame camera_optical_frame constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Camera_optical_frame camera_optical_frame(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"camera_optical_frame\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{168, -270}, {188, -250}})));
 
-  replaceable Links.Lidar_mast lidar_mast constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Lidar_mast lidar_mast(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"lidar_mast\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-24, -348}, {-4, -328}})));
 
-  replaceable Links.Lidar lidar constrainedby UrdfSync.Interfaces.PartialLink(
+  replaceable Links.Lidar lidar(
     animation = animation,
     showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
     "Link \"lidar\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{24, -348}, {44, -328}})));
 
-  replaceable Joints.Caster_swivel caster_swivel constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Caster_swivel caster_swivel(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Continuous joint \"caster_swivel\" from link \"base_link\" to link \"caster_fork\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -10}, {-36, 10}})));
 
-  replaceable Joints.Caster_roll caster_roll constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Caster_roll caster_roll(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Continuous joint \"caster_roll\" from link \"caster_fork\" to link \"caster_wheel\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -10}, {12, 10}})));
 
-  replaceable Joints.Drive_left drive_left constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Drive_left drive_left(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Continuous joint \"drive_left\" from link \"base_link\" to link \"wheel_left\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -88}, {-36, -68}})));
 
-  replaceable Joints.Drive_right drive_right constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Drive_right drive_right(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Continuous joint \"drive_right\" from link \"base_link\" to link \"wheel_right\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -166}, {-36, -146}})));
 
@@ -202,21 +250,30 @@ model WheeledRobot "Robot WheeledRobot"
     "Fixed joint \"guide_mount\" from link \"base_link\" to link \"column_guide\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -244}, {-36, -224}})));
 
-  replaceable Joints.Lift lift constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+  replaceable Joints.Lift lift(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialPrismaticJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Prismatic joint \"lift\" from link \"column_guide\" to link \"column\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -244}, {12, -224}})));
 
-  replaceable Joints.Head_pan head_pan constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Head_pan head_pan(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Revolute joint \"head_pan\" from link \"column\" to link \"neck\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{40, -244}, {60, -224}})));
 
-  replaceable Joints.Head_tilt head_tilt constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Head_tilt head_tilt(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Revolute joint \"head_tilt\" from link \"neck\" to link \"head\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{88, -244}, {108, -224}})));
 
@@ -228,9 +285,12 @@ model WheeledRobot "Robot WheeledRobot"
     "Fixed joint \"mast_mount\" from link \"base_link\" to link \"lidar_mast\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -322}, {-36, -302}})));
 
-  replaceable Joints.Lidar_spin lidar_spin constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+  replaceable Joints.Lidar_spin lidar_spin(
     fixedStart = fixedStart,
     checkLimits = checkLimits)
+    constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
+      fixedStart = fixedStart,
+      checkLimits = checkLimits)
     "Continuous joint \"lidar_spin\" from link \"lidar_mast\" to link \"lidar\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -322}, {12, -302}})));
 

@@ -5,7 +5,7 @@ model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the m
     redeclare WheeledRobotStance stance,
     load = robot.m*world.g);
 
-  replaceable WheeledRobot robot constrainedby WheeledRobot(
+  replaceable WheeledRobot robot(
     fixedStart = false,
     caster_swivel(fixedStart = true),
     caster_roll(fixedStart = true))

@@ -6,7 +6,7 @@ model WheeledRobotTest "Quick check of robot WheeledRobot: every axis moves insi
     load = robot.m*world.g);
   extends Modelica.Icons.Example;
 
-  replaceable WheeledRobot robot constrainedby WheeledRobot(
+  replaceable WheeledRobot robot(
     fixedStart = false,
     caster_swivel(fixedStart = true),
     caster_roll(fixedStart = true))

@@ -1,0 +1,150 @@
+"""The example that extends the six-axis arm: its parts by themselves, and the robot with all of them in balance."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from support.corpus import REPOSITORY
+from support.modelica import Run, Series, Task, compile_task, execute
+
+pytestmark = pytest.mark.slow
+
+URDF = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
+PAGE = REPOSITORY / "docs/extending.md"
+GRAVITY = 9.80665
+"""Of the standard library's world."""
+
+STIFFNESS, MASS, LEVER = 2e4, 3.0, 0.4
+HELD = f"""
+model Held
+  import Modelica;
+  inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}});
+  UrdfSync.Examples.CustomArm.ElasticElbow elbow(c = {STIFFNESS}, fixedStart = false);
+  Modelica.Mechanics.MultiBody.Parts.Body load(m = {MASS}, r_CM = {{{LEVER}, 0, 0}});
+  Modelica.Mechanics.Rotational.Components.Fixed brake;
+equation
+  connect(world.frame_b, elbow.frame_a);
+  connect(elbow.frame_b, load.frame_a);
+  connect(brake.flange, elbow.axis);
+end Held;
+"""
+"""The elbow with its motor held, and a load on the arm."""
+
+RATIO, ROTOR, INERTIA, ACCELERATION = 80.0, 3e-4, 0.7, 2.0
+DAMPING, FRICTION = 12.0, 9.0
+"""Of joint turret in the URDF."""
+PLACE = 0.5
+SPUN = f"""
+model Spun
+  import Modelica;
+  inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}});
+  UrdfSync.Examples.CustomArm.GearedTurret turret(ratio = {RATIO}, J_rotor = {ROTOR}, fixedStart = false);
+  UrdfSync.Examples.CustomArm.Imu imu(r = {{{PLACE}, 0, 0}});
+  Modelica.Mechanics.MultiBody.Parts.Body load(m = 1, r_CM = {{0, 0, 0}}, I_33 = {INERTIA});
+  Modelica.Mechanics.Rotational.Sources.Accelerate drive(phi(start = 0, fixed = true), w(start = 0, fixed = true));
+  Modelica.Blocks.Sources.Constant acceleration(k = {ACCELERATION});
+equation
+  connect(world.frame_b, turret.frame_a);
+  connect(turret.frame_b, load.frame_a);
+  connect(turret.frame_b, imu.frame_a);
+  connect(acceleration.y, drive.a_ref);
+  connect(drive.flange, turret.axis);
+end Spun;
+"""
+"""The turret speeds up evenly, with the sensor beside its axis."""
+
+IMU = [f"imu.{signal}[{k}]" for signal in ("f", "w") for k in (1, 2, 3)]
+"""The signals of the sensor."""
+
+STIFF = 1e7
+"""N.m/rad: what the arm sags by does not change its torque by a millionth."""
+BALANCED = """
+package Balanced_
+  import Modelica;
+  model Arm
+    extends UrdfSync.Examples.CustomArm.CustomArm(elbow(c = {stiffness}, phi_elastic_start = {deflection}));
+  end Arm;
+  model Test
+    extends UrdfSync.Examples.CustomArm.CustomArmTest(redeclare Arm robot);
+  end Test;
+end Balanced_;
+"""
+PAYLOAD, PAYLOAD_LEVER = 1.5, 0.15 + 0.08
+"""Mass of the valve block, and how far before the elbow's axis it is: origin of joint forearm_roll and centre."""
+
+
+def static_torque() -> float:
+    """What the elbow of the plain robot needs to hold the outstretched arm: Pinocchio reads the URDF."""
+    model = pin.buildModelFromXML(URDF.read_text("utf-8"))
+    model.gravity.linear = np.array([0, 0, -GRAVITY])
+    torques = pin.computeGeneralizedGravity(model, model.createData(), pin.neutral(model))
+    return float(torques[model.joints[model.getJointId("elbow")].idx_v])
+
+
+def balanced() -> str:
+    """The robot with its elbow deflected by the torque of the plain robot and, by hand, of the payload."""
+    torque = static_torque() - PAYLOAD * GRAVITY * PAYLOAD_LEVER
+    return BALANCED.format(stiffness=STIFF, deflection=-torque / STIFF)
+
+
+@pytest.fixture(scope="module")
+def found(modelica_library: Path) -> Mapping[str, Series]:
+    """What the elbow, the turret with the sensor, and the whole robot do."""
+    tasks = [
+        Task(HELD, "Held", [Run(2, 0.5)], ["elbow.axis.tau", "elbow.phi_elastic", "elbow.joint.revolute.w"]),
+        Task(SPUN, "Spun", [Run(1, 0.25)], ["turret.axis.tau", "turret.tau_motor", "turret.rotor.w", *IMU]),
+        Task(balanced(), "Balanced_.Test", [Run(1e-6, 1e-6)], ["robot.elbow.joint.revolute.a", "robot.imu.f[3]"]),
+    ]
+    outcomes = execute(modelica_library, [], tasks)
+    assert [outcome.error for outcome in outcomes] == [""] * len(tasks)
+    series = {task.model: outcome.runs[0] for task, outcome in zip(tasks, outcomes, strict=True)}
+    assert {name: one.error for name, one in series.items()} == dict.fromkeys(series, "")
+    return series
+
+
+def test_the_elastic_elbow_sags_until_its_spring_carries_the_load(found: Mapping[str, Series]) -> None:
+    values = found["Held"].values
+    torque = -MASS * GRAVITY * LEVER
+    assert values["elbow.phi_elastic"][0] == 0
+    assert abs(values["elbow.joint.revolute.w"][-1]) < 1e-6
+    assert values["elbow.axis.tau"][-1] == pytest.approx(torque, rel=1e-5)
+    assert values["elbow.phi_elastic"][-1] == pytest.approx(-torque / STIFFNESS, rel=1e-5)
+
+
+def test_the_geared_turret_feels_its_rotor(found: Mapping[str, Series]) -> None:
+    series = found["Spun"]
+    speed = ACCELERATION * series.times
+    losses = DAMPING * speed + FRICTION * np.tanh(50 * speed)
+    torque = (INERTIA + ROTOR * RATIO**2) * ACCELERATION + losses
+    assert series.values["turret.rotor.w"] == pytest.approx(RATIO * speed, rel=1e-6)
+    assert series.values["turret.axis.tau"] == pytest.approx(torque, rel=1e-6)
+    assert series.values["turret.tau_motor"] == pytest.approx(torque / RATIO, rel=1e-6)
+
+
+def test_the_sensor_shows_what_it_feels_on_a_circle(found: Mapping[str, Series]) -> None:
+    """Along the radius inwards, along the circle what speeds it up, and upwards what holds it against gravity."""
+    series = found["Spun"]
+    speed = ACCELERATION * series.times
+    still = np.zeros_like(speed)
+    expected = [-(speed**2) * PLACE, still + ACCELERATION * PLACE, still + GRAVITY, still, still, speed]
+    assert np.array([series.values[name] for name in IMU]) == pytest.approx(np.array(expected), rel=1e-6, abs=1e-6)
+
+
+def test_the_whole_arm_is_in_balance_with_its_payload(found: Mapping[str, Series]) -> None:
+    """Without the payload's torque in the spring, the forearm would begin to fall."""
+    values = found["Balanced_.Test"].values
+    assert abs(values["robot.elbow.joint.revolute.a"][0]) < 1e-3
+    assert values["robot.imu.f[3]"][0] == pytest.approx(GRAVITY, abs=1e-3)
+
+
+def test_the_models_on_the_page_compile(modelica_library: Path, tmp_path: Path) -> None:
+    """The first block is a package; its elbow has a brake, which the test model of the arm takes along."""
+    (package, *_) = re.findall(r"```modelica\n(.*?)```", PAGE.read_text("utf-8"), re.DOTALL)
+    (tmp_path / "MyArm.mo").write_text(package, encoding="utf-8")
+    (outcome,) = execute(modelica_library, [tmp_path / "MyArm.mo"], [compile_task("MyArm.Test")])
+    assert outcome.error == ""

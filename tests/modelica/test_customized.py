@@ -1,0 +1,205 @@
+"""Models that users write beside a generated package: they extend Run, Test and the robot, and what they change counts.
+
+Pinocchio says what each axis needs for the motion that the simulation has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from support.modelica import Array, Run, Series, Task, execute
+from support.packages import generate
+from support.urdfs import dynamics, joint, limit, link, robot
+
+from urdfsync.domain import Target
+from urdfsync.urdf.physics.reference import STEEPNESS
+
+pytestmark = pytest.mark.slow
+
+GRAVITY = 9.80665
+"""Of the standard library's world."""
+AXES = {"shoulder": ("revolute", "phi", "w", "tau"), "elbow": ("revolute", "phi", "w", "tau")} | {
+    "slide": ("prismatic", "s", "v", "f")
+}
+"""Names of each joint's component, position, speed and effort."""
+
+
+def arm(*, mass: float, center: str, damping: float, axis: str, xyz: str, rpy: str) -> str:
+    """A robot with two axes that turn and one that slides; the numbers are those that a test changes."""
+    return robot(
+        link("base", 4.0),
+        link("upper", 2.5),
+        link("forearm", mass, center=center),
+        link("hand", 0.7),
+        joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[limit(), dynamics(damping, 0.3)]),
+        joint(
+            "elbow", "revolute", "upper", "forearm", xyz=xyz, rpy=rpy, axis=axis, inside=[limit(), dynamics(0.2, 0.1)]
+        ),
+        joint("slide", "prismatic", "forearm", "hand", axis="-1 0 0", inside=[limit(), dynamics(3.0, 2.0)]),
+    )
+
+
+BEFORE = arm(mass=1.5, center="0.02 -0.05 0.1", damping=0.5, axis="0 1 0", xyz="0.1 -0.2 0.3", rpy="0.5 -0.6 0.7")
+AFTER = arm(mass=6.25, center="0.1 0.2 -0.3", damping=4.0, axis="0.48 0.6 0.64", xyz="-0.3 0.1 0.2", rpy="-0.4 0.9 0.1")
+INERTIA = ", ".join(
+    f"{name} = {value * 6.25!r}"
+    for name, value in {"ixx": 0.021, "iyy": 0.018, "izz": 0.015, "ixy": 0.002, "ixz": -0.001, "iyz": 0.0015}.items()
+)
+CHANGES = f"""robot(
+    forearm(parameters(inertial(mass = 6.25, origin(xyz = {{0.1, 0.2, -0.3}}), inertia({INERTIA})))),
+    shoulder(parameters(dynamics(damping = 4))),
+    elbow(parameters(axis = {{0.48, 0.6, 0.64}}, origin(xyz = {{-0.3, 0.1, 0.2}}, rpy = {{-0.4, 0.9, 0.1}}))))"""
+"""What is `AFTER` of `BEFORE`, as modifiers of a bench."""
+
+PAYLOAD = pin.Inertia(1.75, np.array([0.05, -0.1, 0.2]), np.diag([0.01, 0.02, 0.03]))
+STIFFNESS, DAMPING = 1e6, 1e4
+"""Of the gear: it yields by a few millionths, and swings no more after a tenth of a second."""
+DRIVE = ["robot.elbowAxis.phi", "elbowDrive.accelerate.w", "elbowDrive.accelerate.a"]
+"""Motion before the gear."""
+
+USERS = f"""
+package Users_
+  import Modelica;
+  import UrdfSync;
+  import Bot;
+
+  model ChangedTest
+    extends Bot.BotTest({CHANGES});
+  end ChangedTest;
+
+  model ChangedRun
+    extends Bot.BotRun({CHANGES}, shoulder_phi = 0.4, elbow_phi = -0.3, slide_s = 0.2);
+  end ChangedRun;
+
+  model ElasticElbow
+    extends UrdfSync.Interfaces.PartialRevoluteJoint(redeclare Bot.Joints.ElbowParameters parameters);
+    Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
+      animation = false, r = parameters.origin.xyz,
+      rotationType = Modelica.Mechanics.MultiBody.Types.RotationTypes.PlanarRotationSequence, sequence = {{3, 2, 1}},
+      angles = Modelica.Units.Conversions.to_deg(
+        {{parameters.origin.rpy[3], parameters.origin.rpy[2], parameters.origin.rpy[1]}}));
+    Modelica.Mechanics.MultiBody.Joints.Revolute revolute(
+      animation = false, useAxisFlange = true, n = parameters.axis, stateSelect = stateSelect,
+      phi(start = phi_start, fixed = true), w(start = w_start, fixed = true));
+    Modelica.Mechanics.Rotational.Components.SpringDamper gear(
+      c = {STIFFNESS}, d = {DAMPING}, stateSelect = StateSelect.avoid);
+  equation
+    connect(frame_a, origin.frame_a);
+    connect(origin.frame_b, revolute.frame_a);
+    connect(revolute.frame_b, frame_b);
+    connect(axis, gear.flange_b);
+    connect(gear.flange_a, revolute.axis);
+    connect(revolute.support, support);
+  end ElasticElbow;
+
+  model LoadedUpper
+    extends Bot.Links.Upper(m = parameters.inertial.mass + payload.m);
+    Modelica.Mechanics.MultiBody.Parts.Body payload(
+      animation = false, m = {PAYLOAD.mass}, r_CM = {{0.05, -0.1, 0.2}}, I_11 = 0.01, I_22 = 0.02, I_33 = 0.03);
+  equation
+    connect(frame_a, payload.frame_a);
+  end LoadedUpper;
+
+  model MyArm
+    extends Bot.Bot(redeclare ElasticElbow elbow, redeclare LoadedUpper upper);
+  end MyArm;
+
+  model RedeclaredTest
+    extends Bot.BotTest(redeclare MyArm robot);
+    Real mass = robot.m;
+  end RedeclaredTest;
+end Users_;
+"""
+
+
+def values(name: str) -> list[str]:
+    """Position, speed, acceleration and effort of an axis."""
+    component, q, v, effort = AXES[name]
+    return [*(f"robot.{name}.{component}.{part}" for part in (q, v, "a")), f"robot.{name}Axis.{effort}"]
+
+
+@pytest.fixture(scope="module")
+def found(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Series]:
+    """What each model of the user gives."""
+    folder = generate(BEFORE.encode(), Target("Bot", "Bot")).write(tmp_path_factory.mktemp("customized"))
+    axes = [value for name in AXES for value in values(name)]
+    more = {"RedeclaredTest": [*DRIVE, "mass"]}
+    runs = {"ChangedTest": Run(8, 0.5), "ChangedRun": Run(0.1, 0.05), "RedeclaredTest": Run(8, 0.5, tolerance=1e-10)}
+    tasks = [Task(USERS, f"Users_.{name}", [run], [*axes, *more.get(name, [])]) for name, run in runs.items()]
+    outcomes = execute(modelica_library, [folder], tasks)
+    assert [outcome.error for outcome in outcomes] == [""] * len(runs)
+    series = {name: outcome.runs[0] for name, outcome in zip(runs, outcomes, strict=True)}
+    assert {name: one.error for name, one in series.items()} == dict.fromkeys(runs, "")
+    return series
+
+
+def model_of(urdf: str) -> pin.Model:
+    model = pin.buildModelFromXML(urdf)
+    model.gravity.linear = np.array([0, 0, -GRAVITY])
+    return model
+
+
+def loaded(model: pin.Model) -> pin.Model:
+    """The same with the payload on the upper arm."""
+    frame = model.frames[model.getFrameId("upper", pin.BODY)]
+    model.appendBodyToJoint(frame.parentJoint, PAYLOAD, frame.placement)
+    return model
+
+
+def measured(series: Series) -> tuple[Array, Array, Array, Array]:
+    """Positions, speeds, accelerations and efforts of all axes: a row per instant."""
+    parts = np.array([[series.values[value] for value in values(name)] for name in AXES])
+    q, v, a, efforts = parts.transpose(1, 2, 0)
+    return q, v, a, efforts
+
+
+def efforts_of(model: pin.Model, q: Array, v: Array, a: Array, lossless: tuple[str, ...] = ()) -> Array:
+    """What all axes need for a motion, losses included, except in joints that have none: a row per instant."""
+    assert list(model.names)[1:] == list(AXES)
+    keeps = np.array([name not in lossless for name in AXES])
+    losses = keeps * (model.damping * v + model.friction * np.tanh(STEEPNESS * v))
+    data = model.createData()
+    return np.array([pin.rnea(model, data, *row) for row in zip(q, v, a, strict=True)]) + losses
+
+
+def moves(q: Array) -> bool:
+    """Whether every axis goes somewhere."""
+    return bool((np.ptp(q, axis=0) > 0.05).all())
+
+
+@pytest.mark.parametrize("name", ["ChangedTest", "ChangedRun"])
+def test_numbers_that_a_bench_changes_are_those_of_the_robot(name: str, found: Mapping[str, Series]) -> None:
+    """Mass, centre and inertia of a link, and damping, axis and origin of joints, all at once."""
+    q, v, a, efforts = measured(found[name])
+    expected = efforts_of(model_of(AFTER), q, v, a)
+    assert moves(q) or name == "ChangedRun", "Run stays where its inputs, which are constant, have put it"
+    assert efforts == pytest.approx(expected, rel=1e-10, abs=1e-10 * np.abs(expected).max())
+    plain = efforts_of(model_of(BEFORE), q, v, a)
+    assert (np.abs(plain - expected).max(axis=0) > 0.1).all(), "each axis shows a change"
+
+
+def test_a_redeclared_joint_and_a_payload_are_part_of_the_robot(found: Mapping[str, Series]) -> None:
+    """Forces agree for the motion of the links; the elbow's gear has no friction, and passes on what it transmits."""
+    q, v, a, efforts = measured(found["RedeclaredTest"])
+    expected = efforts_of(loaded(model_of(BEFORE)), q, v, a, lossless=("elbow",))
+    assert moves(q)
+    assert efforts == pytest.approx(expected, rel=1e-8, abs=1e-8 * np.abs(expected).max())
+    assert found["RedeclaredTest"].values["mass"] == pytest.approx(4.0 + 2.5 + 1.5 + 0.7 + PAYLOAD.mass)
+
+
+def test_a_gear_that_hardly_yields_needs_the_torques_of_a_rigid_joint(found: Mapping[str, Series]) -> None:
+    """For the motion of the drive, once the gear has taken up the weight."""
+    series = found["RedeclaredTest"]
+    q, v, a, efforts = measured(series)
+    later = series.times > 1
+    for motion, name in zip((q, v, a), DRIVE, strict=True):
+        assert 0 < np.abs(series.values[name] - motion[:, 1])[later].max() < 1e-4
+        motion[:, 1] = series.values[name]
+    expected = efforts_of(loaded(model_of(BEFORE)), q, v, a, lossless=("elbow",))
+    assert efforts[later] == pytest.approx(expected[later], abs=1e-4 * np.abs(expected).max())
+    unloaded = efforts_of(model_of(BEFORE), q, v, a, lossless=("elbow",))
+    assert np.abs(unloaded - expected)[later, 0].max() > 1
