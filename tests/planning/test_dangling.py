@@ -16,7 +16,7 @@ ELBOW = "within Plant.Arm.Joints;\nmodel Elbow\n  Real phi;\nend Elbow;\n"
 PACKAGE = "within Plant;\npackage Arm\n  constant Real g = 9.81;\nend Arm;\n"
 
 
-def never(path: tuple[str, ...]) -> bool:  # noqa: ARG001 - see `lost_names`
+def never(path: tuple[str, ...]) -> bool:
     """Nothing is inherited."""
     return False
 

@@ -65,7 +65,7 @@ def unresolved(node: Node, scopes: Scopes, doubtful: Collection[str] = ()) -> It
 
 class _Walk:
     def __init__(self, scopes: Scopes, doubtful: Collection[str]) -> None:
-        self._scopes, self._doubtful = scopes, doubtful
+        self._scopes, self._doubtful = scopes, frozenset(doubtful)
 
     def _class(self, node: Node) -> Iterator[Unresolved]:
         scopes, definition = self._scopes, node.definition
@@ -144,21 +144,21 @@ class _Walk:
         top = component.type.parts[:-1][:1]
         return set(types) == {UNKNOWN} and top != () and self._scopes.node(top) is None
 
-    def _is_in_foreign(self, name: Name, scope: Node | None) -> bool:
-        """Whether a name is that of a part of such a component."""
+    def _unclear(self, name: Name, scope: Node | None) -> tuple[str, ...]:
+        """The parts of a name whose meaning can't be told, without what is inside of such a component."""
         for count in range(1, len(name.parts)):
             found = self._scopes.lookup(name._replace(parts=name.parts[:count]), scope)
             if not isinstance(found, Element):
-                return False
+                return name.parts[count - 1 :]
             if isinstance(found.declaration, Component) and self._is_foreign(found.declaration, found.types):
-                return True
-        return False
+                return ()
+        return name.parts[-1:]
 
     def _missing(
         self, name: Name, found: object, scope: Node | None, kind: Kind, *, is_part: bool = False
     ) -> Iterator[Unresolved]:
-        if found is UNKNOWN and not self._is_in_foreign(name, scope):
-            part = next((part for part in name.parts if part in self._doubtful), "")
+        if found is UNKNOWN and not self._doubtful.isdisjoint(name.parts):
+            part = next((part for part in self._unclear(name, scope) if part in self._doubtful), "")
             if part:
                 yield Unresolved(kind, str(name), part, "", name.line)
         if not isinstance(found, Missing):

@@ -38,6 +38,8 @@ class UsersTexts(msgspec.Struct, frozen=True):
     """Edited files and own classes in the package, by their keys."""
     kept: Mapping[str, str]
     """Files of the package that stay although they are no longer generated; these are not looked at."""
+    edited: frozenset[str]
+    """Those of them that the user edited."""
     around: Mapping[Path, bytes]
     """Files below the output folder that have to do with the package."""
 
@@ -72,6 +74,7 @@ class DanglingNames:
         return UsersTexts(
             {key: written.get(key) or disk.any_text(key) for key in sorted(edited | own)},
             {key: disk.any_text(key) for key in kept},
+            frozenset(key for key in kept if known[key].kind is ActionKind.ORPHAN),
             disk.users_files({folder, before}),
         )
 
@@ -97,6 +100,26 @@ class DanglingNames:
             for use in self._uses(name, text, scopes, lost, doubtful):
                 uses.setdefault(use.part, []).append(use)
             found += [_warning(file, one, lost[part]) for part, one in uses.items()]
+        return found
+
+    def left_out(self, texts: UsersTexts, options: Mapping[str, str]) -> list[Diagnostic]:
+        """A warning for each text that uses a file which options leave out now, and for such a file that was edited.
+
+        The options are given by the paths of the files.
+        """
+        names = {path.rpartition("/")[2].removesuffix(".mo"): path for path in options}
+        sources = self._planned(texts.own, texts.around)
+        asked = [(self._class_name(key), self._situation.disk.path(key), text) for key, text in texts.own.items()]
+        asked += [(name, Path(one.file), "") for name, one in sources.users.items()]
+        scopes, found = Scopes(sources), []
+        for file, option in options.items():
+            if (key := self._situation.old_key(file)) in texts.edited:
+                place = shown(self._situation.disk.path(key))
+                found.append(_left_out("the file is no longer generated", place, 0, option))
+        for name, path, text in asked:
+            for use in {use.part: use for use in reversed(find_uses(name, text, scopes, names, names))}.values():
+                message = f"`{use.name}` is used here, and no longer generated"
+                found.append(_left_out(message, shown(path), use.line, options[names[use.part]]))
         return found
 
     def _uses(
@@ -134,6 +157,11 @@ class DanglingNames:
         *folders, file = key.removeprefix(self._situation.key("")).removesuffix(".mo").split("/")
         package = self._situation.robot.target.package.split(".")
         return (*package, *folders) if file == "package" else (*package, *folders, file)
+
+
+def _left_out(message: str, file: str, line: int, option: str) -> Diagnostic:
+    hint = f"`{option}` in the configuration keeps it up to date"
+    return Diagnostic(Severity.WARNING, "left-out", message, file, line, hint=hint)
 
 
 def _warning(file: Path, uses: Sequence[Unresolved], new: str) -> Diagnostic:

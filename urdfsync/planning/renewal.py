@@ -14,7 +14,7 @@ from urdfsync.difference import ElementKey, Version
 from urdfsync.domain import Role, Target
 from urdfsync.moves import places
 from urdfsync.plan import FileRecord, State, Wanted
-from urdfsync.planning import imports, inputs, leftovers
+from urdfsync.planning import imports, inputs, leftovers, outdated
 from urdfsync.planning.dangling import DanglingNames, lost_names
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.generate import Generated, artifacts
@@ -53,6 +53,7 @@ class Renewal:
         found = found if settled is last else self._changes(settled)
         said = [*self._said, *self._imported.diagnostics, *situation.parents.diagnostics]
         said += [*self._moved(decision), *self._uses(decision), *self._lost_connectors(found)]
+        said += outdated.findings(situation, decision.actions.decided)
         said.sort(key=lambda diagnostic: (diagnostic.file, diagnostic.line))
         news = found if found and (found.changes or found.generator) else None
         if situation.request.dry:
@@ -287,7 +288,20 @@ class Renewal:
         if not self._replaced:
             return []
         texts = self._dangling.users_texts(decision.actions, decision.texts)  # parsing a large package takes longer
-        return self._dangling.warnings(texts, self._lost) if texts and self._lost else []
+        said = self._dangling.left_out(texts, self._optional) if self._optional else []
+        return said + (self._dangling.warnings(texts, self._lost) if texts and self._lost else [])
+
+    @functools.cached_property
+    def _optional(self) -> dict[str, str]:
+        """The options that bring files which the package loses with this build, by their paths."""
+        situation = self._situation
+        recorded, options = situation.recorded, situation.robot.options
+        if recorded is None:
+            return {}
+        target = Target(recorded.package, recorded.class_)
+        gone = self._replaced.keys() - self._generated.artifacts.keys()
+        found = {path: situation.domain.option_for(path, target, options) for path in sorted(gone)}
+        return {path: option for path, option in found.items() if option}
 
     def lost_use(self, key: str, text: str) -> tuple[str, int] | None:
         """The first name in a text for a file that the package loses, with its line."""
