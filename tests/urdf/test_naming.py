@@ -11,6 +11,7 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
+from urdfsync.modelica import parser
 from urdfsync.modelica.names import KEYWORDS
 from urdfsync.urdf import naming
 from urdfsync.urdf.naming import Identifier, Key, identify, natural_key, spell
@@ -34,8 +35,8 @@ ROBOT_MODEL = {
 }
 RECORD = Path(__file__).resolve().parents[2] / "modelica" / "UrdfSync" / "Records" / "Robot.mo"
 ROBOT_RECORD = {
-    name.lower() for name in re.findall(r"^  [\w. ]+ (\w+)[\[( =\n]", RECORD.read_text("utf-8"), re.MULTILINE)
-} - {"annotation"}
+    part.name.parts[0].lower() for part in parser.parse(RECORD.read_text(encoding="utf-8")).classes[0].components
+}
 DEVICES = {"con", "prn", "aux", "nul", "com1", "com9", "lpt1", "lpt9"}
 
 

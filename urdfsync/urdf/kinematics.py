@@ -13,7 +13,7 @@ Pose = tuple[Matrix, Vector]
 """Rotation R and translation p: v_world = R·v + p."""
 
 _FAR = 1e60
-"""Farther than any joint moves, and not so far that arithmetic with it overflows: as in the function leaderRange."""
+"""Farther than any joint moves, and not so far that arithmetic with it overflows: as in the function leaderPosition."""
 
 IDENTITY: Pose = (((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0, 0.0, 0.0))
 
