@@ -28,7 +28,7 @@ HAND = Robot(
     ("frames", "names"),
     [
         ("leaves", ["index tip", "thumb"]),
-        ("all", ["index", "index tip", "thumb"]),
+        ("all", ["palm", "index", "index tip", "thumb"]),
         ((), ["index tip", "thumb"]),
         (("palm",), ["palm", "index tip", "thumb"]),
         (("thumb", "index", "index"), ["index", "index tip", "thumb"]),
@@ -45,5 +45,5 @@ def test_leaves_and_those_that_are_asked_for_in_canonical_order(
 def test_leaves_and_all_of_any_robot(robot: Robot) -> None:
     skeleton = Skeleton.of(robot)
     assert frame_links(skeleton, Options()) == skeleton.leaves()
-    assert frame_links(skeleton, Options(frames="all")) == (skeleton.links[1:] or skeleton.links)
+    assert frame_links(skeleton, Options(frames="all")) == skeleton.links
     assert frame_links(skeleton, Options(frames=tuple(link.name for link in skeleton.links))) == skeleton.links

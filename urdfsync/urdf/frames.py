@@ -14,8 +14,8 @@ def frame_links(skeleton: Skeleton, options: Options) -> tuple[Link, ...]:
 
     Names that are no link are left out: `check_options` reports them.
     """
-    named: Iterable[str] = () if isinstance(options.frames, str) else options.frames
     if options.frames == "all":
-        named = (link.name for link in skeleton.links[1:])  # the root link has frame_a
+        return skeleton.links  # with the root, although it has frame_a: a link that becomes the root keeps its frame
+    named: Iterable[str] = () if isinstance(options.frames, str) else options.frames
     wanted = {leaf.name for leaf in skeleton.leaves()}.union(named)
     return tuple(link for link in skeleton.links if link.name in wanted)

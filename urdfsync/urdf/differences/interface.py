@@ -1,4 +1,4 @@
-"""What differences do to the connectors of the robot model, and to the order of its positions."""
+"""What differences do to the connectors of the robot model, and to the variables of Run."""
 
 from __future__ import annotations
 
@@ -6,11 +6,17 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from urdfsync.difference import Effect, ElementKey, Version
 from urdfsync.domain import Target
-from urdfsync.urdf.drives import driven_joints
+from urdfsync.urdf.drives import can_be_driven, driven_joints
 from urdfsync.urdf.model.robot import connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.skeleton import Skeleton
+from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 from urdfsync.urdf.snapshot import from_snapshot
+
+_RUN: Mapping[Motion, Mapping[str, str]] = {
+    "rotational": {"position": "phi", "effort": "tau"},
+    "translational": {"position": "s", "effort": "f"},
+}
+"""How the names of variables of Run end."""
 
 
 def interface(
@@ -18,7 +24,8 @@ def interface(
 ) -> Sequence[Effect]:
     """The connectors that elements of both versions get, lose, or have by another name, as `options` have it now.
 
-    With positions in one vector, also its order where that is another one for joints of both versions.
+    Also variables of Run of joints that keep their axis: whose motion is another one, or that become passive or driven.
+    With positions in one vector, its order too, where that is another one for joints of both versions.
     """
     if "package" not in options.approach:
         return ()
@@ -31,6 +38,7 @@ def interface(
         *_differing("link", "frame", one.frames, other.frames, links, renames),
         *_differing("joint", "axis", one.axes, other.axes, joints, renames),
         *_differing("joint", "support", one.supports, other.supports, joints, renames),
+        *_variables(before, after, joints, renames, options),
         *(_order(before, after, renames, options) if options.inputs == "vector" else ()),
     ]
 
@@ -50,6 +58,26 @@ def _differing(
             continue
         hint = f'list "{name}" in `frames` to keep it' if kind == "link" and after is None else ""
         yield Effect((f"{kind} {name}", connector), before, after, hint=hint)
+
+
+def _variables(
+    before: Skeleton, after: Skeleton, joints: set[str], renames: Mapping[ElementKey, str], options: Options
+) -> Iterator[Effect]:
+    """Variables of Run. A joint that gets or loses its axis, or has another name, is named with that axis."""
+    moving = {joint.name: joint for joint in after.joints if can_be_driven(joint)}
+    was_driven, is_driven = (driven_joints(skeleton.joints, options) for skeleton in (before, after))
+    for joint in before.joints:
+        name = renames.get(("joint", joint.name), joint.name)
+        component = before.joint(joint.name).component
+        if name not in joints & moving.keys() or not can_be_driven(joint) or after.joint(name).component != component:
+            continue
+        old = _RUN[MOTIONS[joint.type]] if joint.name in was_driven else {}
+        new = _RUN[MOTIONS[moving[name].type]] if name in is_driven else {}
+        hint = f'list "{name}" in `driven`, with all others that are driven, to keep it' if old and not new else ""
+        for variable in ("position", "effort"):
+            one, other = (f"{component}_{ends[variable]}" if ends else None for ends in (old, new))
+            if one != other and not (variable == "position" and options.inputs == "vector"):
+                yield Effect((f"joint {name}", f"{variable} in Run"), one, other, hint=hint)
 
 
 def _order(before: Skeleton, after: Skeleton, renames: Mapping[ElementKey, str], options: Options) -> Iterator[Effect]:

@@ -1,0 +1,264 @@
+"""What users connect to keeps its name through all real histories, unless its element is another one.
+
+Connectors are read from the generated text, elements from the URDF, each by a few lines of its own here: nothing of
+the code that makes the names has a say in what is a fault. See docs/naming.md for the rule.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from lxml import etree
+from support import replay
+from support.packages import RENDERER, read
+
+from urdfsync.classfiles import StoredClasses
+from urdfsync.difference import Effect, Version
+from urdfsync.domain import Order, Snapshot, Target
+from urdfsync.modelica.scopes import Node, Scopes
+from urdfsync.modelica.unresolved import unresolved
+from urdfsync.urdf.domain import DOMAIN
+from urdfsync.urdf.options import Options
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+TARGET = Target("Bot", "Bot")
+FILES = ("package.mo", "Bot.mo", "BotRun.mo")
+
+pytestmark = pytest.mark.slow
+
+Key = tuple[str, str]
+"""Kind (`link` or `joint`) and name of an element of the URDF."""
+
+
+# --- what a version offers, from its generated text ---------------------------------------------------------------
+
+CONNECTORS = {"Frame_b": "frame", "Flange_a": "axis", "Flange_b": "support", "RealInput": "input", "RealOutput": "output"}
+_STATEMENT = re.compile(r'(?:[^;"]|"(?:[^"\\]|\\.)*")*;')
+_CONNECTOR = re.compile(rf"\s*Modelica\.[\w.]+\.({'|'.join(CONNECTORS)}) (\w+)")
+_PART = re.compile(r"\s*replaceable (?:Links|Joints)\.\w+ (\w+)\b")
+_ELEMENT = re.compile(r'\b(link|joint) \\"((?:[^"\\]|\\\\)*)\\"', re.IGNORECASE)
+
+
+class Declared(NamedTuple):
+    """A component that somebody can connect to, or whose connectors somebody can."""
+
+    what: str
+    """`frame`, `axis`, `support`, `input`, `output`, or `part` of a link or joint."""
+    element: Key
+
+
+def declared(text: str) -> dict[str, Declared]:
+    """The connectors, and the links and joints, that a model declares, by their names."""
+    found = {}
+    for statement in _STATEMENT.findall(text.partition("\nequation\n")[0]):
+        connector, part = _CONNECTOR.match(statement), _PART.match(statement)
+        if connector or part:
+            element = _ELEMENT.search(statement)
+            assert element, statement
+            name, what = (connector[2], CONNECTORS[connector[1]]) if connector else (part[1], "part")  # type: ignore[index]
+            found[name] = Declared(what, (element[1].lower(), element[2].replace("\\\\", "\\")))
+    return found
+
+
+# --- what elements are, from the URDF -----------------------------------------------------------------------------
+
+
+class Elements:
+    """The links and joints of a URDF."""
+
+    def __init__(self, content: bytes) -> None:
+        root = etree.fromstring(content, etree.XMLParser(recover=True))
+        self.joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
+        self.links = {link.get("name", "") for link in root.findall("link")}
+        parents = {joint.find("parent").get("link") for joint in self.joints.values()}
+        self.leaves = self.links - parents
+
+    def __contains__(self, element: Key) -> bool:
+        return element[1] in (self.links if element[0] == "link" else self.joints)
+
+    def moves(self, joint: str) -> bool:
+        """Whether a joint has one axis that something can drive."""
+        found = self.joints[joint]
+        return found.get("type") in ("revolute", "continuous", "prismatic") and found.find("mimic") is None
+
+
+# --- versions -----------------------------------------------------------------------------------------------------
+
+
+class Built(NamedTuple):
+    """A version of a history that can be built."""
+
+    number: int
+    snapshot: Snapshot
+    texts: Mapping[str, str]
+    robot: Mapping[str, Declared]
+    run: Mapping[str, Declared]
+    elements: Elements
+
+    @property
+    def connectors(self) -> Mapping[str, Declared]:
+        """What somebody can connect to from outside: connectors of the robot, inputs and outputs of Run."""
+        return {name: one for name, one in {**self.robot, **self.run}.items() if one.what != "part"}
+
+
+@functools.cache
+def versions(history: str, frames: str = "leaves") -> Sequence[Built]:
+    """The versions of a history, as `init` would have configured the robot."""
+    contents = replay.histories()[history]
+    chosen = {} if frames == "leaves" else {"frames": frames}
+    options = Options(base=replay.base_of(contents), meshes="skip", cross_check=False, **chosen)  # type: ignore[arg-type]
+    found = []
+    for number, content in enumerate(contents):
+        snapshot = read(content).snapshot
+        if snapshot is None:
+            continue
+        artifacts = [a for a in DOMAIN.artifacts(snapshot, {}, TARGET, options) if a.path in FILES]
+        texts = {a.path: RENDERER.render(a.template, a.data) for a in artifacts if not isinstance(a, Order)}
+        robot, run = declared(texts["Bot.mo"]), declared(texts["BotRun.mo"])
+        elements = Elements(content)
+        parts = sorted(one.element for one in robot.values() if one.what == "part")
+        assert parts == sorted([*(("link", name) for name in elements.links), *(("joint", name) for name in elements.joints)])
+        found.append(Built(number, snapshot, texts, robot, run, elements))
+    return found
+
+
+def excuse(name: str, thing: Declared, old: Built, new: Built, *, every_frame: bool = False) -> str:
+    """Why a name of the old version may be gone in the new one; empty if it may not."""
+    kind, element = thing.element
+    if thing.element not in new.elements:
+        return "its element is gone"
+    if thing.what == "frame" and not every_frame and element not in new.elements.leaves:
+        return "it is a leaf no more"
+    if kind == "joint" and thing.what != "part" and not new.elements.moves(element):
+        return "it stands still, or follows"
+    part, now = (_component(thing.element, version) for version in (old, new))
+    if _is_anothers(part, thing, new) or (name in old.robot and _is_anothers(name, thing, new)):
+        return "it gave way to a new name"
+    if now != part and _is_anothers(now, thing, old):
+        return "nothing has the name any more that it gave way to"
+    return ""
+
+
+def _component(element: Key, version: Built) -> str:
+    return next(name for name, other in version.robot.items() if other == ("part", element))
+
+
+def _is_anothers(name: str, thing: Declared, version: Built) -> bool:
+    """Whether a robot has something else by this name; capital and small letters count as equal."""
+    return any(name.lower() == one.lower() and other.element != thing.element for one, other in version.robot.items())
+
+
+def lost(old: Mapping[str, Declared], new: Mapping[str, Declared]) -> Mapping[str, Declared]:
+    """What is not there any more under its name, or where that is something else."""
+    return {name: thing for name, thing in old.items() if new.get(name) != thing}
+
+
+NAMES = tuple(replay.histories())
+HISTORIES = pytest.mark.parametrize("history", NAMES or ("no-corpus",), ids=lambda name: name[-40:])
+
+
+@HISTORIES
+def test_no_step_renames_what_somebody_connected_to(corpus: Path, history: str) -> None:
+    for old, new in itertools.pairwise(versions(history)):
+        gone = {**lost(old.robot, new.robot), **lost(old.run, new.run)}
+        unexcused = [name for name, thing in gone.items() if not excuse(name, thing, old, new)]
+        assert not unexcused, f"version {new.number}"
+
+
+@HISTORIES
+def test_with_all_frames_each_link_keeps_its_own(corpus: Path, history: str) -> None:
+    for old, new in itertools.pairwise(versions(history, "all")):
+        gone = {name: thing for name, thing in lost(old.robot, new.robot).items() if thing.what == "frame"}
+        unexcused = [name for name, thing in gone.items() if not excuse(name, thing, old, new, every_frame=True)]
+        assert not unexcused, f"version {new.number}"
+
+
+@HISTORIES
+def test_each_case_is_named_with_the_key_that_keeps_a_frame(corpus: Path, history: str) -> None:
+    for old, new in itertools.pairwise(versions(history)):
+        gone = lost(old.robot, new.robot)
+        said = {(effect.path, effect.old): effect for effect in effects(old, new)}
+        for name, (what, element) in gone.items():
+            if what == "part" or element not in new.elements:
+                continue
+            effect = said[(" ".join(element), what), name]
+            assert (effect.new is not None) == (Declared(what, element) in new.robot.values())
+            if effect.new is None and what == "frame":
+                assert f'list "{element[1]}" in `frames`' in effect.hint
+        for effect in said.values():
+            assert effect.old is None or effect.old in gone, effect
+            assert effect.new is None or effect.new in lost(new.robot, old.robot), effect
+
+
+def effects(old: Built, new: Built) -> Sequence[Effect]:
+    """What the domain says of a step."""
+    renames = DOMAIN.renames(old.snapshot, new.snapshot)
+    options = Options(meshes="skip", cross_check=False)
+    return DOMAIN.interface(Version(old.snapshot), Version(new.snapshot), renames, TARGET, options)
+
+
+# --- a bench by hand ----------------------------------------------------------------------------------------------
+
+_BENCH = """\
+model Bench "Everything that version 1 lets one connect to"
+  inner Modelica.Mechanics.MultiBody.World world;
+  Bot.Bot robot;
+  Bot.BotRun run;
+  {parts}
+equation
+  connect(world.frame_b, robot.frame_a);
+  {connects}
+end Bench;
+"""
+_ENDS = {
+    "frame": ("Modelica.Mechanics.MultiBody.Parts.Body of_{0}(m = 1);", "connect(robot.{0}, of_{0}.frame_a);"),
+    "axis": ("Modelica.Mechanics.Rotational.Components.Inertia of_{0}(J = 1);", "connect(of_{0}.flange_b, robot.{0});"),
+    "support": ("Modelica.Mechanics.Rotational.Components.Fixed of_{0};", "connect(of_{0}.flange, robot.{0});"),
+    "input": ("Modelica.Blocks.Sources.Constant of_{0}(k = 0);", "connect(of_{0}.y, run.{0});"),
+    "output": ("Real of_{0} = run.{0};", ""),
+}
+
+
+def bench(first: Built) -> str:
+    """A model that uses every connector of the robot and every variable of Run."""
+    ends = [[text.format(name) for text in _ENDS[what]] for name, (what, _) in first.connectors.items()]
+    parts, connects = ("\n  ".join(filter(None, texts)) for texts in zip(*ends, strict=True))
+    return _BENCH.format(parts=parts, connects=connects)
+
+
+def meaningless(text: str, built: Built, library: Path, folder: Path) -> set[str]:
+    """The names in a bench that mean nothing beside a version, as `check` finds them."""
+
+    def find(name: str) -> Path | None:
+        if name == "UrdfSync":
+            return REPOSITORY / "modelica" / name
+        return next((path for path in (library / name, *library.glob(f"{name} *")) if path.is_dir()), None)
+
+    texts = {path: text.encode() for path, text in built.texts.items()}
+    scopes = Scopes(StoredClasses("Bot", folder / "Bot", texts, {folder / "Bench.mo": text.encode()}, find))
+    node = scopes.node(("Bench",))
+    assert isinstance(node, Node)
+    return {one.part for one in unresolved(node, scopes)}
+
+
+@HISTORIES
+def test_a_bench_of_version_1_fits_every_later_version(
+    corpus: Path, modelica_library: Path, tmp_path: Path, history: str
+) -> None:
+    first, *later = versions(history)
+    text, known = bench(first), [first.texts]
+    assert meaningless(text, first, modelica_library, tmp_path) == set()
+    for new in later:
+        if new.texts in known:
+            continue  # other numbers make no other models
+        known.append(new.texts)
+        gone = lost(first.connectors, new.connectors)
+        assert meaningless(text, new, modelica_library, tmp_path) == set(gone), f"version {new.number}"
+        unexcused = [name for name, thing in gone.items() if not excuse(name, thing, first, new)]
+        assert not unexcused, f"version {new.number}"
