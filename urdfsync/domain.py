@@ -271,6 +271,8 @@ class Domain(Protocol):
     """Folder with the domain's templates; None for the folder of its name in urdfsync's own."""
     revision: int
     """Raised whenever the same snapshot, options and templates give other text."""
+    fits_since: int
+    """The oldest revision whose packages fit the library UrdfSync as it is now."""
     converter: int
     """Raised whenever `convert` gives other bytes for the same input."""
     options: type[Any]
@@ -351,6 +353,13 @@ class Domain(Protocol):
         self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Any
     ) -> Sequence[Effect]:
         """What users may have connected to, and what is there by another name now, or no more; old is None for new."""
+        ...
+
+    def option_for(self, path: str, target: Target, options: Any) -> str:
+        """Return the option that brings a file, as the configuration has it; empty unless `options` leave it out.
+
+        `path` counts from the package's folder.
+        """
         ...
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:

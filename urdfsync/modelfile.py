@@ -43,6 +43,8 @@ class Model(msgspec.Struct, frozen=True):
     bases: dict[str, str] = {}
     since: dict[str, Any] | None = None
     """The model of the last build after which nothing waited; None if nothing waits now."""
+    since_revision: int | msgspec.UnsetType = msgspec.UNSET
+    """The domain's revision in that build, if it is another one now."""
     format: int = FORMAT
 
 
@@ -51,11 +53,12 @@ def of(
     imports: Mapping[str, Import],
     bases: Mapping[str, str] | None = None,
     since: Snapshot | None = None,
+    since_revision: int | msgspec.UnsetType = msgspec.UNSET,
 ) -> Model:
     """What is recorded of a model, as it comes back from the JSON file; both snapshots are plain data already."""
     facts = {key: ConversionFacts(i.source_hash, i.converter, _plain(i.facts)) for key, i in sorted(imports.items())}
     texts = dict(sorted((bases or {}).items()))
-    return Model(dict(snapshot), facts, texts, None if since is None else dict(since))
+    return Model(dict(snapshot), facts, texts, None if since is None else dict(since), since_revision)
 
 
 class Elements:

@@ -11,17 +11,19 @@ import pytest
 SHOWN = [name for name in icons.classes() if icons.icon(name).graphics]
 COMPONENTS = [name for name in icons.classes() if name.startswith("UrdfSync.Icons.") and not name.endswith("Package")]
 SHAPES = [f"UrdfSync.Visualizers.{shape}" for shape in ("Box", "Cylinder", "Capsule", "Sphere", "Mesh")]
-REACH = {"Text": 160}
-"""How far from the middle graphics may go; all but texts stay inside the icon."""
+REACH = {"Text": 60}
+"""How far graphics may go beyond the extent of their icon; all but texts stay inside."""
 
 
 def outside(name: str) -> list[str]:
     """Graphics of a class that go beyond their reach."""
+    shown = icons.icon(name)
+    (left, bottom), (right, top) = shown.extent
     return [
-        f"{graphic.name} at {point}"
-        for graphic in icons.icon(name).graphics
-        for point in icons.corners(graphic)
-        if max(map(abs, point)) > REACH.get(graphic.name, 100) + 1e-9
+        f"{graphic.name} at {(x, y)}"
+        for graphic in shown.graphics
+        for x, y in icons.corners(graphic)
+        if max(left - x, x - right, bottom - y, y - top) > REACH.get(graphic.name, 0) + 1e-9
     ]
 
 

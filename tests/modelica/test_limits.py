@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 from support.modelica import Run, Series, Task, execute
-from support.packages import Package, generate
+from support.packages import generate, strict
 from support.urdfs import joint, limit, link, mimic, robot
 
 from urdfsync.domain import Target
@@ -100,14 +99,6 @@ INSIDE: Mapping[str, tuple[Mapping[str, float], float]] = {
 
 EVERYTHING = {"elbow.a1": 1.0, "roll.a2": 4.0, "rail.a2": 100.0, "lid.a1": -1.0}
 """A motion that passes limits of all kinds."""
-
-
-def strict(package: Package) -> Package:
-    """The package with errors in place of warnings."""
-    warning, error = "AssertionLevel.warning", "AssertionLevel.error"
-    assert any(warning in text for text in package.texts.values())
-    texts = {path: text.replace(warning, error) for path, text in package.texts.items()}
-    return dataclasses.replace(package, texts=texts)
 
 
 MILD = "passed with warnings"

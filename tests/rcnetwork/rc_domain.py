@@ -69,6 +69,7 @@ class RcNetwork:
     name = "rcnetwork"
     templates: Path | None = Path(__file__).parent / "templates"
     revision = 1
+    fits_since = 1
     converter = 1
     options = Options
 
@@ -174,6 +175,9 @@ class RcNetwork:
         self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Options
     ) -> Sequence[Effect]:
         return ()
+
+    def option_for(self, path: str, target: Target, options: Options) -> str:
+        return ""
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         nodes = {node for element in snapshot["elements"].values() for node in element["between"]}

@@ -71,6 +71,14 @@ def generate(source: Path | bytes, target: Target, **options: Any) -> Package:
     return _render(reading.snapshot, imports, contents, target, chosen)
 
 
+def strict(package: Package) -> Package:
+    """The same package, in which passing a limit is an error and no warning."""
+    warning, error = "AssertionLevel.warning", "AssertionLevel.error"
+    assert any(warning in text for text in package.texts.values())
+    texts = {path: text.replace(warning, error) for path, text in package.texts.items()}
+    return dataclasses.replace(package, texts=texts)
+
+
 def scaled(package: Package, factor: float) -> Package:
     """The same package with every floating-point number of the robot's snapshot multiplied by `factor`."""
 

@@ -65,7 +65,7 @@ def unresolved(node: Node, scopes: Scopes, doubtful: Collection[str] = ()) -> It
 
 class _Walk:
     def __init__(self, scopes: Scopes, doubtful: Collection[str]) -> None:
-        self._scopes, self._doubtful = scopes, doubtful
+        self._scopes, self._doubtful = scopes, frozenset(doubtful)
 
     def _class(self, node: Node) -> Iterator[Unresolved]:
         scopes, definition = self._scopes, node.definition
@@ -97,7 +97,8 @@ class _Walk:
 
     def _component(self, component: Component, node: Node) -> Iterator[Unresolved]:
         yield from self._type(component.type, node)
-        yield from self._arguments(component.arguments, self._scopes.types_in(component, node), node)
+        types = self._scopes.types_in(component, node)
+        yield from self._arguments(component.arguments, () if self._is_foreign(component, types) else types, node)
         if component.constraint:
             yield from self._used(component.constraint, node)
         for name in component.uses:
@@ -113,12 +114,13 @@ class _Walk:
     def _arguments(
         self, arguments: tuple[Modifier, ...], types: Types, scope: Node | None, depth: int = 0
     ) -> Iterator[Unresolved]:
-        """Modifiers of something that may have one of these types."""
+        """Modifiers of something that may have one of these types; without any, nothing is said of their names."""
         for one in arguments:
-            found = self._scopes.part(types, one.name.parts[0])
+            found = self._scopes.part(types or (UNKNOWN,), one.name.parts[0])
             part = Name(one.name.parts[:1], one.name.line)
             redeclares = one.is_redeclared or one.is_break
-            yield from self._missing(part, found, scope, Kind.ELEMENT, is_part=redeclares)
+            if types:
+                yield from self._missing(part, found, scope, Kind.ELEMENT, is_part=redeclares)
             if depth and one.is_redeclared and isinstance(found, Element):
                 owner = next((str(type_) for type_ in types if type_ is not UNKNOWN), "")
                 yield Unresolved(Kind.NESTED_REDECLARE, str(one.name), str(one.name), owner, one.name.line)
@@ -137,11 +139,26 @@ class _Walk:
         if modifier.constraint is not None:
             yield from self._used(modifier.constraint, scope)
 
+    def _is_foreign(self, component: Component, types: Types) -> bool:
+        """Whether a component is of a class in another library, which is not at hand."""
+        top = component.type.parts[:-1][:1]
+        return set(types) == {UNKNOWN} and top != () and self._scopes.node(top) is None
+
+    def _unclear(self, name: Name, scope: Node | None) -> tuple[str, ...]:
+        """The parts of a name whose meaning can't be told, without what is inside of such a component."""
+        for count in range(1, len(name.parts)):
+            found = self._scopes.lookup(name._replace(parts=name.parts[:count]), scope)
+            if not isinstance(found, Element):
+                return name.parts[count - 1 :]
+            if isinstance(found.declaration, Component) and self._is_foreign(found.declaration, found.types):
+                return ()
+        return name.parts[-1:]
+
     def _missing(
         self, name: Name, found: object, scope: Node | None, kind: Kind, *, is_part: bool = False
     ) -> Iterator[Unresolved]:
-        if found is UNKNOWN:
-            part = next((part for part in name.parts if part in self._doubtful), "")
+        if found is UNKNOWN and not self._doubtful.isdisjoint(name.parts):
+            part = next((part for part in self._unclear(name, scope) if part in self._doubtful), "")
             if part:
                 yield Unresolved(kind, str(name), part, "", name.line)
         if not isinstance(found, Missing):

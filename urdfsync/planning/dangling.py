@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import itertools
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TypeAlias
@@ -14,7 +16,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.modelica.parser import parse
-from urdfsync.modelica.scopes import Node, Scopes
+from urdfsync.modelica.scopes import Element, Node, Scopes, Type
 from urdfsync.modelica.syntax import Class
 from urdfsync.modelica.unresolved import Kind, Unresolved, unresolved
 from urdfsync.plan import Action, State
@@ -26,6 +28,7 @@ Name: TypeAlias = tuple[str, ...]
 
 _EDITED = frozenset({ActionKind.KEEP, ActionKind.INCLUDED, ActionKind.MERGE, ActionKind.MOVE})
 """What happens to files that are as the user wants them."""
+_CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
 _KEPT = frozenset({ActionKind.NEEDED, ActionKind.ORPHAN})
 """What happens to files that stay although they are no longer generated."""
 
@@ -37,6 +40,8 @@ class UsersTexts(msgspec.Struct, frozen=True):
     """Edited files and own classes in the package, by their keys."""
     kept: Mapping[str, str]
     """Files of the package that stay although they are no longer generated; these are not looked at."""
+    edited: frozenset[str]
+    """Those of them that the user edited."""
     around: Mapping[Path, bytes]
     """Files below the output folder that have to do with the package."""
 
@@ -51,6 +56,16 @@ class DanglingNames:
         """`paths` are those of the generated files below the package, `content` gives the text of each."""
         self._situation, self._paths, self._content = situation, paths, content
 
+    @functools.cached_property
+    def _generated(self) -> Scopes:
+        """The package as it is generated, without edits."""
+        return Scopes(self._planned({}, {}))
+
+    def is_inherited(self, path: Name) -> bool:
+        """Whether a class has an element because it extends another one; `path` counts from the package."""
+        node = self._generated.node((*self._situation.robot.target.package.split("."), *path[:-1]))
+        return isinstance(node, Node) and isinstance(self._generated.part((Type(node),), path[-1]), Element)
+
     def users_texts(self, actions: Iterable[Action], written: Mapping[str, str]) -> UsersTexts:
         """The texts to look at after these actions; `written` are texts that files are about to get."""
         disk, folder, known = self._situation.disk, self._situation.folder, {action.path: action for action in actions}
@@ -61,6 +76,7 @@ class DanglingNames:
         return UsersTexts(
             {key: written.get(key) or disk.any_text(key) for key in sorted(edited | own)},
             {key: disk.any_text(key) for key in kept},
+            frozenset(key for key in kept if known[key].kind is ActionKind.ORPHAN),
             disk.users_files({folder, before}),
         )
 
@@ -69,7 +85,7 @@ class DanglingNames:
         if lost.keys().isdisjoint(words(text)):
             return None
         scopes = Scopes(self._planned({key: text}, {}))
-        uses = find_uses(self._class_name(key), text, scopes, lost, lost)
+        uses = self._uses(self._class_name(key), text, scopes, lost, lost)
         return (uses[0].part, uses[0].line) if uses else None
 
     def warnings(self, texts: UsersTexts, lost: Mapping[str, str]) -> list[Diagnostic]:
@@ -83,10 +99,40 @@ class DanglingNames:
         found = []
         for name, file, text in asked:
             uses: dict[str, list[Unresolved]] = {}
-            for use in find_uses(name, text, scopes, lost, doubtful):
+            for use in self._uses(name, text, scopes, lost, doubtful):
                 uses.setdefault(use.part, []).append(use)
             found += [_warning(file, one, lost[part]) for part, one in uses.items()]
         return found
+
+    def left_out(self, texts: UsersTexts, options: Mapping[str, str]) -> list[Diagnostic]:
+        """A warning for each text that uses a file which options leave out now, and for such a file that was edited.
+
+        The options are given by the paths of the files.
+        """
+        names = {path.rpartition("/")[2].removesuffix(".mo"): path for path in options}
+        sources = self._planned(texts.own, texts.around)
+        asked = [(self._class_name(key), self._situation.disk.path(key), text) for key, text in texts.own.items()]
+        asked += [(name, Path(one.file), "") for name, one in sources.users.items()]
+        scopes, found = Scopes(sources), []
+        for file, option in options.items():
+            if (key := self._situation.old_key(file)) in texts.edited:
+                place = shown(self._situation.disk.path(key))
+                found.append(_left_out("the file is no longer generated", place, 0, option))
+        for name, path, text in asked:
+            for use in {use.part: use for use in reversed(find_uses(name, text, scopes, names, names))}.values():
+                message = f"`{use.name}` is used here, and no longer generated"
+                found.append(_left_out(message, shown(path), use.line, options[names[use.part]]))
+        return found
+
+    def _uses(
+        self, name: Name, text: str, scopes: Scopes, lost: Collection[str], doubtful: Collection[str]
+    ) -> list[Unresolved]:
+        """As `find_uses`, without what the generated text of the class says, too: that is in order."""
+        uses = find_uses(name, text, scopes, lost, doubtful)
+        if not uses or name not in {self._class_name(self._situation.key(path)) for path in self._paths}:
+            return uses
+        generated = {use.name for use in find_uses(name, "", self._generated, lost, doubtful)}
+        return [use for use in uses if use.name not in generated]
 
     def _planned(self, texts: Mapping[str, str], others: Mapping[Path, bytes]) -> StoredClasses:
         """The classes as they will be after the build: `texts` of the package by their keys, `others` of the user's."""
@@ -115,6 +161,11 @@ class DanglingNames:
         return (*package, *folders) if file == "package" else (*package, *folders, file)
 
 
+def _left_out(message: str, file: str, line: int, option: str) -> Diagnostic:
+    hint = f"`{option}` in the configuration keeps it up to date"
+    return Diagnostic(Severity.WARNING, "left-out", message, file, line, hint=hint)
+
+
 def _warning(file: Path, uses: Sequence[Unresolved], new: str) -> Diagnostic:
     first, lines = uses[0].line, sorted({use.line for use in uses} - {uses[0].line})
     message = f"`{uses[0].name}` is used here, but the package has no `{uses[0].part}` any more"
@@ -124,15 +175,17 @@ def _warning(file: Path, uses: Sequence[Unresolved], new: str) -> Diagnostic:
     return Diagnostic(Severity.WARNING, "vanished-name", message, shown(file), first, hint="; ".join(hints))
 
 
-def lost_names(before: Mapping[str, str], now: Mapping[str, str], renamed: Mapping[str, str]) -> dict[str, str]:
+def lost_names(
+    before: Mapping[str, str], now: Mapping[str, str], renamed: Mapping[str, str], is_inherited: Callable[[Name], bool]
+) -> dict[str, str]:
     """The names of classes and components that texts declared before and do not declare now, with their new names.
 
     Texts are given by the paths of their files below the package; those that are the same in both may be left out.
     `renamed` are old and new identifiers of elements: names that begin with the old one may begin with the new one now.
-    A new name is empty if there is none.
+    A new name is empty if there is none. What `is_inherited`, by its path, is not lost.
     """
     old, new = _declared(before), _declared(now)
-    gone = old - new
+    gone = {path for path in old - new if not is_inherited(path)}
     names = {path[-1] for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
     known = {path[-1] for path in new}
     return {name: _new_name(name, known, renamed) for name in sorted(names)}
@@ -155,8 +208,12 @@ def find_uses(
 
 
 def words(text: str) -> set[str]:
-    """All names and keywords in a text, without those in strings and comments."""
-    return {token.text for token in lex(text)[0]}
+    """All names and keywords in a text, without those in strings and comments, and without the classes in it.
+
+    An edited file whose element has another name may still declare its class by the old one. The text need not parse.
+    """
+    found = [token.text for token in lex(text)[0]]
+    return set(found) - {name for kind, name in itertools.pairwise(found) if kind in _CLASS_KINDS}
 
 
 def _declared(texts: Mapping[str, str]) -> set[Name]:

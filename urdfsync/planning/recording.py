@@ -133,7 +133,9 @@ class Recording:
     def _state(self, decision: Decision) -> tuple[str, str]:
         """The texts of manifest and model."""
         outliving, since = self._outliving(decision), self._since(decision)
-        model = modelfile.of(self._snapshot, self._imported.imports, outliving, since)
+        before = self._situation.written_by if since else None
+        revision = msgspec.UNSET if before in (None, self._situation.domain.revision) else before
+        model = modelfile.of(self._snapshot, self._imported.imports, outliving, since, revision)
         memory = self._situation.request.memory
         text = modelfile.dumps(model, memory.elements if memory else None)
         whole = self._manifest(decision, text).recorded

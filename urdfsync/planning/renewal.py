@@ -14,7 +14,7 @@ from urdfsync.difference import ElementKey, Version
 from urdfsync.domain import Role, Target
 from urdfsync.moves import places
 from urdfsync.plan import FileRecord, State, Wanted
-from urdfsync.planning import imports, inputs, leftovers
+from urdfsync.planning import imports, inputs, leftovers, outdated
 from urdfsync.planning.dangling import DanglingNames, lost_names
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.generate import Generated, artifacts
@@ -53,6 +53,7 @@ class Renewal:
         found = found if settled is last else self._changes(settled)
         said = [*self._said, *self._imported.diagnostics, *situation.parents.diagnostics]
         said += [*self._moved(decision), *self._uses(decision), *self._lost_connectors(found)]
+        said += outdated.findings(situation, decision.actions.decided)
         said.sort(key=lambda diagnostic: (diagnostic.file, diagnostic.line))
         news = found if found and (found.changes or found.generator) else None
         if situation.request.dry:
@@ -234,7 +235,7 @@ class Renewal:
         changed = [path for path in self._generated.artifacts if self._is_new(path, records.get(path))]
         now = {path: self._outputs.content(path).decode() for path in changed}
         moved = {recorded.package.rpartition(".")[2]: package} if recorded.package != package else {}
-        return {**lost_names(before, now, self._renamed()), **moved}
+        return {**lost_names(before, now, self._renamed(), self._dangling.is_inherited), **moved}
 
     def _is_new(self, path: str, record: FileRecord | None) -> bool:
         """Whether the text of a generated file can be another one than what was written last."""
@@ -250,7 +251,7 @@ class Renewal:
         renames = found.renames if found else {}
         domain, target = situation.domain, Target(recorded.package, recorded.class_)
         try:
-            old = domain.names(settled.snapshot, target)
+            old = recorded.names if settled is situation.last else domain.names(settled.snapshot, target)
         except NO_MODEL:
             return {}  # what is recorded is no model of the domain
         new = domain.names(self._snapshot, situation.robot.target)
@@ -287,7 +288,20 @@ class Renewal:
         if not self._replaced:
             return []
         texts = self._dangling.users_texts(decision.actions, decision.texts)  # parsing a large package takes longer
-        return self._dangling.warnings(texts, self._lost) if texts and self._lost else []
+        said = self._dangling.left_out(texts, self._optional) if self._optional else []
+        return said + (self._dangling.warnings(texts, self._lost) if texts and self._lost else [])
+
+    @functools.cached_property
+    def _optional(self) -> dict[str, str]:
+        """The options that bring files which the package loses with this build, by their paths."""
+        situation = self._situation
+        recorded, options = situation.recorded, situation.robot.options
+        if recorded is None:
+            return {}
+        target = Target(recorded.package, recorded.class_)
+        gone = self._replaced.keys() - self._generated.artifacts.keys()
+        found = {path: situation.domain.option_for(path, target, options) for path in sorted(gone)}
+        return {path: option for path, option in found.items() if option}
 
     def lost_use(self, key: str, text: str) -> tuple[str, int] | None:
         """The first name in a text for a file that the package loses, with its line."""
@@ -303,7 +317,8 @@ class Renewal:
         if recorded is None:
             return {}
         before, now = self._before.artifacts if self._before else {}, self._generated.artifacts
-        alike = recorded.folder == situation.folder and not renames and self._is_placed_alike()
+        given = self._identified_anew()
+        alike = recorded.folder == situation.folder and not renames and not given and self._is_placed_alike()
         if alike and not any(record.origin for record in recorded.special.values()):
             return {}
         texts = {
@@ -312,9 +327,28 @@ class Renewal:
             if record.role is not Role.IMPORT and record.state is not State.ORPHAN
         }
         old = {path: (a.owner, a.template) for path, a in before.items() if path in texts}
+        old |= {path: (before[place].owner, before[place].template) for path, place in given.items()}
         renamed = changes.moves(old, {path: (a.owner, a.template) for path, a in now.items()}, renames)
         targets = {situation.old_key(path): situation.key(renamed.get(path, path)) for path in texts}
         return places(recorded.files, targets, {situation.key(path) for path in now})
+
+    def _identified_anew(self) -> Mapping[str, str]:
+        """Where the last model would have files today that an older program called otherwise, by their paths."""
+        situation, last, recorded = self._situation, self._situation.last, self._situation.recorded
+        if last is None or recorded is None or self._before is None:
+            return {}
+        names = situation.domain.names(last.snapshot, Target(recorded.package, recorded.class_))
+        owners = {
+            f"{kind.removesuffix('s')} {name}"
+            for kind, identifiers in recorded.names.items()
+            for name, identifier in identifiers.items()
+            if names.get(kind, {}).get(name, identifier) != identifier
+        }
+        if not owners:
+            return {}
+        files = {self._old_path(key): (one.owner, str(one.role)) for key, one in recorded.files.items()}
+        today = {path: (one.owner, str(one.role)) for path, one in self._before.artifacts.items()}
+        return changes.moves({path: key for path, key in files.items() if key[0] in owners}, today, {})
 
     def _is_placed_alike(self) -> bool:
         """Whether every file of the last build still is one: of the same element, from the same template."""

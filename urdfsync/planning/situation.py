@@ -137,6 +137,14 @@ class Situation:
             return self.last
         return Version(model.since, None, self.last.generator)
 
+    @property
+    def written_by(self) -> int | None:
+        """The domain's revision in the last build after which nothing waited; None if there was none."""
+        since = self.state.model.since_revision if self.state and self.state.model else msgspec.UNSET
+        if since is not msgspec.UNSET:
+            return since
+        return self.recorded.generator.revision if self.recorded else None
+
     def version(self, model: Model) -> Version:
         """A recorded model, with the imports that the manifest has of it."""
         dependencies = self.recorded.dependencies if self.recorded else {}

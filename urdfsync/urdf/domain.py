@@ -37,6 +37,7 @@ class UrdfDomain:
     name = "urdf"
     templates: Path | None = None
     revision = 5
+    fits_since = 5
     converter = 1
     options = Options
 
@@ -139,6 +140,11 @@ class UrdfDomain:
         from urdfsync.urdf import changes
 
         return changes.interface(old, new, renames, target, options)
+
+    def option_for(self, path: str, target: Target, options: Options) -> str:
+        """See `urdfsync.domain.Domain`."""
+        is_left_out = path == f"{target.name}Parameters.mo" and "record" not in options.approach
+        return 'approach = ["package", "record"]' if is_left_out else ""
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         """See `urdfsync.domain.Domain`."""

@@ -32,10 +32,10 @@ model RotationalSweep "Moves one axis smoothly to the roomier end of its range a
     "Housing of the drive"
     annotation (Placement(transformation(extent={{-10, -110}, {10, -90}})));
 
-  Modelica.Units.SI.Angle phi(start = phi_start, fixed = true, stateSelect = StateSelect.prefer)
+  Modelica.Units.SI.Angle phi(start = phi_start, stateSelect = StateSelect.prefer)
     "Position of the axis relative to the housing";
 
-  Modelica.Units.SI.AngularVelocity w(start = 0, fixed = true, stateSelect = StateSelect.prefer)
+  Modelica.Units.SI.AngularVelocity w(start = 0, stateSelect = StateSelect.prefer)
     "Speed of the axis relative to the housing";
 
 equation
@@ -50,7 +50,7 @@ The axis begins at rest and moves as <code>phi = phi_start + (phi_end - phi_star
 kept with a margin of 10 %. An axis without room stays where it is.
 </p>
 <p>
-The acceleration is given and integrated, which is exact to the tolerance of the solver: a given position would have to be differentiated
+The joint that is moved has to begin there and at rest: its own start values are those that count. The acceleration is given and integrated, which is exact to the tolerance of the solver: a given position would have to be differentiated
 twice through the equations of the robot, which takes compilers much longer where the base moves freely.
 </p>
 </html>"));

@@ -32,10 +32,10 @@ model TranslationalSweep "Moves one axis smoothly to the roomier end of its rang
     "Housing of the drive"
     annotation (Placement(transformation(extent={{-10, -110}, {10, -90}})));
 
-  Modelica.Units.SI.Position s(start = s_start, fixed = true, stateSelect = StateSelect.prefer)
+  Modelica.Units.SI.Position s(start = s_start, stateSelect = StateSelect.prefer)
     "Position of the axis relative to the housing";
 
-  Modelica.Units.SI.Velocity v(start = 0, fixed = true, stateSelect = StateSelect.prefer)
+  Modelica.Units.SI.Velocity v(start = 0, stateSelect = StateSelect.prefer)
     "Speed of the axis relative to the housing";
 
 equation
@@ -50,7 +50,7 @@ The axis begins at rest and moves as <code>s = s_start + (s_end - s_start)*(1 - 
 kept with a margin of 10 %. An axis without room stays where it is.
 </p>
 <p>
-The acceleration is given and integrated, which is exact to the tolerance of the solver: a given position would have to be differentiated
+The joint that is moved has to begin there and at rest: its own start values are those that count. The acceleration is given and integrated, which is exact to the tolerance of the solver: a given position would have to be differentiated
 twice through the equations of the robot, which takes compilers much longer where the base moves freely.
 </p>
 </html>"));

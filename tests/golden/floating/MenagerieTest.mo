@@ -6,8 +6,7 @@ model MenagerieTest "Quick check of robot Menagerie: every axis moves inside its
     load = robot.m*world.g);
   extends Modelica.Icons.Example;
 
-  replaceable Menagerie robot(
-    fixedStart = false)
+  replaceable Menagerie robot
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 385}})));
 

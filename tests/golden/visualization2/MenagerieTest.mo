@@ -8,8 +8,7 @@ model MenagerieTest "Quick check of robot Menagerie: every axis moves inside its
     "Animation"
     annotation (Placement(transformation(extent={{-100, -100}, {-80, -80}})));
 
-  replaceable Menagerie robot(
-    fixedStart = false)
+  replaceable Menagerie robot
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 385}})));
 

@@ -4,8 +4,7 @@ model FloatingBuoyTest "Quick check of robot FloatingBuoy: every axis moves insi
   extends UrdfSync.Robots.PartialBench;
   extends Modelica.Icons.Example;
 
-  replaceable FloatingBuoy robot(
-    fixedStart = false)
+  replaceable FloatingBuoy robot
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 145}})));
 

@@ -4,8 +4,7 @@ model PlanarPlatformTest "Quick check of robot PlanarPlatform: every axis moves 
   extends UrdfSync.Robots.PartialBench;
   extends Modelica.Icons.Example;
 
-  replaceable PlanarPlatform robot(
-    fixedStart = false)
+  replaceable PlanarPlatform robot
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 145}})));
 

@@ -4,8 +4,7 @@ model SixAxisArmTest "Quick check of robot SixAxisArm: every axis moves inside i
   extends UrdfSync.Robots.PartialBench;
   extends Modelica.Icons.Example;
 
-  replaceable SixAxisArm robot(
-    fixedStart = false)
+  replaceable SixAxisArm robot
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 325}})));
 

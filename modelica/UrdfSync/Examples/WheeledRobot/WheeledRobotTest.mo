@@ -6,10 +6,7 @@ model WheeledRobotTest "Quick check of robot WheeledRobot: every axis moves insi
     load = robot.m*world.g);
   extends Modelica.Icons.Example;
 
-  replaceable WheeledRobot robot(
-    fixedStart = false,
-    caster_swivel(fixedStart = true),
-    caster_roll(fixedStart = true))
+  replaceable WheeledRobot robot
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 355}})));
 

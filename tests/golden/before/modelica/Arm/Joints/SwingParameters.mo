@@ -1,0 +1,24 @@
+within Arm.Joints;
+
+record SwingParameters "Numbers of revolute joint \"swing\" from link \"base\" to link \"boom\""
+  extends UrdfSync.Records.RevoluteJoint(
+    name = "swing",
+    origin(
+      xyz = {0, 0, 0.1},
+      rpy = {0, 0, 0}),
+    axis = {0, 1, 0},
+    limits(
+      lower = -1,
+      upper = 2,
+      velocity = 3,
+      effort = 40),
+    dynamics(
+      damping = 0.1,
+      friction = 0));
+
+  annotation (Documentation(info="<html>
+<p>
+Numbers of revolute joint &quot;swing&quot; from link &quot;base&quot; to link &quot;boom&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
+</p>
+</html>"));
+end SwingParameters;

@@ -1,0 +1,12 @@
+within Cart;
+
+package Links "Links of robot Cart"
+  extends UrdfSync.Icons.LinksPackage;
+
+  annotation (
+    Documentation(info="<html>
+<p>
+One model and one record of numbers per link.
+</p>
+</html>"));
+end Links;
