@@ -122,7 +122,12 @@ CLASSES = ("PartialRecordRobot", "PartialGenericRobot", "GenericRobot")
 PASSING = ("lower", "backward", "slide", "effort", "leader", "follower")
 INSIDE = ("at rest", "leading as strong as allowed")
 """Of the motions of the tests of limits, those that stand for the others."""
-AXES = {"my_elbowAxis": 2, "lidAxis": 1, "rollAxis": 3, "railAxis": 1}
+AXES = {
+    "my_elbowAxis": "rotationalAxis[2]",
+    "lidAxis": "rotationalAxis[1]",
+    "rollAxis": "rotationalAxis[3]",
+    "railAxis": "translationalAxis[1]",
+}
 """Of the robot of the tests of limits, in the order of its record."""
 
 
@@ -185,7 +190,7 @@ def at_limits(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) 
     """What comes of the motions of the tests of limits, by their names."""
     robot = "GenericRobot robot(redeclare parameter Bot.BotParameters data, fixedStart = false, checkLimits = true)"
     check = test_limits.CHECK.replace("Bot.Bot robot(fixedStart = false, checkLimits = %s)", robot)
-    check = re.sub(r"robot\.(\w+Axis)\]", lambda name: f"{AXES[name[1]]}]", check)
+    check = re.sub(r"robot\.(\w+Axis)\b", lambda name: f"robot.{AXES[name[1]]}", check)
     source = check.replace("  model Check\n", f"  import Bot;\n{strict_generic()}\n  model Check\n")
     passing = {name: Run(1.0, 0.1, test_limits.PASSING[name][0]) for name in PASSING}
     inside = {
