@@ -153,33 +153,14 @@ def test_who_wants_no_checks_any_more_gets_none(project: Path, start: Start) -> 
     assert len(compiler.saw) == 1
 
 
-NEEDED = """
-    Modelica.Blocks Modelica.Constants Modelica.Icons Modelica.Math Modelica.Units Modelica.Utilities
-    Modelica.Mechanics.MultiBody Modelica.Mechanics.Rotational Modelica.Mechanics.Translational
-""".split()
-"""What a library has to have to be one that robots can use."""
-
-
 @pytest.fixture
-def stuck(project: Path, rc_site: Path, tmp_path: Path) -> Iterator[Watch]:
-    """A daemon in a process of its own, with a small library and a compiler that is never done."""
+def stuck(project: Path, rc_site: Path, tmp_path: Path, modelica_library: Path) -> Iterator[Watch]:
+    """A daemon in a process of its own, with a compiler that is never done; names are resolved before it begins."""
     (tmp_path / "site").mkdir()
     (tmp_path / "site" / "rumoca.py").write_text("import time\n\nwhile True:\n    time.sleep(60)\n")
     home = {name: str(tmp_path / "home") for name in ("HOME", "XDG_CACHE_HOME", "PRE_COMMIT_HOME")}
-    for name in ("Modelica", "ModelicaServices", "Complex"):
-        (tmp_path / "libraries" / name).mkdir(parents=True)
-        (tmp_path / "libraries" / name / "package.mo").write_text(
-            f'package {name} annotation(version = "4.1.0"); end {name};\n'
-        )
-    for name in NEEDED:
-        place = tmp_path.joinpath("libraries", *name.split(".")).with_suffix(".mo")
-        place.parent.mkdir(exist_ok=True)
-        parent, _, last = name.rpartition(".")
-        if parent.count("."):
-            (place.parent / "package.mo").write_text("within Modelica;\npackage Mechanics end Mechanics;\n")
-        place.write_text(f"within {parent};\npackage {last} end {last};\n")
     with (project / "urdfsync.toml").open("a") as file:
-        file.write('on_build = "check"\n[check]\nlibrary = "../libraries"\n')
+        file.write(f'on_build = "check"\n[check]\nlibrary = "{modelica_library.as_posix()}"\n')
     path = [tmp_path / "site", rc_site, REPOSITORY / "tests" / "rcnetwork"]
     with Watch(project, path=path, **home) as watch:
         yield watch
