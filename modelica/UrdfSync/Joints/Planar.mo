@@ -5,7 +5,7 @@ model Planar "Planar joint"
   extends UrdfSync.Interfaces.PartialPlanarJoint(
     redeclare replaceable UrdfSync.Records.PlanarJoint parameters);
 
-  final parameter Real n_x[3] = UrdfSync.Functions.normalTo(parameters.axis)
+  final parameter Real n_x[3](each unit = "1") = UrdfSync.Functions.normalTo(parameters.axis)
     "First sliding direction, resolved in the joint frame";
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(

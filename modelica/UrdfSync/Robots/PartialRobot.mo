@@ -14,7 +14,7 @@ partial model PartialRobot "What all robots have in common"
     "= true, if a joint that passes one of its limits is reported by a warning";
 
   parameter Boolean fixedStart = true
-    "= true, if the simulation begins at the start values below; = false, if they are guesses, for axes that are driven by position"
+    "= true, if the simulation begins at the start values of the joints; = false, if they are guesses, for axes that are driven by position"
     annotation (Evaluate=true, choices(checkBox=true), Dialog(tab="Initialization"));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_a frame_a

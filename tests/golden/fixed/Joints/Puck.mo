@@ -5,7 +5,7 @@ model Puck "Planar joint \"puck\" from link \"table\" to link \"a\"b\\ <c> & << 
   extends UrdfSync.Interfaces.PartialPlanarJoint(
     redeclare PuckParameters parameters);
 
-  final parameter Real n_x[3] = UrdfSync.Functions.normalTo(parameters.axis)
+  final parameter Real n_x[3](each unit = "1") = UrdfSync.Functions.normalTo(parameters.axis)
     "First sliding direction, resolved in the joint frame";
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(

@@ -5,7 +5,7 @@ model Glide "Planar joint \"glide\" from link \"world\" to link \"platform\""
   extends UrdfSync.Interfaces.PartialPlanarJoint(
     redeclare GlideParameters parameters);
 
-  final parameter Real n_x[3] = UrdfSync.Functions.normalTo(parameters.axis)
+  final parameter Real n_x[3](each unit = "1") = UrdfSync.Functions.normalTo(parameters.axis)
     "First sliding direction, resolved in the joint frame";
 
   Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
