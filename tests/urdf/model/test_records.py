@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from hypothesis import given
+from support.skeletons import GRIPPER, skeleton
 from support.trees import robots
 
 from urdfsync.domain import Artifact, Import, Target
@@ -26,7 +27,6 @@ from urdfsync.urdf.robot import (
     Limit,
     Link,
     Mesh,
-    Mimic,
     Origin,
     Robot,
     Sphere,
@@ -34,14 +34,6 @@ from urdfsync.urdf.robot import (
 from urdfsync.urdf.skeleton import Skeleton
 
 TARGET = Target("Plant.Arm", "Arm")
-
-
-def skeleton(*joints: Joint, links: tuple[Link, ...] = ()) -> Skeleton:
-    """Joints and their links; those of `links` are more than a name."""
-    names = {joint.parent: None for joint in joints} | {joint.child: None for joint in joints}
-    known = {link.name: link for link in links}
-    every = tuple(known.get(name, Link(name)) for name in names) or links
-    return Skeleton.of(Robot("r", every, joints))
 
 
 def body(name: str, *shapes: Geometry) -> Link:
@@ -54,16 +46,6 @@ def record(robot: Skeleton, **options: Any) -> Mapping[str, Any]:
     (found,) = (file for file in files if isinstance(file, Artifact) and file.path == "ArmParameters.mo")
     structure = found.data["structure"]
     return {**found.data, **structure.make(*structure.made_of)}
-
-
-GRIPPER = skeleton(
-    Joint("slide", "prismatic", "palm", "left", limit=Limit(0, 0.1)),
-    Joint("other", "prismatic", "palm", "right", mimic=Mimic("slide", -1)),
-    Joint("turn", "continuous", "base", "palm"),
-    Joint("mount", "fixed", "palm", "camera"),
-    Joint("pinion", "continuous", "left", "gear", mimic=Mimic("other", 80)),
-    Joint("lock", "revolute", "camera", "lens", mimic=Mimic("mount", 1, 0.5)),
-)
 
 
 def test_tables_count_from_one_in_canonical_order() -> None:

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 from hypothesis import given
+from support.skeletons import GRIPPER, skeleton
 from support.trees import robots
 
 from urdfsync.domain import Target
@@ -18,26 +19,8 @@ from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 TARGET = Target("Plant.Arm", "Arm")
 
 
-def skeleton(*joints: Joint, links: tuple[Link, ...] = ()) -> Skeleton:
-    """Joints and their links; those of `links` are more than a name."""
-    names = {joint.parent: None for joint in joints} | {joint.child: None for joint in joints}
-    known = {link.name: link for link in links}
-    every = tuple(known.get(name, Link(name)) for name in names) or links
-    return Skeleton.of(Robot("r", every, joints))
-
-
 def data(robot: Skeleton) -> dict[str, Any]:
     return robot_data(robot, TARGET, Options())
-
-
-GRIPPER = skeleton(
-    Joint("slide", "prismatic", "palm", "left", limit=Limit(0, 0.1)),
-    Joint("other", "prismatic", "palm", "right", mimic=Mimic("slide", -1)),
-    Joint("turn", "continuous", "base", "palm"),
-    Joint("mount", "fixed", "palm", "camera"),
-    Joint("pinion", "continuous", "left", "gear", mimic=Mimic("other", 80)),
-    Joint("lock", "revolute", "camera", "lens", mimic=Mimic("mount", 1, 0.5)),
-)
 
 
 def test_only_joints_that_follow_nothing_can_be_driven() -> None:

@@ -64,12 +64,12 @@ def _variables(
     before: Skeleton, after: Skeleton, joints: set[str], renames: Mapping[ElementKey, str], options: Options
 ) -> Iterator[Effect]:
     """Variables of Run. A joint that gets or loses its axis, or has another name, is named with that axis."""
-    moving = {joint.name: joint for joint in after.joints if can_be_driven(joint)}
+    moving = {joint.name: joint for joint in after.joints if joint.name in joints and can_be_driven(joint)}
     was_driven, is_driven = (driven_joints(skeleton.joints, options) for skeleton in (before, after))
     for joint in before.joints:
         name = renames.get(("joint", joint.name), joint.name)
         component = before.joint(joint.name).component
-        if name not in joints & moving.keys() or not can_be_driven(joint) or after.joint(name).component != component:
+        if name not in moving or not can_be_driven(joint) or after.joint(name).component != component:
             continue
         old = _RUN[MOTIONS[joint.type]] if joint.name in was_driven else {}
         new = _RUN[MOTIONS[moving[name].type]] if name in is_driven else {}
@@ -81,11 +81,10 @@ def _variables(
 
 
 def _order(before: Skeleton, after: Skeleton, renames: Mapping[ElementKey, str], options: Options) -> Iterator[Effect]:
-    old, new = (
-        [joint.name for joint in skeleton.joints if joint.name in driven_joints(skeleton.joints, options)]
-        for skeleton in (before, after)
-    )
-    known = [renames.get(("joint", name), name) for name in old]
-    if any(name in new and new.index(name) != place for place, name in enumerate(known)):
+    was_driven, is_driven = (driven_joints(skeleton.joints, options) for skeleton in (before, after))
+    known = [renames.get(("joint", joint.name), joint.name) for joint in before.joints if joint.name in was_driven]
+    new = [joint.name for joint in after.joints if joint.name in is_driven]
+    places = {name: place for place, name in enumerate(new)}
+    if any(places.get(name, place) != place for place, name in enumerate(known)):
         hint = "adapt what is connected to `positions` of Run"
         yield Effect(("robot", "positions"), ", ".join(known), ", ".join(new), hint=hint)

@@ -36,7 +36,7 @@ def bench_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str
     """
     names = connector_names(skeleton, options)
     rows = drive_rows(skeleton, names)
-    top = icon_top(max(len(rows), len(names.frames)))
+    top = icon_top(names)
     driven = driven_joints(skeleton.joints, options)
     drives = [
         BenchDrive(row.joint, row.name, row.motion, row.axis, row.support, _FRAME_Y + row.y * 3 // 2, row.y)

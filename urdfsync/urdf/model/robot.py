@@ -27,7 +27,6 @@ class Frame(msgspec.Struct, frozen=True):
     connector: str
     link: str
     name: str
-    leaf: bool
     y: int
 
 
@@ -110,7 +109,7 @@ def robot_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str
         ],
         "joints": _joints(skeleton, names),
         "couplings": couplings(skeleton, names),
-        "top": icon_top(max(len(frames), len(drives))),
+        "top": icon_top(names),
         "extent": _extent(diagram.extent),
         "diagram": {name: _extent((box.x1, box.y1, box.x2, box.y2)) for name, box in diagram.placements.items()},
         "lines": [
@@ -128,7 +127,7 @@ def connector_names(skeleton: Skeleton, options: Options) -> Connectors:
 def drive_rows(skeleton: Skeleton, names: Connectors) -> list[Drive]:
     """The joints that can be driven, from top to bottom of the icon."""
     joints = [joint for joint in skeleton.joints if joint.name in names.axes]
-    top = icon_top(max(len(joints), len(names.frames)))
+    top = icon_top(names)
     return [
         Drive(
             skeleton.joint(joint.name).component,
@@ -142,8 +141,9 @@ def drive_rows(skeleton: Skeleton, names: Connectors) -> list[Drive]:
     ]
 
 
-def icon_top(rows: int) -> int:
+def icon_top(names: Connectors) -> int:
     """Where the icon ends above: over the picture there is a row for each connector at one side."""
+    rows = max(len(names.frames), len(names.axes))
     return _PICTURE + ROW * rows + 10 if rows else _PICTURE
 
 
@@ -184,10 +184,9 @@ def tree(skeleton: Skeleton, names: Connectors) -> layout.Tree:
 
 
 def _frames(skeleton: Skeleton, names: Connectors) -> list[Frame]:
-    leaves = {link.name for link in skeleton.leaves()}
-    top = icon_top(max(len(names.frames), len(names.axes)))
+    top = icon_top(names)
     return [
-        Frame(connector, skeleton.link(name).component, name, name in leaves, top - 10 - ROW * row)
+        Frame(connector, skeleton.link(name).component, name, top - 10 - ROW * row)
         for row, (name, connector) in enumerate(names.frames.items())
     ]
 
