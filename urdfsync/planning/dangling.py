@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TypeAlias
 
@@ -17,7 +17,7 @@ from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.scopes import Element, Node, Scopes, Type
-from urdfsync.modelica.syntax import Class
+from urdfsync.modelica.syntax import declared
 from urdfsync.modelica.unresolved import Kind, Unresolved, unresolved
 from urdfsync.plan import Action, State
 from urdfsync.plan import Kind as ActionKind
@@ -93,11 +93,9 @@ class DanglingNames:
         sources = self._planned({**texts.own, **texts.kept}, texts.around)
         scopes = Scopes(sources)
         doubtful = lost.keys() - {path.rpartition("/")[2].removesuffix(".mo") for path in texts.kept}
-        asked = [(self._class_name(key), self._situation.disk.path(key), text) for key, text in texts.own.items()]
-        asked += [(name, Path(one.file), "") for name, one in sources.users.items()]
-        asked += [((), path, texts.around[path].decode(errors="replace")) for path in sources.unread]
+        unread = [((), path, texts.around[path].decode(errors="replace")) for path in sources.unread]
         found = []
-        for name, file, text in asked:
+        for name, file, text in (*self._asked(texts, sources), *unread):
             uses: dict[str, list[Unresolved]] = {}
             for use in self._uses(name, text, scopes, lost, doubtful):
                 uses.setdefault(use.part, []).append(use)
@@ -111,18 +109,21 @@ class DanglingNames:
         """
         names = {path.rpartition("/")[2].removesuffix(".mo"): path for path in options}
         sources = self._planned(texts.own, texts.around)
-        asked = [(self._class_name(key), self._situation.disk.path(key), text) for key, text in texts.own.items()]
-        asked += [(name, Path(one.file), "") for name, one in sources.users.items()]
         scopes, found = Scopes(sources), []
         for file, option in options.items():
             if (key := self._situation.old_key(file)) in texts.edited:
                 place = shown(self._situation.disk.path(key))
                 found.append(_left_out("the file is no longer generated", place, 0, option))
-        for name, path, text in asked:
+        for name, path, text in self._asked(texts, sources):
             for use in {use.part: use for use in reversed(find_uses(name, text, scopes, names, names))}.values():
                 message = f"`{use.name}` is used here, and no longer generated"
                 found.append(_left_out(message, shown(path), use.line, options[names[use.part]]))
         return found
+
+    def _asked(self, texts: UsersTexts, sources: StoredClasses) -> list[tuple[Name, Path, str]]:
+        """The classes of the user's to look at: full name, file, and the text if it is one of the package."""
+        own = [(self._class_name(key), self._situation.disk.path(key), text) for key, text in texts.own.items()]
+        return own + [(name, Path(one.file), "") for name, one in sources.users.items()]
 
     def _uses(
         self, name: Name, text: str, scopes: Scopes, lost: Collection[str], doubtful: Collection[str]
@@ -221,16 +222,9 @@ def _declared(texts: Mapping[str, str]) -> set[Name]:
     found: set[Name] = set()
     for path, text in texts.items():
         folder = tuple(path.split("/")[:-1])
-        found.update(_names(parse(text).classes, folder[:-1] if path.endswith("/package.mo") else folder))
+        around = folder[:-1] if path.endswith("/package.mo") else folder
+        found.update(one.path for one in declared(parse(text).classes, around))
     return found
-
-
-def _names(classes: tuple[Class, ...], around: Name) -> Iterator[Name]:
-    for one in classes:
-        path = (*around, one.name.parts[0])
-        yield path
-        yield from ((*path, component.name.parts[0]) for component in one.components)
-        yield from _names(one.classes, path)
 
 
 def _new_name(name: str, known: Collection[str], renamed: Mapping[str, str]) -> str:
