@@ -37,7 +37,7 @@ from urdfsync.domain import Target
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.physics import amended, motion
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 COUNTED = ("file", "moving joints", "axes", "links")
 FUNCTIONS = ("found", "mass", "inertias", "bias", "gravity", "jacobian", "places", "turns")

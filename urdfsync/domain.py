@@ -26,14 +26,6 @@ keyed by element name, does not depend on the order of elements in the source, a
 from. Nobody changes it: versions of a model may share what they have in common.
 """
 
-Parts: TypeAlias = dict[Any, Any]
-"""What a domain keeps of one piece of work for the next of its kind, for a process that builds again and again.
-
-Empty at first, and of no interest to anybody else. It spares work and changes no result; it holds what the last
-model needs and nothing older.
-"""
-
-
 class Role(enum.StrEnum):
     """What a generated file is, as far as deciding about it goes."""
 
@@ -282,11 +274,10 @@ class Domain(Protocol):
         """Return the libraries that a generated package needs, with their versions: what a top-level `uses` names."""
         ...
 
-    def read(self, content: bytes, file: str, options: Any, parts: Parts | None = None) -> Reading:
-        """Read a source; `file` is how diagnostics name it. Raises nothing for bad input: see `Reading`.
+    def read(self, content: bytes, file: str, options: Any, *, thorough: bool = False) -> Reading:
+        """Read a source; `file` is how diagnostics name it. Pure, and raises nothing for bad input: see `Reading`.
 
-        `parts` were passed to the last reading with that name and these options, whatever came of it. Elements that
-        have not changed since may be the same objects in the snapshot.
+        With `thorough`, checks run too that take longer than a plain build should: the daemon and `check` ask for them.
         """
         ...
 
@@ -317,12 +308,8 @@ class Domain(Protocol):
         imports: Mapping[str, Import],
         target: Target,
         options: Any,
-        parts: Parts | None = None,
     ) -> Sequence[Artifact | Order]:
-        """Every file of the package but the imported ones. Pure, but for `parts`, which are those of the last call.
-
-        Elements of the snapshot that are the same objects as in that call have not changed.
-        """
+        """Every file of the package but the imported ones. Pure."""
         ...
 
     def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:

@@ -18,7 +18,7 @@ from support.marks import LONG
 from urdfsync.modelica.names import class_name
 from urdfsync.urdf.physics import amended
 from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 CHOSEN = ("robotics-toolbox-al5d_robot", "random-schunk_pg70", "oems-turtlebot3_burger")
 """Axes that turn, that slide and follow, and that turn without end: the others are compared in the long run."""

@@ -13,7 +13,7 @@ import pytest
 from urdfsync import config, registry
 from urdfsync.build import Request, build
 from urdfsync.diagnostics import OutputError
-from urdfsync.domain import Artifact, Import, Order, Parts, Reading, Role, Snapshot, Target
+from urdfsync.domain import Artifact, Import, Order, Reading, Role, Snapshot, Target
 from urdfsync.looking import NO_FACTS, Facts
 from urdfsync.planning.disk import Hashes
 from urdfsync.planning.memory import Memory
@@ -29,14 +29,11 @@ class Domain:
 
     def __init__(self, path: str = "A.mo") -> None:
         self.asked = 0
-        self.found: list[list[int]] = []
-        """What was in the parts, call by call."""
-        self.parts: list[Parts | None] = []
         self._path = path
 
-    def read(self, content: bytes, file: str, options: Any, parts: Parts | None = None) -> Reading:
+    def read(self, content: bytes, file: str, options: Any, *, thorough: bool = False) -> Reading:
+        assert thorough
         self.asked += 1
-        self.parts.append(parts)
         return Reading({"content": content.decode(), "file": file, "options": options}, ())
 
     def artifacts(
@@ -45,12 +42,8 @@ class Domain:
         imports: Mapping[str, Import],
         target: Target,
         options: Any,
-        parts: Parts | None = None,
     ) -> Sequence[Artifact | Order]:
         self.asked += 1
-        assert parts is not None
-        self.found.append([*parts])
-        parts[self.asked] = "kept"
         return [Artifact(self._path, Role.RECORD, "t", {"of": (snapshot, imports, target, options)}, "part")]
 
 
@@ -93,15 +86,6 @@ def test_files_of_another_domain_are_made_anew() -> None:
     assert [artifacts(memory, domain)[0].path for domain in (one, two)] == ["A.mo", "B.mo"]
 
 
-def test_a_domain_gets_back_what_it_has_kept_and_no_other_does() -> None:
-    memory, domain, other = Memory(), Domain(), Domain()
-    for snapshot in ({"name": "m"}, {"name": "n"}):
-        artifacts(memory, domain, snapshot=snapshot)
-    artifacts(memory, other)
-    artifacts(memory, domain)
-    assert (domain.found, other.found) == ([[], [1], []], [[]])
-
-
 def test_elements_that_are_the_same_objects_are_not_looked_into() -> None:
     memory, domain = Memory(), Domain()
     element = {"ohm": object()}  # whoever looked would find that this is no plain data
@@ -125,14 +109,6 @@ def test_a_source_is_read_again_if_anything_is_another(other: Mapping[str, Any])
     found = memory.read(**asked)
     wanted = {"content": asked["content"].decode(), "file": asked["name"], "options": asked["options"]}
     assert found.snapshot == wanted
-
-
-def test_the_next_version_of_a_source_gets_what_the_domain_has_kept() -> None:
-    memory, domain, usual = Memory(), Domain(), {"options": 1, "name": "f"}
-    for content, other in ((b"a", {}), (b"b", {}), (b"b", {"options": 2}), (b"b", {"name": "g"}), (b"b", {})):
-        memory.read(domain, content=content, **{**usual, **other})  # type: ignore[arg-type]
-    assert domain.parts[0] is domain.parts[1]
-    assert len({id(parts) for parts in domain.parts}) == 4, "what was kept for something else is of no use"
 
 
 # What plans saw of files

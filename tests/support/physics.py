@@ -17,7 +17,7 @@ from urdfsync.urdf.physics import motion, probe, variables
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Instant, Reference
 from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 
 @dataclasses.dataclass(frozen=True)

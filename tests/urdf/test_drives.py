@@ -14,7 +14,7 @@ from urdfsync.urdf.drives import driven_joints, passive_joints
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, Limit, Mimic
 from urdfsync.urdf.skeleton import bare
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 PLAIN = Options()
 MIR = {f"{corner}_caster_{part}_joint" for corner in ("fl", "fr", "bl", "br") for part in ("rotation", "wheel")}

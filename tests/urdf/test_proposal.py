@@ -10,7 +10,7 @@ from support import corpus as real
 
 from urdfsync.urdf.proposal import propose_base
 from urdfsync.urdf.robot import Joint, JointType, Link, Robot
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 MOBILE = (
     "atlas",

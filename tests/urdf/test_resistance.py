@@ -13,7 +13,7 @@ from support import urdfs
 from urdfsync.urdf.kinematics import start_positions
 from urdfsync.urdf.resistance import resistances, yielding
 from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 ARM = urdfs.robot(
     *(urdfs.link(name, mass) for name, mass in (("base", 5), ("upper", 3), ("lower", 2), ("hand", 0.5), ("rail", 1))),

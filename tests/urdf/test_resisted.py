@@ -12,7 +12,7 @@ from urdfsync.urdf.resistance import resistances, yielding
 from urdfsync.urdf.resisted import clearly_resisted
 from urdfsync.urdf.robot import Inertia, Inertial, Link, Robot
 from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 
 def skeleton(*elements: str) -> Skeleton:

@@ -34,7 +34,7 @@ from urdfsync.urdf.robot import (
     Visual,
 )
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 NAMES = st.text(max_size=6)
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)

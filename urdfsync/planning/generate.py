@@ -13,7 +13,7 @@ import msgspec
 from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Recipe, Snapshot, Target, Templates
+from urdfsync.domain import Artifact, Domain, Import, Order, Recipe, Snapshot, Target, Templates
 from urdfsync.shelf import Shelf, Shelved
 
 if TYPE_CHECKING:
@@ -73,13 +73,12 @@ def artifacts(
     imports: Mapping[str, Import],
     target: Target,
     options: Any,
-    parts: Parts | None = None,
 ) -> Sequence[Artifact | Order]:
-    """The files of the package of a model, before they are rendered; `parts` are those of the last call.
+    """The files of the package of a model before they are rendered, in the order of their paths.
 
-    They are in the order of their paths. Raises OutputError for paths that can't be.
+    Raises OutputError for paths that can't be.
     """
-    found = sorted(domain.artifacts(snapshot, imports, target, options, parts), key=_PATH)
+    found = sorted(domain.artifacts(snapshot, imports, target, options), key=_PATH)
     check_paths((*map(_PATH, found), *(entry.target for entry in imports.values())))
     return found
 

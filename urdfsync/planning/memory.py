@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import msgspec
 
-from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Reading, Snapshot, Target
+from urdfsync.domain import Artifact, Domain, Import, Order, Reading, Snapshot, Target
 from urdfsync.looking import NO_FACTS
 from urdfsync.manifest import Tables
 from urdfsync.modelfile import Elements
@@ -44,19 +44,15 @@ class Memory:
         self._seen: dict[str, Hashes] = {}
         self._current: set[str] = set()
         self._reading: _Last[Reading] = _Last()
-        self._parts: _Last[Parts] = _Last()
         self._artifacts: _Files | None = None
         self._state: _Last[State] = _Last()
         self._bases: _Last[Bases] = _Last()
         self._shipped: dict[Hashable, Mapping[str, str]] = {}
 
     def read(self, domain: Domain, options: Any, content: bytes, name: str) -> Reading:
-        """What the domain reads in a source: who judges one, and then builds it, reads it once.
-
-        What the next version of the source has in common with it need not be read again.
-        """
-        parts = self._parts.get((domain, options, name), dict)
-        return self._reading.get((domain, options, content, name), lambda: domain.read(content, name, options, parts))
+        """What the domain reads in a source, thoroughly: who judges one, and then builds it, reads it once."""
+        key = domain, options, content, name
+        return self._reading.get(key, lambda: domain.read(content, name, options, thorough=True))
 
     def artifacts(
         self, domain: Domain, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
@@ -65,9 +61,8 @@ class Memory:
         last = self._artifacts
         if last is not None and last.domain is domain and last.are_of(snapshot, imports, target, options):
             return last.files
-        parts = last.parts if last is not None and last.domain is domain else {}
-        files = generate.artifacts(domain, snapshot, imports, target, options, parts)
-        self._artifacts = _Files(domain, snapshot, _encoded((imports, target, options)), files, parts)
+        files = generate.artifacts(domain, snapshot, imports, target, options)
+        self._artifacts = _Files(domain, snapshot, _encoded((imports, target, options)), files)
         return files
 
     def shipped(self, folder: Hashable, read: Callable[[], Mapping[str, str]]) -> Mapping[str, str]:
@@ -134,13 +129,12 @@ class Memory:
 
 
 class _Files(msgspec.Struct):
-    """The files of a package, with all that they were made of, and what their domain has kept of them."""
+    """The files of a package, with all that they were made of."""
 
     domain: Domain
     snapshot: Snapshot
     others: bytes
     files: Sequence[Artifact | Order]
-    parts: Parts
 
     def are_of(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> bool:
         """Whether that is what they were made of."""

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain
 from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Artifact, Import, Order, Parts, Piece, Recipe, Role, Target
-from urdfsync.urdf.kept import Kept
+from urdfsync.domain import Artifact, Import, Order, Recipe, Role, Target
 from urdfsync.urdf.model import bench, notes, records, shapes, stance
 from urdfsync.urdf.model.records import RecordJoint, RecordLink
 from urdfsync.urdf.model.robot import robot_data
@@ -17,7 +15,7 @@ from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.naming import Identifier, Key
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Inertial, Joint, JointType, Link, Robot
+from urdfsync.urdf.robot import Joint, JointType, Link, Robot
 from urdfsync.urdf.skeleton import Skeleton, bare
 
 LINK_MODEL = "link/model.mo.jinja"
@@ -28,25 +26,24 @@ _UNLIMITED = {"lower": None, "upper": None, "velocity": None, "effort": None}
 
 
 def artifacts(
-    robot: Robot, imports: Mapping[str, Import], target: Target, options: Options, parts: Parts | None = None
+    robot: Robot, imports: Mapping[str, Import], target: Target, options: Options
 ) -> list[Artifact | Order]:
-    """Every file of the robot's package but the imported meshes; see `Domain.artifacts` for `parts`.
+    """Every file of the robot's package but the imported meshes.
 
     Raises KeyError or ValueError for what is no robot that passed all checks, or has meshes without their facts.
     """
-    kept = Kept(parts, "files")
-    context = _context(robot, imports, target, options, kept)
-    structure, target, options = context.structure, context.target, context.options
-    files: list[Artifact | Order] = [*kept.get("structure files", _of_structure, structure, target, options)]
+    context = _context(robot, imports, target, options)
+    files: list[Artifact | Order] = [*_of_structure(context.structure, target, options)]
     if "package" in options.approach:
-        common = structure.names, target.package
-        links = kept.each("link files", _link, context.links, *common, context.imports, options)
-        files += chain.from_iterable(links.values())
-        files += chain.from_iterable(kept.each("joint files", _joint, context.joints, *common).values())
+        common = context.structure.names, target.package
+        for name, link in context.links.items():
+            files += _link(name, link, *common, imports, options)
+        for name, joint in context.joints.items():
+            files += _joint(name, joint, *common)
         if options.base == "floating":
             files.append(_stance(context))
     if "record" in options.approach:
-        files.append(_record(context, robot.name, kept))
+        files.append(_record(context, robot.name))
     return files
 
 
@@ -56,8 +53,7 @@ def record(robot: Robot, target: Target, options: Options) -> Artifact:
     It says what the record in a package says, if that is called like this one, and if no mesh has a part in it.
     """
     name = target.name.removesuffix(_PARAMETERS) or target.name
-    kept = Kept(None, "files")
-    artifact = _record(_context(robot, {}, Target(target.package, name), options, kept), robot.name, kept)
+    artifact = _record(_context(robot, {}, Target(target.package, name), options), robot.name)
     data = {**artifact.data, "record": target.name}
     return msgspec.structs.replace(artifact, path=f"{target.name}.mo", source=data)
 
@@ -85,14 +81,12 @@ class _Context(msgspec.Struct, frozen=True):
     options: Options
 
 
-def _context(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options, kept: Kept) -> _Context:
+def _context(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> _Context:
     for found in imports.values():
         _ = found.facts["bounds"], found.facts["hull"]  # here, and not when a text is rendered
     links, joints = {link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}
-    imports, target, options = kept.same("imports", imports), kept.same("target", target), kept.same("options", options)
-    names = kept.same("names", tuple(links))
-    moves = kept.same("joints", tuple(kept.each("bare", lambda _, joint: bare(joint), joints).values()))
-    return _Context(links, joints, kept.get("structure", _structure, names, moves, target), imports, target, options)
+    structure = _structure(links, tuple(map(bare, robot.joints)), target)
+    return _Context(links, joints, structure, imports, target, options)
 
 
 def _structure(links: Iterable[str], joints: tuple[Joint, ...], target: Target) -> Skeleton:
@@ -267,26 +261,22 @@ def _stance(context: _Context) -> Artifact:
     return Artifact(f"{context.target.name}Stance.mo", Role.RECORD, "robot/stance.mo.jinja", record, "robot")
 
 
-def _record(context: _Context, urdf_name: str, kept: Kept) -> Artifact:
+def _record(context: _Context, urdf_name: str) -> Artifact:
     structure, stands = context.structure, context.options.base == "floating"
-    order = kept.get("numbers", _numbers, structure)
-    generic = kept.get("generic", has_tables, structure.joints)
-
-    def link(name: str, inertial: Inertial | None, structure: Skeleton) -> RecordLink | Piece:
-        return kept.piece(RecordLink(order[0][name], structure.link(name).component, name, inertial))
-
-    def joint(name: str, joint: Joint, structure: Skeleton) -> RecordJoint | Piece:
-        return kept.piece(RecordJoint(order[1][name], structure.joint(name).component, joint))
-
-    inertials = {name: context.links[name].inertial for name in order[0]}
-    joints = {name: context.joints[name] for name in order[1]}
+    link_numbers, joint_numbers = _numbers(structure)
     pieces = (
-        kept.get("tables", lambda structure: kept.piece(Recipe(records.structure_data, (structure,))), structure),
-        list(kept.each("record links", link, inertials, structure).values()),
-        list(kept.each("record joints", joint, joints, structure).values()),
+        Recipe(records.structure_data, (structure,)),
+        [
+            RecordLink(number, structure.link(name).component, name, context.links[name].inertial)
+            for name, number in link_numbers.items()
+        ],
+        [
+            RecordJoint(number, structure.joint(name).component, context.joints[name])
+            for name, number in joint_numbers.items()
+        ],
     )
     ground = (_touching(context), context.imports) if stands else None
-    recipe = Recipe(records.record_data, (*pieces, ground, context.target, urdf_name, generic))
+    recipe = Recipe(records.record_data, (*pieces, ground, context.target, urdf_name, has_tables(structure.joints)))
     return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, recipe, "robot")
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import msgspec
 
 from urdfsync.urdf.kinematics import own_range
-from urdfsync.urdf.reader.checks import principal_moments
+from urdfsync.urdf.validate import principal_moments
 from urdfsync.urdf.robot import Joint, Link
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 

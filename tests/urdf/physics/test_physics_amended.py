@@ -9,7 +9,7 @@ from urdfsync.urdf.physics.amended import readable, with_inertias
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 ENDS = '<parent link="base"/><child link="arm"/>'
 

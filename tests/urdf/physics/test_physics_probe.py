@@ -11,7 +11,7 @@ from urdfsync.domain import Target
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics.probe import probe
 from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 URDF = robot(
     link("base", 4.0),

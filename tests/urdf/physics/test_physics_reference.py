@@ -15,7 +15,7 @@ from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Frame, Instant, Reference, Relative, State
 from urdfsync.urdf.robot import Joint
 from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 Array = NDArray[np.float64]
 

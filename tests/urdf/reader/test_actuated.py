@@ -10,7 +10,7 @@ from lxml import etree
 from support import urdfs
 from support.corpus import distinct_files
 
-from urdfsync.urdf.source import RobotReading, read_robot
+from urdfsync.urdf.parse.source import RobotReading, read_robot
 
 BASE = (
     *map(urdfs.link, ("base", "arm", "wheel", "caster")),

@@ -12,7 +12,7 @@ import pytest
 from urdfsync.diagnostics import Severity
 from urdfsync.urdf.reader.cross_check import cross_check
 from urdfsync.urdf.robot import Joint, Link, Robot
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 TREE = '<link name="a"/><link name="b"/><joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>'
 URDF = f'<robot name="r">{TREE}</robot>'
@@ -90,7 +90,7 @@ def test_the_second_reader_is_silent_and_its_log_is_left_as_it_was(capfd: pytest
 
 def test_it_can_be_left_out_and_is_not_even_imported_then() -> None:
     program = (
-        "import sys; from urdfsync.urdf.source import read_robot;"
+        "import sys; from urdfsync.urdf.parse.source import read_robot;"
         f"reading = read_robot({URDF.encode()!r}, 'a.urdf', cross_check=False);"
         "sys.exit(reading.robot is None or {'yourdfpy', 'numpy'} & sys.modules.keys() != set())"
     )

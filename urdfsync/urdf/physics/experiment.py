@@ -21,7 +21,7 @@ from urdfsync.urdf.physics.reference import Frame, Reference, State
 from urdfsync.urdf.physics.variables import variables
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 _FIRST, _LAST = 0, -1
 _SOLVER = 1e-6

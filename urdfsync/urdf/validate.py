@@ -1,7 +1,7 @@
 """What must hold in a robot, whatever it was read from. Pure: a Robot in, findings out.
 
-A finding is an error where no right model exists, and a warning where one does. Its `path` names the
-element as a diff does: `link wheel`, `joint elbow / limit`; the second element of a name is `link wheel #2`.
+A finding is an error where no right model exists, and a warning where one does. Its `path` names the element as a diff
+does: `link wheel`, `joint elbow / limit`; the second element of a name is `link wheel #2`.
 """
 
 from __future__ import annotations
@@ -32,18 +32,18 @@ from urdfsync.urdf.robot import (
     Vector,
 )
 
-MOVING = ("continuous", "revolute", "prismatic", "planar")
-"""Joint types that have an axis; that of a planar joint is the normal of its plane."""
 SCALAR = ("continuous", "revolute", "prismatic")
 """Joint types with one degree of freedom: these alone can mimic and be mimicked."""
 LIMITED = ("revolute", "prismatic")
 """Joint types whose position has limits."""
 
+# Joint types that have an axis; that of a planar joint is the normal of its plane.
+_WITH_AXIS = (*SCALAR, "planar")
 _EXACT = 1e-12
 _ROUNDING = 1e-6
 _INERTIA_TOLERANCE = 1e-6
+# Radius of gyration, in m, below which a body is a point: its inertia is rounding then.
 _POINT = 1e-6
-"""Radius of gyration, in m, below which a body is a point: what its inertia says then is rounding."""
 _SWEEPS = 12
 _COMPARED = 500
 
@@ -60,39 +60,65 @@ class Finding(NamedTuple):
     hint: str
 
 
-def check(robot: Robot, *, complete: bool = True, of_elements: Iterable[Finding] | None = None) -> Iterator[Finding]:
-    """All findings about a robot whose axes are still as they were read.
+def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
+    """Check a robot whose axes still are as written.
 
-    `complete` is false if faulty joints or links had to be left out: how many roots there are then says nothing.
-    `of_elements` are the findings of `check_elements`, if they are known already.
+    `complete` is false if faulty joints or links had to be left out: the number of roots means nothing then.
     """
     yield from _check_names("link", (link.name for link in robot.links))
     yield from _check_names("joint", (joint.name for joint in robot.joints))
-    yield from check_tree(robot, complete=complete)
-    yield from check_elements(robot) if of_elements is None else of_elements
-    yield from check_mimics(robot)
-
-
-def check_elements(robot: Robot) -> Iterator[Finding]:
-    """The findings about each link, and then about each joint, that no other element has to do with."""
+    yield from _check_tree(robot, complete)
     for path, link in numbered("link", robot.links):
-        yield from check_link(path, link)
+        yield from _check_link(path, link)
     for path, joint in numbered("joint", robot.joints):
-        yield from check_joint(path, joint)
+        yield from _check_joint(path, joint)
+    yield from _check_mimics(robot)
+
+
+def check_actuated(actuated: Iterable[tuple[str, str]], joints: Collection[str]) -> Iterator[Finding]:
+    """Warn about each actuated joint (its path and name) that does not exist: else the joint meant counts as passive."""
+    for path, name in actuated:
+        if name not in joints:
+            meant = nearest(name, joints)
+            hint = f"perhaps {meant!r} is meant" if meant else "correct its name, or take it out"
+            message = f"{path.partition(' / ')[0]} drives joint {name!r}, which does not exist"
+            yield _warning("unknown-actuated-joint", path, message, hint)
 
 
 def nearest(name: str, names: Collection[str], likeness: float = 0.7) -> str:
-    """The name most like `name`; an empty string if none is like it, or if there are too many to look at."""
+    """Return the name most like `name`; an empty string if none is like it, or if there are too many to compare."""
     return spelling.nearest(name, names, likeness) if len(names) <= _COMPARED else ""
 
 
 def numbered(kind: str, elements: Iterable[_Element]) -> Iterator[tuple[str, _Element]]:
-    """Each element with its path: `joint elbow`, and `joint elbow #2` for the second of that name."""
+    """Yield each element with its path: `joint elbow`, and `joint elbow #2` for the second of that name."""
     seen: Counter[str] = Counter()
     for element in elements:
         seen[element.name] += 1
         count = seen[element.name]
         yield f"{kind} {element.name}" + (f" #{count}" if count > 1 else ""), element
+
+
+def normalise_axes(robot: Robot) -> Robot:
+    """Return the robot with unit vectors as axes; where an axis has no meaning, a zero becomes the default.
+
+    An axis whose length is 1 but for 1e-12 stays as it is, bit by bit.
+    """
+    joints = [msgspec.structs.replace(joint, axis=_unit_vector(joint.axis)) for joint in robot.joints]
+    return msgspec.structs.replace(robot, joints=tuple(joints))
+
+
+def _unit_vector(axis: Vector) -> Vector:
+    """Return the unit vector along `axis`; x for a zero vector."""
+    largest = max(map(abs, axis))
+    if largest == 0:
+        return (1.0, 0.0, 0.0)
+    if abs(math.hypot(*axis) - 1) < _EXACT:
+        return axis
+    scaled = [value / largest for value in axis]  # else the square of a large number overflows
+    length = math.hypot(*scaled)
+    # Adding 0.0 makes a zero of -0.0, which a tiny negative number becomes; equal robots then give the same text.
+    return (scaled[0] / length + 0.0, scaled[1] / length + 0.0, scaled[2] / length + 0.0)
 
 
 def _error(code: str, path: str, message: str, hint: str) -> Finding:
@@ -111,7 +137,7 @@ def _check_names(kind: str, names: Iterable[str]) -> Iterator[Finding]:
             yield _error(f"duplicate-{kind}", f"{kind} {name} #{number}", message, f"rename or remove one {kind}")
 
 
-def check_tree(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
+def _check_tree(robot: Robot, complete: bool) -> Iterator[Finding]:
     """The joints connect all links to one tree."""
     links = {link.name for link in robot.links}
     if not links:
@@ -120,50 +146,31 @@ def check_tree(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
         return
     parents: dict[str, Joint] = {}
     for path, joint in numbered("joint", robot.joints):
-        if joint.parent not in links or joint.child not in links:
-            complete = False
-            yield from _check_ends(path, joint, links)
+        for end, name in (("parent", joint.parent), ("child", joint.child)):
+            if name not in links:
+                complete = False
+                meant = nearest(name, links)
+                hint = f"perhaps {meant!r} is meant" if meant else "add the link, or correct its name"
+                message = f"the {end} of joint {joint.name!r} is link {name!r}, which does not exist"
+                yield _error(f"unknown-{end}", f"{path} / {end}", message, hint)
         first = parents.setdefault(joint.child, joint)
         if first.name != joint.name:
             message = f"link {joint.child!r} is the child of joint {joint.name!r} and of joint {first.name!r}"
             yield _error("two-parents", path, message, "a link has one parent: remove one joint")
+    above = {child: joint.parent for child, joint in parents.items()}
+    for cycle in _cycles((link.name for link in robot.links), above):
+        message = f"links form a cycle: {' → '.join(map(repr, [*reversed(cycle), cycle[-1]]))}"
+        path = f"joint {parents[cycle[0]].name}"
+        yield _error("cycle", path, message, "a URDF is a tree: remove a joint of the cycle")
     roots = list(dict.fromkeys(link.name for link in robot.links if link.name not in parents))
-    yield from _check_cycles(robot, parents)
     if len(roots) > 1 and complete:
         names = ", ".join(map(repr, roots))
         hint = "connect them by joints, or remove what does not belong to the robot"
         yield _error("several-roots", f"link {roots[1]}", f"{len(roots)} links have no parent: {names}", hint)
 
 
-def _first_of_each_name(joints: Iterable[Joint]) -> dict[str, Joint]:
-    """The joints by name; of several with one name the first."""
-    first: dict[str, Joint] = {}
-    for joint in joints:
-        first.setdefault(joint.name, joint)
-    return first
-
-
-def _check_ends(path: str, joint: Joint, links: Collection[str]) -> Iterator[Finding]:
-    """Parent and child of a joint exist."""
-    for end, name in (("parent", joint.parent), ("child", joint.child)):
-        if name not in links:
-            meant = nearest(name, links)
-            hint = f"perhaps {meant!r} is meant" if meant else "add the link, or correct its name"
-            message = f"the {end} of joint {joint.name!r} is link {name!r}, which does not exist"
-            yield _error(f"unknown-{end}", f"{path} / {end}", message, hint)
-
-
-def _check_cycles(robot: Robot, parents: Mapping[str, Joint]) -> Iterator[Finding]:
-    """No link is its own ancestor."""
-    above = {child: joint.parent for child, joint in parents.items()}
-    for cycle in _cycles((link.name for link in robot.links), above):
-        joint = parents[cycle[0]]
-        message = f"links form a cycle: {' → '.join(map(repr, [*reversed(cycle), cycle[-1]]))}"
-        yield _error("cycle", f"joint {joint.name}", message, "a URDF is a tree: remove a joint of the cycle")
-
-
 def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list[str]]:
-    """All cycles of the function `successor`, each once; linear in the number of names."""
+    """Yield each cycle of the function `successor` once; linear in the number of names."""
     finished: set[str] = set()
     for start in names:
         walked: dict[str, None] = {}
@@ -176,16 +183,17 @@ def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list
         finished |= walked.keys()
 
 
-def check_link(path: str, link: Link) -> Iterator[Finding]:
-    """Mass properties and shapes of a link that bodies can have."""
+def _check_link(path: str, link: Link) -> Iterator[Finding]:
+    """Bodies can have the mass properties of the link, and its shapes are not empty."""
     if link.inertial is not None:
         yield from _check_inertial(f"{path} / inertial", link.inertial)
-    for number, visual in enumerate(link.visuals, start=1):
-        if _is_empty(visual.geometry):
-            yield _empty(f"{path} / visual {number}", visual.geometry)
-    for number, collision in enumerate(link.collisions, start=1):
-        if _is_empty(collision.geometry):
-            yield _empty(f"{path} / collision {number}", collision.geometry)
+    shapes = [(f"{path} / visual {number}", shape.geometry) for number, shape in enumerate(link.visuals, start=1)]
+    shapes += [(f"{path} / collision {number}", shape.geometry) for number, shape in enumerate(link.collisions, start=1)]
+    for shape_path, geometry in shapes:
+        if _is_empty(geometry):
+            place = f"{shape_path} / {geometry.__struct_config__.tag}"
+            message = f"{place}: a size is zero or negative, so that the shape is empty"
+            yield _warning("shape-size", place, message, "correct the size, or remove the shape")
 
 
 def _check_inertial(path: str, inertial: Inertial) -> Iterator[Finding]:
@@ -195,22 +203,21 @@ def _check_inertial(path: str, inertial: Inertial) -> Iterator[Finding]:
         yield _error("negative-mass", f"{path} / mass", f"{path}: the mass {inertial.mass:g} kg is negative", hint)
     low, middle, high = principal_moments(inertial.inertia)
     tolerance = _INERTIA_TOLERANCE * max(abs(low), abs(high)) + max(inertial.mass, 0) * _POINT**2
-    if not (low < -tolerance or low + middle < high - tolerance):
-        return
     moments = f"{low:.6g}, {middle:.6g} and {high:.6g} kg·m²"
     place, hint = f"{path} / inertia", "export the inertia again; simulation may not be physical"
     if low < -tolerance:
         message = f"{path}: the inertia is not positive semi-definite: its principal moments are {moments}"
         yield _warning("inertia-not-positive", place, message, hint)
-    else:
+    elif low + middle < high - tolerance:
         message = f"{path}: no body has this inertia: of its principal moments {moments} one exceeds the others' sum"
         yield _warning("inertia-triangle", place, message, hint)
 
 
 def principal_moments(inertia: Inertia) -> Vector:
-    """Eigenvalues of the inertia tensor in ascending order, in kg·m².
+    """Return the eigenvalues of the inertia tensor in ascending order, in kg·m².
 
-    Cyclic Jacobi rotations (Golub and Van Loan, Matrix Computations, section 8.5), accurate to rounding.
+    Cyclic Jacobi rotations (Golub and Van Loan, Matrix Computations, section 8.5), accurate to rounding. Loading numpy
+    for it would take longer than a whole build of a small robot.
     """
     a = [
         [inertia.ixx, inertia.ixy, inertia.ixz],
@@ -237,7 +244,7 @@ def principal_moments(inertia: Inertia) -> Vector:
 
 
 def _is_empty(geometry: Geometry) -> bool:
-    """Whether a size is not positive; but spheres may be points of contact, and a mesh may be mirrored."""
+    """Return whether a size is not positive; but spheres may be points of contact, and a mesh may be mirrored."""
     match geometry:
         case Box(size=size):
             return min(size) <= 0
@@ -251,43 +258,34 @@ def _is_empty(geometry: Geometry) -> bool:
             return 0 in scale
 
 
-def _empty(shape: str, geometry: Geometry) -> Finding:
-    path = f"{shape} / {geometry.__struct_config__.tag}"
-    message = f"{path}: a size is zero or negative, so that the shape is empty"
-    return _warning("shape-size", path, message, "correct the size, or remove the shape")
-
-
-def check_joint(path: str, joint: Joint) -> Iterator[Finding]:
-    """Axis, limits and losses of a joint."""
-    if joint.type in MOVING:
+def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
+    """The axis has a direction, the limits are a range and magnitudes, and the joint loses energy if it has losses."""
+    if joint.type in _WITH_AXIS:
         yield from _check_axis(path, joint.axis)
     if joint.limit is not None:
         yield from _check_limit(path, joint, joint.limit)
-    if joint.dynamics is None:
-        return
-    losses = {"damping": joint.dynamics.damping, "friction": joint.dynamics.friction}
+    losses = [("damping", joint.dynamics.damping), ("friction", joint.dynamics.friction)] if joint.dynamics else []
     if joint.type in ("fixed", "floating"):
-        if any(losses.values()):
+        if any(value for _, value in losses):
             message = f"{path}: damping and friction have no effect on a {joint.type} joint"
             yield _warning("dynamics-without-effect", f"{path} / dynamics", message, "remove them, or change the type")
         return
-    for name, value in losses.items():
+    for name, value in losses:
         if value < 0:
             message = f"{path}: the {name} {value:g} is negative, so that the joint gains energy"
             yield _warning("negative-dynamics", f"{path} / dynamics", message, "correct its sign")
 
 
 def _check_axis(path: str, axis: Vector) -> Iterator[Finding]:
-    """An axis has a direction; its length should be 1."""
+    """The axis has a direction; its length should be 1."""
     length = math.hypot(*axis)
+    place = f"{path} / axis"
     if length == 0:
-        yield _error(
-            "zero-axis", f"{path} / axis", f"{path}: the axis has no direction", 'write for example xyz="0 0 1"'
-        )
+        yield _error("zero-axis", place, f"{path}: the axis has no direction", 'write for example xyz="0 0 1"')
     elif abs(length - 1) > _ROUNDING:
         shown = " ".join(f"{value:g}" for value in axis)
         message = f"{path}: the axis {shown} has length {length:g}, and is normalised"
-        yield _warning("axis-not-unit", f"{path} / axis", message, "write a unit vector")
+        yield _warning("axis-not-unit", place, message, "write a unit vector")
 
 
 def _check_limit(path: str, joint: Joint, limit: Limit) -> Iterator[Finding]:
@@ -302,21 +300,24 @@ def _check_limit(path: str, joint: Joint, limit: Limit) -> Iterator[Finding]:
             yield _warning("negative-limit", place, message, "limits of effort and velocity are magnitudes")
 
 
-def check_mimics(robot: Robot) -> Iterator[Finding]:
-    """Every mimic relation is between joints of one degree of freedom; chains are legal, cycles are not."""
-    joints = _first_of_each_name(robot.joints)
+def _check_mimics(robot: Robot) -> Iterator[Finding]:
+    """Mimic relations are between joints of one degree of freedom; chains are legal, cycles are not."""
+    joints: dict[str, Joint] = {}
     leaders: dict[str, str] = {}
+    for joint in robot.joints:
+        joints.setdefault(joint.name, joint)
     for path, joint in numbered("joint", robot.joints):
         if joint.mimic is not None:
             leaders.setdefault(joint.name, joint.mimic.joint)
-            yield from _check_mimic(f"{path} / mimic", joint, joints.get(joint.mimic.joint), joints)
+            yield from _check_mimic(f"{path} / mimic", joint, joint.mimic.joint, joints)
     for cycle in _cycles(leaders, leaders):
         message = f"joints mimic each other in a cycle: {' → '.join(map(repr, [*cycle, cycle[0]]))}"
         yield _error("mimic-cycle", f"joint {cycle[0]} / mimic", message, "one joint of the cycle must move by itself")
 
 
-def _check_mimic(path: str, joint: Joint, leader: Joint | None, names: Collection[str]) -> Iterator[Finding]:
-    """One mimic relation; its leader is None if it does not exist."""
+def _check_mimic(path: str, joint: Joint, target: str, joints: Mapping[str, Joint]) -> Iterator[Finding]:
+    """Check one mimic relation; `target` is the name of the joint that `joint` mimics."""
+    leader = joints.get(target)
     if joint.type == "fixed":
         message = f"joint {joint.name!r} is fixed, so that its mimic has no effect"
         yield _warning("mimic-without-effect", path, message, "remove the mimic, or change the type")
@@ -324,47 +325,14 @@ def _check_mimic(path: str, joint: Joint, leader: Joint | None, names: Collectio
         message = f"joint {joint.name!r} is {joint.type}, and can't mimic a single position"
         yield _error("mimic-type", path, message, "remove the mimic, or change the type")
     elif leader is None:
-        target = joint.mimic.joint if joint.mimic else ""
-        meant = _meant(target, joint.name, names)
+        # A target without the prefix of its side means the joint of the same side, else the one most alike.
+        same_end = [name for name in joints if name.endswith(target) and name != joint.name]
+        meant = nearest(joint.name, same_end, 0) or nearest(target, joints)
         hint = f"perhaps {meant!r} is meant" if meant else "add the joint, or correct its name"
         yield _error("unknown-mimic", path, f"joint {joint.name!r} mimics joint {target!r}, which does not exist", hint)
     elif leader.type == "fixed":
-        message = f"joint {joint.name!r} mimics the fixed joint {leader.name!r}, and is held at its offset"
+        message = f"joint {joint.name!r} mimics the fixed joint {target!r}, and is held at its offset"
         yield _warning("mimic-of-fixed", path, message, "make it fixed, or let it mimic a joint that moves")
     elif leader.type not in SCALAR:
-        message = (
-            f"joint {joint.name!r} mimics joint {leader.name!r}, which is {leader.type} and has no single position"
-        )
+        message = f"joint {joint.name!r} mimics joint {target!r}, which is {leader.type} and has no single position"
         yield _error("mimic-type", path, message, "let it mimic a revolute, continuous or prismatic joint")
-
-
-def _meant(target: str, own: str, names: Collection[str]) -> str:
-    """The joint that `own` may be meant to mimic: if `target` lacks a prefix, that of its side; else the most alike."""
-    whole = [name for name in names if name.endswith(target) and name != own]
-    return nearest(own, whole, 0) or nearest(target, names)
-
-
-def unit_axes(robot: Robot) -> Robot:
-    """The robot with unit vectors as axes; where an axis has no meaning, a zero becomes the default.
-
-    An axis whose length is 1 but for 1e-12 stays as it is, bit by bit.
-    """
-    joints = ((joint, _unit(joint.axis)) for joint in robot.joints)
-    return msgspec.structs.replace(
-        robot,
-        joints=tuple(
-            joint if axis is joint.axis else msgspec.structs.replace(joint, axis=axis) for joint, axis in joints
-        ),
-    )
-
-
-def _unit(axis: Vector) -> Vector:
-    """The unit vector along `axis`; x for a zero vector."""
-    largest = max(map(abs, axis))
-    if largest == 0:
-        return (1.0, 0.0, 0.0)
-    if abs(math.hypot(*axis) - 1) < _EXACT:
-        return axis
-    scaled = [value / largest for value in axis]
-    length = math.hypot(*scaled)
-    return (scaled[0] / length, scaled[1] / length, scaled[2] / length)

@@ -1,27 +1,28 @@
-"""yourdfpy as second reader: an independent look at the same bytes, to catch a misreading before it spreads.
+"""yourdfpy as second reader: an independent reading of the same bytes, to find a misreading before it spreads.
 
-yourdfpy is imported at the first call only; it takes most of a second.
+Loading this module takes most of a second, because of yourdfpy.
 """
 
 from __future__ import annotations
 
-import contextlib
 import io
 import logging
 from collections.abc import Iterator
 from typing import Any
 
-from urdfsync.diagnostics import Severity
-from urdfsync.urdf.reader.checks import Finding
-from urdfsync.urdf.robot import Robot
+import yourdfpy
 
+from urdfsync.diagnostics import Severity
+from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.validate import Finding
+
+# What yourdfpy raises for files that the strict reader accepts: it expects attributes that may be absent.
 _FAILURES = (ArithmeticError, AttributeError, LookupError, SyntaxError, TypeError, ValueError)
-"""What yourdfpy raises for files that the strict reader takes: it looks for attributes without asking."""
 _SHOWN = 5
 _HINT = "please report this file; cross_check = false builds it as urdfsync reads it"
 
 
-def cross_check(content: bytes, robot: Robot) -> Iterator[Finding]:
+def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
     """Compare the names, types and tree of `robot` with what yourdfpy reads from the same bytes."""
     try:
         other = _read(content)
@@ -43,18 +44,16 @@ def cross_check(content: bytes, robot: Robot) -> Iterator[Finding]:
 
 
 def _not_checked(reason: str) -> Finding:
-    """A note that only one reader has seen the file."""
     message = f"not cross-checked: yourdfpy {reason}"
     return Finding(Severity.NOTE, "second-reader-failed", "robot", message, "the strict reading alone counts")
 
 
 def _reason(error: Exception) -> str:
-    """The exception in a few words."""
     return f"{type(error).__name__}: {' '.join(str(error).split())}"[:120]
 
 
 def _difference(ours: set[str], theirs: set[str]) -> str:
-    """What only one of the readers has, in a few words; empty if they agree."""
+    """Return the names that only one of the readers has; empty if they agree."""
     parts = []
     for title, names in (("without", ours - theirs), ("with", theirs - ours)):
         if names:
@@ -64,19 +63,10 @@ def _difference(ours: set[str], theirs: set[str]) -> str:
 
 
 def _read(content: bytes) -> Any:
-    """The robot as yourdfpy reads it; its log is switched off meanwhile, since every problem is reported here."""
-    import yourdfpy
-
-    with _silent("yourdfpy.urdf"):
-        return yourdfpy.URDF.load(io.BytesIO(content), load_meshes=False, build_scene_graph=False).robot
-
-
-@contextlib.contextmanager
-def _silent(name: str) -> Iterator[None]:
-    """Switch a logger off for a while."""
-    logger = logging.getLogger(name)
-    before, logger.disabled = logger.disabled, True
+    """Return the robot as yourdfpy reads it."""
+    logger = logging.getLogger("yourdfpy.urdf")
+    before, logger.disabled = logger.disabled, True  # every problem is reported here
     try:
-        yield
+        return yourdfpy.URDF.load(io.BytesIO(content), load_meshes=False, build_scene_graph=False).robot
     finally:
         logger.disabled = before

@@ -1,14 +1,12 @@
-"""Reads links: mass properties, shapes, materials. A fault is a finding, and a default stands in for the value."""
+"""Read links and materials. A fault becomes a diagnostic, and a default takes the place of the value."""
 
 from __future__ import annotations
 
-import operator
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 import msgspec
 
-from urdfsync.urdf.reader.fields import Element, Findings, brief, parse_numbers
-from urdfsync.urdf.reader.xml import Node
+from urdfsync.urdf.parse.fields import Element, Findings, parse_numbers, quoted
 from urdfsync.urdf.robot import (
     Box,
     Capsule,
@@ -33,10 +31,10 @@ _ZERO = (0.0, 0.0, 0.0)
 
 
 def read_link(element: Element, extensions: list[Extension]) -> Link:
-    """The link without its materials looked up; adds what is not modelled to `extensions`."""
-    element.expect(("name",))
-    name = element.node.attributes.get("name", "")
+    """Read a link, without looking up its materials; add what is not modelled to `extensions`."""
+    name = element.text("name")
     owner = f"link {name}"
+    element.expect(("name",))
     extensions += element.extensions(owner, ("inertial", "visual", "collision"))
     inertial = element.child("inertial")
     visuals = []
@@ -57,7 +55,7 @@ def read_link(element: Element, extensions: list[Extension]) -> Link:
 
 
 def read_origin(element: Element) -> Origin:
-    """The pose in the element's `<origin>`; the identity if there is none."""
+    """Read the `<origin>` in an element; the identity if there is none."""
     origin = element.child("origin", "xyz", "rpy")
     if origin is None:
         return Origin()
@@ -68,7 +66,7 @@ def read_origin(element: Element) -> Origin:
 
 
 def _read_inertial(element: Element) -> Inertial:
-    """Mass, centre of mass and inertia; 0, with a warning, for what is absent."""
+    """Read mass, centre of mass and inertia; what is absent is 0, with a warning."""
     mass, inertia = element.child("mass", "value"), element.child("inertia", *_COMPONENTS)
     if mass is None or "value" not in mass.node.attributes:
         (mass or element).warn("missing-mass", f"{element.path} has no mass: it is taken as 0", "add the mass")
@@ -84,19 +82,19 @@ def _read_inertial(element: Element) -> Inertial:
 
 
 def _shapes(link: Element, tag: str) -> Iterator[tuple[Element, Element]]:
-    """The visuals or collisions that have a shape, each with the element of that shape.
+    """Yield each visual or collision that can be drawn, with the element of its shape.
 
-    Shapes that can't be drawn are left out with a warning; the others count from 1 without them.
+    The others are left out with a warning, and do not count in the numbers of paths.
     """
     number = 0
     for node in link.node.children:
         if node.tag != tag:
             continue
-        shapes = _shape_nodes(node)
+        geometry = next((child for child in node.children if child.tag == "geometry"), None)
+        shapes = [child for child in geometry.children if child.tag in _SHAPES] if geometry else []
         if not shapes:
             message = f"a {tag} of {link.path} has no geometry that URDF knows, and is left out"
-            hint = f"use one of {', '.join(_SHAPES)}"
-            link.findings.warn("unknown-geometry", node.line, message, hint)
+            link.findings.warn("unknown-geometry", node.line, message, f"use one of {', '.join(_SHAPES)}")
             continue
         number += 1
         shape = Element(node, f"{link.path} / {tag} {number}", link.findings)
@@ -108,14 +106,7 @@ def _shapes(link: Element, tag: str) -> Iterator[tuple[Element, Element]]:
         yield shape, Element(shapes[0], f"{shape.path} / {shapes[0].tag}", link.findings)
 
 
-def _shape_nodes(node: Node) -> list[Node]:
-    """The shapes in the first `<geometry>` of a visual or collision."""
-    geometry = next((child for child in node.children if child.tag == "geometry"), None)
-    return [child for child in geometry.children if child.tag in _SHAPES] if geometry else []
-
-
 def _read_geometry(element: Element) -> Geometry:
-    """One of the shapes of URDF."""
     match element.node.tag:
         case "box":
             element.expect(("size",))
@@ -133,7 +124,7 @@ def _read_geometry(element: Element) -> Geometry:
 
 
 def read_material(element: Element) -> Material:
-    """A material as it stands there; its colour is None if it is absent, or, after a warning, faulty."""
+    """Read a material as it is written; its colour is None if it is absent or, after a warning, faulty."""
     color, texture = element.child("color", "rgba"), element.child("texture", "filename")
     return Material(
         element.node.attributes.get("name", ""),
@@ -143,7 +134,7 @@ def read_material(element: Element) -> Material:
 
 
 def _read_color(element: Element) -> tuple[float, float, float, float] | None:
-    """Red, green, blue and opacity from 0 to 1; a colour is never a reason to refuse a robot."""
+    """Read red, green, blue and opacity from 0 to 1. A faulty colour is a warning: the robot can be built without."""
     text = element.node.attributes.get("rgba")
     if text is None:
         element.warn("bad-color", f"{element.path} has no attribute 'rgba'", "add rgba=…")
@@ -151,53 +142,48 @@ def _read_color(element: Element) -> tuple[float, float, float, float] | None:
     try:
         rgba = parse_numbers(text, 4)
     except ValueError as error:
-        element.warn("bad-color", f"{element.path}: rgba={brief(text)} {error}", 'write for example rgba="1 0.5 0 1"')
+        element.warn("bad-color", f"{element.path}: rgba={quoted(text)} {error}", 'write for example rgba="1 0.5 0 1"')
         return None
     red, green, blue, opacity = (min(max(value, 0.0), 1.0) for value in rgba)
     if (red, green, blue, opacity) != rgba:
-        message = f"{element.path}: rgba={brief(text)} is not between 0 and 1, and is cut off there"
+        message = f"{element.path}: rgba={quoted(text)} is not between 0 and 1, and is cut off there"
         element.warn("color-range", message, "divide 0 to 255 by 255")
     return red, green, blue, opacity
 
 
 def resolve_materials(
-    paths: Iterable[tuple[str, Link]], known: Iterable[tuple[str, Material]], findings: Findings
+    links: Mapping[str, Link], materials: Iterable[tuple[str, Material]], findings: Findings
 ) -> tuple[Link, ...]:
-    """The links with their materials looked up by name through the whole robot.
+    """Return the links, whose paths are the keys, with their materials looked up by name through the whole robot.
 
-    As in urdfdom, the first definition of a name counts: those of the robot come before those in visuals.
-    `known` are the former; links and materials come with their paths.
+    As in urdfdom, the first definition of a name counts: those of the robot, which are `materials` with their paths,
+    come before those in visuals.
     """
-    links = list(paths)
-    inline = (
+    inline = [
         (f"{path} / visual {number} / material", visual.material)
-        for path, link in links
+        for path, link in links.items()
         for number, visual in enumerate(link.visuals, start=1)
         if visual.material
-    )
+    ]
     table: dict[str, Material] = {}
-    for path, material in (*known, *inline):
+    for path, material in (*materials, *inline):
         if not material.name or (material.rgba is None and material.texture is None):
             continue
         if table.setdefault(material.name, material) != material:
             message = f"material {material.name!r} is defined again, with other values; the first definition counts"
             findings.warn("material-redefined", findings.line(path), message, "give each material a name of its own")
-    return tuple(_with_materials(path, link, table, findings) for path, link in links)
-
-
-def _with_materials(path: str, link: Link, table: dict[str, Material], findings: Findings) -> Link:
-    """The link with its materials replaced by those of the table."""
-    visuals = []
-    for number, visual in enumerate(link.visuals, start=1):
-        material = visual.material
-        if material and material.name in table:
-            material = table[material.name]
-        elif material and material.name:
+    for path, material in inline:
+        if material.name and material.name not in table:
             message = f"material {material.name!r} is not defined"
-            line = findings.line(f"{path} / visual {number} / material")
-            findings.warn("unknown-material", line, message, "define it in the robot or in a visual")
-        elif material == Material():
-            material = None
-        visuals.append(visual if material is visual.material else msgspec.structs.replace(visual, material=material))
-    same = all(map(operator.is_, visuals, link.visuals))
-    return link if same else msgspec.structs.replace(link, visuals=tuple(visuals))
+            findings.warn("unknown-material", findings.line(path), message, "define it in the robot or in a visual")
+    return tuple(_with_materials(link, table) for link in links.values())
+
+
+def _with_materials(link: Link, table: Mapping[str, Material]) -> Link:
+    visuals = []
+    for visual in link.visuals:
+        material = visual.material
+        if material is not None:
+            material = None if material == Material() else table.get(material.name, material)
+        visuals.append(msgspec.structs.replace(visual, material=material))
+    return msgspec.structs.replace(link, visuals=tuple(visuals))
