@@ -78,6 +78,6 @@ def _without_absent(value: Any) -> Any:
     """Return plain data without None, at every level."""
     if isinstance(value, dict):
         return {key: _without_absent(item) for key, item in value.items() if item is not None}
-    if isinstance(value, list):
+    if isinstance(value, list) and value and isinstance(value[0], dict):
         return [_without_absent(item) for item in value]
     return value
