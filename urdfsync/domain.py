@@ -26,6 +26,7 @@ keyed by element name, does not depend on the order of elements in the source, a
 from. Nobody changes it: versions of a model may share what they have in common.
 """
 
+
 class Role(enum.StrEnum):
     """What a generated file is, as far as deciding about it goes."""
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from support.trees import AXES, NUMBERS, ORIGINS, SCALAR, robots
 
-from urdfsync.urdf.kinematics import (
+from urdfsync.urdf.kinematics.poses import (
     IDENTITY,
     Pose,
     compose,
@@ -25,6 +25,7 @@ from urdfsync.urdf.kinematics import (
     pose,
     start_positions,
 )
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import (
     Box,
     Capsule,
@@ -40,7 +41,6 @@ from urdfsync.urdf.robot import (
     Sphere,
     Vector,
 )
-from urdfsync.urdf.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
@@ -94,7 +94,7 @@ def test_link_poses_are_those_of_pinocchio(robot: Robot, values: list[float]) ->
         model = pin.buildModelFromXML(urdf(robot))
     data = model.createData()
     pin.framesForwardKinematics(model, data, configuration(model, robot, positions))
-    poses = link_poses(Skeleton.of(robot), positions)
+    poses = link_poses(KinematicTree.of(robot), positions)
     assert poses.keys() == {link.name for link in robot.links}
     for link, found in poses.items():
         expected = data.oMf[model.getFrameId(link, pin.FrameType.BODY)].homogeneous
@@ -194,7 +194,7 @@ def allowed(joints: Iterable[tuple[Joint, float, float]]) -> tuple[float, float]
 
 @given(robots(SCALAR))
 def test_start_positions_respect_all_ranges_and_are_as_close_to_zero_as_these_allow(robot: Robot) -> None:
-    positions = start_positions(Skeleton.of(robot))
+    positions = start_positions(KinematicTree.of(robot))
     assert positions.keys() == {joint.name for joint in robot.joints}
     for leader in robot.joints:
         if leader.mimic is None:
@@ -206,8 +206,8 @@ def test_start_positions_respect_all_ranges_and_are_as_close_to_zero_as_these_al
                 assert positions[joint.name] == pytest.approx(factor * positions[leader.name] + offset, abs=1e-9)
 
 
-def chain(*joints: Joint) -> Skeleton:
-    return Skeleton.of(Robot("r", (Link("l0"), *(Link(joint.child) for joint in joints)), joints))
+def chain(*joints: Joint) -> KinematicTree:
+    return KinematicTree.of(Robot("r", (Link("l0"), *(Link(joint.child) for joint in joints)), joints))
 
 
 def test_a_leader_starts_where_the_last_of_its_followers_can_be() -> None:

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 from urdfsync.modelica import parser
 from urdfsync.modelica.names import KEYWORDS
-from urdfsync.urdf import naming
-from urdfsync.urdf.naming import Identifier, Key, identify, natural_key, spell
+from urdfsync.urdf import names
+from urdfsync.urdf.names import Identifier, Key, identify, natural_key, spell
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "naming.md"
 
@@ -66,7 +66,7 @@ def test_no_two_names_meet_anywhere(names: frozenset[Key], taken: str) -> None:
 
 def test_every_field_of_the_robots_record_is_known() -> None:
     assert {"name", "connectionmatrix", "jointtree", "linkinertias"} < ROBOT_RECORD
-    assert ROBOT_RECORD <= naming.GENERATED
+    assert ROBOT_RECORD <= names.GENERATED
     assert identify([("link", "jointTree")]) == {("link", "jointTree"): Identifier("jointTree_link")}
 
 
@@ -104,7 +104,7 @@ def test_a_name_that_is_free_and_right_is_kept(names: frozenset[Key]) -> None:
         others = [each for key, each in identifiers.items() if key != (kind, name)]
         wanted = set(names_in_robot_model(Identifier(spell(name, kind))))
         clashes = wanted & {other for each in others for other in names_in_robot_model(each)}
-        assert clashes or naming.is_reserved(spell(name, kind)) or spell(name, kind) != name
+        assert clashes or names.is_reserved(spell(name, kind)) or spell(name, kind) != name
 
 
 @pytest.mark.parametrize("name", sorted(ROBOT_MODEL | ROBOT_RECORD | DEVICES | WORDS))
@@ -131,7 +131,7 @@ def test_what_is_cut_off_still_counts() -> None:
 
 def test_many_names_of_one_spelling_do_not_take_quadratic_time(monkeypatch: pytest.MonkeyPatch) -> None:
     calls = itertools.count()
-    is_free = naming._is_free
+    is_free = names._is_free
     monkeypatch.setattr(naming, "_is_free", lambda *arguments: (next(calls), is_free(*arguments))[1])
     names = [("link", chr(0x4E00 + k)) for k in range(300)]
     assert identify(names)["link", chr(0x4E00 + 299)].component == "link__link_299"
@@ -147,7 +147,7 @@ def test_the_natural_order_is_total(names: list[str]) -> None:
 
 def test_components_are_told_by_kind_in_the_order_of_their_names() -> None:
     for taken, arm in (("Robot", "arm"), ("arm", "arm_link"), ("Robot", "arm")):
-        found = naming.components(("b", "arm"), ("arm",), taken)
+        found = names.components(("b", "arm"), ("arm",), taken)
         assert [list(names.items()) for names in found.values()] == [[("b", "b"), ("arm", arm)], [("arm", "arm_joint")]]
         assert list(found) == ["links", "joints"]
 

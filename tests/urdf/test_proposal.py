@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from support import corpus as real
 
-from urdfsync.urdf.proposal import propose_base
-from urdfsync.urdf.robot import Joint, JointType, Link, Robot
+from urdfsync.urdf.kinematics.base_guess import guess_base
 from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.robot import Joint, JointType, Link, Robot
 
 MOBILE = (
     "atlas",
@@ -54,7 +54,7 @@ def robot(*children: str, root: str = "base", kind: JointType = "revolute", join
     ],
 )
 def test_robots_on_wheels_and_legs_move_freely(links: tuple[str, ...]) -> None:
-    assert propose_base(robot(*links)).value == "floating"
+    assert guess_base(robot(*links)).value == "floating"
 
 
 @pytest.mark.parametrize(
@@ -70,29 +70,29 @@ def test_robots_on_wheels_and_legs_move_freely(links: tuple[str, ...]) -> None:
     ],
 )
 def test_robots_with_other_links_are_bolted_down(links: tuple[str, ...]) -> None:
-    assert propose_base(robot(*links)).value == "fixed"
+    assert guess_base(robot(*links)).value == "fixed"
 
 
 def test_a_wheel_that_does_not_turn_is_a_picture_of_one() -> None:
-    assert propose_base(robot("wheel_left", "wheel_right", kind="fixed")).value == "fixed"
+    assert guess_base(robot("wheel_left", "wheel_right", kind="fixed")).value == "fixed"
 
 
 def test_names_of_joints_count_as_well() -> None:
-    found = propose_base(robot("rotor_2", "rotor", joints=("right_hip_yaw", "left_hip_yaw")))
+    found = guess_base(robot("rotor_2", "rotor", joints=("right_hip_yaw", "left_hip_yaw")))
     assert (found.option, found.value) == ("base", "floating")
     assert found.reason == 'joint "left_hip_yaw" and others sound like legs'
 
 
 def test_the_root_decides_before_everything_else() -> None:
     wheels = ("wheel_left", "wheel_right")
-    assert propose_base(robot(*wheels, root="world")).value == "fixed"
-    assert propose_base(robot("arm", root="base_footprint")).value == "floating"
-    assert 'named "base_footprint"' in propose_base(robot("arm", root="base_footprint")).reason
+    assert guess_base(robot(*wheels, root="world")).value == "fixed"
+    assert guess_base(robot("arm", root="base_footprint")).value == "floating"
+    assert 'named "base_footprint"' in guess_base(robot("arm", root="base_footprint")).reason
 
 
 def test_the_reason_does_not_depend_on_the_order_of_elements() -> None:
     one, two = robot("wheel2", "wheel10"), robot("wheel10", "wheel2")
-    assert propose_base(one).reason == propose_base(two).reason == 'link "wheel2" and others sound like wheels'
+    assert guess_base(one).reason == guess_base(two).reason == 'link "wheel2" and others sound like wheels'
 
 
 def expected(file: str) -> str:
@@ -107,6 +107,6 @@ def test_real_robots_are_guessed_right(corpus: Path) -> None:
     wrong = {}
     for file in real.distinct_files():
         found = read_robot((corpus / file).read_bytes(), file, cross_check=False).robot
-        if found is not None and propose_base(found).value != expected(file):
-            wrong[file] = propose_base(found)
+        if found is not None and guess_base(found).value != expected(file):
+            wrong[file] = guess_base(found)
     assert wrong == {}

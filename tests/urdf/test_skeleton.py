@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.trees import robots
 
-from urdfsync.urdf.naming import natural_key
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, strip_numbers
+from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.robot import Dynamics, Joint, Limit, Link, Mimic, Origin, Robot
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton, bare
 
 
 def walk(robot: Robot, link: str) -> Iterator[Joint]:
@@ -28,7 +28,7 @@ def hand(*names: str) -> Robot:
 
 @given(robots())
 def test_links_and_joints_stand_depth_first(robot: Robot) -> None:
-    skeleton = Skeleton.of(robot)
+    skeleton = KinematicTree.of(robot)
     (root,) = {link.name for link in robot.links} - {joint.child for joint in robot.joints}
     assert list(skeleton.joints) == list(walk(robot, root))
     assert [link.name for link in skeleton.links] == [root, *(joint.child for joint in skeleton.joints)]
@@ -39,18 +39,18 @@ def test_the_order_of_elements_makes_no_difference(robot: Robot, random: st.Data
     links, joints = list(robot.links), list(robot.joints)
     random.shuffle(links)  # type: ignore[attr-defined]
     random.shuffle(joints)  # type: ignore[attr-defined]
-    assert Skeleton.of(Robot("shuffled", tuple(links), tuple(joints))) == Skeleton.of(robot)
+    assert KinematicTree.of(Robot("shuffled", tuple(links), tuple(joints))) == KinematicTree.of(robot)
 
 
 def test_siblings_stand_in_natural_order() -> None:
-    skeleton = Skeleton.of(hand("finger10", "thumb", "finger9", "finger1"))
+    skeleton = KinematicTree.of(hand("finger10", "thumb", "finger9", "finger1"))
     assert [joint.name for joint in skeleton.joints] == ["finger1", "finger9", "finger10", "thumb"]
     assert [link.name for link in skeleton.leaves()] == ["finger1 tip", "finger9 tip", "finger10 tip", "thumb tip"]
 
 
 @given(robots())
 def test_children_and_leaves_are_all_links(robot: Robot) -> None:
-    skeleton = Skeleton.of(robot)
+    skeleton = KinematicTree.of(robot)
     children, leaves = skeleton.children(), [link.name for link in skeleton.leaves()]
     assert sorted([*children, *leaves]) == sorted(link.name for link in robot.links)
     assert [joint for link in skeleton.links for joint in children.get(link.name, ())] == sorted(
@@ -60,10 +60,10 @@ def test_children_and_leaves_are_all_links(robot: Robot) -> None:
 
 @given(robots())
 def test_every_joint_with_an_axis_is_driven_or_follows(robot: Robot) -> None:
-    skeleton = Skeleton.of(robot)
+    skeleton = KinematicTree.of(robot)
     driven = [joint.name for motion in ("rotational", "translational") for joint in skeleton.axes(motion)]
     following = [joint.name for joint, _ in skeleton.followers()]
-    assert sorted(driven + following) == sorted(joint.name for joint in robot.joints if joint.type in MOTIONS)
+    assert sorted(driven + following) == sorted(joint.name for joint in robot.joints if joint.type in MOTION_KINDS)
     grouped = skeleton.followers_by_leader()
     assert sorted(joint.name for group in grouped.values() for joint, _ in group) == sorted(following)
     assert all(mimic.joint == leader for leader, group in grouped.items() for _, mimic in group)
@@ -71,7 +71,7 @@ def test_every_joint_with_an_axis_is_driven_or_follows(robot: Robot) -> None:
 
 @given(robots())
 def test_leaders_come_before_those_that_follow_them(robot: Robot) -> None:
-    order = Skeleton.of(robot).leaders_first()
+    order = KinematicTree.of(robot).leaders_first()
     place = {joint.name: number for number, joint in enumerate(order)}
     assert sorted(place) == sorted(joint.name for joint in robot.joints)
     assert all(place[joint.mimic.joint] < place[joint.name] for joint in order if joint.mimic)
@@ -80,19 +80,19 @@ def test_leaders_come_before_those_that_follow_them(robot: Robot) -> None:
 def test_a_fixed_joint_that_claims_to_follow_does_not() -> None:
     links = (Link("a"), Link("b"), Link("c"))
     joints = (Joint("j", "revolute", "a", "b"), Joint("k", "fixed", "b", "c", mimic=Mimic("j")))
-    skeleton = Skeleton.of(Robot("r", links, joints))
+    skeleton = KinematicTree.of(Robot("r", links, joints))
     assert list(skeleton.followers()) == []
     assert [joint.name for joint in skeleton.leaders_first()] == ["j", "k"]
 
 
 def test_identifiers_leave_out_what_is_taken() -> None:
-    skeleton = Skeleton.of(hand("finger"), taken=("Palm",))
+    skeleton = KinematicTree.of(hand("finger"), taken=("Palm",))
     assert skeleton.link("palm").component == "palm_link"
     assert skeleton.joint("finger").component == "finger"
 
 
 def test_a_robot_may_be_one_link() -> None:
-    skeleton = Skeleton.of(Robot("stone", (Link("stone"),)))
+    skeleton = KinematicTree.of(Robot("stone", (Link("stone"),)))
     assert (skeleton.joints, skeleton.children(), skeleton.leaves()) == ((), {}, skeleton.links)
 
 
@@ -102,7 +102,7 @@ def test_a_chain_may_be_longer_than_python_recurses() -> None:
         Joint(f"f{n}", "revolute", "l0", f"m{n}", mimic=Mimic(f"f{n - 1}" if n else "j0")) for n in range(3000)
     )
     links = tuple(Link(name) for name in ["l0", *(joint.child for joint in (*joints, *followers))])
-    skeleton = Skeleton.of(Robot("chain", links, (*joints, *followers)))
+    skeleton = KinematicTree.of(Robot("chain", links, (*joints, *followers)))
     assert [link.name for link in skeleton.links][-1] == "l3000"
     assert skeleton.leaders_first()[-1].name == "f2999"
 
@@ -116,5 +116,5 @@ def test_a_bare_joint_keeps_what_is_no_number() -> None:
         actuated=True,
     )
     kept = Joint("elbow", "revolute", "arm", "hand", limit=Limit(), mimic=Mimic("shoulder"), actuated=True)
-    assert bare(full) == bare(kept) == kept
-    assert bare(Joint("elbow", "fixed", "arm", "hand")) == Joint("elbow", "fixed", "arm", "hand")
+    assert strip_numbers(full) == strip_numbers(kept) == kept
+    assert strip_numbers(Joint("elbow", "fixed", "arm", "hand")) == Joint("elbow", "fixed", "arm", "hand")

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from urdfsync.diagnostics import Severity
 from urdfsync.urdf.parse.fields import parse_numbers
+from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.robot import (
     Box,
     Calibration,
@@ -33,7 +34,6 @@ from urdfsync.urdf.robot import (
     Sphere,
     Visual,
 )
-from urdfsync.urdf.parse.source import RobotReading, read_robot
 
 ARM = """<?xml version="1.0" encoding="utf-8"?>
 <!-- äöü: three letters of two bytes each -->

@@ -8,15 +8,15 @@ from typing import Any
 import msgspec
 
 from urdfsync.domain import Artifact, Import, Order, Recipe, Role, Target
+from urdfsync.urdf.kinematics.tree import KinematicTree, strip_numbers
 from urdfsync.urdf.model import bench, notes, records, shapes, stance
 from urdfsync.urdf.model.records import RecordJoint, RecordLink
 from urdfsync.urdf.model.robot import robot_data
 from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
-from urdfsync.urdf.naming import Identifier, Key
+from urdfsync.urdf.names import Identifier, Key
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, JointType, Link, Robot
-from urdfsync.urdf.skeleton import Skeleton, bare
 
 LINK_MODEL = "link/model.mo.jinja"
 LINK_RECORD = "link/record.mo.jinja"
@@ -25,9 +25,7 @@ _PARAMETERS = "Parameters"
 _UNLIMITED = {"lower": None, "upper": None, "velocity": None, "effort": None}
 
 
-def artifacts(
-    robot: Robot, imports: Mapping[str, Import], target: Target, options: Options
-) -> list[Artifact | Order]:
+def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
     """Every file of the robot's package but the imported meshes.
 
     Raises KeyError or ValueError for what is no robot that passed all checks, or has meshes without their facts.
@@ -74,7 +72,7 @@ def has_bench(joints: Sequence[Joint], options: Options) -> bool:
 class _Context(msgspec.Struct, frozen=True):
     links: Mapping[str, Link]
     joints: Mapping[str, Joint]
-    structure: Skeleton
+    structure: KinematicTree
     """The skeleton of the robot without numbers: all that models of the whole robot depend on."""
     imports: Mapping[str, Import]
     target: Target
@@ -85,24 +83,24 @@ def _context(robot: Robot, imports: Mapping[str, Import], target: Target, option
     for found in imports.values():
         _ = found.facts["bounds"], found.facts["hull"]  # here, and not when a text is rendered
     links, joints = {link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}
-    structure = _structure(links, tuple(map(bare, robot.joints)), target)
+    structure = _structure(links, tuple(map(strip_numbers, robot.joints)), target)
     return _Context(links, joints, structure, imports, target, options)
 
 
-def _structure(links: Iterable[str], joints: tuple[Joint, ...], target: Target) -> Skeleton:
-    structure = Skeleton.of(Robot("", tuple(map(Link, links)), joints), taken=(target.name,))
+def _structure(links: Iterable[str], joints: tuple[Joint, ...], target: Target) -> KinematicTree:
+    structure = KinematicTree.of(Robot("", tuple(map(Link, links)), joints), taken=(target.name,))
     if len(structure.leaders_first()) < len(structure.joints):
         raise ValueError("a joint follows one that is not there, or itself")
     return structure
 
 
-def _numbers(structure: Skeleton) -> tuple[Mapping[str, int], Mapping[str, int]]:
+def _numbers(structure: KinematicTree) -> tuple[Mapping[str, int], Mapping[str, int]]:
     """The numbers of links, and of joints, in canonical order, from 1."""
     links = {link.name: number for number, link in enumerate(structure.links, 1)}
     return links, {joint.name: number for number, joint in enumerate(structure.joints, 1)}
 
 
-def _of_structure(structure: Skeleton, target: Target, options: Options) -> list[Artifact | Order]:
+def _of_structure(structure: KinematicTree, target: Target, options: Options) -> list[Artifact | Order]:
     """The files that no number of the URDF has a part in."""
     files = [*_package(structure, target, options)]
     if "package" in options.approach:
@@ -116,7 +114,7 @@ def _of_structure(structure: Skeleton, target: Target, options: Options) -> list
     return files
 
 
-def _package(structure: Skeleton, target: Target, options: Options) -> Iterator[Artifact | Order]:
+def _package(structure: KinematicTree, target: Target, options: Options) -> Iterator[Artifact | Order]:
     name, joints = target.name, structure.joints
     parent, _, last = target.package.rpartition(".")
     whole, record = "package" in options.approach, "record" in options.approach
@@ -247,7 +245,7 @@ def joint_record_template(kind: JointType) -> str:
     return f"joint/{kind}_parameters.mo.jinja"
 
 
-def _robot(structure: Skeleton, target: Target, options: Options) -> Iterator[Artifact]:
+def _robot(structure: KinematicTree, target: Target, options: Options) -> Iterator[Artifact]:
     name, made_of = target.name, (structure, target, options)
     robot, benches = Recipe(robot_data, made_of), Recipe(bench.bench_data, made_of)
     yield Artifact(f"{name}.mo", Role.MODEL, "robot/robot.mo.jinja", robot, "robot")
@@ -280,8 +278,8 @@ def _record(context: _Context, urdf_name: str) -> Artifact:
     return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, recipe, "robot")
 
 
-def _touching(context: _Context) -> Skeleton:
+def _touching(context: _Context) -> KinematicTree:
     """The robot with what may touch the ground, and no other numbers of its links."""
     structure = context.structure
     links = tuple([Link(link.name, collisions=context.links[link.name].collisions) for link in structure.links])
-    return Skeleton(links, tuple([context.joints[joint.name] for joint in structure.joints]), structure.names)
+    return KinematicTree(links, tuple([context.joints[joint.name] for joint in structure.joints]), structure.names)

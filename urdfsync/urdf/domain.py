@@ -22,7 +22,7 @@ from urdfsync.domain import (
     Standalone,
     Target,
 )
-from urdfsync.urdf import naming
+from urdfsync.urdf import names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
@@ -75,7 +75,7 @@ class UrdfDomain:
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """See `urdfsync.domain.Domain`."""
-        return naming.components(tuple(snapshot["links"]), tuple(snapshot["joints"]), target.name)
+        return names.components(snapshot["links"], snapshot["joints"], target.name)
 
     def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
         """See `urdfsync.domain.Domain`."""
@@ -136,9 +136,9 @@ class UrdfDomain:
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf.proposal import propose_base
+        from urdfsync.urdf.kinematics.base_guess import guess_base
 
-        return (propose_base(from_snapshot(snapshot)),)
+        return (guess_base(from_snapshot(snapshot)),)
 
     def drawing(
         self,

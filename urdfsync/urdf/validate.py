@@ -76,7 +76,10 @@ def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
 
 
 def check_actuated(actuated: Iterable[tuple[str, str]], joints: Collection[str]) -> Iterator[Finding]:
-    """Warn about each actuated joint (its path and name) that does not exist: else the joint meant counts as passive."""
+    """Warn about each actuated joint that does not exist: the joint that is meant would count as passive.
+
+    `actuated` has the paths that name joints, and these names.
+    """
     for path, name in actuated:
         if name not in joints:
             meant = nearest(name, joints)
@@ -188,7 +191,9 @@ def _check_link(path: str, link: Link) -> Iterator[Finding]:
     if link.inertial is not None:
         yield from _check_inertial(f"{path} / inertial", link.inertial)
     shapes = [(f"{path} / visual {number}", shape.geometry) for number, shape in enumerate(link.visuals, start=1)]
-    shapes += [(f"{path} / collision {number}", shape.geometry) for number, shape in enumerate(link.collisions, start=1)]
+    shapes += [
+        (f"{path} / collision {number}", shape.geometry) for number, shape in enumerate(link.collisions, start=1)
+    ]
     for shape_path, geometry in shapes:
         if _is_empty(geometry):
             place = f"{shape_path} / {geometry.__struct_config__.tag}"

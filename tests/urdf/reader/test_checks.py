@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from urdfsync.urdf.reader.checks import check, principal_moments, unit_axes
+
 from urdfsync.urdf.robot import (
     Box,
     Capsule,

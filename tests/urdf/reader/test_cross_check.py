@@ -8,11 +8,11 @@ import sys
 
 import msgspec
 import pytest
+from urdfsync.urdf.reader.cross_check import cross_check
 
 from urdfsync.diagnostics import Severity
-from urdfsync.urdf.reader.cross_check import cross_check
-from urdfsync.urdf.robot import Joint, Link, Robot
 from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.robot import Joint, Link, Robot
 
 TREE = '<link name="a"/><link name="b"/><joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>'
 URDF = f'<robot name="r">{TREE}</robot>'

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from urdfsync.urdf.reader import xml
 
 

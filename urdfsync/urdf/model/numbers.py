@@ -5,8 +5,8 @@ from __future__ import annotations
 import msgspec
 
 from urdfsync.modelica.literals import INFINITY, real
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS
 from urdfsync.urdf.robot import Joint, Origin, Vector
-from urdfsync.urdf.skeleton import MOTIONS
 
 
 class Group(msgspec.Struct, frozen=True):
@@ -34,13 +34,13 @@ def joint_numbers(joint: Joint) -> JointNumbers:
 
 def axis(joint: Joint) -> Vector | None:
     """The axis of a joint that has one."""
-    return joint.axis if joint.type in MOTIONS or joint.type == "planar" else None
+    return joint.axis if joint.type in MOTION_KINDS or joint.type == "planar" else None
 
 
 def _groups(joint: Joint) -> list[Group]:
     if joint.type == "planar":
         return _planar_groups(joint)
-    if joint.type not in MOTIONS:
+    if joint.type not in MOTION_KINDS:
         return []
     groups = [_limits(joint)]
     if joint.dynamics is not None:

@@ -8,13 +8,13 @@ from typing import Any
 import msgspec
 
 from urdfsync.domain import Import, Piece, Recipe, Target
+from urdfsync.urdf.kinematics.tree import KinematicTree, Motion
 from urdfsync.urdf.model import notes, tables
 from urdfsync.urdf.model.connectors import connectors
 from urdfsync.urdf.model.numbers import JointNumbers, joint_numbers
 from urdfsync.urdf.model.stance import standing_height
 from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import Inertial, Joint
-from urdfsync.urdf.skeleton import Motion, Skeleton
 
 _VECTORS: Mapping[Motion, str] = {"rotational": "rotationalAxis", "translational": "translationalAxis"}
 
@@ -51,7 +51,7 @@ class RecordAxis(msgspec.Struct, frozen=True):
     number: int
 
 
-def generic_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str, Any]:
+def generic_data(skeleton: KinematicTree, target: Target, options: Options) -> dict[str, Any]:
     """Data of the bench in which the generic robot reads the record: structure only."""
     return {
         "within": target.package,
@@ -69,7 +69,7 @@ def record_data(
     structure: Recipe | Piece,
     links: Sequence[RecordLink | Piece],
     joints: Sequence[RecordJoint | Piece],
-    ground: tuple[Skeleton, Mapping[str, Import]] | None,
+    ground: tuple[KinematicTree, Mapping[str, Import]] | None,
     target: Target,
     name: str,
     generic: bool,
@@ -93,7 +93,7 @@ def record_data(
     }
 
 
-def structure_data(structure: Skeleton) -> dict[str, Any]:
+def structure_data(structure: KinematicTree) -> dict[str, Any]:
     """What the record says of the structure: its matrices, tables and axes."""
     number = {link.name: k for k, link in enumerate(structure.links, 1)}
     generic = tables.has_tables(structure.joints)
@@ -105,7 +105,7 @@ def structure_data(structure: Skeleton) -> dict[str, Any]:
     }
 
 
-def record_axes(skeleton: Skeleton) -> list[RecordAxis]:
+def record_axes(skeleton: KinematicTree) -> list[RecordAxis]:
     """The driven joints: those that turn, then those that slide."""
     constants = connectors(skeleton, ()).axes
     return [

@@ -13,8 +13,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import msgspec
 
 from urdfsync.modelica.literals import INFINITY
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
 from urdfsync.urdf.robot import Joint
-from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 
 _TURNS: Mapping[Motion, int] = {"rotational": 1, "translational": 2}
 _PER_LINE = 10  # of numbers, so that the fourth line begins with number 31
@@ -43,7 +43,7 @@ class Structure(msgspec.Struct, frozen=True):
 
 def obstacles(joints: Iterable[Joint]) -> Iterator[Joint]:
     """The joints for which the generic robot has no place: planar and floating ones."""
-    return (joint for joint in joints if joint.type not in MOTIONS and joint.type != "fixed")
+    return (joint for joint in joints if joint.type not in MOTION_KINDS and joint.type != "fixed")
 
 
 def has_tables(joints: Iterable[Joint]) -> bool:
@@ -51,7 +51,7 @@ def has_tables(joints: Iterable[Joint]) -> bool:
     return not any(obstacles(joints))
 
 
-def structure(skeleton: Skeleton) -> Structure:
+def structure(skeleton: KinematicTree) -> Structure:
     """The integer tables of a robot that has some (see `has_tables`)."""
     moving = _moving(skeleton)
     numbers = {joint.name: number for number, joint in enumerate(moving, 1)}
@@ -62,11 +62,14 @@ def structure(skeleton: Skeleton) -> Structure:
     first, following = _carried(carriers)
     return Structure(
         link_bodies=tuple(bodies[link.name] for link in skeleton.links),
-        joint_tree=tuple((body, _TURNS[MOTIONS[joint.type]]) for body, joint in zip(carriers, moving, strict=True)),
+        joint_tree=tuple(
+            (body, _TURNS[MOTION_KINDS[joint.type]]) for body, joint in zip(carriers, moving, strict=True)
+        ),
         first_joints=first,
         next_joints=following,
         moving={
-            motion: tuple(numbers[joint.name] for joint in moving if MOTIONS[joint.type] == motion) for motion in _TURNS
+            motion: tuple(numbers[joint.name] for joint in moving if MOTION_KINDS[joint.type] == motion)
+            for motion in _TURNS
         },
         axes={motion: tuple(numbers[joint.name] for joint in skeleton.axes(motion)) for motion in _TURNS},
         followers=tuple(
@@ -75,12 +78,12 @@ def structure(skeleton: Skeleton) -> Structure:
     )
 
 
-def _followers(skeleton: Skeleton) -> list[Joint]:
+def _followers(skeleton: KinematicTree) -> list[Joint]:
     """The moving joints that follow others, leaders first."""
-    return [joint for joint in skeleton.leaders_first() if joint.type in MOTIONS and joint.mimic is not None]
+    return [joint for joint in skeleton.leaders_first() if joint.type in MOTION_KINDS and joint.mimic is not None]
 
 
-def record_tables(skeleton: Skeleton) -> list[str]:
+def record_tables(skeleton: KinematicTree) -> list[str]:
     """The tables that are not empty, as modifiers of `UrdfSync.Records.Robot`.
 
     Tables of references have one entry per line, which names the element that it is of: an element more is a line
@@ -111,8 +114,8 @@ def record_tables(skeleton: Skeleton) -> list[str]:
     }
     records = {
         "jointNames": _names(skeleton, moving),
-        **_records(skeleton, "turning", [joint for joint in moving if MOTIONS[joint.type] == "rotational"]),
-        **_records(skeleton, "sliding", [joint for joint in moving if MOTIONS[joint.type] == "translational"]),
+        **_records(skeleton, "turning", [joint for joint in moving if MOTION_KINDS[joint.type] == "rotational"]),
+        **_records(skeleton, "sliding", [joint for joint in moving if MOTION_KINDS[joint.type] == "translational"]),
     }
     return [
         *(f"{name} = {value}" for name, value in tables.items() if value),
@@ -120,8 +123,8 @@ def record_tables(skeleton: Skeleton) -> list[str]:
     ]
 
 
-def _moving(skeleton: Skeleton) -> list[Joint]:
-    return [joint for joint in skeleton.joints if joint.type in MOTIONS]
+def _moving(skeleton: KinematicTree) -> list[Joint]:
+    return [joint for joint in skeleton.joints if joint.type in MOTION_KINDS]
 
 
 def _carried(carriers: Sequence[int]) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -134,12 +137,12 @@ def _carried(carriers: Sequence[int]) -> tuple[tuple[int, ...], tuple[int, ...]]
     return tuple(first), tuple(following)
 
 
-def _follower_tables(skeleton: Skeleton) -> dict[str, str]:
+def _follower_tables(skeleton: KinematicTree) -> dict[str, str]:
     """Numbers of each follower to its own leader, so that the text grows with the number of followers only."""
     followers = _followers(skeleton)
     offsets = {
         motion: [
-            f"{skeleton.joint(joint.name).component}.mimic.offset" if MOTIONS[joint.type] == motion else "0"
+            f"{skeleton.joint(joint.name).component}.mimic.offset" if MOTION_KINDS[joint.type] == motion else "0"
             for joint in followers
         ]
         for motion in _TURNS
@@ -151,12 +154,12 @@ def _follower_tables(skeleton: Skeleton) -> dict[str, str]:
     }
 
 
-def _names(skeleton: Skeleton, joints: Sequence[Joint]) -> str:
+def _names(skeleton: KinematicTree, joints: Sequence[Joint]) -> str:
     """A modifier of an array of records: not every tool can pick a message out of an array of strings."""
     return _field("name", (f"{skeleton.joint(joint.name).component}.name" for joint in joints))
 
 
-def _records(skeleton: Skeleton, kind: str, joints: Sequence[Joint]) -> dict[str, str]:
+def _records(skeleton: KinematicTree, kind: str, joints: Sequence[Joint]) -> dict[str, str]:
     """Limits and losses of the joints of one kind, as modifiers of arrays of records."""
     names = [skeleton.joint(joint.name).component for joint in joints]
     limits = []

@@ -127,7 +127,9 @@ class Element(msgspec.Struct, frozen=True, eq=False):
         """Warn about attributes that look like misspelt ones of `attributes`."""
         given = self.node.attributes
         for name in given:
-            if name not in attributes and (meant := nearest(name, [known for known in attributes if known not in given])):
+            if name not in attributes and (
+                meant := nearest(name, [known for known in attributes if known not in given])
+            ):
                 message = f"{self.path}: the attribute {name!r} is unknown, and has no effect"
                 self.warn("unknown-attribute", message, f"perhaps {meant!r} is meant")
 

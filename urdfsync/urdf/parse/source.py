@@ -19,7 +19,7 @@ from urdfsync.urdf.parse.fields import Element, Findings
 from urdfsync.urdf.parse.joint import read_actuated, read_joint
 from urdfsync.urdf.parse.link import read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.xml import Node, ParseError
-from urdfsync.urdf.robot import Extension, Joint, Link, Robot
+from urdfsync.urdf.robot import Joint, Robot
 
 _MODELLED = ("link", "joint", "material")
 _OTHER_ROOTS = {

@@ -265,4 +265,6 @@ def _start_tags(plain: str) -> Iterator[tuple[str, int]]:
 def _to_node(element: etree._Element, tags: Iterator[tuple[str, int]]) -> Node:
     """Return the element with all below it. The parser limits the depth to 256, so recursion is safe."""
     tag, line = next(tags)
-    return Node(tag, dict(element.items()), line, [_to_node(child, tags) for child in element.iterchildren("*")], element)
+    return Node(
+        tag, dict(element.items()), line, [_to_node(child, tags) for child in element.iterchildren("*")], element
+    )

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from support import urdfs
 
-from urdfsync.urdf.kinematics import start_positions
-from urdfsync.urdf.resistance import resistances, yielding
-from urdfsync.urdf.skeleton import Skeleton
+from urdfsync.urdf.kinematics.poses import start_positions
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.resistance import resistances, yielding
 
 ARM = urdfs.robot(
     *(urdfs.link(name, mass) for name, mass in (("base", 5), ("upper", 3), ("lower", 2), ("hand", 0.5), ("rail", 1))),
@@ -27,10 +27,10 @@ ARM = urdfs.robot(
 """No joint but the last can be at zero."""
 
 
-def skeleton(urdf: str) -> Skeleton:
+def skeleton(urdf: str) -> KinematicTree:
     robot = read_robot(urdf.encode(), "own.urdf", cross_check=False).robot
     assert robot is not None
-    return Skeleton.of(robot)
+    return KinematicTree.of(robot)
 
 
 def mass_matrix(urdf: str) -> NDArray[np.float64]:

@@ -1,13 +1,13 @@
-"""What `init` guesses about a robot."""
+"""Guess whether a robot is mobile, for `init`."""
 
 from __future__ import annotations
 
 import re
 
 from urdfsync.domain import Proposal
-from urdfsync.urdf.naming import natural_key
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.skeleton import Skeleton
 
 _FOOTPRINT = re.compile(r"base_?footprint", re.IGNORECASE)
 _LIMBS = (
@@ -23,9 +23,9 @@ _LIMBS = (
 _CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
-def propose_base(robot: Robot) -> Proposal:
-    """Whether a robot stands on the ground by itself: a guess from names, with the name that decided it."""
-    root = Skeleton.of(robot).links[0].name
+def guess_base(robot: Robot) -> Proposal:
+    """Guess from names whether a robot stands on the ground by itself; the reason tells the name that decided."""
+    root = KinematicTree.of(robot).links[0].name
     if root.lower() == "world":
         return Proposal("base", "fixed", f'its root link is named "{root}"')
     if _FOOTPRINT.search(root):

@@ -5,21 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
 from urdfsync.urdf.robot import Box, Capsule, Cylinder, Geometry, Joint, Origin, Sphere, Vector
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 Matrix = tuple[Vector, Vector, Vector]
 Pose = tuple[Matrix, Vector]
 """Rotation R and translation p: v_world = R·v + p."""
 
+# Farther than any joint moves, and not so far that arithmetic overflows; leaderPosition in the library has it, too.
 _FAR = 1e60
-"""Farther than any joint moves, and not so far that arithmetic with it overflows: as in the function leaderPosition."""
 
 IDENTITY: Pose = (((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0, 0.0, 0.0))
 
 
 def pose(origin: Origin) -> Pose:
-    """Pose of an origin: Rz(yaw)·Ry(pitch)·Rx(roll), as URDF defines it."""
+    """Return the pose of an origin: Rz(yaw)·Ry(pitch)·Rx(roll), as URDF defines it."""
     (sr, sp, sy), (cr, cp, cy) = map(math.sin, origin.rpy), map(math.cos, origin.rpy)
     rotation = (
         (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
@@ -30,7 +30,7 @@ def pose(origin: Origin) -> Pose:
 
 
 def compose(outer: Pose, inner: Pose) -> Pose:
-    """The pose of `inner`, which is given in `outer`, in the frame that `outer` is given in."""
+    """Return the pose of `inner`, which is given in `outer`, in the frame that `outer` is given in."""
     (rotation, translation), columns = outer, tuple(zip(*inner[0], strict=True))
     turned = tuple(tuple(dot(row, column) for column in columns) for row in rotation)
     moved = tuple(p + dot(row, inner[1]) for p, row in zip(translation, rotation, strict=True))
@@ -38,10 +38,10 @@ def compose(outer: Pose, inner: Pose) -> Pose:
 
 
 def motion(joint: Joint, position: float) -> Pose:
-    """Pose of the child link in the joint frame; a turn about the axis by Rodrigues' formula, or a shift along it."""
-    if MOTIONS.get(joint.type) == "translational":
+    """Return the pose of the child link in the joint frame: a turn by Rodrigues' formula, or a shift along the axis."""
+    if MOTION_KINDS.get(joint.type) == "translational":
         return IDENTITY[0], tuple(position * a for a in joint.axis)  # type: ignore[return-value]
-    if MOTIONS.get(joint.type) != "rotational":
+    if MOTION_KINDS.get(joint.type) != "rotational":
         return IDENTITY
     (x, y, z), s, c = joint.axis, math.sin(position), math.cos(position)
     v = 1 - c
@@ -53,21 +53,21 @@ def motion(joint: Joint, position: float) -> Pose:
     return rotation, (0.0, 0.0, 0.0)
 
 
-def link_poses(skeleton: Skeleton, positions: Mapping[str, float]) -> Mapping[str, Pose]:
-    """Poses of all links in the root frame at the given joint positions (0 if not given)."""
-    poses = {skeleton.links[0].name: IDENTITY}
-    for joint in skeleton.joints:
+def link_poses(tree: KinematicTree, positions: Mapping[str, float]) -> Mapping[str, Pose]:
+    """Return the poses of all links in the root frame at the given joint positions (0 if not given)."""
+    poses = {tree.links[0].name: IDENTITY}
+    for joint in tree.joints:
         moved = compose(pose(joint.origin), motion(joint, positions.get(joint.name, 0.0)))
         poses[joint.child] = compose(poses[joint.parent], moved)
     return poses
 
 
-def start_positions(skeleton: Skeleton) -> Mapping[str, float]:
-    """Where each joint is at the beginning: as close to zero as its limits and those of its followers allow."""
-    ranges = _ranges(skeleton)
+def start_positions(tree: KinematicTree) -> Mapping[str, float]:
+    """Return where each joint is at the beginning: as close to zero as its limits and those of its followers allow."""
+    ranges = _ranges(tree)
     positions: dict[str, float] = {}
-    for joint in skeleton.leaders_first():
-        if joint.mimic is not None and joint.type in MOTIONS:
+    for joint in tree.leaders_first():
+        if joint.mimic is not None and joint.type in MOTION_KINDS:
             position = joint.mimic.multiplier * positions[joint.mimic.joint] + joint.mimic.offset
         else:
             lower, upper = ranges[joint.name]
@@ -77,7 +77,7 @@ def start_positions(skeleton: Skeleton) -> Mapping[str, float]:
 
 
 def lowest_point(geometry: Geometry, at: Pose, hull: Iterable[Sequence[float]] = ()) -> float | None:
-    """Smallest z of a shape at a pose; of a mesh that of its `hull`, None if that is empty."""
+    """Return the smallest z of a shape at a pose; of a mesh that of its `hull`, None if that is empty."""
     up, height = at[0][2], at[1][2]
     match geometry:
         case Box(size=size):
@@ -92,11 +92,11 @@ def lowest_point(geometry: Geometry, at: Pose, hull: Iterable[Sequence[float]] =
             return min((height + dot(up, point) for point in hull), default=None)
 
 
-def _ranges(skeleton: Skeleton) -> Mapping[str, tuple[float, float]]:
-    ranges = {joint.name: own_range(joint) for joint in skeleton.joints}
-    followers = skeleton.followers_by_leader()
-    for joint in reversed(skeleton.leaders_first()):
-        for follower, mimic in followers.get(joint.name, ()) if joint.type in MOTIONS else ():
+def _ranges(tree: KinematicTree) -> Mapping[str, tuple[float, float]]:
+    ranges = {joint.name: own_range(joint) for joint in tree.joints}
+    followers = tree.followers_by_leader()
+    for joint in reversed(tree.leaders_first()):
+        for follower, mimic in followers.get(joint.name, ()) if joint.type in MOTION_KINDS else ():
             if abs(mimic.multiplier) > math.ulp(1):
                 ends = sorted((_near(end) - mimic.offset) / mimic.multiplier for end in ranges[follower.name])
                 lower, upper = ranges[joint.name]
@@ -105,8 +105,8 @@ def _ranges(skeleton: Skeleton) -> Mapping[str, tuple[float, float]]:
 
 
 def own_range(joint: Joint) -> tuple[float, float]:
-    """Smallest and largest position of one joint by itself."""
-    if joint.type not in MOTIONS:
+    """Return the smallest and largest position of one joint by itself."""
+    if joint.type not in MOTION_KINDS:
         return 0.0, 0.0
     if joint.type == "continuous" or joint.limit is None:
         return -math.inf, math.inf
@@ -118,5 +118,5 @@ def _near(position: float) -> float:
 
 
 def dot(a: Sequence[float], b: Sequence[float]) -> float:
-    """Scalar product of two vectors of three."""
+    """Return the scalar product of two vectors of three."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
