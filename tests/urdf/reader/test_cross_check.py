@@ -8,7 +8,7 @@ import sys
 
 import msgspec
 import pytest
-from urdfsync.urdf.reader.cross_check import cross_check
+from urdfsync.urdf.parse.second_reader import compare_readers as cross_check
 
 from urdfsync.diagnostics import Severity
 from urdfsync.urdf.parse.source import read_robot

@@ -92,7 +92,7 @@ def _merge(group: list[Diagnostic]) -> Diagnostic:
     return msgspec.structs.replace(group[0], message=message)
 
 
-class Element(msgspec.Struct, frozen=True, eq=False):
+class Element(msgspec.Struct, frozen=True, eq=False, gc=False):
     """An element of the URDF with its place in the robot, for example `joint elbow / limit`."""
 
     node: Node
@@ -127,9 +127,9 @@ class Element(msgspec.Struct, frozen=True, eq=False):
         """Warn about attributes that look like misspelt ones of `attributes`."""
         given = self.node.attributes
         for name in given:
-            if name not in attributes and (
-                meant := nearest(name, [known for known in attributes if known not in given])
-            ):
+            if name in attributes or ":" in name:
+                continue
+            if meant := nearest(name, [known for known in attributes if known not in given]):
                 message = f"{self.path}: the attribute {name!r} is unknown, and has no effect"
                 self.warn("unknown-attribute", message, f"perhaps {meant!r} is meant")
 

@@ -8,8 +8,11 @@ from __future__ import annotations
 
 import codecs
 import copy
+import functools
+import itertools
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from xml.parsers import expat
 
 import msgspec
 from lxml import etree
@@ -71,17 +74,31 @@ class ParseError(Exception):
         self.diagnostic = Diagnostic(Severity.ERROR, code, message, "", line, column, hint)
 
 
-class Node(msgspec.Struct, eq=False):
-    """One XML element: `tag` with its prefix as written, `line` where its start tag begins, counted from 1."""
+class _Tree:
+    """The document as lxml has it."""
+
+    def __init__(self, root: etree._Element) -> None:
+        self.root = root
+
+    @functools.cached_property
+    def elements(self) -> Sequence[etree._Element]:
+        """All elements in document order; most robots have nothing for which they are needed."""
+        return list(self.root.iter("*"))
+
+
+class Node(msgspec.Struct, eq=False, gc=False):
+    """One XML element; tag and attributes have prefixes as written, `line` is where its start tag begins, from 1."""
 
     tag: str
     attributes: Mapping[str, str]
     line: int
     children: list[Node]
-    element: etree._Element
+    tree: _Tree
+    number: int
+    """Of the element in the document, from 0."""
 
     def walk(self) -> Iterator[Node]:
-        """This element and all below it, in document order."""
+        """Yield this element and all below it, in document order."""
         waiting = [self]
         while waiting:
             node = waiting.pop()
@@ -89,23 +106,23 @@ class Node(msgspec.Struct, eq=False):
             waiting += reversed(node.children)
 
     def canonical(self) -> str:
-        """The element as canonical XML 2.0, without comments, indentation and invented namespaces."""
-        text = etree.tostring(copy.deepcopy(self.element), method="c14n2", with_comments=False, strip_text=True)
-        return re.sub(rf' xmlns:[^=]+="{_UNDECLARED}[^"]*"', "", text.decode())
+        """Return the element as canonical XML 2.0, without comments, indentation and invented namespaces."""
+        element = copy.deepcopy(self.tree.elements[self.number])
+        text = etree.tostring(element, method="c14n2", with_comments=False, strip_text=True).decode()
+        return re.sub(rf' xmlns:[^=]+="{_UNDECLARED}[^"]*"', "", text)
 
 
-def parse(content: bytes) -> tuple[Node, list[Diagnostic]]:
-    """Parse an XML file; return its root and the warnings about it. Raises ParseError."""
+def parse(content: bytes) -> tuple[Node, str, list[Diagnostic]]:
+    """Parse an XML file; return its root, its text and the warnings about it. Raises ParseError."""
     text, warnings = _decode(content)
-    plain = _without_markup(text)
-    root, prefixes = _parse_tree(text, plain)
-    return _to_node(root, _start_tags(plain)), [*warnings, *prefixes.values()]
+    root, prefixes = _parse_strictly(text)
+    return _to_nodes(text, _Tree(root)), text, [*warnings, *prefixes.values()]
 
 
 def parse_tree(content: bytes) -> etree._Element:
     """Parse an XML file; return its root, with prefixes declared that lack a namespace. Raises ParseError."""
     text, _ = _decode(content)
-    return _parse_tree(text, _without_markup(text))[0]
+    return _parse_strictly(text)[0]
 
 
 def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
@@ -176,24 +193,9 @@ def _warning(code: str, message: str, hint: str, line: int = 1) -> Diagnostic:
     return Diagnostic(Severity.WARNING, code, message, line=line, hint=hint)
 
 
-def _without_markup(text: str) -> str:
-    """Return the text with blanks for every `<` that begins no tag. Raises ParseError for what is refused."""
-
-    def blank(match: re.Match[str]) -> str:
-        line = text.count("\n", 0, match.start()) + 1
-        if match["entity"]:
-            message = "the file declares XML entities, which urdfsync never expands"
-            raise ParseError("xml-entity", message, "replace the entities by their text", line)
-        if match["conflict"]:
-            hint = "resolve the merge, then build again"
-            raise ParseError("merge-conflict", "the file has merge conflict markers", hint, line)
-        return _NOT_NEWLINE.sub(" ", match[0])
-
-    return _MARKUP.sub(blank, text)
-
-
-def _parse_tree(text: str, plain: str) -> tuple[etree._Element, dict[str, Diagnostic]]:
-    """Return the root, and for each prefix without a namespace the warning about its first use."""
+def _parse_strictly(text: str) -> tuple[etree._Element, dict[str, Diagnostic]]:
+    """Return the root as lxml reads it, and for each prefix without a namespace the warning about its first use."""
+    plain = _without_markup(text)
     prefixes: dict[str, Diagnostic] = {}
     while True:
         parser = etree.XMLParser(
@@ -211,6 +213,23 @@ def _parse_tree(text: str, plain: str) -> tuple[etree._Element, dict[str, Diagno
             if entry.type == etree.ErrorTypes.WAR_UNDECLARED_ENTITY:  # a document type may declare it elsewhere
                 raise ParseError("xml-entity", entry.message, "replace the entity by its text", entry.line)
         return root, prefixes
+
+
+def _without_markup(text: str) -> str:
+    """Return the text with blanks for every `<` that begins no tag. Raises ParseError for what is refused."""
+
+    def blank(match: re.Match[str]) -> str:
+        line = text.count("\n", 0, match.start()) + 1
+        if match["entity"]:
+            message = "the file declares XML entities, which urdfsync never expands"
+            raise ParseError("xml-entity", message, "replace the entities by their text", line)
+        if match["conflict"]:
+            hint = "resolve the merge, then build again"
+            raise ParseError("merge-conflict", "the file has merge conflict markers", hint, line)
+        return _NOT_NEWLINE.sub(" ", match[0])
+
+    # Without the first look, a source of 1,000 links takes 10 ms here.
+    return _MARKUP.sub(blank, text) if any(sign in text for sign in ("<!", "<?", "<" * 7, ">" * 7)) else text
 
 
 def _declare_prefixes(text: str, plain: str, prefixes: Mapping[str, Diagnostic]) -> str:
@@ -250,21 +269,31 @@ def _syntax_error(error: etree.XMLSyntaxError, log: etree._ListErrorLog) -> Pars
     return ParseError("xml-syntax", message, f"{hint}, or {_WAIT}", line, column)
 
 
-def _start_tags(plain: str) -> Iterator[tuple[str, int]]:
-    """Yield name and line of each start tag in document order.
+def _to_nodes(text: str, tree: _Tree) -> Node:
+    """Return the root of a text that lxml has read.
 
-    lxml knows the line where a start tag ends, not where it begins, and no line above 65535.
+    expat reads it once more: lxml does not know the line where a start tag begins, and no line above 65535.
     """
-    line, end = 1, 0
-    for match in _START_TAG.finditer(plain):
-        line += plain.count("\n", end, match.start())
-        end = match.start()
-        yield match[1], line
+    parser = expat.ParserCreate()
+    parser.specified_attributes = True  # a document type may have others
+    top: list[Node] = []
+    above = [top]  # the lists that the next start tag, and those after the next end tags, add to
+    numbers = itertools.count()
 
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        children: list[Node] = []
+        above[-1].append(Node(tag, attributes, parser.CurrentLineNumber, children, tree, next(numbers)))
+        above.append(children)
 
-def _to_node(element: etree._Element, tags: Iterator[tuple[str, int]]) -> Node:
-    """Return the element with all below it. The parser limits the depth to 256, so recursion is safe."""
-    tag, line = next(tags)
-    return Node(
-        tag, dict(element.items()), line, [_to_node(child, tags) for child in element.iterchildren("*")], element
-    )
+    def end(_: str) -> None:
+        above.pop()
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    try:
+        parser.Parse(text.encode(), True)  # noqa: FBT003 - expat's own signature
+    except expat.ExpatError as error:  # it knows fewer letters in names than lxml
+        message = f"this is not well-formed XML: {expat.errors.messages[error.code]}"
+        raise ParseError(
+            "xml-syntax", message, f"correct the XML, or {_WAIT}", error.lineno, error.offset + 1
+        ) from None
+    return top[0]
