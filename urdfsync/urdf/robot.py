@@ -4,8 +4,8 @@ Lengths are in metres, angles in radians, masses in kilograms, inertias in kg·m
 fixed-axis roll, pitch and yaw angles of URDF. What a URDF leaves out and its specification gives no
 number for stays None; all other defaults are those of ROS's urdfdom.
 
-These values refer to each other in one direction only. So Python need not search them for reference cycles (`gc=False`),
-which would take a third of the time that the daemon has for a changed mass of 1,000 links.
+These values refer to each other in one direction only, so Python need not search them for reference cycles
+(`gc=False`): that would take a third of the time that the daemon has for a changed mass of 1,000 links.
 """
 
 from __future__ import annotations

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from urdfsync.urdf.reader.checks import check, principal_moments, unit_axes
 
 from urdfsync.urdf.robot import (
     Box,
@@ -31,6 +30,7 @@ from urdfsync.urdf.robot import (
     Sphere,
     Visual,
 )
+from urdfsync.urdf.validate import check, normalise_axes, principal_moments
 
 
 def links(names: str) -> tuple[Link, ...]:
@@ -159,10 +159,10 @@ FINITE = st.floats(allow_nan=False, allow_infinity=False)
 
 @given(st.tuples(FINITE, FINITE, FINITE))
 def test_normalising_gives_unit_vectors_and_once_is_enough(axis: tuple[float, float, float]) -> None:
-    robot = unit_axes(Robot("r", links("ab"), (Joint("j", "continuous", "a", "b", axis=axis),)))
+    robot = normalise_axes(Robot("r", links("ab"), (Joint("j", "continuous", "a", "b", axis=axis),)))
     unit = robot.joints[0].axis
     assert abs(math.hypot(*unit) - 1) < 1e-12
-    assert unit_axes(robot) == robot
+    assert normalise_axes(robot) == robot
     if any(axis):
         assert all(ours * theirs >= 0 for ours, theirs in zip(unit, axis, strict=True))
 
