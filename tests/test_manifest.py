@@ -22,8 +22,8 @@ from urdfsync.manifest import (
     loads,
     text_hash,
 )
-from urdfsync.plan import FileRecord, State
-from urdfsync.standoff import Choice
+from urdfsync.engine.actions import FileRecord, State
+from urdfsync.state.record import Choice
 
 MANIFEST = Manifest(
     package="Plant.Arm",

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.domain import Role
-from urdfsync.plan import (
+from urdfsync.engine.actions import (
     CONFLICTS,
     DELETES,
     WRITES,
@@ -28,7 +28,7 @@ from urdfsync.plan import (
     remembered,
     spare,
 )
-from urdfsync.standoff import Choice
+from urdfsync.state.record import Choice
 
 ABSENT = Found()
 FOLDER = Found(as_folder=True)

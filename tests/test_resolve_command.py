@@ -12,7 +12,7 @@ import pytest
 
 from urdfsync import cli
 from urdfsync.files import digest
-from urdfsync.plan import both
+from urdfsync.engine.actions import both
 from urdfsync.state.lock import Lock
 
 Capture = pytest.CaptureFixture[str]

@@ -18,7 +18,7 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 from urdfsync import changes, moves
 from urdfsync.domain import Role
 from urdfsync.modelica.literals import numbers_only
-from urdfsync.plan import (
+from urdfsync.engine.actions import (
     CONFLICTS,
     DELETES,
     DISPUTED,
@@ -35,7 +35,8 @@ from urdfsync.plan import (
     spare,
 )
 from urdfsync.settle import settle, stand_off
-from urdfsync.standoff import Choice, Standoff
+from urdfsync.engine.conflicts import Conflict
+from urdfsync.state.record import Choice
 
 NAMES = ("Arm", "Base", "Cap")
 MAIN, PACKAGE = "Main.mo", "package.mo"
@@ -140,11 +141,11 @@ class Project:
             return Found(self.files[path])
         return Found(as_folder=path != PACKAGE and as_folder(path) in self.files)
 
-    def _standoff(self, action: Action) -> Standoff:
+    def _standoff(self, action: Action) -> Conflict:
         place, generated = action.origin or action.path, action.generated or ""
         if place in self.files:
             return stand_off(action, action.base, self.files[place], generated)
-        return Standoff(action.path, action.owner, action.base, self.files[as_folder(place)], generated, None)
+        return Conflict(action.path, action.owner, action.base, self.files[as_folder(place)], generated, None)
 
 
 def waiting(actions: Collection[Action]) -> list[str]:

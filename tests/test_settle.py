@@ -8,9 +8,10 @@ from hypothesis import strategies as st
 
 from urdfsync.domain import Role
 from urdfsync.merge import merge
-from urdfsync.plan import Action, Kind
+from urdfsync.engine.actions import Action, Kind
 from urdfsync.settle import Settled, settle, stand_off
-from urdfsync.standoff import Choice, Standoff
+from urdfsync.engine.conflicts import Conflict
+from urdfsync.state.record import Choice
 
 BASE = "model Arm\n\n  Real m = 1;\n\nend Arm;\n"
 MINE = BASE.replace("end", "  // a sensor here\n\nend")
@@ -21,18 +22,18 @@ AGAINST = BASE.replace("= 1", "= 7")
 CONFLICT = Action("Arm.mo", Kind.CONFLICT, Role.MODEL, "link arm", "base", "new", mine="mine")
 MOVE = Action("Hand.mo", Kind.MOVE, Role.MODEL, "link hand", "base", "new", origin="Arm.mo", mine="mine")
 ORPHAN = Action("Arm.mo", Kind.ORPHAN, Role.MODEL, "link arm", "base", mine="mine")
-FOLDER = Standoff("Arm.mo", "link arm", BASE, MINE, NEW, None)
+FOLDER = Conflict("Arm.mo", "link arm", BASE, MINE, NEW, None)
 
 
 def settled(
-    action: Action, standoff: Standoff | None = None, choice: Choice | None = None, merging: bool = False
+    action: Action, standoff: Conflict | None = None, choice: Choice | None = None, merging: bool = False
 ) -> Settled:
     standoffs = {action.path: standoff} if standoff else {}
     (result,) = settle([action], standoffs, {action.path: choice} if choice else {}, merging)
     return result
 
 
-def texts(action: Action, mine: str, generated: str = NEW, base: str | None = BASE) -> Standoff:
+def texts(action: Action, mine: str, generated: str = NEW, base: str | None = BASE) -> Conflict:
     return stand_off(action, base, mine, generated)
 
 

@@ -15,7 +15,7 @@ from support.git import NEEDS_GIT, Repository
 from support.urdfs import joint, limit, link, robot
 
 from urdfsync import cli, render
-from urdfsync.planning import inputs
+from urdfsync.engine import source
 
 Capture = pytest.CaptureFixture[str]
 

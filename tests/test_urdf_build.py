@@ -36,7 +36,7 @@ def arm(tmp_path: Path) -> Path:
 
 def run(project: Path, *, full: bool = False) -> Result:
     config = load(project / "urdfsync.toml")
-    (result,) = build(config, config.robots, Request(full=full))
+    (result,) = build(config, config.robots, BuildOptions(full=full))
     return result
 
 

@@ -15,7 +15,7 @@ from support.daemon import LIMIT, Daemons
 
 from urdfsync import registry
 from urdfsync.outcome import Result
-from urdfsync.plan import Kind
+from urdfsync.engine.actions import Kind
 from urdfsync.watching import builder, events, observer
 from urdfsync.watching.robots import Robots, Watched
 from urdfsync.watching.stash import Stash

@@ -11,8 +11,8 @@ from urdfsync.comparing.comparison import Comparison, exit_code
 from urdfsync.difference import ChangeClass, Kind
 from urdfsync.domain import Role
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Actions
-from urdfsync.plan import Kind as Does
+from urdfsync.engine.actions import Action, Actions
+from urdfsync.engine.actions import Kind as Does
 
 
 def comparison(

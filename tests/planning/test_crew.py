@@ -33,7 +33,7 @@ def robots(project: Path) -> Path:
 
 def run(jobs: int) -> list[Result]:
     loaded = config.load(Path("urdfsync.toml"))
-    return list(build(loaded, loaded.robots, Request(jobs=jobs)))
+    return list(build(loaded, loaded.robots, BuildOptions(jobs=jobs)))
 
 
 def files(folder: Path) -> dict[str, bytes]:
@@ -116,5 +116,5 @@ def test_the_work_is_told_of(robots: Path, monkeypatch: pytest.MonkeyPatch) -> N
     told: list[tuple[str, int, int]] = []
     tell: Callable[[str, int, int], None] = lambda what, done, total: told.append((what, done, total))  # noqa: E731
     loaded = config.load(Path("urdfsync.toml"))
-    list(build(loaded, loaded.robots, Request(jobs=2, progress=tell)))
+    list(build(loaded, loaded.robots, BuildOptions(jobs=2, progress=tell)))
     assert {total for what, _, total in told if what == "reading"} == {COUNT}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfsync.planning.dangling import lost_names, words
+from urdfsync.engine.dangling import lost_names, words
 
 ROBOT = """\
 within Plant;

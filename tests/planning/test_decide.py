@@ -14,9 +14,9 @@ from urdfsync import config
 from urdfsync.domain import Role
 from urdfsync.files import digest, text_digest
 from urdfsync.manifest import Generator, Manifest, Source
-from urdfsync.plan import FileRecord, Kind, State, Wanted
+from urdfsync.engine.actions import FileRecord, Kind, State, Wanted
 from urdfsync.planning.decide import Aim, Decision, decide
-from urdfsync.planning.disk import Disk
+from urdfsync.engine.package_files import Disk
 from urdfsync.planning.parents import Parents
 
 FOLDER = "modelica/Arm"

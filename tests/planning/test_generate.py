@@ -11,7 +11,7 @@ from urdfsync import changes, cli, registry
 from urdfsync.diagnostics import ConfigError, OutputError
 from urdfsync.domain import Artifact, Recipe, Role, Target, Templates
 from urdfsync.files import templates_digest
-from urdfsync.planning.generate import Generated, check_paths, generate
+from urdfsync.engine.generate import Package, check_paths, generate
 
 
 @pytest.mark.parametrize(
@@ -85,7 +85,7 @@ def test_data_that_has_a_recipe_is_made_when_the_text_is_rendered_and_once(tmp_p
         return {"number": number}
 
     files = [Artifact(f"{n}.mo", Role.RECORD, "t", Recipe(data, (n,)), "part") for n in (1, 2)]
-    package = Generated(files, Templates((tmp_path,), ""))
+    package = Package(files, Templates((tmp_path,), ""))
     assert asked == []
     assert [package.content("2.mo") for _ in range(2)] == [b"2", b"2"]
     assert asked == [2]
@@ -94,7 +94,7 @@ def test_data_that_has_a_recipe_is_made_when_the_text_is_rendered_and_once(tmp_p
 def test_a_text_counts_as_stale_once_its_data_is_forgotten(tmp_path: Path) -> None:
     (tmp_path / "t").write_text("<< number >>")
     one, two = (
-        Generated([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), ""))
+        Package([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), ""))
         for n in (1, 2)
     )
     for _ in range(2):
@@ -106,7 +106,7 @@ def test_a_text_counts_as_stale_once_its_data_is_forgotten(tmp_path: Path) -> No
 def test_a_text_is_put_aside_unless_its_hash_is_another_than_that_of_its_bytes(tmp_path: Path) -> None:
     (tmp_path / "t").write_text("<< text >>")
     files = [Artifact(f"{n}.mo", Role.MODEL, "t", {"text": text}, "part") for n, text in enumerate(["a\r\nb", "a\rb"])]
-    package = Generated(files, Templates((tmp_path,), ""))
+    package = Package(files, Templates((tmp_path,), ""))
     assert package.shelved("0.mo", "hash") is None  # nobody has asked for it yet
     assert [package.content(path) for path in package.artifacts] == [b"a\nb", b"a\rb"]
     even, uneven = (package.shelved(path, "hash") for path in package.artifacts)

@@ -13,7 +13,7 @@ from urdfsync.domain import Dependency
 from urdfsync.files import digest
 from urdfsync.manifest import DependencyRecord
 from urdfsync.modelfile import ConversionFacts
-from urdfsync.planning import imports
+from urdfsync.engine import imports
 from urdfsync.planning.imports import Imported, Recorded
 
 pytestmark = pytest.mark.usefixtures("rc_domain")

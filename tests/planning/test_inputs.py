@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 from urdfsync import config
-from urdfsync.build import build
+from urdfsync.engine.build import build
 from urdfsync.diagnostics import ConfigError
 from urdfsync.outcome import Result
-from urdfsync.planning.rendering import Rendering
-from urdfsync.planning.situation import Request
+from urdfsync.engine.rendering import Rendering
+from urdfsync.engine.options import BuildOptions
 
 ROBOT = '[robots.{0}]\nsource = "ladder.json"\npackage = "{0}"\ndomain = "rcnetwork"\n{1}'
 
@@ -19,7 +19,7 @@ ROBOT = '[robots.{0}]\nsource = "ladder.json"\npackage = "{0}"\ndomain = "rcnetw
 def run(project: Path, text: str) -> list[Result]:
     (project / "urdfsync.toml").write_text(text)
     loaded = config.load(Path("urdfsync.toml"))
-    return list(build(loaded, loaded.robots, Request()))
+    return list(build(loaded, loaded.robots, BuildOptions()))
 
 
 def said(result: Result) -> list[str]:
@@ -58,4 +58,4 @@ def test_a_check_of_a_package_that_was_built_before_refuses_the_same(project: Pa
     (project / "urdfsync.toml").write_text(ROBOT.format("A", 'prefix = "in"\n'))
     loaded = config.load(Path("urdfsync.toml"))
     with pytest.raises(ConfigError, match="prefix-is-node"):
-        Rendering(loaded, loaded.robots[0], Request())
+        Rendering(loaded, loaded.robots[0], BuildOptions())

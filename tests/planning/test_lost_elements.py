@@ -8,8 +8,8 @@ import pytest
 from support.urdfs import joint, limit, link, robot
 
 from urdfsync import config
-from urdfsync.build import build
-from urdfsync.planning.situation import Request
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 
 BASE = (link("base", 3.0), link("upper", 2.0), joint("shoulder", "revolute", "base", "upper", inside=[limit()]))
 MINE = """\
@@ -47,7 +47,7 @@ def built(*names: str) -> list[str]:
     more = (link(names[1], 0.7), joint(names[0], "revolute", "upper", names[1], inside=[limit()])) if names else ()
     Path("arm.urdf").write_text(robot(*BASE, *more))
     loaded = config.load(Path("urdfsync.toml").absolute())
-    (result,) = build(loaded, loaded.robots, Request())
+    (result,) = build(loaded, loaded.robots, BuildOptions())
     assert not result.failed
     assert not result.conflicts
     found = (one for one in result.diagnostics if one.code == "vanished-name")

@@ -15,8 +15,8 @@ from urdfsync.build import Request, build
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Artifact, Import, Order, Parts, Reading, Role, Snapshot, Target
 from urdfsync.looking import NO_FACTS, Facts
-from urdfsync.planning.disk import Hashes
-from urdfsync.planning.memory import Memory
+from urdfsync.engine.package_files import Hashes
+from urdfsync.engine.cache import Cache
 from urdfsync.stamping import stamp, trust
 
 SNAPSHOT: Snapshot = {"name": "n", "elements": {"R1": {"ohm": 1.0}}}
@@ -67,12 +67,12 @@ OTHERS: dict[str, Any] = {
 }
 
 
-def artifacts(memory: Memory, domain: Any, **made_of: Any) -> Sequence[Artifact | Order]:
+def artifacts(memory: Cache, domain: Any, **made_of: Any) -> Sequence[Artifact | Order]:
     return memory.artifacts(domain, **{**MADE_OF, **made_of})
 
 
 def test_files_are_made_once_as_long_as_what_they_are_made_of_is_the_same() -> None:
-    memory, domain = Memory(), Domain()
+    memory, domain = Cache(), Domain()
     again = {"snapshot": {"elements": {"R1": {"ohm": 1.0}}, "name": "n"}}
     assert artifacts(memory, domain) is artifacts(memory, domain, **again)
     assert domain.asked == 1
@@ -80,7 +80,7 @@ def test_files_are_made_once_as_long_as_what_they_are_made_of_is_the_same() -> N
 
 @pytest.mark.parametrize("other", OTHERS.values(), ids=OTHERS)
 def test_files_of_anything_else_are_made_anew(other: Mapping[str, Any]) -> None:
-    memory, domain = Memory(), Domain()
+    memory, domain = Cache(), Domain()
     for made_of in (MADE_OF, {**MADE_OF, **other}, MADE_OF):
         (artifact,) = artifacts(memory, domain, **made_of)
         assert isinstance(artifact, Artifact)
@@ -89,12 +89,12 @@ def test_files_of_anything_else_are_made_anew(other: Mapping[str, Any]) -> None:
 
 
 def test_files_of_another_domain_are_made_anew() -> None:
-    memory, one, two = Memory(), Domain(), Domain("B.mo")
+    memory, one, two = Cache(), Domain(), Domain("B.mo")
     assert [artifacts(memory, domain)[0].path for domain in (one, two)] == ["A.mo", "B.mo"]
 
 
 def test_a_domain_gets_back_what_it_has_kept_and_no_other_does() -> None:
-    memory, domain, other = Memory(), Domain(), Domain()
+    memory, domain, other = Cache(), Domain(), Domain()
     for snapshot in ({"name": "m"}, {"name": "n"}):
         artifacts(memory, domain, snapshot=snapshot)
     artifacts(memory, other)
@@ -103,7 +103,7 @@ def test_a_domain_gets_back_what_it_has_kept_and_no_other_does() -> None:
 
 
 def test_elements_that_are_the_same_objects_are_not_looked_into() -> None:
-    memory, domain = Memory(), Domain()
+    memory, domain = Cache(), Domain()
     element = {"ohm": object()}  # whoever looked would find that this is no plain data
     for _ in range(2):
         artifacts(memory, domain, snapshot={"name": "n", "elements": {"R1": element}})
@@ -111,7 +111,7 @@ def test_elements_that_are_the_same_objects_are_not_looked_into() -> None:
 
 
 def test_paths_are_checked_every_time_that_they_are_no_good() -> None:
-    memory, domain = Memory(), Domain("../A.mo")
+    memory, domain = Cache(), Domain("../A.mo")
     for _ in range(2):
         with pytest.raises(OutputError, match="is no path inside the package"):
             artifacts(memory, domain)
@@ -119,7 +119,7 @@ def test_paths_are_checked_every_time_that_they_are_no_good() -> None:
 
 @pytest.mark.parametrize("other", [{"content": b"b"}, {"name": "g"}, {"options": 2}, {"domain": Domain()}])
 def test_a_source_is_read_again_if_anything_is_another(other: Mapping[str, Any]) -> None:
-    memory, usual = Memory(), {"domain": Domain(), "options": 1, "content": b"a", "name": "f"}
+    memory, usual = Cache(), {"domain": Domain(), "options": 1, "content": b"a", "name": "f"}
     assert memory.read(**usual) is memory.read(**usual)  # type: ignore[arg-type]
     asked = {**usual, **other}
     found = memory.read(**asked)
@@ -128,7 +128,7 @@ def test_a_source_is_read_again_if_anything_is_another(other: Mapping[str, Any])
 
 
 def test_the_next_version_of_a_source_gets_what_the_domain_has_kept() -> None:
-    memory, domain, usual = Memory(), Domain(), {"options": 1, "name": "f"}
+    memory, domain, usual = Cache(), Domain(), {"options": 1, "name": "f"}
     for content, other in ((b"a", {}), (b"b", {}), (b"b", {"options": 2}), (b"b", {"name": "g"}), (b"b", {})):
         memory.read(domain, content=content, **{**usual, **other})  # type: ignore[arg-type]
     assert domain.parts[0] is domain.parts[1]
@@ -152,14 +152,14 @@ class Clock(trust.Clock):
         return self._trusts
 
 
-def look(memory: Memory, seen: Hashes, trusts: bool | None = True, robot: str = "arm") -> Hashes:
+def look(memory: Cache, seen: Hashes, trusts: bool | None = True, robot: str = "arm") -> Hashes:
     """What is remembered of a look; without a clock if nothing is known of trust."""
     memory.note_look(robot, seen, stamp.now(), lambda: None if trusts is None else Clock(trusts))
     return memory.seen(robot)
 
 
 def test_each_robot_has_what_was_seen_of_it_until_it_is_watched_no_more() -> None:
-    memory, missing = Memory(), {"/m/gone.mo": None}
+    memory, missing = Cache(), {"/m/gone.mo": None}
     assert memory.seen("arm") == {}
     assert look(memory, SEEN) == SEEN
     assert look(memory, missing, robot="leg") == missing
@@ -171,7 +171,7 @@ def test_each_robot_has_what_was_seen_of_it_until_it_is_watched_no_more() -> Non
 
 @pytest.mark.parametrize("trusts", [None, False])
 def test_a_file_that_may_change_without_a_trace_has_no_facts(trusts: bool | None) -> None:
-    memory, bare = Memory(), dict.fromkeys(SEEN, (NO_FACTS, "own", "text"))
+    memory, bare = Cache(), dict.fromkeys(SEEN, (NO_FACTS, "own", "text"))
     assert look(memory, SEEN, trusts) == bare
     assert look(memory, SEEN) == SEEN
     assert look(memory, {**SEEN}, trusts) == SEEN, "what was believed before is not doubted"
@@ -180,13 +180,13 @@ def test_a_file_that_may_change_without_a_trace_has_no_facts(trusts: bool | None
 
 
 def test_a_few_files_are_read_again_and_no_clock_is_read_for_them() -> None:
-    memory, few = Memory(), dict(list(SEEN.items())[:4])
+    memory, few = Cache(), dict(list(SEEN.items())[:4])
     memory.note_look("arm", few, stamp.now(), lambda: pytest.fail("a clock was read"))
     assert memory.seen("arm") == dict.fromkeys(few, (NO_FACTS, "own", "text"))
 
 
 def test_what_was_seen_counts_until_a_build_writes_or_another_plan_begins() -> None:
-    memory = Memory()
+    memory = Cache()
     assert not memory.is_current("arm")
     look(memory, SEEN)
     assert memory.is_current("arm")
@@ -196,7 +196,7 @@ def test_what_was_seen_counts_until_a_build_writes_or_another_plan_begins() -> N
 
 
 def test_templates_of_the_program_are_read_once_until_nothing_is_trusted() -> None:
-    memory, found = Memory(), iter([{"a": "1"}, {"a": "2"}, {"a": "3"}])
+    memory, found = Cache(), iter([{"a": "1"}, {"a": "2"}, {"a": "3"}])
     assert [memory.shipped(folder, lambda: next(found)) for folder in "xxyx"] == [{"a": "1"}] * 2 + [
         {"a": "2"},
         {"a": "1"},
@@ -271,7 +271,7 @@ STEPS: dict[str, Callable[[Path], None]] = {
 
 def test_builds_with_a_memory_write_what_builds_without_one_write(rc_domain: None, tmp_path: Path) -> None:
     examples = Path(__file__).parents[1] / "rcnetwork/examples"
-    memory, projects = Memory(), [tmp_path / "with", tmp_path / "without"]
+    memory, projects = Cache(), [tmp_path / "with", tmp_path / "without"]
     for project in projects:
         shutil.copytree(examples, project)
         settings = 'source = "ladder.json"\npackage = "Ladder"\ndomain = "rcnetwork"\n'
@@ -281,7 +281,7 @@ def test_builds_with_a_memory_write_what_builds_without_one_write(rc_domain: Non
         for project, remembered in zip(projects, (memory, None), strict=True):
             change(project)
             loaded = config.load(project / "urdfsync.toml")
-            (result,) = build(loaded, loaded.robots, Request(memory=remembered))
+            (result,) = build(loaded, loaded.robots, BuildOptions(cache=remembered))
             assert not result.failed, result.diagnostics
             if not (project / "first").exists():
                 shutil.copytree(project / ".urdfsync/robots", project / "first")

@@ -10,13 +10,13 @@ import pytest
 from urdfsync.changes import stale
 from urdfsync.domain import Artifact, Role, Templates
 from urdfsync.files import text_digest
-from urdfsync.plan import FileRecord, State
-from urdfsync.planning.generate import Generated
+from urdfsync.engine.actions import FileRecord, State
+from urdfsync.engine.generate import Package
 from urdfsync.planning.outputs import Outputs
 from urdfsync.state.bases import Bases
 
 
-class Package(Generated):
+class Package(Package):
     """A package whose texts are made of path and data, and which says what was rendered."""
 
     def __init__(self, **numbers: int) -> None:
@@ -45,14 +45,14 @@ def _record(path: str, number: int, state: State = State.GENERATED) -> dict[str,
 
 
 def _outputs(
-    now: Generated,
-    last: Generated | None = None,
+    now: Package,
+    last: Package | None = None,
     records: Mapping[str, FileRecord] | None = None,
     *,
     bases: Sequence[str] = (),
     aside: Mapping[str, str] | None = None,
     disk: Mapping[str, bytes] | None = None,
-    older: Sequence[Generated] = (),
+    older: Sequence[Package] = (),
     again: bool = False,
 ) -> Outputs:
     kept = Bases({text_digest(text.encode()): text for text in bases})

@@ -8,7 +8,7 @@ import pytest
 
 from urdfsync import cli, config
 from urdfsync.diagnostics import OutputError
-from urdfsync.planning import parents
+from urdfsync.engine import parents
 from urdfsync.planning.parents import Parents
 
 USES = (("Modelica", "4.0.0"),)

@@ -13,13 +13,13 @@ import msgspec
 import pytest
 
 from urdfsync import config
-from urdfsync.build import build
+from urdfsync.engine.build import build
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.looking import NO_FACTS
-from urdfsync.plan import Kind
-from urdfsync.planning.memory import Memory
-from urdfsync.planning.planner import plan
-from urdfsync.planning.situation import Request
+from urdfsync.engine.actions import Kind
+from urdfsync.engine.cache import Cache
+from urdfsync.engine.plan import plan_robot
+from urdfsync.engine.options import BuildOptions
 from urdfsync.planning.work import Work
 from urdfsync.stamping import stamp, trust
 
@@ -131,30 +131,30 @@ EDITS: tuple[Edit, ...] = (
 )
 
 
-def _planned(project: Path, memory: Memory | None) -> Work | tuple[str, ...]:
+def _planned(project: Path, memory: Cache | None) -> Work | tuple[str, ...]:
     loaded = config.load(project / "urdfsync.toml")
     try:
-        work = plan(loaded, loaded.robots[0], Request(memory=memory))
+        work = plan(loaded, loaded.robots[0], BuildOptions(cache=memory))
     except UrdfsyncError as error:
         return tuple(map(str, error.diagnostics))
     writes = tuple(msgspec.structs.replace(change, content=change.read()) for change in work.writes)
     return msgspec.structs.replace(work, writes=writes)
 
 
-def _built(project: Path, memory: Memory) -> bool:
+def _built(project: Path, memory: Cache) -> bool:
     loaded = config.load(project / "urdfsync.toml")
-    (result,) = build(loaded, loaded.robots, Request(memory=memory))
+    (result,) = build(loaded, loaded.robots, BuildOptions(cache=memory))
     return not result.failed
 
 
-def _trusted(memory: Memory) -> list[str]:
+def _trusted(memory: Cache) -> list[str]:
     """The files of which the memory believes what the system says."""
     return [path for path, entry in memory.seen("ladder").items() if entry and entry[0] != NO_FACTS]
 
 
 def _follow(project: Path, random: Random, edits: Iterator[Edit]) -> int:
     """Edit, plan and build; returns how many files were known without reading them, in all."""
-    memory, known = Memory(), 0
+    memory, known = Cache(), 0
     assert _built(project, memory)
     shutil.copytree(project / ".urdfsync/robots", project / "first")
     safe = project.with_name("safe")
@@ -179,7 +179,7 @@ def test_any_edit_is_seen(project: Path) -> None:
 
 
 def test_a_file_that_was_changed_back_in_time_is_seen(project: Path) -> None:
-    memory = Memory()
+    memory = Cache()
     assert _built(project, memory)
     time.sleep(AGE)
     _planned(project, memory)
@@ -200,7 +200,7 @@ def test_any_row_of_edits_is_seen(project: Path, seed: int) -> None:
 
 def test_a_file_that_was_just_written_is_read_again(project: Path) -> None:
     """Within one tick of the clock a file can change without any difference in what the system says of it."""
-    memory = Memory()
+    memory = Cache()
     assert _built(project, memory)
     for path in _outputs(project):
         path.touch()
@@ -220,7 +220,7 @@ def test_a_file_that_was_just_written_is_read_again(project: Path) -> None:
 def test_nothing_is_remembered_where_nobody_knows_when_a_file_changed(
     project: Path, why: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    memory = Memory()
+    memory = Cache()
     assert _built(project, memory)
     time.sleep(AGE)
     if why == "on Windows":
@@ -234,7 +234,7 @@ def test_nothing_is_remembered_where_nobody_knows_when_a_file_changed(
 
 
 def test_a_full_build_reads_every_file(project: Path) -> None:
-    memory = Memory()
+    memory = Cache()
     assert _built(project, memory)
     time.sleep(AGE)
     _planned(project, memory)
@@ -242,13 +242,13 @@ def test_a_full_build_reads_every_file(project: Path) -> None:
     memory.note_look("ladder", seen, stamp.now(), lambda: trust.clock(project / ".urdfsync"))
     assert len(_trusted(memory)) > 5
     loaded = config.load(project / "urdfsync.toml")
-    work = plan(loaded, loaded.robots[0], Request(memory=memory, full=True, dry=True))
+    work = plan(loaded, loaded.robots[0], BuildOptions(cache=memory, full=True, dry=True))
     assert not any(action.writes for action in work.decision.actions)
     assert not any(entry and "wrong" in entry for entry in memory.seen("ladder").values())
 
 
 def test_nothing_stays_of_the_look_at_the_clock(project: Path) -> None:
-    memory = Memory()
+    memory = Cache()
     assert _built(project, memory)
     (project / ".urdfsync/.clock.urdfsync-tmp").write_text("of a process that was killed")
     _planned(project, memory)

@@ -24,7 +24,7 @@ from urdfsync.manifest import (
     text_hash,
 )
 from urdfsync.modelfile import ConversionFacts
-from urdfsync.plan import FileRecord, Found, Kind, decide
+from urdfsync.engine.actions import FileRecord, Found, Kind, decide
 from urdfsync.state.repair import Recovered, choose, rebuilt, recover, sides
 
 GRIPPER = "Arm/Links/Gripper.mo"

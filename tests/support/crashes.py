@@ -69,7 +69,7 @@ def before_each(hook: Hook) -> Iterator[None]:
 def run(project: Path, **request: Any) -> Result:
     """Build the only robot of a project."""
     loaded = config.load(project / "urdfsync.toml")
-    (result,) = build(loaded, loaded.robots, Request(**request))
+    (result,) = build(loaded, loaded.robots, BuildOptions(**request))
     return result
 
 

@@ -95,7 +95,7 @@ class Project:
     def build(self, **request: object) -> Result:
         """Build once."""
         loaded = config.load(self.root / config.FILE_NAME)
-        (result,) = build(loaded, loaded.robots, Request(**request))  # type: ignore[arg-type]
+        (result,) = build(loaded, loaded.robots, BuildOptions(**request))  # type: ignore[arg-type]
         return result
 
     def files(self) -> Files:

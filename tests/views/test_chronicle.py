@@ -15,7 +15,7 @@ from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Event
 from urdfsync.domain import Role
 from urdfsync.outcome import Checked, Result
-from urdfsync.plan import Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.views.chronicle import Chronicle
 from urdfsync.watching import events
 

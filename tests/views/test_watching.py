@@ -21,7 +21,7 @@ from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Event
 from urdfsync.domain import Role
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.views import watching
 from urdfsync.views.watching import ForPeople, ForPrograms
 from urdfsync.watching import events

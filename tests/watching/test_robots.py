@@ -16,8 +16,8 @@ from urdfsync import config
 from urdfsync.config import RobotConfig
 from urdfsync.files import Tree
 from urdfsync.planning import crew, planner
-from urdfsync.planning.memory import Memory
-from urdfsync.planning.situation import Request
+from urdfsync.engine.cache import Cache
+from urdfsync.engine.options import BuildOptions
 from urdfsync.planning.work import Work
 from urdfsync.watching import events
 from urdfsync.watching.builds import Builds
@@ -34,14 +34,14 @@ class Bench:
     """Robots and builds of a project, as the daemon has them, without events and settling."""
 
     def __init__(self, project: Path) -> None:
-        self.project, self.memory = project, Memory()
+        self.project, self.memory = project, Cache()
         self.robots = Robots(Times(0, 0), (), self.memory)
         self.told: list[events.Event] = []
         self.touched: list[Watched] = []
         self.load()
         self.builds = Builds(
             self.robots,
-            Request(memory=self.memory),
+            BuildOptions(cache=self.memory),
             self.told.append,
             self.touched.append,
             arm=lambda: None,
@@ -285,10 +285,10 @@ def test_a_plan_of_another_process_is_made_sure_of_in_this_one(bench: Bench, mon
     """What it saw is not known here, and a build that writes nothing says nothing of itself."""
     plans = []
 
-    def plan(loaded: config.Config, robot: RobotConfig, request: Request) -> Work:
+    def plan(loaded: config.Config, robot: RobotConfig, request: BuildOptions) -> Work:
         plans.append(request.jobs)
-        here = request if request.jobs == 1 else msgspec.structs.replace(request, memory=None)
-        return planner.plan(loaded, robot, here)
+        here = request if request.jobs == 1 else msgspec.structs.replace(request, cache=None)
+        return plan_robot(loaded, robot, here)
 
     def survey(self: Any) -> None:
         bench.memory.invalidate("ladder")

@@ -10,7 +10,7 @@ from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Event
 from urdfsync.domain import Role
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.watching.words import news
 
 MASS = ("link elbow", "inertial", "mass")

@@ -13,15 +13,16 @@ import msgspec
 from urdfsync.classfiles import StoredClasses
 from urdfsync.config import library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.actions import Action
+from urdfsync.engine.actions import Kind as ActionKind
+from urdfsync.engine.inputs import Inputs
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.scopes import Element, Node, Scopes, Type
 from urdfsync.modelica.syntax import declared
 from urdfsync.modelica.unresolved import Kind, Unresolved, unresolved
-from urdfsync.plan import Action, State
-from urdfsync.plan import Kind as ActionKind
-from urdfsync.planning.situation import Situation
+from urdfsync.state.record import RecordState as State
 
 Name: TypeAlias = tuple[str, ...]
 
@@ -52,9 +53,9 @@ class UsersTexts(msgspec.Struct, frozen=True):
 class DanglingNames:
     """Finds uses of lost names, which are given with their new names."""
 
-    def __init__(self, situation: Situation, paths: Sequence[str], content: Callable[[str], bytes]) -> None:
+    def __init__(self, inputs: Inputs, paths: Sequence[str], content: Callable[[str], bytes]) -> None:
         """`paths` are those of the generated files below the package, `content` gives the text of each."""
-        self._situation, self._paths, self._content = situation, paths, content
+        self._inputs, self._paths, self._content = inputs, paths, content
 
     @functools.cached_property
     def _generated(self) -> Scopes:
@@ -63,16 +64,16 @@ class DanglingNames:
 
     def is_inherited(self, path: Name) -> bool:
         """Whether a class has an element because it extends another one; `path` counts from the package."""
-        node = self._generated.node((*self._situation.robot.target.package.split("."), *path[:-1]))
+        node = self._generated.node((*self._inputs.robot.target.package.split("."), *path[:-1]))
         return isinstance(node, Node) and isinstance(self._generated.part((Type(node),), path[-1]), Element)
 
     def users_texts(self, actions: Iterable[Action], written: Mapping[str, str]) -> UsersTexts:
         """The texts to look at after these actions; `written` are texts that files are about to get."""
-        disk, folder, known = self._situation.disk, self._situation.folder, {action.path: action for action in actions}
+        disk, folder, known = self._inputs.files, self._inputs.folder, {action.path: action for action in actions}
         kept = [path for path, action in known.items() if action.kind in _KEPT]
         edited = {path for path, action in known.items() if action.kind in _EDITED and not action.held}
         own = disk.classes(folder) - known.keys()
-        before = self._situation.recorded.folder if self._situation.recorded else folder
+        before = self._inputs.recorded.folder if self._inputs.recorded else folder
         return UsersTexts(
             {key: written.get(key) or disk.any_text(key) for key in sorted(edited | own)},
             {key: disk.any_text(key) for key in kept},
@@ -111,8 +112,8 @@ class DanglingNames:
         sources = self._planned(texts.own, texts.around)
         scopes, found = Scopes(sources), []
         for file, option in options.items():
-            if (key := self._situation.old_key(file)) in texts.edited:
-                place = shown(self._situation.disk.path(key))
+            if (key := self._inputs.old_key(file)) in texts.edited:
+                place = shown(self._inputs.files.path(key))
                 found.append(_left_out("the file is no longer generated", place, 0, option))
         for name, path, text in self._asked(texts, sources):
             for use in {use.part: use for use in reversed(find_uses(name, text, scopes, names, names))}.values():
@@ -122,7 +123,7 @@ class DanglingNames:
 
     def _asked(self, texts: UsersTexts, sources: StoredClasses) -> list[tuple[Name, Path, str]]:
         """The classes of the user's to look at: full name, file, and the text if it is one of the package."""
-        own = [(self._class_name(key), self._situation.disk.path(key), text) for key, text in texts.own.items()]
+        own = [(self._class_name(key), self._inputs.files.path(key), text) for key, text in texts.own.items()]
         return own + [(name, Path(one.file), "") for name, one in sources.users.items()]
 
     def _uses(
@@ -130,21 +131,21 @@ class DanglingNames:
     ) -> list[Unresolved]:
         """As `find_uses`, without what the generated text of the class says, too: that is in order."""
         uses = find_uses(name, text, scopes, lost, doubtful)
-        if not uses or name not in {self._class_name(self._situation.key(path)) for path in self._paths}:
+        if not uses or name not in {self._class_name(self._inputs.key(path)) for path in self._paths}:
             return uses
         generated = {use.name for use in find_uses(name, "", self._generated, lost, doubtful)}
         return [use for use in uses if use.name not in generated]
 
     def _planned(self, texts: Mapping[str, str], others: Mapping[Path, bytes]) -> StoredClasses:
         """The classes as they will be after the build: `texts` of the package by their keys, `others` of the user's."""
-        situation, recorded, robot = self._situation, self._situation.recorded, self._situation.robot
+        inputs, recorded, robot = self._inputs, self._inputs.recorded, self._inputs.robot
         files = recorded.files if recorded else {}
-        generated = {situation.key(path) for path in self._paths}
+        generated = {inputs.key(path) for path in self._paths}
         old = {key for key, record in files.items() if record.state is not State.ORPHAN}
-        own = {key: situation.disk.any_text(key) for key in situation.disk.classes(situation.folder) - old - generated}
+        own = {key: inputs.files.any_text(key) for key in inputs.files.classes(inputs.folder) - old - generated}
         found = {path: self._content(path) for path in self._paths}
         for key, text in {**own, **texts}.items():
-            found[key.removeprefix(situation.key(""))] = text.encode(errors="replace")
+            found[key.removeprefix(inputs.key(""))] = text.encode(errors="replace")
 
         def find(name: str) -> Path | None:
             if name == LIBRARY != robot.target.package.partition(".")[0]:
@@ -157,8 +158,8 @@ class DanglingNames:
         return StoredClasses(package, robot.folder, found, others, find, gone)
 
     def _class_name(self, key: str) -> Name:
-        *folders, file = key.removeprefix(self._situation.key("")).removesuffix(".mo").split("/")
-        package = self._situation.robot.target.package.split(".")
+        *folders, file = key.removeprefix(self._inputs.key("")).removesuffix(".mo").split("/")
+        package = self._inputs.robot.target.package.split(".")
         return (*package, *folders) if file == "package" else (*package, *folders, file)
 
 

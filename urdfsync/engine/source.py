@@ -1,12 +1,11 @@
-"""What a robot is built from, as the configuration names it: its source, in bytes and as a model, and templates."""
+"""A robot's source, in bytes and as a model, and its templates."""
 
 from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 
@@ -14,10 +13,8 @@ from urdfsync import looking, profiling
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Reading, Snapshot, Templates
-from urdfsync.files import kind_of, templates_digest, text_digests
-
-if TYPE_CHECKING:
-    from urdfsync.planning.memory import Memory
+from urdfsync.engine.cache import Cache
+from urdfsync.files import kind_of, templates_digest
 
 MAX_TEMPLATE = 10_000_000
 """Bytes of a file in a template folder of the user's; the longest template of urdfsync has 5,000."""
@@ -37,8 +34,8 @@ def read_source(config: Config, robot: RobotConfig) -> bytes:
     raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(config.file), line, hint=hint))
 
 
-def templates(config: Config, robot: RobotConfig, domain: Domain, memory: Memory | None = None) -> Templates:
-    """The robot's templates, from its own folder before the domain's. Raises ConfigError for a folder that can't be."""
+def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
+    """Return the robot's templates: those in its own folder hide the domain's. Raises ConfigError for a bad folder."""
     folders = [robot.templates] if robot.templates else []
     for folder in folders:
         if not looking.is_folder(folder):
@@ -46,15 +43,8 @@ def templates(config: Config, robot: RobotConfig, domain: Domain, memory: Memory
             line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line, hint=hint))
         _check_templates(folder)
-    shipped = templates_folder(domain)
-    folders.append(shipped)
-
-    def read(folder: Path) -> Mapping[str, str]:
-        if memory and folder == shipped:
-            return memory.shipped(folder, lambda: text_digests(folder))
-        return text_digests(folder)
-
-    return Templates(tuple(folders), templates_digest(folders, read))
+    folders.append(templates_folder(domain))
+    return Templates(tuple(folders), templates_digest(folders))
 
 
 def _check_templates(folder: Path) -> None:
@@ -96,13 +86,20 @@ def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: 
 
 @profiling.staged("reading")
 def read(
-    domain: Domain, options: Any, content: bytes, name: str, memory: Memory | None = None
+    domain: Domain, options: Any, content: bytes, name: str, cache: Cache | None = None
 ) -> tuple[Snapshot, Reading]:
-    """The model in a source, and all that was read; `name` is how diagnostics call the source.
+    """Return the model in a source, and all that was read; `name` is how diagnostics call the source.
 
     Raises SourceError with all that is wrong in it.
     """
-    reading = memory.read(domain, options, content, name) if memory else domain.read(content, name, options)
+    reading = read_cached(domain, options, content, name, cache)
     if reading.snapshot is None or any(found.severity is Severity.ERROR for found in reading.diagnostics):
         raise SourceError(*reading.diagnostics)
     return reading.snapshot, reading
+
+
+def read_cached(domain: Domain, options: Any, content: bytes, name: str, cache: Cache | None) -> Reading:
+    """Return what the domain reads in a source. The daemon judges a source, then builds it, and parses it once."""
+    if cache is None:
+        return domain.read(content, name, options)
+    return cache.get("source", (domain, options, content, name), lambda: domain.read(content, name, options))

@@ -14,10 +14,10 @@ import msgspec
 from urdfsync import looking
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
+from urdfsync.engine import ros_packages as packages
 from urdfsync.files import digest
 from urdfsync.manifest import DependencyRecord
 from urdfsync.modelfile import ConversionFacts
-from urdfsync.planning import packages
 
 _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
@@ -109,7 +109,7 @@ def bring_in(
     return result
 
 
-def sought(
+def find_dependencies(
     domain: Domain, snapshot: Snapshot, lookup: Lookup, options: Any, lines: Mapping[str, int]
 ) -> Sequence[Dependency]:
     """The files that a model refers to.

@@ -1,9 +1,8 @@
-"""A model to the files of its package; each text is rendered when somebody asks for it, and once."""
+"""A model to the files of its package. A text is rendered when it is asked for."""
 
 from __future__ import annotations
 
 import functools
-import operator
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,75 +12,49 @@ import msgspec
 from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Recipe, Snapshot, Target, Templates
-from urdfsync.shelf import Shelf, Shelved
+from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target, Templates
+from urdfsync.files import text_digest
 
 if TYPE_CHECKING:
     from urdfsync.render import Renderer
 
-_PATH = operator.attrgetter("path")
 _FORBIDDEN = frozenset('\\:*?"<>|')
 """Characters that a path can't have on every system."""
 
 
-class Generated:
-    """The package: text files by their path, and the names for each `package.order`; POSIX, below the package.
-
-    They are in the order of their paths. Once a text is rendered it stands on a shelf, and what it was made of is
-    dropped, to save memory. The recipe that takes its place equals no other, so later comparisons count the text as
-    stale.
-    """
+class Package:
+    """A generated package: its text files by path, and the names for each `package.order`; POSIX, below the package."""
 
     def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates) -> None:
-        artifacts = sorted(artifacts, key=_PATH)
-        self.artifacts: dict[str, Artifact] = {a.path: a for a in artifacts if isinstance(a, Artifact)}
-        self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in artifacts if isinstance(a, Order)}
+        found = sorted(artifacts, key=lambda artifact: artifact.path)
+        self.artifacts: dict[str, Artifact] = {a.path: a for a in found if isinstance(a, Artifact)}
+        self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in found if isinstance(a, Order)}
         self._templates = templates
-        self._shelf = Shelf()
-        self._uneven: set[str] = set()
-        """Paths of texts with carriage returns, which their hashes leave out."""
+        self._texts: dict[str, bytes] = {}
+        self._keys: dict[str, bytes] = {}
 
     def content(self, path: str) -> bytes:
-        """The text of one file. Raises ConfigError for a template that can't be used."""
-        if path in self._shelf:
-            return self._shelf.get(path)
-        artifact = self.artifacts[path]
-        content = _content(_renderer(self._templates), artifact, self._templates.folders)
-        self._shelf.put(path, content)
-        if b"\r" in content:
-            self._uneven.add(path)
-        self.artifacts[path] = msgspec.structs.replace(artifact, source=Recipe(dict, (object(),)))
-        return content
+        """Return the text of one file. Raises ConfigError for a template that can't be used."""
+        if path not in self._texts:
+            self._texts[path] = _render(_renderer(self._templates), self.artifacts[path], self._templates.folders)
+        return self._texts[path]
 
-    def shelved(self, path: str, digest: str) -> Shelved | None:
-        """The text of one file, with its hash as a text, for later; None if that is not its hash as bytes, too."""
-        return Shelved(self._shelf, path, digest) if path in self._shelf and path not in self._uneven else None
+    def hash(self, path: str) -> str:
+        """Return the text hash of one file."""
+        return text_digest(self.content(path))
 
+    def data_key(self, path: str) -> bytes:
+        """Return what the text of a file follows from, as bytes: in JSON 0.0 and -0.0 differ, as in the text."""
+        if path not in self._keys:
+            artifact = self.artifacts[path]
+            self._keys[path] = artifact.template.encode() + b"\n" + msgspec.json.encode(artifact.data)
+        return self._keys[path]
 
-@functools.lru_cache(maxsize=4)
-def _renderer(templates: Templates) -> Renderer:
-    """One renderer for all robots with the same templates, so that each is compiled once."""
-    from urdfsync.render import Renderer
-
-    return Renderer(templates.folders)
-
-
-@profiling.staged("artifacts")
-def artifacts(
-    domain: Domain,
-    snapshot: Snapshot,
-    imports: Mapping[str, Import],
-    target: Target,
-    options: Any,
-    parts: Parts | None = None,
-) -> Sequence[Artifact | Order]:
-    """The files of the package of a model, before they are rendered; `parts` are those of the last call.
-
-    They are in the order of their paths. Raises OutputError for paths that can't be.
-    """
-    found = sorted(domain.artifacts(snapshot, imports, target, options, parts), key=_PATH)
-    check_paths((*map(_PATH, found), *(entry.target for entry in imports.values())))
-    return found
+    def changed_since(self, last: Package) -> frozenset[str]:
+        """Return the paths whose text can differ from that of another package of the same templates."""
+        return frozenset(
+            path for path in self.artifacts if path not in last.artifacts or self.data_key(path) != last.data_key(path)
+        )
 
 
 def generate(
@@ -91,16 +64,23 @@ def generate(
     target: Target,
     options: Any,
     templates: Templates,
-) -> Generated:
-    """The package of a model, to be rendered with these templates.
+) -> Package:
+    """Return the package of a model. Raises OutputError for paths that can't be written."""
+    with profiling.stage("artifacts"):
+        found = domain.artifacts(snapshot, imports, target, options)
+        check_paths([*(artifact.path for artifact in found), *(entry.target for entry in imports.values())])
+    return Package(found, templates)
 
-    Raises OutputError for paths that can't be written.
-    """
-    return Generated(artifacts(domain, snapshot, imports, target, options), templates)
+
+@functools.lru_cache(maxsize=4)
+def _renderer(templates: Templates) -> Renderer:
+    """Return one renderer for all robots with the same templates, so that each template is compiled once."""
+    from urdfsync.render import Renderer  # Jinja takes 10 ms to import: most builds have nothing to render
+
+    return Renderer(templates.folders)
 
 
-@functools.lru_cache(maxsize=1)  # most changes of a model leave its paths as they are
-def check_paths(paths: tuple[str, ...]) -> None:
+def check_paths(paths: Sequence[str]) -> None:
     """Refuse paths that leave the package, and pairs that are one file or one class where case is folded.
 
     Raises OutputError with everything that is wrong.
@@ -143,7 +123,7 @@ def _problem(code: str, message: str) -> Diagnostic:
 
 
 @profiling.staged("rendering")
-def _content(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> bytes:
+def _render(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> bytes:
     """One rendered file; whatever a template of the user's can do wrong is a ConfigError at its line."""
     import jinja2
 

@@ -8,40 +8,40 @@ from pathlib import Path
 
 from urdfsync.config import Config, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.actions import DELETES, Action
+from urdfsync.engine.package_files import PackageFiles
 from urdfsync.manifest import Manifest
-from urdfsync.plan import DELETES, Action
-from urdfsync.planning.disk import Disk
 from urdfsync.state.store import Store
 
 _FEW = 3
 """So many files are named; of more, only their number."""
 
 
-def former(store: Store, config: Config, folder: str) -> str | None:
+def former_name(store: Store, config: Config, folder: str) -> str | None:
     """The name under which a robot that is no longer configured was built into this folder."""
     return next((name for name in _strays(store, config) if _folder(store, name) == folder), None)
 
 
-def renamed(old: str, new: str, file: str, line: int) -> Diagnostic:
+def renamed_robot(old: str, new: str, file: str, line: int) -> Diagnostic:
     """A note that a robot has another name than in the last build."""
     message = f"robot `{new}` was called `{old}`; what urdfsync recorded of it goes with the new name"
     return Diagnostic(Severity.NOTE, "renamed-robot", message, file, line)
 
 
 def left_behind(
-    disk: Disk, recorded: Manifest, actions: Iterable[Action], folder: str, file: str, line: int
+    files: PackageFiles, recorded: Manifest, actions: Iterable[Action], folder: str, file: str, line: int
 ) -> list[Diagnostic]:
     """A warning if something stays in the folder that a package had in the last build."""
     actions = list(actions)
     if any(action.held for action in actions):
         return []
-    old = disk.path(recorded.folder)
-    message = f"the package moved from {shown(old)} to {shown(disk.path(folder))}"
-    if not disk.reaches(f"{recorded.folder}/package.mo"):
+    old = files.path(recorded.folder)
+    message = f"the package moved from {shown(old)} to {shown(files.path(folder))}"
+    if not files.is_inside(f"{recorded.folder}/package.mo"):
         message += ", and the old folder is none of urdfsync's any more"
         return [Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint="delete it by hand")]
-    gone = {disk.path(action.path) for action in actions if action.kind in DELETES}
-    new = disk.path(folder)
+    gone = {files.path(action.path) for action in actions if action.kind in DELETES}
+    new = files.path(folder)
     rest = [path for path in _files(old) if path not in gone and new not in path.parents]
     if not rest:
         return []
@@ -51,18 +51,18 @@ def left_behind(
     return [Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint=hint)]
 
 
-def strays(store: Store, config: Config) -> Diagnostic | None:
+def orphaned_state(store: Store, config: Config) -> list[Diagnostic]:
     """A note if there is state of robots that are in the configuration no more."""
     built = set(store.names())
     heirs = {_key(robot.folder, config) for robot in config.robots if robot.name not in built}
     found = [name for name in _strays(store, config) if _folder(store, name) not in heirs]
     if not found:
-        return None
+        return []
     listed = ", ".join(f"`{name}`" for name in found)
     message = f"the state of {listed} is still there, but the configuration has no such robot"
     folder = shown(store.folder / "robots")
     hint = f"bring the robot back, or delete {folder}/{found[0]}.* and what is left of its package"
-    return Diagnostic(Severity.NOTE, "stray-state", message, shown(config.file), hint=hint)
+    return [Diagnostic(Severity.NOTE, "stray-state", message, shown(config.file), hint=hint)]
 
 
 def _strays(store: Store, config: Config) -> list[str]:
