@@ -21,8 +21,8 @@ from support import edits, replay
 from support.replay import Fresh, Project
 from support.steps import Answer, Known, Step, plain
 
-from urdfsync.manifest import text_hash
 from urdfsync.engine.actions import Kind
+from urdfsync.manifest import text_hash
 from urdfsync.state.record import Choice
 
 EPISODE = 40

@@ -16,11 +16,12 @@ from typing import Any
 import pytest
 
 from urdfsync import config, files
-from urdfsync.build import Request, build
+from urdfsync.engine import imports
+from urdfsync.engine.actions import Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.files import text_digest
 from urdfsync.outcome import Exit, Result, exit_code
-from urdfsync.engine.actions import Kind
-from urdfsync.engine import imports
 from urdfsync.state import operations
 
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]

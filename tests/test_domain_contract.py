@@ -29,9 +29,9 @@ from urdfsync.domain import (
     Target,
     Templates,
 )
+from urdfsync.engine import generate
 from urdfsync.files import digest, templates_digest
 from urdfsync.modelica.names import is_identifier, within
-from urdfsync.engine import generate
 
 URDF = b"""<robot name="two &quot;links&quot;">
   <link name="base link"/>

@@ -17,9 +17,10 @@ from typing import Any
 import pytest
 
 from urdfsync import config
-from urdfsync.build import Request, build
-from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.engine.actions import Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.state.record import Choice
 
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]

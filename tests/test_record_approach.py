@@ -9,12 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.build import Request, build
 from urdfsync.checking.subject import Subject
 from urdfsync.config import load
 from urdfsync.difference import ChangeClass
-from urdfsync.outcome import Result
 from urdfsync.engine.actions import Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.outcome import Result
 
 SOURCES = Path(__file__).parent / "golden"
 RECORD = {"package.mo", "package.order", "TwigParameters.mo", "TwigGeneric.mo"}

@@ -11,9 +11,10 @@ import pytest
 from support.git import NEEDS_GIT, Repository
 
 from urdfsync import config
-from urdfsync.build import Request, build
-from urdfsync.outcome import Result
 from urdfsync.engine.actions import Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.outcome import Result
 from urdfsync.state.record import Choice
 
 LADDER = "modelica/Ladder"

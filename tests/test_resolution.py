@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 from urdfsync import resolution
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Actions, Kind
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.merge import Merge, merge
 from urdfsync.outcome import Result
-from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.resolution import Target, Wish
-from urdfsync.engine.conflicts import Conflict
 from urdfsync.state.record import Choice
 
 ROOT = Path("/project").absolute()

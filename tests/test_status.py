@@ -12,10 +12,10 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Happening
 from urdfsync.domain import Role
-from urdfsync.merge import merge
-from urdfsync.outcome import Result
 from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict
+from urdfsync.merge import merge
+from urdfsync.outcome import Result
 from urdfsync.status import FileStatus, RobotState
 
 

@@ -13,7 +13,6 @@ import msgspec
 import pytest
 
 from urdfsync import cli, config, looking
-from urdfsync.engine.build import build
 from urdfsync.checking import afterbuild, memory
 from urdfsync.checking.compilers.compiler import CompilerError
 from urdfsync.checking.libraries.library import LibraryError
@@ -21,8 +20,9 @@ from urdfsync.checking.verdict import Compiled, Verdict
 from urdfsync.commands import building
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.outcome import Checked, Exit, Result, exit_code
+from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions, Progress
+from urdfsync.outcome import Checked, Exit, Result, exit_code
 
 RIGHT = Verdict("ladder", "Ladder", compiled=(Compiled("Ladder", 12, 3),), seconds=2.5)
 BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)

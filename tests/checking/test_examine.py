@@ -12,11 +12,11 @@ from support.corpus import REPOSITORY
 from support.urdfs import dynamics, joint, limit, link, robot
 
 from urdfsync import config
-from urdfsync.engine.build import build
 from urdfsync.checking.examine import examine
 from urdfsync.checking.process import Limits
 from urdfsync.checking.verdict import Standing, Verdict, exit_code
 from urdfsync.checking.wishes import Wishes
+from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 
 ARM = robot(

@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from urdfsync import config
-from urdfsync.engine.build import build
 from urdfsync.checking import loading
 from urdfsync.checking.cache import Cache, CacheError
 from urdfsync.checking.compilers import choice
@@ -21,6 +20,7 @@ from urdfsync.checking.process import Limits
 from urdfsync.checking.subject import Subject
 from urdfsync.checking.toolbox import Toolbox
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 
 PARTS = """

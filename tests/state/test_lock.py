@@ -14,8 +14,9 @@ import pytest
 
 import urdfsync
 from urdfsync import cli, config
-from urdfsync.build import Request, build
 from urdfsync.diagnostics import OutputError
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.state.lock import Lock, LockedError
 

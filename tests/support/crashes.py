@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from urdfsync import config
-from urdfsync.build import Request, build
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
 from urdfsync.state import operations
 from urdfsync.state.store import Store

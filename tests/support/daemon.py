@@ -133,7 +133,9 @@ class Daemons:
         self.events: list[events.Event] = []
         self.error: Exception | None = None
         self._news = threading.Condition()
-        self._daemon = Daemon(Options(Path("urdfsync.toml"), times=QUICK, request=BuildOptions(wait=1), **options), self)
+        self._daemon = Daemon(
+            Options(Path("urdfsync.toml"), times=QUICK, request=BuildOptions(wait=1), **options), self
+        )
         self._thread = threading.Thread(target=self._run)
         self._thread.start()
 

@@ -19,7 +19,8 @@ from unittest import mock
 from support import corpus
 from support.packages import proposed_base, read
 from urdfsync import config, render
-from urdfsync.build import Request, build
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
 from urdfsync.state import operations
 from urdfsync.state.store import State, Store

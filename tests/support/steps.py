@@ -12,9 +12,9 @@ from pathlib import Path
 from support import edits, replay
 from support.replay import Files, Project
 from urdfsync.domain import Role
-from urdfsync.manifest import text_hash
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.conflicts import Conflict
+from urdfsync.manifest import text_hash
 from urdfsync.state.record import Choice
 
 CONFLICTS = ".urdfsync/conflicts/bot"

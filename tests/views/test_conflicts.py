@@ -10,10 +10,10 @@ from rich.cells import cell_len
 from rich.console import Console
 
 from urdfsync.domain import Role
-from urdfsync.merge import merge
-from urdfsync.outcome import Result
 from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict
+from urdfsync.merge import merge
+from urdfsync.outcome import Result
 from urdfsync.views import conflicts
 from urdfsync.views.conflicts import FULL, LINES, Look
 

@@ -17,8 +17,8 @@ from support.daemon import LIMIT, REPOSITORY, Daemons, Watch
 from urdfsync.checking.verdict import Compiled, Verdict
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.outcome import Checked
 from urdfsync.engine.options import BuildOptions, Progress
+from urdfsync.outcome import Checked
 from urdfsync.watching import events
 
 RIGHT = Verdict("ladder", "Ladder", compiled=(Compiled("Ladder", 12, 3),), seconds=2.5)

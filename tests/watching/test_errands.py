@@ -11,13 +11,13 @@ import pytest
 from support.daemon import LIMIT
 
 from urdfsync import config
-from urdfsync.engine.build import build
 from urdfsync.checking.afterbuild import Findings
 from urdfsync.checking.verdict import Compiled, Verdict
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.outcome import Checked
+from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions, Progress
+from urdfsync.outcome import Checked
 from urdfsync.watching import events
 from urdfsync.watching.checks import Checks, Errand
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.planning.packages import find, libraries
+from urdfsync.engine.ros_packages import find, libraries
 
 
 def package(folder: Path, name: str) -> Path:

@@ -9,7 +9,7 @@ import pytest
 from urdfsync import cli, config
 from urdfsync.diagnostics import OutputError
 from urdfsync.engine import parents
-from urdfsync.planning.parents import Parents
+from urdfsync.engine.parents import Parents
 
 USES = (("Modelica", "4.0.0"),)
 

@@ -7,13 +7,15 @@ import os
 import signal
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from urdfsync import config
-from urdfsync.build import Request, build
+from urdfsync.engine import pool
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
-from urdfsync.planning import crew
 
 COUNT = 8
 
@@ -42,15 +44,15 @@ def files(folder: Path) -> dict[str, bytes]:
 
 @pytest.fixture
 def started(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """How many processes were asked for, each time that a crew started."""
+    """How many processes were asked for, each time that a pool started."""
     found: list[int] = []
-    real = crew.Crew._start
+    real = pool.ProcessPoolExecutor
 
-    def start(self: crew.Crew, robots: list[config.RobotConfig], jobs: int) -> None:
-        found.append(jobs)
-        real(self, robots, jobs)
+    def start(workers: int, *args: object, **options: Any) -> object:
+        found.append(workers)
+        return real(workers, *args, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(crew.Crew, "_start", start)
+    monkeypatch.setattr(pool, "ProcessPoolExecutor", start)
     return found
 
 
@@ -84,22 +86,22 @@ def test_a_save_while_the_others_plan_is_seen(robots: Path, monkeypatch: pytest.
         path = robots / f"n{number}.json"
         path.write_text(path.read_text().replace("220.5", "330"))
     record = robots / "modelica/Plant/Networks/N5/Elements/R2Parameters.mo"
-    answer = crew.Crew._result
+    answer = pool.Pool._result
 
-    def edited(self: crew.Crew, robot: config.RobotConfig) -> object:
+    def edited(self: pool.Pool, robot: config.RobotConfig) -> object:
         work = answer(self, robot)
         if robot.name == "n5":
             record.write_text(record.read_text().replace("220.5", "221"))
         return work
 
-    monkeypatch.setattr(crew.Crew, "_result", edited)
+    monkeypatch.setattr(pool.Pool, "_result", edited)
     results = run(2)
     assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
     assert "221" in record.read_text()
 
 
 def test_a_process_that_dies_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(crew, "_plan", _die)
+    monkeypatch.setattr(pool, "_plan", _die)
     results = run(2)
     assert all(result.failed for result in results)
     (found,) = results[0].diagnostics
@@ -112,7 +114,7 @@ def _die(*_: object) -> None:
 
 
 def test_the_work_is_told_of(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(crew, "_PAUSE", 0.001)  # the others may be quick
+    monkeypatch.setattr(pool, "_PAUSE", 0.001)  # the others may be quick
     told: list[tuple[str, int, int]] = []
     tell: Callable[[str, int, int], None] = lambda what, done, total: told.append((what, done, total))  # noqa: E731
     loaded = config.load(Path("urdfsync.toml"))

@@ -10,8 +10,8 @@ import pytest
 from urdfsync import changes, cli, registry
 from urdfsync.diagnostics import ConfigError, OutputError
 from urdfsync.domain import Artifact, Recipe, Role, Target, Templates
-from urdfsync.files import templates_digest
 from urdfsync.engine.generate import Package, check_paths, generate
+from urdfsync.files import templates_digest
 
 
 @pytest.mark.parametrize(
@@ -94,24 +94,12 @@ def test_data_that_has_a_recipe_is_made_when_the_text_is_rendered_and_once(tmp_p
 def test_a_text_counts_as_stale_once_its_data_is_forgotten(tmp_path: Path) -> None:
     (tmp_path / "t").write_text("<< number >>")
     one, two = (
-        Package([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), ""))
-        for n in (1, 2)
+        Package([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), "")) for n in (1, 2)
     )
     for _ in range(2):
         assert changes.stale(one.artifacts, two.artifacts).render == {"A.mo"}
         assert (one.content("A.mo"), two.content("A.mo")) == (b"1", b"2")
     assert {artifact.owner for artifact in one.artifacts.values()} == {"part"}
-
-
-def test_a_text_is_put_aside_unless_its_hash_is_another_than_that_of_its_bytes(tmp_path: Path) -> None:
-    (tmp_path / "t").write_text("<< text >>")
-    files = [Artifact(f"{n}.mo", Role.MODEL, "t", {"text": text}, "part") for n, text in enumerate(["a\r\nb", "a\rb"])]
-    package = Package(files, Templates((tmp_path,), ""))
-    assert package.shelved("0.mo", "hash") is None  # nobody has asked for it yet
-    assert [package.content(path) for path in package.artifacts] == [b"a\nb", b"a\rb"]
-    even, uneven = (package.shelved(path, "hash") for path in package.artifacts)
-    assert even is not None
-    assert (even.read(), even.hash, uneven) == (b"a\nb", "hash", None)
 
 
 @pytest.fixture

@@ -15,28 +15,14 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from urdfsync import changes, moves
+from urdfsync import changes
 from urdfsync.domain import Role
+from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Kind
+from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
+from urdfsync.engine.renames import OnDisk, renamed_files
+from urdfsync.engine.rules import DesiredFile, decide, hold, keep_needed, records_after, remembered_choices
 from urdfsync.modelica.literals import numbers_only
-from urdfsync.engine.actions import (
-    CONFLICTS,
-    DELETES,
-    DISPUTED,
-    Action,
-    FileRecord,
-    Found,
-    Kind,
-    State,
-    Wanted,
-    after,
-    hold,
-    plan,
-    remembered,
-    spare,
-)
-from urdfsync.settle import settle, stand_off
-from urdfsync.engine.conflicts import Conflict
-from urdfsync.state.record import Choice
+from urdfsync.state.record import Choice, FileRecord, RecordState
 
 NAMES = ("Arm", "Base", "Cap")
 MAIN, PACKAGE = "Main.mo", "package.mo"
@@ -55,18 +41,18 @@ class Part:
         return f"part {self.name}"
 
 
-def package(parts: Collection[Part]) -> dict[str, Wanted]:
+def package(parts: Collection[Part]) -> dict[str, DesiredFile]:
     """The files of a model, by path."""
     files = {}
     for name, law, number in map(dataclasses.astuple, parts):
         owner, record = f"part {name}", f"{name}Parameters"
         text = f"model {name}\n\n  {record} p;\n\nequation\n\n  {law};\n\nend {name};\n"
-        files[f"{name}.mo"] = Wanted(Role.MODEL, owner, text)
+        files[f"{name}.mo"] = DesiredFile(Role.MODEL, owner, text)
         text = f"record {record}\n\n  Real {law[0]} = {number};\n\nend {record};\n"
-        files[f"{record}.mo"] = Wanted(Role.RECORD, owner, text)
+        files[f"{record}.mo"] = DesiredFile(Role.RECORD, owner, text)
     used = "".join(f"  {name} {name.lower()};\n\n" for name in sorted(part.name for part in parts))
-    files[MAIN] = Wanted(Role.MODEL, "robot", f"model Main\n\n{used}end Main;\n")
-    files[PACKAGE] = Wanted(Role.PACKAGE, "robot", "package P\nend P;\n")
+    files[MAIN] = DesiredFile(Role.MODEL, "robot", f"model Main\n\n{used}end Main;\n")
+    files[PACKAGE] = DesiredFile(Role.PACKAGE, "robot", "package P\nend P;\n")
     return files
 
 
@@ -96,14 +82,14 @@ class Project:
         self._last: dict[int, Part] = {}
 
     def moves(self) -> dict[str, str]:
-        """New and old path of every file whose element has another name; see `Renewal`."""
-        records = {path: record for path, record in self.recorded.items() if record.state is not State.ORPHAN}
+        """New and old path of every file whose element has another name; see `Generation`."""
+        records = {path: record for path, record in self.recorded.items() if record.state is not RecordState.ORPHAN}
         before, now = package(self._last.values()), package(self.parts.values())
         renames = {("part", old.name): self.parts[key].name for key, old in self._last.items() if key in self.parts}
         old = {path: (file.owner, template(path)) for path, file in before.items() if path in records}
         renamed = changes.moves(old, {path: (file.owner, template(path)) for path, file in now.items()}, renames)
         targets = {path: renamed.get(path, path) for path in records}
-        return moves.places(self.recorded, targets, now)
+        return renamed_files(self.recorded, targets, now)
 
     def build(self, choices: Mapping[str, Choice] | None = None) -> tuple[Action, ...]:
         """Plan, write and record."""
@@ -115,36 +101,35 @@ class Project:
         for action in actions:
             if action.writes and action.kind not in DELETES:
                 self.files[action.path] = merged.get(action.path, wanted[action.path].hash)
-        self.recorded, self._last = after(actions), dict(self.parts)
+        self.recorded, self._last = records_after(actions), dict(self.parts)
         return actions
 
     def _decide(
-        self, wanted: Mapping[str, Wanted], choices: Mapping[str, Choice]
+        self, wanted: Mapping[str, DesiredFile], choices: Mapping[str, Choice]
     ) -> tuple[tuple[Action, ...], dict[str, str]]:
         """The actions, and the texts that are merged; see `decide`."""
         found = {path: self._found(path) for path in wanted.keys() | self.recorded.keys()}
-        planned = plan(self.recorded, wanted, found, self.moves())
+        planned = decide(self.recorded, wanted, found, self.moves())
         standoffs = {a.path: self._standoff(a) for a in planned if a.kind in DISPUTED}
-        choices = {**remembered(self.recorded, planned), **choices}
-        settled = settle(planned, standoffs, choices, self.merging)
-        merged = {action.path: text for action, text in settled if text is not None}
-        actions = spare(
-            [msgspec.structs.replace(action, result=text) for action, text in settled],
+        choices = {**remembered_choices(self.recorded, planned), **choices}
+        resolved, merged = resolve(planned, standoffs, choices, self.merging)
+        actions = keep_needed(
+            [msgspec.structs.replace(action, result=merged.get(action.path)) for action in resolved],
             lambda path, gone: any(file not in gone and file != path for file in self.files),
         )
         records = [a for a in actions if a.kind in (Kind.UPDATE, Kind.MERGE) and a.role is Role.RECORD]
         texts = {a.path: (self.files[a.path], merged.get(a.path) or wanted[a.path].hash) for a in records}
         return hold(actions, {path for path, (old, new) in texts.items() if numbers_only(old, new)}), merged
 
-    def _found(self, path: str) -> Found:
+    def _found(self, path: str) -> OnDisk:
         if path in self.files:
-            return Found(self.files[path])
-        return Found(as_folder=path != PACKAGE and as_folder(path) in self.files)
+            return OnDisk(self.files[path])
+        return OnDisk(is_folder=path != PACKAGE and as_folder(path) in self.files)
 
     def _standoff(self, action: Action) -> Conflict:
         place, generated = action.origin or action.path, action.generated or ""
         if place in self.files:
-            return stand_off(action, action.base, self.files[place], generated)
+            return find_conflict(action, action.base, self.files[place], generated)
         return Conflict(action.path, action.owner, action.base, self.files[as_folder(place)], generated, None)
 
 
@@ -238,7 +223,7 @@ class Rounds(RuleBasedStateMachine):
         self._build({})
 
     @rule(choices=st.lists(st.sampled_from(Choice), min_size=1, max_size=3))
-    @precondition(lambda self: any(record.state is State.CONFLICT for record in self.project.recorded.values()))
+    @precondition(lambda self: any(record.state is RecordState.CONFLICT for record in self.project.recorded.values()))
     def resolve(self, choices: list[Choice]) -> None:
         conflicts = waiting(self._build({}))
         self._build(dict(zip(conflicts, choices, strict=False)))
@@ -277,7 +262,7 @@ class Rounds(RuleBasedStateMachine):
         moved = {action.origin for action in actions if action.kind is Kind.MOVE and action.writes}
         for action in actions:
             if action.writes and action.path in before and action.path not in taken | moved:
-                assert action.kind is Kind.MERGE or before[action.path] in (action.base, action.stands)
+                assert action.kind is Kind.MERGE or before[action.path] in (action.base, action.replaced_hash)
 
     def _structure_is_all_or_nothing(self, actions: Collection[Action]) -> None:
         if waiting(actions):

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 from urdfsync import config
-from urdfsync.engine.build import build
 from urdfsync.diagnostics import ConfigError
-from urdfsync.outcome import Result
-from urdfsync.engine.rendering import Rendering
+from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.rendering import Rendering
+from urdfsync.outcome import Result
 
 ROBOT = '[robots.{0}]\nsource = "ladder.json"\npackage = "{0}"\ndomain = "rcnetwork"\n{1}'
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.order import merge
+from urdfsync.engine.package_order import merge
 
 
 def names_in(text: str) -> list[str]:

@@ -10,11 +10,11 @@ import pytest
 from urdfsync import registry
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Dependency
+from urdfsync.engine import imports
+from urdfsync.engine.imports import Imported, Recorded
 from urdfsync.files import digest
 from urdfsync.manifest import DependencyRecord
 from urdfsync.modelfile import ConversionFacts
-from urdfsync.engine import imports
-from urdfsync.planning.imports import Imported, Recorded
 
 pytestmark = pytest.mark.usefixtures("rc_domain")
 

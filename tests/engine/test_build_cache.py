@@ -13,14 +13,13 @@ import msgspec
 import pytest
 
 from urdfsync import config
-from urdfsync.engine.build import build
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.looking import NO_FACTS
 from urdfsync.engine.actions import Kind
+from urdfsync.engine.build import build
 from urdfsync.engine.cache import Cache
-from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.options import BuildOptions
-from urdfsync.planning.work import Work
+from urdfsync.engine.plan import Plan, plan_robot
+from urdfsync.looking import NO_FACTS
 from urdfsync.stamping import stamp, trust
 
 EXAMPLES = Path(__file__).parents[1] / "rcnetwork/examples"
@@ -131,10 +130,10 @@ EDITS: tuple[Edit, ...] = (
 )
 
 
-def _planned(project: Path, memory: Cache | None) -> Work | tuple[str, ...]:
+def _planned(project: Path, memory: Cache | None) -> Plan | tuple[str, ...]:
     loaded = config.load(project / "urdfsync.toml")
     try:
-        work = plan(loaded, loaded.robots[0], BuildOptions(cache=memory))
+        work = plan_robot(loaded, loaded.robots[0], BuildOptions(cache=memory))
     except UrdfsyncError as error:
         return tuple(map(str, error.diagnostics))
     writes = tuple(msgspec.structs.replace(change, content=change.read()) for change in work.writes)
@@ -149,7 +148,7 @@ def _built(project: Path, memory: Cache) -> bool:
 
 def _trusted(memory: Cache) -> list[str]:
     """The files of which the memory believes what the system says."""
-    return [path for path, entry in memory.seen("ladder").items() if entry and entry[0] != NO_FACTS]
+    return [path for path, entry in memory.states("ladder").items() if entry and entry[0] != NO_FACTS]
 
 
 def _follow(project: Path, random: Random, edits: Iterator[Edit]) -> int:
@@ -186,8 +185,8 @@ def test_a_file_that_was_changed_back_in_time_is_seen(project: Path) -> None:
     for path in _trusted(memory):
         _change_back_in_time(Path(path), Random(0))
         work = _planned(project, memory)
-        assert isinstance(work, Work)
-        action = next(action for action in work.decision.actions if path.endswith(action.path))
+        assert isinstance(work, Plan)
+        action = next(action for action in work.actions if path.endswith(action.path))
         assert action.kind is Kind.KEEP
 
 
@@ -238,13 +237,16 @@ def test_a_full_build_reads_every_file(project: Path) -> None:
     assert _built(project, memory)
     time.sleep(AGE)
     _planned(project, memory)
-    seen = {path: entry and (entry[0], "wrong", "wrong") for path, entry in memory.seen("ladder").items()}
-    memory.note_look("ladder", seen, stamp.now(), lambda: trust.clock(project / ".urdfsync"))
+    seen = {
+        path: entry and entry._replace(sha256="wrong", text_sha256="wrong")
+        for path, entry in memory.states("ladder").items()
+    }
+    memory.note_states("ladder", seen, stamp.now(), lambda: trust.clock(project / ".urdfsync"))
     assert len(_trusted(memory)) > 5
     loaded = config.load(project / "urdfsync.toml")
-    work = plan(loaded, loaded.robots[0], BuildOptions(cache=memory, full=True, dry=True))
-    assert not any(action.writes for action in work.decision.actions)
-    assert not any(entry and "wrong" in entry for entry in memory.seen("ladder").values())
+    work = plan_robot(loaded, loaded.robots[0], BuildOptions(cache=memory, full=True, dry=True))
+    assert not any(action.writes for action in work.actions)
+    assert not any(entry and "wrong" in entry for entry in memory.states("ladder").values())
 
 
 def test_nothing_stays_of_the_look_at_the_clock(project: Path) -> None:
