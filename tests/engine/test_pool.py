@@ -6,6 +6,7 @@ import json
 import os
 import signal
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -46,11 +47,11 @@ def files(folder: Path) -> dict[str, bytes]:
 def started(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """How many processes were asked for, each time that a pool started."""
     found: list[int] = []
-    real = pool.ProcessPoolExecutor
+    real: Any = ProcessPoolExecutor
 
     def start(workers: int, *args: object, **options: Any) -> object:
         found.append(workers)
-        return real(workers, *args, **options)  # type: ignore[arg-type]
+        return real(workers, *args, **options)
 
     monkeypatch.setattr(pool, "ProcessPoolExecutor", start)
     return found
