@@ -11,8 +11,9 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import looking, profiling
+from urdfsync import profiling
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
+from urdfsync.dependencies import mark_incomplete
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.outcome import Result
 from urdfsync.planning import leftovers, shared
@@ -85,7 +86,7 @@ class _Builder:
                     return _done(result, work)
                 continue
             if work.writes or any(action.writes for action in work.decision.actions.decided):
-                looking.beyond()  # and it will look different
+                mark_incomplete()  # and it will look different
                 with profiling.stage("waiting"):
                     self._lock.acquire(waiting=self._wait)
                 if not self._is_current(work):

@@ -12,9 +12,9 @@ import pytest
 
 from urdfsync import config, registry
 from urdfsync.build import Request, build
+from urdfsync.dependencies import NO_STAT, Stat
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Artifact, Import, Order, Parts, Reading, Role, Snapshot, Target
-from urdfsync.looking import NO_FACTS, Facts
 from urdfsync.planning.disk import Hashes
 from urdfsync.planning.memory import Memory
 from urdfsync.stamping import stamp, trust
@@ -147,7 +147,7 @@ class Clock(trust.Clock):
     def __init__(self, trusts: bool) -> None:
         self._trusts = trusts
 
-    def trusts(self, facts: Facts, passed: int) -> bool:
+    def trusts(self, facts: Stat, passed: int) -> bool:
         assert facts == FACTS
         return self._trusts
 
@@ -171,7 +171,7 @@ def test_each_robot_has_what_was_seen_of_it_until_it_is_watched_no_more() -> Non
 
 @pytest.mark.parametrize("trusts", [None, False])
 def test_a_file_that_may_change_without_a_trace_has_no_facts(trusts: bool | None) -> None:
-    memory, bare = Memory(), dict.fromkeys(SEEN, (NO_FACTS, "own", "text"))
+    memory, bare = Memory(), dict.fromkeys(SEEN, (NO_STAT, "own", "text"))
     assert look(memory, SEEN, trusts) == bare
     assert look(memory, SEEN) == SEEN
     assert look(memory, {**SEEN}, trusts) == SEEN, "what was believed before is not doubted"
@@ -182,7 +182,7 @@ def test_a_file_that_may_change_without_a_trace_has_no_facts(trusts: bool | None
 def test_a_few_files_are_read_again_and_no_clock_is_read_for_them() -> None:
     memory, few = Memory(), dict(list(SEEN.items())[:4])
     memory.note_look("arm", few, stamp.now(), lambda: pytest.fail("a clock was read"))
-    assert memory.seen("arm") == dict.fromkeys(few, (NO_FACTS, "own", "text"))
+    assert memory.seen("arm") == dict.fromkeys(few, (NO_STAT, "own", "text"))
 
 
 def test_what_was_seen_counts_until_a_build_writes_or_another_plan_begins() -> None:

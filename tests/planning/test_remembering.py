@@ -14,8 +14,8 @@ import pytest
 
 from urdfsync import config
 from urdfsync.build import build
+from urdfsync.dependencies import NO_STAT
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.looking import NO_FACTS
 from urdfsync.plan import Kind
 from urdfsync.planning.memory import Memory
 from urdfsync.planning.planner import plan
@@ -149,7 +149,7 @@ def _built(project: Path, memory: Memory) -> bool:
 
 def _trusted(memory: Memory) -> list[str]:
     """The files of which the memory believes what the system says."""
-    return [path for path, entry in memory.seen("ladder").items() if entry and entry[0] != NO_FACTS]
+    return [path for path, entry in memory.seen("ladder").items() if entry and entry[0] != NO_STAT]
 
 
 def _follow(project: Path, random: Random, edits: Iterator[Edit]) -> int:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from urdfsync import looking
 from urdfsync.build import build
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import mark_incomplete
 from urdfsync.outcome import Result
 from urdfsync.planning.situation import Request
 
@@ -16,7 +16,7 @@ def built(config: Config, robots: Sequence[RobotConfig], request: Request) -> It
     results = build(config, robots, request)
     if request.dry or not any(robot.checking for robot in robots):
         return results
-    looking.beyond()  # checks look at more
+    mark_incomplete()  # checks look at more
     from urdfsync.checking import afterbuild  # most configurations have no use for it
 
     return afterbuild.checked(config, request, results)

@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Self
 
 import msgspec
 
-from urdfsync import looking, machine, profiling, program
+from urdfsync import machine, profiling, program
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import mark_incomplete
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.planning.planner import plan, plan_if_unchanged
 from urdfsync.planning.situation import Request, in_silence
@@ -84,7 +85,7 @@ class Crew:
             else:
                 self._ahead[robot.name] = _known(work)
         if len(changed) >= _ENOUGH:
-            looking.beyond()  # other processes look at more
+            mark_incomplete()  # other processes look at more
             self._start(changed, jobs)
 
     def _start(self, robots: Sequence[RobotConfig], jobs: int) -> None:

@@ -9,15 +9,15 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TypeAlias
 
-from urdfsync import looking
 from urdfsync.classfiles import modelica_files, related
 from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.dependencies import NO_STAT, Stat, is_file, list_folder, read_file, read_stat, stat_of
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.files import Tree, digest, placed, text_digest
 from urdfsync.plan import FileRecord, Found
 
-Hashed: TypeAlias = tuple[looking.Facts, str, str]
+Hashed: TypeAlias = tuple[Stat, str, str]
 """What the system says of a file, and the SHA-256 (hex) of its bytes and of its text, line endings normalised."""
 Hashes: TypeAlias = Mapping[str, Hashed | None]
 """Files by their absolute paths; None for what is not there."""
@@ -79,18 +79,16 @@ class Disk:
         A file keeps its known hash if the system says the same of it as then; else it is looked at.
         """
         is_there = self._home(folder) is not None
-        with looking.within(folder) as status:
-            for key, record in entries:
-                name = key.rpartition("/")[2]
-                place = f"{folder}{os.sep}{name}"
-                hashed = self._known.get(place)
-                seen = status(name) if is_there and hashed is not None else None
-                if hashed is None or seen is None or looking.facts_of(seen) != hashed[0]:
-                    hashed = self.look(place)
-                else:
-                    self.hashed.setdefault(place, hashed)
-                if hashed is not None and record.base == (hashed[1] if record.role is Role.IMPORT else hashed[2]):
-                    yield key, record
+        for key, record in entries:
+            place = f"{folder}{os.sep}{key.rpartition('/')[2]}"
+            hashed = self._known.get(place)
+            seen = read_stat(place) if is_there and hashed is not None else None
+            if hashed is None or seen is None or stat_of(seen) != hashed[0]:
+                hashed = self.look(place)
+            else:
+                self.hashed.setdefault(place, hashed)
+            if hashed is not None and record.base == (hashed[1] if record.role is Role.IMPORT else hashed[2]):
+                yield key, record
 
     def _is_folder(self, key: str) -> bool:
         """Whether the class of a file that is not there has a folder of its own."""
@@ -100,12 +98,12 @@ class Disk:
         tree = self._tree(place)
         if tree is not None and not tree.check_folder(place.rpartition(os.sep)[0]):
             return False
-        return looking.is_file(f"{place.removesuffix('.mo')}{os.sep}package.mo")
+        return is_file(f"{place.removesuffix('.mo')}{os.sep}package.mo")
 
     def text(self, key: str) -> str | None:
         """The file as text; bytes that are not UTF-8 survive, see `encode`."""
         content = self.read(key)
-        hashed = None if content is None else (looking.NO_FACTS, digest(content), text_digest(content))
+        hashed = None if content is None else (NO_STAT, digest(content), text_digest(content))
         self.hashed.setdefault(self._place(key), hashed)
         return None if content is None else content.decode(errors="surrogateescape")
 
@@ -122,12 +120,12 @@ class Disk:
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Whether the folder of a `package.mo` has other classes than it, and than those of the files in `gone`."""
         folder = self.path(key).parent
-        for path in map(folder.joinpath, looking.names(folder)):
-            single = path.suffix == ".mo" and path.name != "package.mo" and looking.is_file(path)
+        for path in map(folder.joinpath, list_folder(folder)):
+            single = path.suffix == ".mo" and path.name != "package.mo" and is_file(path)
             whole = path / "package.mo"
             if single and self.key(path) not in gone:
                 return True
-            if not single and looking.is_file(whole) and self.key(whole) not in gone:
+            if not single and is_file(whole) and self.key(whole) not in gone:
                 return True
         return False
 
@@ -151,14 +149,14 @@ class Disk:
         for path in map(Path, modelica_files(self._output)):
             if packages.isdisjoint(path.parents):
                 with contextlib.suppress(OSError):
-                    found[path] = looking.content(path)
+                    found[path] = read_file(path)
         return related(found, [package.name for package in packages])
 
     def look(self, place: str) -> Hashed | None:
         """What is at an absolute path without detours; None for nothing. Raises OutputError as `read`."""
         tree, hashed = self._home(place.rpartition(os.sep)[0]), None
         if tree and (status := tree.status(place)):
-            facts, hashed = looking.facts_of(status), self._known.get(place)
+            facts, hashed = stat_of(status), self._known.get(place)
             if hashed is None or hashed[0] != facts:
                 hashed = self._hashed(tree, place, facts)
         self.hashed.setdefault(place, hashed)
@@ -171,7 +169,7 @@ class Disk:
             self._homes[folder] = tree if tree and tree.check_folder(folder) else None
         return self._homes[folder]
 
-    def _hashed(self, tree: Tree, place: str, facts: looking.Facts) -> Hashed | None:
+    def _hashed(self, tree: Tree, place: str, facts: Stat) -> Hashed | None:
         content = tree.content(place)
         if content is None:
             return None

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import msgspec
 
+from urdfsync.dependencies import NO_STAT
 from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Reading, Snapshot, Target
-from urdfsync.looking import NO_FACTS
 from urdfsync.manifest import Tables
 from urdfsync.modelfile import Elements
 from urdfsync.planning import generate
@@ -102,7 +102,7 @@ class Memory:
         """
         before = self.seen(robot)
         new = {path: entry for path, entry in seen.items() if entry and before.get(path) is not entry}
-        doubtful = {path: (NO_FACTS, *entry[1:]) for path, entry in new.items() if entry[0] != NO_FACTS}
+        doubtful = {path: (NO_STAT, *entry[1:]) for path, entry in new.items() if entry[0] != NO_STAT}
         if len(doubtful) > _FEW and (clock := read_clock()):
             passed = stamp.passed(begin)
             doubtful = {path: entry for path, entry in doubtful.items() if not clock.trusts(new[path][0], passed)}
@@ -122,7 +122,7 @@ class Memory:
         """Read all files again, whatever the system says of them."""
         self._shipped.clear()
         for robot, seen in self._seen.items():
-            self._seen[robot] = {path: entry and (NO_FACTS, *entry[1:]) for path, entry in seen.items()}
+            self._seen[robot] = {path: entry and (NO_STAT, *entry[1:]) for path, entry in seen.items()}
 
     def note_state(self, contents: tuple[bytes, bytes], state: State) -> None:
         """A build is about to write a state, which is what will be loaded from these contents."""

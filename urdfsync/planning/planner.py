@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import msgspec
 
-from urdfsync import looking, profiling
+from urdfsync import profiling
 from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.dependencies import NO_STAT, mark_incomplete
 from urdfsync.manifest import Manifest
 from urdfsync.plan import CONFLICTS, State, Wanted
 from urdfsync.planning import imports
@@ -28,7 +29,7 @@ def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
         situation = Situation(config, robot, request)
         work = _if_unchanged(situation)
     if work is None:
-        looking.beyond()  # what is read and rendered now is not taken down
+        mark_incomplete()  # what is read and rendered now is not taken down
         from urdfsync.planning.renewal import Renewal
 
         work = Renewal(situation).work()
@@ -52,7 +53,7 @@ def _remember(situation: Situation, work: Work, begin: tuple[int, int]) -> None:
     if situation.request.memory:
         seen = dict(situation.disk.hashed)
         for path, own in work.witness.items():
-            seen[str(path)] = None if own is None else (looking.NO_FACTS, own, own)  # of the state, bytes alone count
+            seen[str(path)] = None if own is None else (NO_STAT, own, own)  # of the state, bytes alone count
         memory, name = situation.request.memory, situation.robot.name
         memory.note_look(name, seen, begin, lambda: trust.clock(situation.store.folder))
 

@@ -10,8 +10,8 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
+from urdfsync.dependencies import NO_STAT, stat_of
 from urdfsync.diagnostics import Diagnostic, OutputError
-from urdfsync.looking import NO_FACTS, facts_of
 from urdfsync.planning.disk import Disk, Hashed, Hashes
 from urdfsync.planning.memory import Memory
 from urdfsync.stamping import stamp, trust
@@ -19,7 +19,7 @@ from urdfsync.watching.samples import Sample, Sampler, alike
 from urdfsync.watching.scope import Scope, scope
 from urdfsync.watching.settling import Settler, Times
 
-_IN_THE_WAY: Hashed = (NO_FACTS, "", "")
+_IN_THE_WAY: Hashed = (NO_STAT, "", "")
 """An output that is no file, or can't be read."""
 
 
@@ -183,7 +183,7 @@ class Robots:
 def _look(disk: Disk, path: str, seen: Hashed | None) -> Hashed | None:
     """An output as plans see it; there are thousands, and nearly all are as they were seen."""
     try:
-        return seen if seen and facts_of(os.lstat(path)) == seen[0] else disk.look(path)
+        return seen if seen and stat_of(os.lstat(path)) == seen[0] else disk.look(path)
     except FileNotFoundError:
         return None
     except (OutputError, OSError):
