@@ -12,7 +12,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import cli, config, looking
+from urdfsync import cli, config, dependencies
 from urdfsync.checking import afterbuild, memory
 from urdfsync.checking.compilers.compiler import CompilerError
 from urdfsync.checking.libraries.library import LibraryError
@@ -452,7 +452,7 @@ def test_what_is_resolved_is_built_and_checked(
 def test_what_a_check_said_is_never_said_again_without_a_look(project: Path) -> None:
     loaded = config.load(Path("urdfsync.toml"))
     run(Examiner(RIGHT))
-    with looking.taken_down() as looks:
+    with dependencies.record_dependencies() as looks:
         assert [result.in_step for result in building.built(loaded, loaded.robots, BuildOptions(wait=1))] == [True]
     assert not looks.complete
 

@@ -13,13 +13,13 @@ import msgspec
 import pytest
 
 from urdfsync import config
+from urdfsync.dependencies import NO_STAT
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.plan import Plan, plan_robot
-from urdfsync.looking import NO_FACTS
 from urdfsync.stamping import stamp, trust
 
 EXAMPLES = Path(__file__).parents[1] / "rcnetwork/examples"
@@ -148,7 +148,7 @@ def _built(project: Path, memory: Cache) -> bool:
 
 def _trusted(memory: Cache) -> list[str]:
     """The files of which the memory believes what the system says."""
-    return [path for path, entry in memory.states("ladder").items() if entry and entry[0] != NO_FACTS]
+    return [path for path, entry in memory.states("ladder").items() if entry and entry[0] != NO_STAT]
 
 
 def _follow(project: Path, random: Random, edits: Iterator[Edit]) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from urdfsync import looking
+from urdfsync import dependencies
 from urdfsync.config import Config, RobotConfig
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -16,7 +16,7 @@ def built(config: Config, robots: Sequence[RobotConfig], request: BuildOptions) 
     results = build(config, robots, request)
     if request.dry or not any(robot.checking for robot in robots):
         return results
-    looking.beyond()  # checks look at more
+    dependencies.mark_incomplete()  # checks look at more
     from urdfsync.checking import afterbuild  # most configurations have no use for it
 
     return afterbuild.checked(config, request, results)

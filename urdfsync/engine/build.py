@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync import looking, machine, profiling
+from urdfsync import dependencies, machine, profiling
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.engine import orphans
@@ -96,7 +96,7 @@ class _Builder:
                 if not self._options.dry or self._is_current(plan):
                     return plan
                 continue
-            looking.beyond()  # what was read is about to change
+            dependencies.mark_incomplete()  # what was read is about to change
             with profiling.stage("waiting"):
                 self._lock.acquire(waiting=self._wait)
             if not self._is_current(plan):

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Hashable
 from typing import Any, TypeVar
 
+from urdfsync.dependencies import NO_STAT
 from urdfsync.engine.package_files import FileState, FileStates
-from urdfsync.looking import NO_FACTS
 from urdfsync.stamping import stamp, trust
 
 _FEW = 4
@@ -56,7 +56,7 @@ class Cache:
         """Keep what a plan that began at `begin` saw. Files that changed shortly before are hashed again next time."""
         before = self.states(robot)
         new = {path: state for path, state in states.items() if state and before.get(path) is not state}
-        racy = {path: state for path, state in new.items() if state.stat != NO_FACTS}
+        racy = {path: state for path, state in new.items() if state.stat != NO_STAT}
         if len(racy) > _FEW and (clock := read_clock()):
             passed = stamp.passed(begin)
             racy = {path: state for path, state in racy.items() if not clock.trusts(state.stat, passed)}
@@ -80,4 +80,4 @@ class Cache:
 
 
 def _without_stat(state: FileState) -> FileState:
-    return state._replace(stat=NO_FACTS)
+    return state._replace(stat=NO_STAT)

@@ -11,7 +11,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync import looking
+from urdfsync.dependencies import is_file, read_file
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
 from urdfsync.engine import ros_packages as packages
@@ -144,7 +144,7 @@ def _find(dependency: Dependency) -> tuple[Path, bytes] | None:
     for path in dependency.candidates:
         if _is_file(path):
             try:
-                return path, looking.content(path)
+                return path, read_file(path)
             except OSError:
                 continue
     return None
@@ -153,7 +153,7 @@ def _find(dependency: Dependency) -> tuple[Path, bytes] | None:
 def _is_file(path: Path) -> bool:
     """Whether a file is there, as far as that can be told: a folder above it may not let us in."""
     try:
-        return looking.is_file(path)
+        return is_file(path)
     except OSError:
         return False
 

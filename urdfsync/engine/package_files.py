@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
-from urdfsync import looking
+from urdfsync import dependencies
 from urdfsync.classfiles import modelica_files, related
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import OutputError
@@ -20,7 +20,7 @@ from urdfsync.files import Tree, digest, text_digest
 class FileState(NamedTuple):
     """A file at the moment of reading."""
 
-    stat: looking.Facts
+    stat: dependencies.Stat
     sha256: str
     """Hex, of the bytes."""
     text_sha256: str
@@ -69,7 +69,7 @@ class PackageFiles:
         if content is None:
             self.states.setdefault(str(self.path(key)), None)
             return None
-        self.states.setdefault(str(self.path(key)), _state(looking.NO_FACTS, content))
+        self.states.setdefault(str(self.path(key)), _state(dependencies.NO_STAT, content))
         return content.decode(errors="surrogateescape")
 
     def any_text(self, key: str) -> str:
@@ -85,7 +85,7 @@ class PackageFiles:
             return self.states[path]
         tree, state = self._tree(path), None
         if tree and tree.check_folder(path.rpartition(os.sep)[0]) and (status := tree.status(path)):
-            stat, state = looking.facts_of(status), self._known.get(path)
+            stat, state = dependencies.stat_of(status), self._known.get(path)
             if state is None or state.stat != stat:
                 content = tree.content(path)
                 state = None if content is None else _state(stat, content)
@@ -112,12 +112,12 @@ class PackageFiles:
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Return whether the folder of a `package.mo` holds classes other than it and those of the files in `gone`."""
         folder = self.path(key).parent
-        for path in map(folder.joinpath, looking.names(folder)):
+        for path in map(folder.joinpath, dependencies.list_folder(folder)):
             package = path / "package.mo"
-            if path.suffix == ".mo" and path.name != "package.mo" and looking.is_file(path):
+            if path.suffix == ".mo" and path.name != "package.mo" and dependencies.is_file(path):
                 if self.key(path) not in gone:
                     return True
-            elif looking.is_file(package) and self.key(package) not in gone:
+            elif dependencies.is_file(package) and self.key(package) not in gone:
                 return True
         return False
 
@@ -134,7 +134,7 @@ class PackageFiles:
         for path in map(Path, modelica_files(self._output)):
             if packages.isdisjoint(path.parents):
                 with contextlib.suppress(OSError):
-                    found[path] = looking.content(path)
+                    found[path] = dependencies.read_file(path)
         return related(found, [package.name for package in packages])
 
     def _is_class_folder(self, key: str) -> bool:
@@ -145,13 +145,13 @@ class PackageFiles:
         tree = self._tree(path)
         if tree is not None and not tree.check_folder(path.rpartition(os.sep)[0]):
             return False
-        return looking.is_file(f"{path.removesuffix('.mo')}{os.sep}package.mo")
+        return dependencies.is_file(f"{path.removesuffix('.mo')}{os.sep}package.mo")
 
     def _tree(self, path: str) -> Tree | None:
         return next((tree for tree in self._trees if tree.covers(path)), None)
 
 
-def _state(stat: looking.Facts, content: bytes) -> FileState:
+def _state(stat: dependencies.Stat, content: bytes) -> FileState:
     sha256 = digest(content)
     return FileState(stat, sha256, text_digest(content) if b"\r" in content else sha256)
 

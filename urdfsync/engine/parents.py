@@ -12,8 +12,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import looking
 from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.dependencies import is_file, is_folder, read_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.modelica.names import LIBRARY, within
 
@@ -44,10 +44,10 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
     for depth in range(1, len(parts) + 1):
         folder, name = robot.output.joinpath(*parts[:depth]), ".".join(parts[:depth])
         single = folder.with_name(f"{folder.name}.mo")
-        if looking.is_file(single):
+        if is_file(single):
             message = f"package `{name}` is the single file {shown(single)}; it has to be a folder with a package.mo"
             raise OutputError(_problem("package-is-file", message, "package", robot, file, "convert it, or move it"))
-        if depth == len(parts) or looking.is_file(folder / "package.mo"):
+        if depth == len(parts) or is_file(folder / "package.mo"):
             continue
         if not robot.create_parents:
             message = f"the parent package `{name}` does not exist in {shown(robot.output)}"
@@ -67,12 +67,12 @@ def files(robot: RobotConfig) -> Iterator[str]:
 
 def _is_ordered(package: Path, created: Mapping[Path, bytes]) -> bool:
     """Whether a package has a `package.order`, or gets one because urdfsync makes the package."""
-    return package / "package.mo" in created or looking.is_file(package / "package.order")
+    return package / "package.mo" in created or is_file(package / "package.order")
 
 
 def _check_library(robot: RobotConfig, parts: Sequence[str], file: str) -> None:
     """Only the library's own output folder may hold a package of its name: it would hide the library from tools."""
-    if parts[0] == LIBRARY and not looking.is_file(robot.output / LIBRARY / "package.mo"):
+    if parts[0] == LIBRARY and not is_file(robot.output / LIBRARY / "package.mo"):
         message = f"`{LIBRARY}` is the library that models need; a package of that name would hide it"
         hint = f"choose another top-level package than `{LIBRARY}`"
         raise OutputError(_problem("modelica-name", message, "package", robot, file, hint))
@@ -80,8 +80,8 @@ def _check_library(robot: RobotConfig, parts: Sequence[str], file: str) -> None:
 
 def _check_output(config: Config, robot: RobotConfig, file: str) -> None:
     output = robot.output
-    if looking.is_folder(output):
-        if looking.is_file(output / "package.mo"):
+    if is_folder(output):
+        if is_file(output / "package.mo"):
             message = f"the output folder {shown(output)} is a Modelica package itself"
             hint = "name the folder above it as output, and the package with its full name"
             raise OutputError(_problem("output-is-package", message, "output", robot, file, hint))
@@ -99,9 +99,9 @@ def _check_output(config: Config, robot: RobotConfig, file: str) -> None:
 def _check_uses(robot: RobotConfig, parts: Sequence[str], uses: Sequence[tuple[str, str]]) -> Iterator[Diagnostic]:
     """A warning if the user's top-level package does not say which libraries it needs now."""
     top = robot.output / parts[0] / "package.mo"
-    if len(parts) == 1 or not looking.is_file(top):
+    if len(parts) == 1 or not is_file(top):
         return
-    text = looking.content(top).decode(errors="replace")
+    text = read_file(top).decode(errors="replace")
     missing = [use for use in uses if use[0] != parts[0] and not re.search(rf"\b{use[0]}\s*\(\s*version", text)]
     if missing:
         message = f"package `{parts[0]}` does not say that it needs {' and '.join(name for name, _ in missing)}"

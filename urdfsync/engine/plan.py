@@ -9,7 +9,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import looking, manifest, profiling
+from urdfsync import dependencies, manifest, profiling
 from urdfsync.changes import Changes
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -58,7 +58,7 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
         inputs = inspect(config, robot, options)
         plan = _plan_if_current(inputs)
     if plan is None:
-        looking.beyond()  # what is read from here on is not recorded as a dependency of the answer
+        dependencies.mark_incomplete()  # what is read from here on is not recorded as a dependency of the answer
         plan = _plan_generation(inputs, generate_robot(inputs))
     _note_states(inputs, plan, begin)
     return plan
@@ -194,5 +194,5 @@ def _note_states(inputs: Inputs, plan: Plan, begin: tuple[int, int]) -> None:
         return
     states = dict(inputs.files.states)
     for path, sha256 in plan.witness.items():  # of the recorded state, the bytes alone count
-        states[str(path)] = None if sha256 is None else FileState(looking.NO_FACTS, sha256, sha256)
+        states[str(path)] = None if sha256 is None else FileState(dependencies.NO_STAT, sha256, sha256)
     cache.note_states(inputs.robot.name, states, begin, lambda: trust.clock(inputs.store.folder))

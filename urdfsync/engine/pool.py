@@ -18,7 +18,7 @@ from typing import Self, TypeAlias
 
 import msgspec
 
-from urdfsync import looking, machine, profiling
+from urdfsync import dependencies, machine, profiling
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, no_progress
@@ -84,7 +84,7 @@ class Pool:
                 self._prefetched[robot.name] = plan
         if len(stale) < LEAST_STALE:
             return
-        looking.beyond()  # what workers read is not recorded as a dependency of the answer
+        dependencies.mark_incomplete()  # what workers read is not recorded as a dependency of the answer
         # not a plain fork: the thread of a progress bar may hold a lock at that moment
         method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
         workers = min(self._options.jobs or machine.cores(), len(stale))

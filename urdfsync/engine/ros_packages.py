@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from urdfsync import looking
+from urdfsync.dependencies import depend_on, file_type, is_file, list_folder, read_file
 
 _NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 _IGNORED = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
@@ -41,7 +41,7 @@ def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:
     for entry in filter(None, environment.get("MODELICAPATH", "").split(os.pathsep)):
         folder = Path(entry).absolute()
         try:
-            names = looking.names(folder)
+            names = list_folder(folder)
         except OSError:  # it is not there, or can't be read: that may change
             continue
         for name in sorted(names, key=_precedence):
@@ -58,7 +58,7 @@ def _precedence(name: str) -> tuple[bool, list[int], str]:
 
 def _is_file(path: Path) -> bool:
     try:
-        return looking.is_file(path)
+        return is_file(path)
     except OSError:
         return False  # a folder above it may not let us in
 
@@ -66,9 +66,9 @@ def _is_file(path: Path) -> bool:
 def _below(top: Path) -> Iterator[tuple[str, Path]]:
     for current, folders, files in os.walk(top, onerror=_passed_over):
         path = Path(current)
-        looking.rests_on(path)
+        depend_on(path)
         for mark in _MARKS.intersection(folders):
-            looking.kind(path / mark)  # a link may lead to a file later
+            file_type(path / mark)  # a link may lead to a file later
         if _IGNORED.intersection(files):
             folders.clear()
         elif "package.xml" in files:
@@ -82,13 +82,13 @@ def _below(top: Path) -> Iterator[tuple[str, Path]]:
 
 def _passed_over(error: OSError) -> None:
     """A folder is not there, or can't be read: that may change."""
-    looking.rests_on(error.filename)
+    depend_on(error.filename)
 
 
 def _package_name(folder: Path) -> str | None:
     file = folder / "package.xml"
     try:
-        match = _NAME.search(looking.content(file)) if looking.is_file(file) else None
+        match = _NAME.search(read_file(file)) if is_file(file) else None
     except OSError:
         return None
     return match[1].decode(errors="replace") if match else None

@@ -9,8 +9,9 @@ from typing import Any
 
 import msgspec
 
-from urdfsync import looking, profiling
+from urdfsync import profiling
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
+from urdfsync.dependencies import is_folder, read_file
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Reading, Snapshot, Templates
 from urdfsync.engine.cache import Cache
@@ -24,7 +25,7 @@ def read_source(config: Config, robot: RobotConfig) -> bytes:
     """The content of the robot's source. Raises SourceError at the line of the configuration that names it."""
     try:
         if stat.S_ISREG(robot.source.stat().st_mode):
-            return looking.content(robot.source)
+            return read_file(robot.source)
         reason = f"is {kind_of(robot.source.stat().st_mode)}"
     except OSError as error:
         reason = "does not exist" if isinstance(error, FileNotFoundError) else f"can't be read: {error.strerror}"
@@ -38,7 +39,7 @@ def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
     """Return the robot's templates: those in its own folder hide the domain's. Raises ConfigError for a bad folder."""
     folders = [robot.templates] if robot.templates else []
     for folder in folders:
-        if not looking.is_folder(folder):
+        if not is_folder(folder):
             message = f"robot `{robot.name}`: the template folder {shown(folder)} does not exist"
             line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line, hint=hint))

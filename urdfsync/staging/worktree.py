@@ -9,8 +9,8 @@ import os
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import looking
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
+from urdfsync.dependencies import mark_incomplete
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Snapshot
 from urdfsync.engine.actions import DELETES, Action, Kind
@@ -95,7 +95,7 @@ class Worktree:
         paths = {file: path for file in _sources(robot) if (path := self.index.path(file)) is not None}
         untracked = {file: path for file, path in paths.items() if not self.index.tracks(path) and file.is_file()}
         if untracked:
-            looking.beyond()  # git decides
+            mark_incomplete()  # git decides
         ignored = self.index.ignored(sorted(set(untracked.values()))) if untracked else set()
         return [file for file, path in untracked.items() if path not in ignored]
 
@@ -144,7 +144,7 @@ def _sources(robot: RobotConfig) -> list[Path]:
     """Source and templates, whatever git makes of them."""
     files = [robot.source, Path(os.path.realpath(robot.source))]
     if files[0] != files[1]:
-        looking.beyond()  # nobody takes down where links lead to
+        mark_incomplete()  # nobody takes down where links lead to
     if robot.templates is not None and robot.templates.is_dir():
         files += [path for path in sorted(robot.templates.rglob("*")) if not path.name.startswith(".")]
     return files

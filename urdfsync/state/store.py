@@ -8,8 +8,9 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync import looking, manifest, modelfile
+from urdfsync import manifest, modelfile
 from urdfsync.config import STATE_FOLDER
+from urdfsync.dependencies import is_file, list_folder
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree, digest
 from urdfsync.manifest import Manifest
@@ -52,7 +53,7 @@ class Store:
     def names(self) -> list[str]:
         """The robots that have a state, by their names."""
         try:
-            files = looking.names(self.folder / "robots")
+            files = list_folder(self.folder / "robots")
         except OSError:  # there is none; that it can't be read is what `load` says
             return []
         return sorted(name.removesuffix(".toml") for name in files if name.endswith(".toml"))
@@ -91,7 +92,7 @@ class Store:
 
     def has_bases(self, robot: str) -> bool:
         """Whether the texts that were written last are kept."""
-        return looking.is_file(self._base_file(robot))
+        return is_file(self._base_file(robot))
 
     def bases(self, robot: str) -> Bases:
         """The texts that were written last, as far as they are kept."""

@@ -10,16 +10,16 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
+from urdfsync.dependencies import NO_STAT, stat_of
 from urdfsync.diagnostics import Diagnostic, OutputError
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.package_files import FileState, FileStates, PackageFiles
-from urdfsync.looking import NO_FACTS, facts_of
 from urdfsync.stamping import stamp, trust
 from urdfsync.watching.samples import Sample, Sampler, alike
 from urdfsync.watching.scope import Scope, scope
 from urdfsync.watching.settling import Settler, Times
 
-_IN_THE_WAY: FileState = FileState(NO_FACTS, "", "")
+_IN_THE_WAY: FileState = FileState(NO_STAT, "", "")
 """An output that is no file, or can't be read."""
 
 
@@ -183,7 +183,7 @@ class Robots:
 def _look(disk: PackageFiles, path: str, seen: FileState | None) -> FileState | None:
     """An output as plans see it; there are thousands, and nearly all are as they were seen."""
     try:
-        return seen if seen and facts_of(os.lstat(path)) == seen[0] else disk.state(path)
+        return seen if seen and stat_of(os.lstat(path)) == seen[0] else disk.state(path)
     except FileNotFoundError:
         return None
     except (OutputError, OSError):

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from urdfsync import cli, looking, registry
+from urdfsync import cli, dependencies, registry
 
 READS = ("open", "listdir", "scandir", "readlink")
 """Calls after which the content matters, not only what is there."""
@@ -65,11 +65,11 @@ def test_all_that_a_command_without_work_asks_for_is_taken_down(
     """Also where folders to be searched are missing, or may not be read."""
     monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join([str(folder / "later"), str(folder / "closed")]))
     (folder / "closed").mkdir(mode=0)
-    with looking.taken_down() as looks:
+    with dependencies.record_dependencies() as looks:
         calls = asked(lambda: cli._main(command))
     assert looks.complete
-    contents = set(_absolute(looks.contents[False]) | _absolute(looks.contents[True]))
-    known = contents | _absolute(looks.kinds[False]) | _absolute(looks.kinds[True])
+    contents = set(_absolute(looks.stats[False]) | _absolute(looks.stats[True]))
+    known = contents | _absolute(looks.types[False]) | _absolute(looks.types[True])
     calls = {(name, path) for name, path in calls if Path(path).is_relative_to(folder.parent)}
     assert len(calls) > 100, "the calls are seen at all"
     absent = {path for path in known - contents if not os.path.lexists(path)}  # there is nothing to read
@@ -85,7 +85,7 @@ def _absolute(paths: dict[str, Any]) -> set[str]:
 
 
 def test_what_is_read_and_rendered_is_not_taken_down_and_that_is_known(folder: Path) -> None:
-    with looking.taken_down() as looks:
+    with dependencies.record_dependencies() as looks:
         assert cli._main(["build", "--full", "--quiet"]) == 0
     assert not looks.complete
 
@@ -93,85 +93,58 @@ def test_what_is_read_and_rendered_is_not_taken_down_and_that_is_known(folder: P
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_neither_is_what_is_written(folder: Path, jobs: int) -> None:
     (folder / "modelica/Leg/Leg.mo").unlink()
-    with looking.taken_down() as looks:
+    with dependencies.record_dependencies() as looks:
         assert cli._main(["build", "--quiet", "--jobs", str(jobs)]) == 0
     assert not looks.complete
 
 
 def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_site: Path) -> None:
-    with looking.taken_down() as looks:
+    with dependencies.record_dependencies() as looks:
         registry.domain("rcnetwork")
-    assert str(rc_site) in looks.contents[True]
+    assert str(rc_site) in looks.stats[True]
 
 
 @pytest.fixture
-def looks() -> Iterator[looking.Looks]:
-    with looking.taken_down() as found:
+def looks() -> Iterator[dependencies.Dependencies]:
+    with dependencies.record_dependencies() as found:
         yield found
 
 
 def test_nothing_is_taken_down_without_need(tmp_path: Path) -> None:
-    with looking.taken_down() as looks:
+    with dependencies.record_dependencies() as looks:
         pass
-    assert not looking.is_file(tmp_path / "a")
-    assert looks.kinds == ({}, {})
+    assert not dependencies.is_file(tmp_path / "a")
+    assert looks.types == ({}, {})
 
 
-def test_a_file_that_changes_meanwhile(looks: looking.Looks, tmp_path: Path) -> None:
+def test_a_file_that_changes_meanwhile(looks: dependencies.Dependencies, tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.write_text("a")
-    assert looking.content(file) == b"a"
+    assert dependencies.read_file(file) == b"a"
     assert looks.complete
     file.write_text("ab")
-    assert looking.content(file) == b"ab"
+    assert dependencies.read_file(file) == b"ab"
     assert not looks.complete
 
 
-def test_a_file_that_comes_meanwhile(looks: looking.Looks, tmp_path: Path) -> None:
-    assert not looking.is_file(tmp_path / "file")
+def test_a_file_that_comes_meanwhile(looks: dependencies.Dependencies, tmp_path: Path) -> None:
+    assert not dependencies.is_file(tmp_path / "file")
     (tmp_path / "file").write_text("a")
-    assert looking.is_file(tmp_path / "file")
+    assert dependencies.is_file(tmp_path / "file")
     assert not looks.complete
 
 
-def test_links_are_seen_as_what_they_are_and_as_what_they_lead_to(looks: looking.Looks, tmp_path: Path) -> None:
+def test_a_link_and_its_target_are_both_recorded(looks: dependencies.Dependencies, tmp_path: Path) -> None:
     target, link = tmp_path / "file", tmp_path / "link"
     target.write_text("a")
     link.symlink_to(target)
-    assert looking.content(link) == b"a"
-    assert looking.status(link) is not None
-    assert looks.contents[True][str(link)] == looking.facts_of(target.stat())
-    assert looks.contents[False][str(link)] == looking.facts_of(link.lstat())
+    assert dependencies.read_file(link) == b"a"
+    assert dependencies.read_stat(link) is not None
+    assert looks.stats[True][str(link)] == dependencies.stat_of(target.stat())
+    assert looks.stats[False][str(link)] == dependencies.stat_of(link.lstat())
 
 
-def test_what_can_not_be_told_is_in_doubt(looks: looking.Looks, tmp_path: Path) -> None:
+def test_what_can_not_be_told_is_in_doubt(looks: dependencies.Dependencies, tmp_path: Path) -> None:
     with pytest.raises(OSError, match="too long"):
-        looking.is_file(tmp_path / ("a" * 5000))
+        dependencies.is_file(tmp_path / ("a" * 5000))
     assert not looks.complete
-
-
-@pytest.mark.parametrize("has_descriptors", [True, False])
-def test_files_of_one_folder_are_seen_as_by_their_paths(
-    has_descriptors: bool, looks: looking.Looks, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "file").write_text("a")
-    (tmp_path / "link").symlink_to("file")
-    (tmp_path / "folder").mkdir()
-    if not has_descriptors:
-        monkeypatch.setattr(looking, "_FOLDER", os.O_WRONLY)  # no folder can be opened so
-    with looking.within(str(tmp_path)) as status:
-        found = {name: status(name) for name in ("file", "link", "folder", "nothing")}
-    assert found == {name: looking.status(tmp_path / name) for name in found}
-    assert found["nothing"] is None
-    assert looks.contents[False].keys() == {str(tmp_path / name) for name in ("file", "link", "folder")}
-    assert looks.kinds[False] == {str(tmp_path / "nothing"): 0}
-    assert looks.complete
-
-
-def test_a_folder_that_is_not_looked_into_is_not_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    opened: list[object] = []
-    with monkeypatch.context() as patch:
-        patch.setattr(os, "open", lambda *arguments: opened.append(arguments))
-        with looking.within(str(tmp_path)):
-            pass
-    assert opened == []
