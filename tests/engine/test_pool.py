@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 from urdfsync import config
+from urdfsync.diagnostics import ConfigError
 from urdfsync.engine import pool
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -121,3 +122,30 @@ def test_the_work_is_told_of(robots: Path, monkeypatch: pytest.MonkeyPatch) -> N
     loaded = config.load(Path("urdfsync.toml"))
     list(build(loaded, loaded.robots, BuildOptions(jobs=2, progress=tell)))
     assert {total for what, _, total in told if what == "reading"} == {COUNT}
+
+
+@pytest.mark.slow
+def test_a_cluster_plans_what_this_process_writes(robots: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+    from distributed import LocalCluster
+
+    scratch = tmp_path_factory.mktemp("dask")
+    with LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None, local_directory=str(scratch)
+    ) as cluster:
+        loaded = config.load(Path("urdfsync.toml"))
+        together = list(build(loaded, loaded.robots, BuildOptions(executor=cluster.scheduler_address)))
+    assert [one.failed for one in together] == [number == 2 for number in range(COUNT)]
+    assert together[2].diagnostics == run(1)[2].diagnostics
+    result = files(robots)
+    for name in ("modelica", ".urdfsync"):
+        for path in sorted((robots / name).rglob("*"), reverse=True):
+            path.rmdir() if path.is_dir() else path.unlink()
+    run(1)
+    assert files(robots / "modelica").items() <= {(k.removeprefix("modelica/"), v) for k, v in result.items()}
+
+
+def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pool, "_PATIENCE", 1)
+    loaded = config.load(Path("urdfsync.toml"))
+    with pytest.raises(ConfigError, match="no Dask scheduler answers"):
+        list(build(loaded, loaded.robots, BuildOptions(executor="tcp://127.0.0.1:9")))

@@ -39,7 +39,7 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
     with contextlib.ExitStack() as stack:
         lock = stack.enter_context(Lock(config.root / STATE_FOLDER / "lock", options.wait, shown))
         pool = None
-        if len(robots) > 1 and (options.jobs or machine.cores()) > 1:
+        if options.executor or (len(robots) > 1 and (options.jobs or machine.cores()) > 1):
             from urdfsync.engine.pool import Pool  # multiprocessing takes 15 ms to import
 
             pool = stack.enter_context(Pool(config, robots, options))

@@ -38,6 +38,8 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """The user's decisions about files in conflict, by their path in the manifest."""
     jobs: int | None = None
     """Processes that may work at once; None for one per core."""
+    executor: str = ""
+    """Address of a Dask scheduler whose workers plan robots; empty for processes of this machine."""
     progress: Progress = no_progress
     cache: Cache | None = None
     """What a process that builds again and again keeps between builds."""

@@ -1,4 +1,8 @@
-"""Plans many robots at once in worker processes, if that saves time."""
+"""Plans many robots at once, in worker processes of this machine or of a Dask cluster.
+
+Workers of a cluster see the project at the same path, such as on a shared file system, and have the same urdfsync. Only
+this process writes.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +10,8 @@ import contextlib
 import os
 from collections import deque
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Future, wait
-from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor
+from concurrent.futures import Executor, Future, wait
+from concurrent.futures.process import ProcessPoolExecutor
 from multiprocessing import active_children, get_all_start_methods, get_context, parent_process
 from multiprocessing.connection import wait as wait_for
 from pathlib import Path
@@ -20,7 +24,7 @@ import msgspec
 
 from urdfsync import dependencies, machine, profiling
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, no_progress
 from urdfsync.engine.plan import Plan, plan_if_current, plan_robot
 
@@ -28,6 +32,10 @@ LEAST_STALE = 6
 """With fewer stale robots, importing urdfsync in each worker takes longer than it saves."""
 _AHEAD = 3
 """Plans per worker that may be under way or wait to be carried out: each holds the texts of a robot."""
+_CLUSTER_WORKERS = 16
+"""Workers that a cluster is taken to have, unless `--jobs` says otherwise."""
+_PATIENCE = 10
+"""Seconds to wait for a Dask scheduler to answer."""
 _PAUSE = 0.1
 """Seconds between two reports of progress."""
 
@@ -42,7 +50,7 @@ class Pool:
         self._config, self._robots, self._options = config, robots, options
         self._prefetched: dict[str, Plan] = {}
         self._is_started = False
-        self._executor: ProcessPoolExecutor | None = None
+        self._executor: Executor | None = None
         self._futures: dict[str, Future[_Answer]] = {}
         self._waiting: deque[RobotConfig] = deque()
         self._stale = self._most = 0
@@ -58,6 +66,9 @@ class Pool:
         return plan or plan_robot(self._config, robot, self._options)
 
     def __enter__(self) -> Self:
+        """Connect to the cluster, if there is one. Raises ConfigError if it does not answer."""
+        if self._options.executor:
+            self._executor = _cluster(self._options.executor)
         return self
 
     def __exit__(
@@ -68,7 +79,9 @@ class Pool:
         if kind is not None and not issubclass(kind, Exception):
             for child in active_children():  # whoever interrupts does not want to wait
                 child.terminate()
-        self._executor.shutdown(cancel_futures=True)
+        for future in self._futures.values():
+            future.cancel()
+        self._executor.shutdown()
 
     def _start(self) -> None:
         """Find the stale robots, and start workers if they are many."""
@@ -82,42 +95,40 @@ class Pool:
                 stale.append(robot)
             else:
                 self._prefetched[robot.name] = plan
-        if len(stale) < LEAST_STALE:
-            return
+        if self._executor is None:
+            if len(stale) < LEAST_STALE:
+                return
+            workers = min(self._options.jobs or machine.cores(), len(stale))
+            self._executor = _processes(workers)
+        else:
+            workers = self._options.jobs or _CLUSTER_WORKERS
         dependencies.mark_incomplete()  # what workers read is not recorded as a dependency of the answer
-        # not a plain fork: the thread of a progress bar may hold a lock at that moment
-        method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
-        workers = min(self._options.jobs or machine.cores(), len(stale))
-        with _safe_path():
-            self._executor = ProcessPoolExecutor(
-                workers, get_context(method), initializer=_prepare_worker, initargs=(str(Path.cwd()),)
-            )
         self._stale, self._most, self._waiting = len(stale), _AHEAD * workers, deque(stale)
         self._submit()
 
     def _submit(self) -> None:
-        options = msgspec.structs.replace(self._options, progress=no_progress, cache=None)
+        options = msgspec.structs.replace(self._options, progress=no_progress, cache=None, executor="")
         while self._executor is not None and self._waiting and len(self._futures) < self._most:
             robot = self._waiting.popleft()
             with _safe_path():
                 self._futures[robot.name] = self._executor.submit(
-                    _plan, self._config, robot, options, profiling.current() is not None
+                    _plan, str(Path.cwd()), self._config, robot, options, profiling.current() is not None
                 )
 
     @profiling.staged("waiting")
     def _result(self, robot: RobotConfig) -> Plan:
+        future = self._futures.pop(robot.name, None)
+        if future is None:  # its place in the queue was lost with a worker
+            raise _lost_process(robot)
+        while wait([future], _PAUSE).not_done:
+            done = sum(other.done() for other in self._futures.values())
+            left = len(self._waiting) + len(self._futures) + 1
+            self._options.progress("reading", self._stale - left + done, self._stale)
         try:
-            future = self._futures[robot.name]
-            while wait([future], _PAUSE).not_done:
-                done = sum(other.done() for other in self._futures.values())
-                left = len(self._waiting) + len(self._futures)
-                self._options.progress("reading", self._stale - left + done, self._stale)
-            plan, error, diagnostics, measured = self._futures.pop(robot.name).result()
+            plan, error, diagnostics, measured = future.result()
             self._submit()
-        except (BrokenProcessPool, KeyError):
-            message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps for want of memory"
-            hint = "try again with `--jobs 1`"
-            raise OutputError(Diagnostic(Severity.ERROR, "lost-process", message, hint=hint)) from None
+        except Exception as problem:  # `_plan` raises none: the worker is lost, in one of many ways
+            raise _lost_process(robot) from problem
         if measured and (profile := profiling.current()):
             profile.add(measured)
         if plan is None:
@@ -125,7 +136,40 @@ class Pool:
         return plan
 
 
-def _plan(config: Config, robot: RobotConfig, options: BuildOptions, profiled: bool) -> _Answer:
+def _lost_process(robot: RobotConfig) -> OutputError:
+    message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps for want of memory"
+    return OutputError(Diagnostic(Severity.ERROR, "lost-process", message, hint="try again with `--jobs 1`"))
+
+
+def _processes(workers: int) -> Executor:
+    # not a plain fork: the thread of a progress bar may hold a lock at that moment
+    method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
+    with _safe_path():
+        return ProcessPoolExecutor(workers, get_context(method), initializer=_prepare_worker)
+
+
+def _cluster(address: str) -> Executor:
+    """Connect to the Dask scheduler at an address that the user named. Raises ConfigError.
+
+    Its answers are unpickled, so whoever answers at the address is trusted.
+    """
+    try:
+        from distributed import Client  # an extra, and a second to import
+    except ImportError:
+        message, hint = "`--executor` needs Dask, which is not installed", "install urdfsync with the extra `cluster`"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
+    try:
+        executor: Executor = Client(address, timeout=_PATIENCE, set_as_default=False).get_executor()
+    except (OSError, ValueError, TimeoutError) as error:
+        message = f"no Dask scheduler answers at `{address}`: {error or 'time is up'}"
+        hint = "start one with `dask scheduler`, or build without `--executor`"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
+    return executor
+
+
+def _plan(folder: str, config: Config, robot: RobotConfig, options: BuildOptions, profiled: bool) -> _Answer:
+    """Plan in a worker, in the folder that diagnostics name files from."""
+    os.chdir(folder)
     with profiling.measured() if profiled else contextlib.nullcontext() as profile:
         try:
             plan, error, found = plan_robot(config, robot, options), UrdfsyncError, tuple[Diagnostic, ...]()
@@ -152,9 +196,8 @@ def _safe_path() -> Iterator[None]:
             os.environ["PYTHONSAFEPATH"] = before
 
 
-def _prepare_worker(folder: str) -> None:
-    """Work in the same folder as the parent, and end when it ends."""
-    os.chdir(folder)
+def _prepare_worker() -> None:
+    """End when the parent ends, and not with Ctrl-C."""
     signal(SIGINT, SIG_IGN)  # the parent gets it, too, and ends the workers
     parent = parent_process()
 
