@@ -24,7 +24,6 @@ LINK_MODEL = "link/model.mo.jinja"
 LINK_RECORD = "link/record.mo.jinja"
 ROBOT_RECORD = "robot/record.mo.jinja"
 _PARAMETERS = "Parameters"
-_UNLIMITED = {"lower": None, "upper": None, "velocity": None, "effort": None}
 
 
 def artifacts(
@@ -230,7 +229,7 @@ def _joint_names(name: Identifier, package: str, joint: Joint) -> dict[str, Any]
 
 
 def _joint_record(name: Identifier, package: str, joint: Joint) -> dict[str, Any]:
-    return _joint_names(name, package, joint) | {"joint": joint, "limits": joint.limit or _UNLIMITED}
+    return _joint_names(name, package, joint) | {"joint": joint, "limits": joint.limit or records.UNLIMITED}
 
 
 def _joint_model(name: Identifier, package: str, joint: Joint, loses: bool) -> dict[str, Any]:

@@ -45,7 +45,7 @@ def record(robot: Skeleton, **options: Any) -> Mapping[str, Any]:
     files = artifacts(Robot("the robot", robot.links, robot.joints), {}, TARGET, chosen)
     (found,) = (file for file in files if isinstance(file, Artifact) and file.path == "ArmParameters.mo")
     structure = found.data["structure"]
-    return {**found.data, **structure.make(*structure.made_of)}
+    return {**structure.make(*structure.made_of), **found.data}
 
 
 def test_tables_count_from_one_in_canonical_order() -> None:

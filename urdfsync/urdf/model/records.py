@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -10,13 +10,14 @@ import msgspec
 from urdfsync.domain import Import, Piece, Recipe, Target
 from urdfsync.urdf.model import notes, tables
 from urdfsync.urdf.model.connectors import connectors
-from urdfsync.urdf.model.numbers import JointNumbers, joint_numbers
 from urdfsync.urdf.model.stance import standing_height
 from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.robot import Inertial, Joint
-from urdfsync.urdf.skeleton import Motion, Skeleton
+from urdfsync.urdf.robot import Inertial, Joint, JointType, Limit
+from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 
 _VECTORS: Mapping[Motion, str] = {"rotational": "rotationalAxis", "translational": "translationalAxis"}
+UNLIMITED: Mapping[str, None] = {"lower": None, "upper": None, "velocity": None, "effort": None}
+"""Limits of a joint that has none, for the template of its record."""
 
 
 class RecordLink(msgspec.Struct, frozen=True):
@@ -36,9 +37,16 @@ class RecordJoint(msgspec.Struct, frozen=True):
     joint: Joint
 
     @property
-    def numbers(self) -> JointNumbers:
-        """What the record says of it."""
-        return joint_numbers(self.joint)
+    def limits(self) -> Limit | Mapping[str, None]:
+        """Its limits, all of them absent if it has none."""
+        return self.joint.limit or UNLIMITED
+
+
+class TableJoint(msgspec.Struct, frozen=True):
+    """A joint whose numbers the tables refer to."""
+
+    component: str
+    type: JointType
 
 
 class RecordAxis(msgspec.Struct, frozen=True):
@@ -97,12 +105,23 @@ def structure_data(structure: Skeleton) -> dict[str, Any]:
     """What the record says of the structure: its matrices, tables and axes."""
     number = {link.name: k for k, link in enumerate(structure.links, 1)}
     generic = tables.has_tables(structure.joints)
+    moving = tables.moving_joints(structure)
     return {
         "connection_matrix": [(number[joint.parent], number[joint.child]) for joint in structure.joints],
         "moveable_joints": [(k, 1) for k, joint in enumerate(structure.joints, 1) if joint.type != "fixed"],
-        "tables": tables.record_tables(structure) if generic else [],
+        "tables": tables.structure(structure) if generic else None,
+        "links": [structure.link(link.name).component for link in structure.links],
+        "joints": _table_joints(structure, structure.joints),
+        "moving": _table_joints(structure, moving),
+        "turning": _table_joints(structure, (joint for joint in moving if MOTIONS[joint.type] == "rotational")),
+        "sliding": _table_joints(structure, (joint for joint in moving if MOTIONS[joint.type] == "translational")),
+        "followers": _table_joints(structure, tables.following_joints(structure)),
         "axes": record_axes(structure) if generic else [],
     }
+
+
+def _table_joints(skeleton: Skeleton, joints: Iterable[Joint]) -> list[TableJoint]:
+    return [TableJoint(skeleton.joint(joint.name).component, joint.type) for joint in joints]
 
 
 def record_axes(skeleton: Skeleton) -> list[RecordAxis]:
