@@ -11,6 +11,10 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
     "Number of the link whose frame is frame_b; as it is, the one at the end of the longest chain of moving joints"
     annotation (Evaluate=true);
 
+  parameter Boolean animation = true
+    "= true, if visuals are drawn"
+    annotation (Dialog(tab="Animation"));
+
   parameter Boolean checkLimits = true
     "= true, if a joint that passes one of its limits is reported by a warning";
 
@@ -149,6 +153,9 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
     "Efforts of the drives; zero for joints that follow";
 
 protected
+  outer Modelica.Mechanics.MultiBody.World world
+    "Gravity, and whether there is an animation";
+
   constant Modelica.Units.SI.Length unitLength = UrdfSync.Dynamics.unitLength
     "Makes numbers without unit of the positions of joints that slide: they share vectors with those that turn";
 
@@ -222,6 +229,37 @@ protected
 
   parameter Modelica.Units.SI.MomentOfInertia axisInertias[n] = UrdfSync.Dynamics.axisInertias(jointInertias, data.followers, data.followerMultipliers)
     "The same, joints that follow them included";
+
+  // rumoca does not find a table of strings where it is a modifier of an array of components.
+  parameter String kinds[data.drawnShapes] = data.visuals.kinds
+    "Shape types";
+
+  parameter Real e_length[data.drawnShapes, 3](each unit = "1") =
+    UrdfSync.Functions.shapeAxes(data.visuals.angles, data.visuals.lengthAxes)
+    "Directions of the lengths of the shapes, resolved in the link frames";
+
+  parameter Real e_width[data.drawnShapes, 3](each unit = "1") =
+    UrdfSync.Functions.shapeAxes(data.visuals.angles, fill(2, data.drawnShapes))
+    "Directions of their widths, likewise";
+
+  parameter Modelica.Units.SI.Position r_shape[data.drawnShapes, 3] =
+    UrdfSync.Functions.shapeOrigins(data.visuals.positions, data.visuals.starts, e_length)
+    "Points at which the shapes begin, likewise";
+
+  Modelica.Mechanics.MultiBody.Visualizers.Advanced.Shape shape[data.drawnShapes](
+    shapeType = kinds,
+    length = data.visuals.sizes[:, 1],
+    width = data.visuals.sizes[:, 2],
+    height = data.visuals.sizes[:, 3],
+    lengthDirection = e_length,
+    widthDirection = e_width,
+    r_shape = r_shape,
+    color = data.visuals.colors,
+    r = {r_0[data.visuals.links[k], :] for k in 1:data.drawnShapes},
+    R = {Modelica.Mechanics.MultiBody.Frames.Orientation(
+      T = transpose(R_0[data.visuals.links[k], :, :]),
+      w = zeros(3)) for k in 1:data.drawnShapes}) if world.enableAnimation and animation
+    "Visuals of the links";
 
   UrdfSync.Types.JointEffort loss[n]
     "Efforts that damping and dry friction take";
