@@ -276,7 +276,7 @@ def test_changes_of_visuals_rewrite_the_record_and_nothing_else(
     result = zoo.build('["record"]')
     assert written(result) == {"TwigParameters.mo"}
     assert result.changes is not None
-    assert {found.change_class for found in result.changes.changes} == {kind}
+    assert max((found.change_class for found in result.changes.changes), key=lambda found: found.rank) is kind
 
 
 @pytest.mark.parametrize("base", ['"fixed"', '"floating"'])

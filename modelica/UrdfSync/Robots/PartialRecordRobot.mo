@@ -342,6 +342,10 @@ order; where nothing is connected the axis moves freely. <code>frame_b</code> is
 motion. The constants <code>data.&lt;joint&gt;Axis</code> are their numbers.
 </p>
 <p>
+<i>Shapes.</i> The visuals of the links are drawn where the links are, with the animation of the Modelica Standard Library. A tool that does not find a file must not
+stop for it: leave all shapes out by <code>animation = false</code>. Their numbers are those of <code>data.visuals</code>.
+</p>
+<p>
 <i>Losses and mimic joints.</i> The equations of motion give <code>effort</code>, torque in N.m or force in N, of each joint. The drives have to give more:
 </p>
 <pre>
