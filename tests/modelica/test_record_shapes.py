@@ -60,7 +60,7 @@ package Use_
   model Beside
     inner Modelica.Mechanics.MultiBody.World world(n = {0, 0, -1});
     Bot.Bot robot(fixedStart = false);
-    UrdfSync.Robots.GenericRobot generic(fixedStart = false, animation = true, redeclare parameter Bot.BotParameters data);
+    UrdfSync.Robots.GenericRobot generic(fixedStart = false, redeclare parameter Bot.BotParameters data);
     Modelica.Mechanics.Rotational.Sources.Position turn[2](each exact = true);
     Modelica.Mechanics.Translational.Sources.Position move[2](each exact = true);
   equation

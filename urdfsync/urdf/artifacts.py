@@ -284,7 +284,7 @@ def _record(context: _Context, urdf_name: str, kept: Kept) -> Artifact:
         return kept.piece(RecordJoint(order[1][name], structure.joint(name).component, joint))
 
     pieces = (
-        kept.get("tables", lambda *made_of: kept.piece(Recipe(records.structure_data, made_of)), structure, looks),
+        kept.get("tables", lambda *made_of: kept.piece(records.structure_data(*made_of)), structure, looks),
         list(kept.each("record links", link, elements, structure, visuals, imports, target.package, options).values()),
         list(kept.each("record joints", joint, joints, structure).values()),
     )

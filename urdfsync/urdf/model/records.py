@@ -7,7 +7,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Import, Piece, Recipe, Target
+from urdfsync.domain import Import, Piece, Target
 from urdfsync.urdf.model import notes, shapes, tables
 from urdfsync.urdf.model.connectors import connectors, visual_names
 from urdfsync.urdf.model.stance import standing_height
@@ -88,7 +88,7 @@ def generic_data(skeleton: Skeleton, target: Target, options: Options) -> dict[s
 
 
 def record_data(
-    structure: Recipe | Piece,
+    structure: Mapping[str, Any] | Piece,
     links: Sequence[RecordLink | Piece],
     joints: Sequence[RecordJoint | Piece],
     ground: tuple[Skeleton, Mapping[str, Import]] | None,
