@@ -11,20 +11,19 @@ import msgspec
 from urdfsync.domain import Artifact, Import, Order, Parts, Piece, Recipe, Role, Target
 from urdfsync.urdf.kept import Kept
 from urdfsync.urdf.model import bench, notes, records, shapes, stance
-from urdfsync.urdf.model.records import RecordJoint, RecordLink
+from urdfsync.urdf.model.records import RecordJoint
 from urdfsync.urdf.model.robot import robot_data
 from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.naming import Identifier, Key
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Inertial, Joint, JointType, Link, Robot
+from urdfsync.urdf.robot import Joint, JointType, Link, Robot
 from urdfsync.urdf.skeleton import Skeleton, bare
 
 LINK_MODEL = "link/model.mo.jinja"
 LINK_RECORD = "link/record.mo.jinja"
 ROBOT_RECORD = "robot/record.mo.jinja"
 _PARAMETERS = "Parameters"
-_UNLIMITED = {"lower": None, "upper": None, "velocity": None, "effort": None}
 
 
 def artifacts(
@@ -230,7 +229,7 @@ def _joint_names(name: Identifier, package: str, joint: Joint) -> dict[str, Any]
 
 
 def _joint_record(name: Identifier, package: str, joint: Joint) -> dict[str, Any]:
-    return _joint_names(name, package, joint) | {"joint": joint, "limits": joint.limit or _UNLIMITED}
+    return _joint_names(name, package, joint) | {"joint": joint, "limits": joint.limit or records.UNLIMITED}
 
 
 def _joint_model(name: Identifier, package: str, joint: Joint, loses: bool) -> dict[str, Any]:
@@ -268,26 +267,34 @@ def _stance(context: _Context) -> Artifact:
 
 
 def _record(context: _Context, urdf_name: str, kept: Kept) -> Artifact:
-    structure, stands = context.structure, context.options.base == "floating"
+    structure, imports, target, options = context.structure, context.imports, context.target, context.options
     order = kept.get("numbers", _numbers, structure)
     generic = kept.get("generic", has_tables, structure.joints)
+    elements = {name: context.links[name] for name in order[0]}
+    joints = {name: context.joints[name] for name in order[1]}
+    looks = kept.each("record looks", _visual_looks, elements, imports, options)
+    looks = kept.same("looks", {name: found for name, found in looks.items() if found})
+    visuals = kept.get("visuals", records.record_visuals, structure, looks)
 
-    def link(name: str, inertial: Inertial | None, structure: Skeleton) -> RecordLink | Piece:
-        return kept.piece(RecordLink(order[0][name], structure.link(name).component, name, inertial))
+    def link(name: str, link: Link, structure: Skeleton, visuals: Mapping[str, tuple[str, ...]], *rest: Any) -> Any:
+        component = structure.link(name).component
+        return kept.piece(records.record_link(order[0][name], component, link, visuals.get(name, ()), *rest))
 
     def joint(name: str, joint: Joint, structure: Skeleton) -> RecordJoint | Piece:
         return kept.piece(RecordJoint(order[1][name], structure.joint(name).component, joint))
 
-    inertials = {name: context.links[name].inertial for name in order[0]}
-    joints = {name: context.joints[name] for name in order[1]}
     pieces = (
-        kept.get("tables", lambda structure: kept.piece(Recipe(records.structure_data, (structure,))), structure),
-        list(kept.each("record links", link, inertials, structure).values()),
+        kept.get("tables", lambda *made_of: kept.piece(records.structure_data(*made_of)), structure, looks),
+        list(kept.each("record links", link, elements, structure, visuals, imports, target.package, options).values()),
         list(kept.each("record joints", joint, joints, structure).values()),
     )
-    ground = (_touching(context), context.imports) if stands else None
-    recipe = Recipe(records.record_data, (*pieces, ground, context.target, urdf_name, generic))
-    return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, recipe, "robot")
+    ground = (_touching(context), imports) if options.base == "floating" else None
+    recipe = Recipe(records.record_data, (*pieces, ground, target, urdf_name, generic))
+    return Artifact(f"{target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, recipe, "robot")
+
+
+def _visual_looks(_: str, link: Link, imports: Mapping[str, Import], options: Options) -> tuple[Look, ...]:
+    return shapes.looks(link, imports, options)[0]
 
 
 def _touching(context: _Context) -> Skeleton:

@@ -36,7 +36,7 @@ class UrdfDomain:
 
     name = "urdf"
     templates: Path | None = None
-    revision = 5
+    revision = 6
     fits_since = 5
     converter = 1
     options = Options
@@ -190,12 +190,10 @@ class UrdfDomain:
 
 
 def _shown(snapshot: Snapshot, links: Iterable[str], options: Options) -> Robot:
-    """These links, without the shapes that nothing is made of: the record knows how high collisions stand."""
+    """These links, without the collisions that nothing is made of: the record knows how high they stand."""
     absent: dict[str, list[Any]] = {}
     if not options.collisions or ("package" not in options.approach and options.base == "fixed"):
         absent["collisions"] = []
-    if "package" not in options.approach:
-        absent["visuals"] = []
     shown = {name: {**snapshot["links"][name], **absent} for name in links}
     return from_snapshot({**snapshot, "links": shown, "joints": {}, "extensions": {}})
 
