@@ -40,42 +40,16 @@ class Role(enum.StrEnum):
     """An imported file: bytes, not text; a domain describes it as a `Dependency`."""
 
 
-class Recipe(msgspec.Struct, frozen=True):
-    """How the data of a text is made: as `make(*made_of)`, a pure function. Two that are equal give the same data."""
-
-    make: Callable[..., Mapping[str, Any]]
-    made_of: tuple[Any, ...]
-
-
-class Piece(msgspec.Struct, eq=False):
-    """What a part of a text is made of, or its recipe. While it is kept, that part is rendered once: see `once`."""
-
-    of: Any
-    rendered: tuple[object, str] | None = None
-    """The macro that has rendered it, and the text."""
-
-    def __eq__(self, other: object) -> bool:
-        return self.of == other.of if isinstance(other, Piece) else NotImplemented
-
-    __hash__ = None  # type: ignore[assignment]
-
-
 class Artifact(msgspec.Struct, frozen=True):
     """One text file of the package: `path` (POSIX, below the package folder) is `template` rendered with `data`."""
 
     path: str
     role: Role
     template: str
-    source: Mapping[str, Any] | Recipe
-    """The data, or its recipe: of a large robot, all data takes as much memory as all texts."""
+    data: Mapping[str, Any]
+    """What the template is rendered with: plain data and structs, which JSON can hold."""
     owner: str
     """The element that it belongs to, in the domain's words: `link base_link`, `joint elbow`, `robot`."""
-
-    @property
-    def data(self) -> Mapping[str, Any]:
-        """What the template is rendered with; made anew each time that it is asked for, if there is a recipe."""
-        source = self.source
-        return source.make(*source.made_of) if isinstance(source, Recipe) else source
 
 
 class Templates(NamedTuple):

@@ -9,20 +9,20 @@ from urdfsync.domain import Target
 from urdfsync.urdf.artifacts import record
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.skeleton import Skeleton
+from urdfsync.urdf.kinematics.tree import KinematicTree
 
 _EXTENDS = re.compile(r"  extends UrdfSync\.Records\.Robot\(\n(.*?)\);\n\n", re.DOTALL)
 _MODIFIER = re.compile(r"^    (?=\w)", re.MULTILINE)
 _COMPONENT = re.compile(r"^  UrdfSync\.Records\.(\w+) (\w+)\((.*?)\)\n    \"", re.DOTALL | re.MULTILINE)
 
 
-def record_text(of: Skeleton | Robot) -> str:
+def record_text(of: KinematicTree | Robot) -> str:
     """The record of a robot."""
     artifact = record(Robot("r", of.links, of.joints), Target("", "RParameters"), Options(approach=("record",)))
     return RENDERER.render(artifact.template, artifact.data)
 
 
-def record_tables(of: Skeleton | Robot) -> list[str]:
+def record_tables(of: KinematicTree | Robot) -> list[str]:
     """The modifiers of `UrdfSync.Records.Robot` by which it is this robot, name and index matrices left out."""
     found = _EXTENDS.search(record_text(of))
     assert found is not None
@@ -30,6 +30,6 @@ def record_tables(of: Skeleton | Robot) -> list[str]:
     return [modifier for modifier in modifiers if not modifier.startswith(("name", "connectionM", "moveableJ"))]
 
 
-def record_components(of: Skeleton | Robot) -> dict[str, tuple[str, str]]:
+def record_components(of: KinematicTree | Robot) -> dict[str, tuple[str, str]]:
     """Class and modifiers of each component of a class of `UrdfSync.Records`, the modifiers on one line."""
     return {name: (kind, " ".join(text.split())) for kind, name, text in _COMPONENT.findall(record_text(of))}

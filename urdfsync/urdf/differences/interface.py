@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from urdfsync.difference import Effect, ElementKey, Version
 from urdfsync.domain import Target
 from urdfsync.urdf.drives import can_be_driven, driven_joints
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
 from urdfsync.urdf.model.robot import connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 from urdfsync.urdf.snapshot import from_snapshot
 
 _RUN: Mapping[Motion, Mapping[str, str]] = {
@@ -29,7 +29,7 @@ def interface(
     """
     if "package" not in options.approach:
         return ()
-    before, after = (Skeleton.of(from_snapshot(version.snapshot), (target.name,)) for version in (old, new))
+    before, after = (KinematicTree.of(from_snapshot(version.snapshot), (target.name,)) for version in (old, new))
     one, other = connector_names(before, options), connector_names(after, options)
     links = {renames.get(("link", link.name), link.name) for link in before.links} & {link.name for link in after.links}
     joints = {renames.get(("joint", joint.name), joint.name) for joint in before.joints}
@@ -61,7 +61,7 @@ def _differing(
 
 
 def _variables(
-    before: Skeleton, after: Skeleton, joints: set[str], renames: Mapping[ElementKey, str], options: Options
+    before: KinematicTree, after: KinematicTree, joints: set[str], renames: Mapping[ElementKey, str], options: Options
 ) -> Iterator[Effect]:
     """Variables of Run. A joint that gets or loses its axis, or has another name, is named with that axis."""
     moving = {joint.name: joint for joint in after.joints if joint.name in joints and can_be_driven(joint)}
@@ -71,8 +71,8 @@ def _variables(
         component = before.joint(joint.name).component
         if name not in moving or not can_be_driven(joint) or after.joint(name).component != component:
             continue
-        old = _RUN[MOTIONS[joint.type]] if joint.name in was_driven else {}
-        new = _RUN[MOTIONS[moving[name].type]] if name in is_driven else {}
+        old = _RUN[MOTION_KINDS[joint.type]] if joint.name in was_driven else {}
+        new = _RUN[MOTION_KINDS[moving[name].type]] if name in is_driven else {}
         hint = f'list "{name}" in `driven`, with all others that are driven, to keep it' if old and not new else ""
         for variable in ("position", "effort"):
             one, other = (f"{component}_{ends[variable]}" if ends else None for ends in (old, new))
@@ -80,7 +80,9 @@ def _variables(
                 yield Effect((f"joint {name}", f"{variable} in Run"), one, other, hint=hint)
 
 
-def _order(before: Skeleton, after: Skeleton, renames: Mapping[ElementKey, str], options: Options) -> Iterator[Effect]:
+def _order(
+    before: KinematicTree, after: KinematicTree, renames: Mapping[ElementKey, str], options: Options
+) -> Iterator[Effect]:
     was_driven, is_driven = (driven_joints(skeleton.joints, options) for skeleton in (before, after))
     known = [renames.get(("joint", joint.name), joint.name) for joint in before.joints if joint.name in was_driven]
     new = [joint.name for joint in after.joints if joint.name in is_driven]

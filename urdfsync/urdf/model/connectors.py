@@ -11,8 +11,8 @@ from collections.abc import Iterable, Mapping
 import msgspec
 
 from urdfsync.urdf.drives import can_be_driven
-from urdfsync.urdf.naming import GENERATED, Identifier
-from urdfsync.urdf.skeleton import Skeleton
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.names import GENERATED, Identifier
 
 
 class Connectors(msgspec.Struct, frozen=True):
@@ -28,7 +28,7 @@ class Connectors(msgspec.Struct, frozen=True):
     """Of joints that follow another one."""
 
 
-def connectors(skeleton: Skeleton, frames: Iterable[str]) -> Connectors:
+def connectors(skeleton: KinematicTree, frames: Iterable[str]) -> Connectors:
     """The names for a robot; `frames` are the links that get a frame of their own."""
     taken = _taken(skeleton)
     driven = [joint.name for joint in skeleton.joints if can_be_driven(joint)]

@@ -7,13 +7,13 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Import, Piece, Target
+from urdfsync.domain import Import, Target
 from urdfsync.urdf.model import notes, shapes, tables
 from urdfsync.urdf.model.connectors import connectors, visual_names
 from urdfsync.urdf.model.stance import standing_height
 from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import Inertial, Joint, JointType, Limit, Link
-from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
 
 _VECTORS: Mapping[Motion, str] = {"rotational": "rotationalAxis", "translational": "translationalAxis"}
 UNLIMITED: Mapping[str, None] = {"lower": None, "upper": None, "velocity": None, "effort": None}
@@ -73,7 +73,7 @@ class RecordAxis(msgspec.Struct, frozen=True):
     number: int
 
 
-def generic_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str, Any]:
+def generic_data(skeleton: KinematicTree, target: Target, options: Options) -> dict[str, Any]:
     """Data of the bench in which the generic robot reads the record: structure only."""
     return {
         "within": target.package,
@@ -88,10 +88,10 @@ def generic_data(skeleton: Skeleton, target: Target, options: Options) -> dict[s
 
 
 def record_data(
-    structure: Mapping[str, Any] | Piece,
-    links: Sequence[RecordLink | Piece],
-    joints: Sequence[RecordJoint | Piece],
-    ground: tuple[Skeleton, Mapping[str, Import]] | None,
+    structure: Mapping[str, Any],
+    links: Sequence[RecordLink],
+    joints: Sequence[RecordJoint],
+    ground: tuple[KinematicTree, Mapping[str, Import]] | None,
     target: Target,
     name: str,
     generic: bool,
@@ -130,7 +130,7 @@ def record_link(
     return RecordLink(number, component, link.name, link.inertial, tuple(named))
 
 
-def structure_data(structure: Skeleton, looks: Mapping[str, Sequence[shapes.Look]]) -> dict[str, Any]:
+def structure_data(structure: KinematicTree, looks: Mapping[str, Sequence[shapes.Look]]) -> dict[str, Any]:
     """What the record says of the structure: its matrices, tables and axes; `looks` are the visuals of each link."""
     number = {link.name: k for k, link in enumerate(structure.links, 1)}
     generic = tables.has_tables(structure.joints)
@@ -142,19 +142,19 @@ def structure_data(structure: Skeleton, looks: Mapping[str, Sequence[shapes.Look
         "links": [structure.link(link.name).component for link in structure.links],
         "joints": _table_joints(structure, structure.joints),
         "moving": _table_joints(structure, moving),
-        "turning": _table_joints(structure, (joint for joint in moving if MOTIONS[joint.type] == "rotational")),
-        "sliding": _table_joints(structure, (joint for joint in moving if MOTIONS[joint.type] == "translational")),
+        "turning": _table_joints(structure, (joint for joint in moving if MOTION_KINDS[joint.type] == "rotational")),
+        "sliding": _table_joints(structure, (joint for joint in moving if MOTION_KINDS[joint.type] == "translational")),
         "followers": _table_joints(structure, tables.following_joints(structure)),
         "shapes": list(_drawn_shapes(structure, looks)),
         "axes": record_axes(structure) if generic else [],
     }
 
 
-def _table_joints(skeleton: Skeleton, joints: Iterable[Joint]) -> list[TableJoint]:
+def _table_joints(skeleton: KinematicTree, joints: Iterable[Joint]) -> list[TableJoint]:
     return [TableJoint(skeleton.joint(joint.name).component, joint.type) for joint in joints]
 
 
-def _drawn_shapes(structure: Skeleton, looks: Mapping[str, Sequence[shapes.Look]]) -> Iterator[DrawnShape]:
+def _drawn_shapes(structure: KinematicTree, looks: Mapping[str, Sequence[shapes.Look]]) -> Iterator[DrawnShape]:
     """The entries of the tables of shapes, link by link."""
     names = record_visuals(structure, looks)
     for number, link in enumerate(structure.links, 1):
@@ -165,12 +165,12 @@ def _drawn_shapes(structure: Skeleton, looks: Mapping[str, Sequence[shapes.Look]
                 yield DrawnShape(number, name, "UpperEnd", 3)
 
 
-def record_visuals(structure: Skeleton, looks: Mapping[str, Sequence[shapes.Look]]) -> dict[str, tuple[str, ...]]:
+def record_visuals(structure: KinematicTree, looks: Mapping[str, Sequence[shapes.Look]]) -> dict[str, tuple[str, ...]]:
     """The components of the visuals of each link."""
     return visual_names(structure, {link: [look.component for look in found] for link, found in looks.items()})
 
 
-def record_axes(skeleton: Skeleton) -> list[RecordAxis]:
+def record_axes(skeleton: KinematicTree) -> list[RecordAxis]:
     """The driven joints: those that turn, then those that slide."""
     constants = connectors(skeleton, ()).axes
     return [

@@ -14,7 +14,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import msgspec
 
 from urdfsync.urdf.robot import Joint
-from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 
 _TURNS: Mapping[Motion, int] = {"rotational": 1, "translational": 2}
 
@@ -40,7 +39,7 @@ class Structure(msgspec.Struct, frozen=True):
 
 def obstacles(joints: Iterable[Joint]) -> Iterator[Joint]:
     """The joints for which the generic robot has no place: planar and floating ones."""
-    return (joint for joint in joints if joint.type not in MOTIONS and joint.type != "fixed")
+    return (joint for joint in joints if joint.type not in MOTION_KINDS and joint.type != "fixed")
 
 
 def has_tables(joints: Iterable[Joint]) -> bool:
@@ -48,7 +47,7 @@ def has_tables(joints: Iterable[Joint]) -> bool:
     return not any(obstacles(joints))
 
 
-def structure(skeleton: Skeleton) -> Structure:
+def structure(skeleton: KinematicTree) -> Structure:
     """The integer tables of a robot that has some (see `has_tables`)."""
     moving = moving_joints(skeleton)
     numbers = {joint.name: number for number, joint in enumerate(moving, 1)}
@@ -59,11 +58,14 @@ def structure(skeleton: Skeleton) -> Structure:
     first, following = _carried(carriers)
     return Structure(
         link_bodies=tuple(bodies[link.name] for link in skeleton.links),
-        joint_tree=tuple((body, _TURNS[MOTIONS[joint.type]]) for body, joint in zip(carriers, moving, strict=True)),
+        joint_tree=tuple(
+            (body, _TURNS[MOTION_KINDS[joint.type]]) for body, joint in zip(carriers, moving, strict=True)
+        ),
         first_joints=first,
         next_joints=following,
         moving={
-            motion: tuple(numbers[joint.name] for joint in moving if MOTIONS[joint.type] == motion) for motion in _TURNS
+            motion: tuple(numbers[joint.name] for joint in moving if MOTION_KINDS[joint.type] == motion)
+            for motion in _TURNS
         },
         axes={motion: tuple(numbers[joint.name] for joint in skeleton.axes(motion)) for motion in _TURNS},
         followers=tuple(
@@ -74,14 +76,14 @@ def structure(skeleton: Skeleton) -> Structure:
     )
 
 
-def following_joints(skeleton: Skeleton) -> list[Joint]:
+def following_joints(skeleton: KinematicTree) -> list[Joint]:
     """The moving joints that follow others, leaders first."""
-    return [joint for joint in skeleton.leaders_first() if joint.type in MOTIONS and joint.mimic is not None]
+    return [joint for joint in skeleton.leaders_first() if joint.type in MOTION_KINDS and joint.mimic is not None]
 
 
-def moving_joints(skeleton: Skeleton) -> list[Joint]:
+def moving_joints(skeleton: KinematicTree) -> list[Joint]:
     """The joints that turn or slide, in canonical order."""
-    return [joint for joint in skeleton.joints if joint.type in MOTIONS]
+    return [joint for joint in skeleton.joints if joint.type in MOTION_KINDS]
 
 
 def _carried(carriers: Sequence[int]) -> tuple[tuple[int, ...], tuple[int, ...]]:
