@@ -8,10 +8,10 @@ import time
 from pathlib import Path
 
 import pytest
+from support import answers
 
-from urdfsync import cli, profiling
+from urdfsync import cli, profiling, uptodate
 from urdfsync.profiling import OTHER, STAGES
-from urdfsync.stamping import making, stamp
 
 Capture = pytest.CaptureFixture[str]
 
@@ -84,19 +84,16 @@ def test_a_profile_of_nothing_to_do_looks_all_the_same(project: Path, capsys: Ca
 def test_it_says_that_a_stamp_would_have_answered(
     project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(stamp, "answers", lambda arguments: arguments == ["build"])
+    monkeypatch.setattr(uptodate, "has_answer", lambda arguments: arguments == ["build"])
     cli.main(["build", "--profile"])
     assert "without --profile, the stamp answers" in capsys.readouterr().err
 
 
-def test_what_was_measured_is_not_said_again(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    kept: list[object] = []
-    monkeypatch.setattr(making, "keep", lambda *stamped: kept.append(stamped))
+def test_what_was_measured_is_not_said_again(project: Path) -> None:
     cli.main(["build"])
+    answers.save("build")
     cli.main(["build", "--profile"])
-    assert kept == []
-    cli.main(["build"])
-    assert len(kept) == 1
+    assert answers.saved("build", "--profile") is None
 
 
 def test_robots_that_other_processes_plan_count(many: Path, capsys: Capture) -> None:

@@ -307,7 +307,10 @@ class Report:
         if self._bar is None:
             from rich.progress import Progress
 
-            console = terminal.console(streams.unrecorded(sys.stderr))
+            stream: Any = sys.stderr
+            if isinstance(stream, streams.Stream):
+                stream = stream.without_transcript()
+            console = terminal.console(stream)
             bar = Progress(console=console, transient=True, redirect_stdout=False, redirect_stderr=False)
             self._bar = bar, bar.add_task(what, total=None)
             bar.start()

@@ -452,9 +452,9 @@ def test_what_is_resolved_is_built_and_checked(
 def test_what_a_check_said_is_never_said_again_without_a_look(project: Path) -> None:
     loaded = config.load(Path("urdfsync.toml"))
     run(Examiner(RIGHT))
-    with dependencies.record_dependencies() as looks:
+    with dependencies.record_dependencies() as found:
         assert [result.in_step for result in building.built(loaded, loaded.robots, Request(wait=1))] == [True]
-    assert not looks.complete
+    assert not found.complete
 
 
 def test_without_a_robot_to_check_nothing_is_looked_at(project: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -10,14 +11,13 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import config, registry
+from urdfsync import config, registry, uptodate
 from urdfsync.build import Request, build
-from urdfsync.dependencies import NO_STAT, Stat
+from urdfsync.dependencies import NO_STAT
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Artifact, Import, Order, Parts, Reading, Role, Snapshot, Target
 from urdfsync.planning.disk import Hashes
 from urdfsync.planning.memory import Memory
-from urdfsync.stamping import stamp, trust
 
 SNAPSHOT: Snapshot = {"name": "n", "elements": {"R1": {"ohm": 1.0}}}
 IMPORT = Import("a.csv", "hash", "hash", 1, {"rows": 2})
@@ -137,24 +137,18 @@ def test_the_next_version_of_a_source_gets_what_the_domain_has_kept() -> None:
 
 # What plans saw of files
 
-FACTS = (0o100644, 1, 2, 3, 4, 5)
-SEEN = {f"/m/{number}.mo": (FACTS, "own", "text") for number in range(9)}
+STAT = (0o100644, 1, 2, 3, 4, 5)
+SEEN = {f"/m/{number}.mo": (STAT, "own", "text") for number in range(9)}
 
 
-class Clock(trust.Clock):
-    """Believes what the system says of files, or does not."""
-
-    def __init__(self, trusts: bool) -> None:
-        self._trusts = trusts
-
-    def trusts(self, facts: Stat, passed: int) -> bool:
-        assert facts == FACTS
-        return self._trusts
+CREATED = os.stat_result((0o100644, 1, 2, *[0] * 7), {"st_mtime_ns": 10**18, "st_dev": 2})
+CLOCKS = [uptodate.Clock(CREATED, is_reliable=each) for each in (False, True)]
+"""Of a file system on which the time of a change can be set, and of one on which it can't."""
 
 
 def look(memory: Memory, seen: Hashes, trusts: bool | None = True, robot: str = "arm") -> Hashes:
-    """What is remembered of a look; without a clock if nothing is known of trust."""
-    memory.note_look(robot, seen, stamp.now(), lambda: None if trusts is None else Clock(trusts))
+    """What is remembered of a look; without a clock if `trusts` is None."""
+    memory.note_look(robot, seen, uptodate.read_clocks(), lambda: None if trusts is None else CLOCKS[trusts])
     return memory.seen(robot)
 
 
@@ -170,18 +164,18 @@ def test_each_robot_has_what_was_seen_of_it_until_it_is_watched_no_more() -> Non
 
 
 @pytest.mark.parametrize("trusts", [None, False])
-def test_a_file_that_may_change_without_a_trace_has_no_facts(trusts: bool | None) -> None:
+def test_a_file_that_may_change_without_a_trace_has_no_stat(trusts: bool | None) -> None:
     memory, bare = Memory(), dict.fromkeys(SEEN, (NO_STAT, "own", "text"))
     assert look(memory, SEEN, trusts) == bare
     assert look(memory, SEEN) == SEEN
     assert look(memory, {**SEEN}, trusts) == SEEN, "what was believed before is not doubted"
-    memory.distrust()
+    memory.rehash_all()
     assert memory.seen("arm") == bare
 
 
 def test_a_few_files_are_read_again_and_no_clock_is_read_for_them() -> None:
     memory, few = Memory(), dict(list(SEEN.items())[:4])
-    memory.note_look("arm", few, stamp.now(), lambda: pytest.fail("a clock was read"))
+    memory.note_look("arm", few, uptodate.read_clocks(), lambda: pytest.fail("a clock was read"))
     assert memory.seen("arm") == dict.fromkeys(few, (NO_STAT, "own", "text"))
 
 
@@ -201,7 +195,7 @@ def test_templates_of_the_program_are_read_once_until_nothing_is_trusted() -> No
         {"a": "2"},
         {"a": "1"},
     ]
-    memory.distrust()
+    memory.rehash_all()
     assert memory.shipped("x", lambda: next(found)) == {"a": "3"}
 
 

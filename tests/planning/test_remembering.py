@@ -12,7 +12,7 @@ from random import Random
 import msgspec
 import pytest
 
-from urdfsync import config
+from urdfsync import config, uptodate
 from urdfsync.build import build
 from urdfsync.dependencies import NO_STAT
 from urdfsync.diagnostics import UrdfsyncError
@@ -21,7 +21,6 @@ from urdfsync.planning.memory import Memory
 from urdfsync.planning.planner import plan
 from urdfsync.planning.situation import Request
 from urdfsync.planning.work import Work
-from urdfsync.stamping import stamp, trust
 
 EXAMPLES = Path(__file__).parents[1] / "rcnetwork/examples"
 SETTINGS = '[robots.ladder]\nsource = "ladder.json"\npackage = "Ladder"\ndomain = "rcnetwork"\n'
@@ -224,9 +223,10 @@ def test_nothing_is_remembered_where_nobody_knows_when_a_file_changed(
     assert _built(project, memory)
     time.sleep(AGE)
     if why == "on Windows":
-        monkeypatch.setattr(trust, "HAS_CHANGE_TIMES", False)
+        monkeypatch.setattr(uptodate, "HAS_CHANGE_TIMES", False)
     elif why == "a clock that can be set":
-        monkeypatch.setattr(trust.Clock, "of", lambda descriptor: trust.Clock(os.fstat(descriptor), is_sound=False))
+        clock = uptodate.Clock(project.stat(), is_reliable=False)
+        monkeypatch.setattr(uptodate, "read_clock", lambda folder: clock)
     else:
         (project / ".urdfsync/.clock.urdfsync-tmp").mkdir()
     _planned(project, memory)
@@ -239,7 +239,7 @@ def test_a_full_build_reads_every_file(project: Path) -> None:
     time.sleep(AGE)
     _planned(project, memory)
     seen = {path: entry and (entry[0], "wrong", "wrong") for path, entry in memory.seen("ladder").items()}
-    memory.note_look("ladder", seen, stamp.now(), lambda: trust.clock(project / ".urdfsync"))
+    memory.note_look("ladder", seen, uptodate.read_clocks(), lambda: uptodate.read_clock(project / ".urdfsync"))
     assert len(_trusted(memory)) > 5
     loaded = config.load(project / "urdfsync.toml")
     work = plan(loaded, loaded.robots[0], Request(memory=memory, full=True, dry=True))

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Self
 
 import msgspec
 
-from urdfsync import machine, profiling, program
+from urdfsync import machine, profiling
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import mark_incomplete
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
@@ -174,13 +174,11 @@ def _safe_path() -> Iterator[None]:
 
 def _join(folder: str) -> None:
     """Prepare a process of the crew: it works in the same folder, and ends when its parent does."""
-    import gc  # most builds have no crew
-    import signal
+    import signal  # most builds have no crew
     from multiprocessing import parent_process
     from multiprocessing.connection import wait
 
     os.chdir(folder)
-    gc.set_threshold(program.OBJECTS)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent gets it, too, and tells the crew
     parent = parent_process()
 

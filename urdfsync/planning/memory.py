@@ -12,18 +12,18 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import msgspec
 
+from urdfsync import uptodate
 from urdfsync.dependencies import NO_STAT
 from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Reading, Snapshot, Target
 from urdfsync.manifest import Tables
 from urdfsync.modelfile import Elements
 from urdfsync.planning import generate
-from urdfsync.stamping import stamp
 
 if TYPE_CHECKING:
     from urdfsync.planning.disk import Hashes
-    from urdfsync.stamping.trust import Clock
     from urdfsync.state.bases import Bases
     from urdfsync.state.store import State
+    from urdfsync.uptodate import Clock
 
 _FEW = 4
 """So many files are sooner read again than the clock is."""
@@ -97,15 +97,15 @@ class Memory:
     ) -> None:
         """Remember what a look at all that matters to a robot's plan has found.
 
-        `begin` is when it began (`stamp.now`): files that had changed shortly before keep their hashes but no facts, so
-        they are read next time.
+        `begin` is when it began (`uptodate.read_clocks`): racy files keep their hashes but no facts, so they are read
+        next time.
         """
         before = self.seen(robot)
         new = {path: entry for path, entry in seen.items() if entry and before.get(path) is not entry}
         doubtful = {path: (NO_STAT, *entry[1:]) for path, entry in new.items() if entry[0] != NO_STAT}
         if len(doubtful) > _FEW and (clock := read_clock()):
-            passed = stamp.passed(begin)
-            doubtful = {path: entry for path, entry in doubtful.items() if not clock.trusts(new[path][0], passed)}
+            elapsed = uptodate.elapsed_since(begin)
+            doubtful = {path: e for path, e in doubtful.items() if uptodate.is_racy(new[path][0], clock, elapsed)}
         self._seen[robot] = {**seen, **doubtful}
         self._current.add(robot)
 
@@ -118,7 +118,7 @@ class Memory:
         self._seen = {robot: seen for robot, seen in self._seen.items() if robot in robots}
         self._current.intersection_update(robots)
 
-    def distrust(self) -> None:
+    def rehash_all(self) -> None:
         """Read all files again, whatever the system says of them."""
         self._shipped.clear()
         for robot, seen in self._seen.items():

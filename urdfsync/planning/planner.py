@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import msgspec
 
-from urdfsync import profiling
+from urdfsync import profiling, uptodate
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.dependencies import NO_STAT, mark_incomplete
 from urdfsync.manifest import Manifest
@@ -16,7 +16,6 @@ from urdfsync.planning import imports
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.situation import NO_MODEL, Request, Situation
 from urdfsync.planning.work import Work
-from urdfsync.stamping import stamp, trust
 
 
 def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
@@ -24,7 +23,7 @@ def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
 
     Raises UrdfsyncError for whatever is wrong.
     """
-    begin = stamp.now()
+    begin = uptodate.read_clocks()
     with profiling.stage("looking"):
         situation = Situation(config, robot, request)
         work = _if_unchanged(situation)
@@ -40,7 +39,7 @@ def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
 @profiling.staged("looking")
 def plan_if_unchanged(config: Config, robot: RobotConfig, request: Request) -> Work | None:
     """The same if that takes no reading and rendering, else None."""
-    begin = stamp.now()
+    begin = uptodate.read_clocks()
     situation = Situation(config, robot, request)
     work = _if_unchanged(situation)
     if work is not None:
@@ -55,7 +54,7 @@ def _remember(situation: Situation, work: Work, begin: tuple[int, int]) -> None:
         for path, own in work.witness.items():
             seen[str(path)] = None if own is None else (NO_STAT, own, own)  # of the state, bytes alone count
         memory, name = situation.request.memory, situation.robot.name
-        memory.note_look(name, seen, begin, lambda: trust.clock(situation.store.folder))
+        memory.note_look(name, seen, begin, lambda: uptodate.read_clock(situation.store.folder))
 
 
 def _if_unchanged(situation: Situation) -> Work | None:
