@@ -79,12 +79,12 @@ def _is_committed(index: Index, path: str) -> bool:
     """Whether that holds for the robots of one configuration; if so, the answer is saved."""
     from urdfsync import config
     from urdfsync.dependencies import record_dependencies
-    from urdfsync.planning.situation import Request
+    from urdfsync.engine.options import BuildOptions
     from urdfsync.staging.worktree import Worktree
 
     started = uptodate.read_clocks()
     with record_dependencies() as dependencies:
-        request = Request(dry=True, package_paths=config.ros_package_path(os.environ))
+        request = BuildOptions(dry=True, package_paths=config.ros_package_path(os.environ))
         tree = Worktree(index, config.load(index.top / path), request)
         found = [tree.committed(robot) for robot in tree.config.robots]
         needed = [paths for paths in found if paths is not None]
