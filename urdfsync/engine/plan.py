@@ -63,7 +63,7 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
     return plan
 
 
-@profiling.staged("looking")
+@profiling.stage("looking")
 def plan_if_current(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan | None:
     """Return the plan if nothing is to be generated or written, without parsing the source; None otherwise."""
     begin = uptodate.read_clocks()

@@ -86,7 +86,7 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = True, parts: Pa
     return RobotReading(robot, both.result(), both.lines)
 
 
-@profiling.staged("cross-check")
+@profiling.stage("cross-check")
 def _agrees(content: bytes, robot: Robot, findings: Findings) -> bool:
     """Whether the second reader agrees; if not, that is added to the findings."""
     from urdfsync.urdf.reader.cross_check import cross_check
