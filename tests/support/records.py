@@ -7,9 +7,9 @@ import re
 from support.packages import RENDERER
 from urdfsync.domain import Target
 from urdfsync.urdf.artifacts import record
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.kinematics.tree import KinematicTree
 
 _EXTENDS = re.compile(r"  extends UrdfSync\.Records\.Robot\(\n(.*?)\);\n\n", re.DOTALL)
 _MODIFIER = re.compile(r"^    (?=\w)", re.MULTILINE)

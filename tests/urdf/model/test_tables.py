@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from support.records import record_components, record_tables
 from support.trees import SCALAR, robots
 
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
 from urdfsync.urdf.model.tables import Structure, has_tables, obstacles, structure
 from urdfsync.urdf.robot import Joint, Link, Mimic, Robot
 

@@ -40,7 +40,7 @@ def connectors(skeleton: KinematicTree, frames: Iterable[str]) -> Connectors:
     )
 
 
-def visual_names(skeleton: Skeleton, visuals: Mapping[str, Iterable[str]]) -> dict[str, tuple[str, ...]]:
+def visual_names(skeleton: KinematicTree, visuals: Mapping[str, Iterable[str]]) -> dict[str, tuple[str, ...]]:
     """Components of the whole-robot record for visuals, by link; `visuals` are `visual1`, `visual2`, … of each link."""
     taken = _taken(skeleton)
     return {
@@ -49,7 +49,7 @@ def visual_names(skeleton: Skeleton, visuals: Mapping[str, Iterable[str]]) -> di
     }
 
 
-def _taken(skeleton: Skeleton) -> frozenset[str]:
+def _taken(skeleton: KinematicTree) -> frozenset[str]:
     """Names that are not to be had, in lower case."""
     return GENERATED | {identifier.component.lower() for identifier in skeleton.names.values()}
 

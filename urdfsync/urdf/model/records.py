@@ -8,12 +8,12 @@ from typing import Any
 import msgspec
 
 from urdfsync.domain import Import, Target
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
 from urdfsync.urdf.model import notes, shapes, tables
 from urdfsync.urdf.model.connectors import connectors, visual_names
 from urdfsync.urdf.model.stance import standing_height
 from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import Inertial, Joint, JointType, Limit, Link
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
 
 _VECTORS: Mapping[Motion, str] = {"rotational": "rotationalAxis", "translational": "translationalAxis"}
 UNLIMITED: Mapping[str, None] = {"lower": None, "upper": None, "velocity": None, "effort": None}

@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import msgspec
 
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
 from urdfsync.urdf.robot import Joint
 
 _TURNS: Mapping[Motion, int] = {"rotational": 1, "translational": 2}
