@@ -62,6 +62,10 @@ class UrdfDomain:
             from urdfsync.urdf.record_scope import out_of_scope
 
             said += tuple(out_of_scope(reading.robot, file, reading.lines))
+        if "package" in options.approach:
+            from urdfsync.urdf.massless import massless_passive_joints
+
+            said += tuple(massless_passive_joints(reading.robot, options, file, reading.lines))
         snapshot = to_snapshot(reading.robot, kept.get("snapshot"))
         kept["snapshot"] = reading.robot, snapshot
         self._meshes = None if parts is None else parts.setdefault("meshes", {})

@@ -73,12 +73,13 @@ def resistances(skeleton: Skeleton) -> Mapping[str, float]:
     return found
 
 
-def yielding(skeleton: Skeleton) -> Set[str]:
+def yielding(skeleton: Skeleton, free: Set[str] | None = None) -> Set[str]:
     """Joints that nothing resists where each joint is at its start, since those behind them can give way.
 
     Such as the first of two joints on the same axis with nothing between them: the mass matrix is singular then. A
     joint is one of them if its articulated body has no inertia about or along its axis (Featherstone: Rigid Body
-    Dynamics Algorithms, 2008, section 7.3). Joints that follow others, or lead some, count as fixed here.
+    Dynamics Algorithms, 2008, section 7.3). Joints that follow others, or lead some, count as fixed here, and so do
+    those that are not `free`; None for all.
     """
     poses = link_poses(skeleton, start_positions(skeleton))
     bodies = {link.name: _body(link, poses[link.name]) for link in skeleton.links}
@@ -87,7 +88,8 @@ def yielding(skeleton: Skeleton) -> Set[str]:
     found = set()
     for joint in reversed(skeleton.joints):
         inertia = inertias[joint.child]
-        if joint.type in MOTIONS and joint.mimic is None and joint.name not in leaders:
+        single = joint.type in MOTIONS and joint.mimic is None and joint.name not in leaders
+        if single and (free is None or joint.name in free):
             motion = _motion(joint, poses)
             force = [_product(row, motion) for row in inertia]
             left = _product(force, motion)

@@ -1,0 +1,36 @@
+"""Passive joints that move no mass: Run and Test of the package approach have no acceleration for them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.urdf.drives import can_be_driven, driven_joints
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.resistance import resistances, yielding
+from urdfsync.urdf.resisted import clearly_resisted
+from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.skeleton import Skeleton
+
+
+def massless_passive_joints(
+    robot: Robot, options: Options, file: str, lines: Mapping[str, int]
+) -> Iterator[Diagnostic]:
+    """A warning for each joint that is not driven and moves nothing where the robot starts.
+
+    Driven joints count as fixed: they move as prescribed, so a passive joint behind one or before one gets no motion
+    from it that would undo its own. `file` and `lines` are those of `RobotReading`.
+    """
+    passive = {joint.name for joint in robot.joints if can_be_driven(joint)} - driven_joints(robot.joints, options)
+    if not passive:
+        return
+    skeleton = Skeleton.of(robot)
+    if clearly_resisted(skeleton):
+        return
+    resisted, giving = resistances(skeleton), yielding(skeleton, passive)
+    for joint in skeleton.joints:
+        if joint.name in passive and (joint.name in giving or not resisted[joint.name]):
+            message = f"joint '{joint.name}' is not driven and moves no mass where it starts, so Run and Test are singular"
+            hint = "give a link behind it an <inertial>, drive it (`driven`), or make it a fixed joint"
+            line = lines.get(f"joint {joint.name}", 0)
+            yield Diagnostic(Severity.WARNING, "passive-moves-no-mass", message, file, line, hint=hint)
