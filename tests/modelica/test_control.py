@@ -1,4 +1,4 @@
-"""What is built around a robot: controllers, in both approaches, and forces at the tool frame of the record approach."""
+"""What is built around a robot: controllers, in both approaches, and forces at the tool frame of a record's robot."""
 
 from __future__ import annotations
 

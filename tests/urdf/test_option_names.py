@@ -54,9 +54,14 @@ def test_a_name_that_stands_there_twice(option: str) -> None:
     words = "take one out, or correct its name [name-repeated]"
     two = (option, Severity.WARNING, f"`{option}` names `{twice}` twice; {words}")
     three = (option, Severity.WARNING, f"`{option}` names `{once}` 3 times; {words}")
-    assert found(**{option: (twice, once, twice)}) == [two]
-    assert found(**{option: (once, twice, once, twice, once)}) == [three, two]
-    wrong = found(**{option: ("gone", "gone")})
+
+    def of(*names: str) -> list[tuple[str, Severity, str]]:
+        options: dict[str, Any] = {option: names}
+        return found(CART, **options)
+
+    assert of(twice, once, twice) == [two]
+    assert of(once, twice, once, twice, once) == [three, two]
+    wrong = of("gone", "gone")
     assert [severity for _, severity, _ in wrong] == [Severity.WARNING, Severity.ERROR]
 
 

@@ -30,7 +30,10 @@ def massless_passive_joints(
     resisted, giving = resistances(skeleton), yielding(skeleton, passive)
     for joint in skeleton.joints:
         if joint.name in passive and (joint.name in giving or not resisted[joint.name]):
-            message = f"joint '{joint.name}' is not driven and moves no mass where it starts, so Run and Test are singular"
+            message = (
+                f"joint '{joint.name}' is not driven and moves no mass where it starts, so nothing determines its "
+                "motion in Run and Test"
+            )
             hint = "give a link behind it an <inertial>, drive it (`driven`), or make it a fixed joint"
             line = lines.get(f"joint {joint.name}", 0)
             yield Diagnostic(Severity.WARNING, "passive-moves-no-mass", message, file, line, hint=hint)
