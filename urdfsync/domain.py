@@ -352,7 +352,10 @@ class Domain(Protocol):
     def interface(
         self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Any
     ) -> Sequence[Effect]:
-        """What users may have connected to, and what is there by another name now, or no more; old is None for new."""
+        """What users may have connected to, and what is there by another name now, or no more; old is None for new.
+
+        `options` are those of the new version, and of the old one unless it has its own.
+        """
         ...
 
     def option_for(self, path: str, target: Target, options: Any) -> str:

@@ -270,7 +270,7 @@ class Renewal:
     def _lost_connectors(self, found: Changes | None) -> list[Diagnostic]:
         """Notes on what users may have connected to, and what has another name now, or none."""
         situation, settled = self._situation, self._situation.settled
-        if settled is None or found is None or not found.is_structural:
+        if settled is None or found is None or not (found.is_structural or found.generator):
             return []
         notes = []
         robot = situation.robot

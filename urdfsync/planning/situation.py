@@ -7,7 +7,7 @@ import functools
 import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -135,7 +135,7 @@ class Situation:
         model = self.state.model if self.state else None
         if self.last is None or model is None or model.since is None:
             return self.last
-        return Version(model.since, None, self.last.generator)
+        return Version(model.since, None, self.last.generator, self.last.options)
 
     @property
     def written_by(self) -> int | None:
@@ -153,7 +153,19 @@ class Situation:
             for key, facts in model.imports.items()
             if (record := dependencies.get(key)) is not None
         }
-        return Version(model.snapshot, imported, self.recorded.generator.fingerprint if self.recorded else "")
+        generator = self.recorded.generator.fingerprint if self.recorded else ""
+        return Version(model.snapshot, imported, generator, self._recorded_options)
+
+    @property
+    def _recorded_options(self) -> Any:
+        """The options of the last build; None if they are not recorded, or not as this program has them."""
+        recorded = self.recorded
+        if recorded is None or recorded.options is None or recorded.generator.domain != self.robot.domain:
+            return None
+        try:
+            return msgspec.convert(recorded.options, self.domain.options)
+        except msgspec.ValidationError:
+            return None
 
     def dumps(self, recorded: Manifest) -> str:
         """The text of a manifest."""
@@ -173,7 +185,12 @@ class Situation:
         source = manifest.Source(self.robot.source_text, self._source_hash, snapshot)
         target = self.robot.target
         return Manifest(
-            package=target.package, class_=target.name, folder=self.folder, source=source, generator=self.generator
+            package=target.package,
+            class_=target.name,
+            folder=self.folder,
+            source=source,
+            generator=self.generator,
+            options=manifest.option_values(self.robot.options),
         )
 
     @functools.cached_property
