@@ -354,7 +354,10 @@ class Domain(Protocol):
         target: Target,
         options: Any,
     ) -> Sequence[Effect]:
-        """Return what users may have connected to, and what has another name now, or is gone; old is None for new."""
+        """Return what users may have connected to, and what has another name now, or is gone; old is None for new.
+
+        `options` are those of the new version, and of the old one unless it has its own.
+        """
         return ()
 
     # Commands beside `build`

@@ -55,6 +55,10 @@ class UrdfDomain:
             from urdfsync.urdf.record_scope import out_of_scope
 
             said += tuple(out_of_scope(reading.robot, file, reading.lines))
+        if "package" in options.approach:
+            from urdfsync.urdf.passive import massless_passive_joints
+
+            said += tuple(massless_passive_joints(reading.robot, options, file, reading.lines))
         return Reading(to_snapshot(reading.robot), said, reading.lines)
 
     def dependencies(
