@@ -85,7 +85,7 @@ def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: 
     return found
 
 
-@profiling.staged("reading")
+@profiling.stage("reading")
 def read(
     domain: Domain, options: Any, content: bytes, name: str, cache: Cache | None = None
 ) -> tuple[Snapshot, Reading]:

@@ -7,10 +7,10 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Artifact, Import, Order, Recipe, Role, Target
+from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.urdf.kinematics.tree import KinematicTree, strip_numbers
 from urdfsync.urdf.model import bench, notes, records, shapes, stance
-from urdfsync.urdf.model.records import RecordJoint, RecordLink
+from urdfsync.urdf.model.records import RecordJoint
 from urdfsync.urdf.model.robot import robot_data
 from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
@@ -22,7 +22,6 @@ LINK_MODEL = "link/model.mo.jinja"
 LINK_RECORD = "link/record.mo.jinja"
 ROBOT_RECORD = "robot/record.mo.jinja"
 _PARAMETERS = "Parameters"
-_UNLIMITED = {"lower": None, "upper": None, "velocity": None, "effort": None}
 
 
 def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
@@ -53,7 +52,7 @@ def record(robot: Robot, target: Target, options: Options) -> Artifact:
     name = target.name.removesuffix(_PARAMETERS) or target.name
     artifact = _record(_context(robot, {}, Target(target.package, name), options), robot.name)
     data = {**artifact.data, "record": target.name}
-    return msgspec.structs.replace(artifact, path=f"{target.name}.mo", source=data)
+    return msgspec.structs.replace(artifact, path=f"{target.name}.mo", data=data)
 
 
 def models(joints: Sequence[Joint], target: Target, options: Options) -> tuple[str, ...]:
@@ -109,7 +108,7 @@ def _of_structure(structure: KinematicTree, target: Target, options: Options) ->
         files += _subpackage("Joints", target, [structure.joint(joint.name) for joint in joints]) if joints else ()
         files += _robot(structure, target, options)
     if has_bench(structure.joints, options):
-        bench = Recipe(records.generic_data, (structure, target, options))
+        bench = records.generic_data(structure, target, options)
         files.append(Artifact(f"{target.name}Generic.mo", Role.MODEL, "robot/generic.mo.jinja", bench, "robot"))
     return files
 
@@ -159,8 +158,8 @@ def _link(
     """What the package approach has of a link."""
     name, meshes = names["link", key], shapes.meshes((*link.visuals, *link.collisions), imports)
     owner, looks = f"link {key}", shapes.looks(link, meshes, options)
-    record = Recipe(_link_record, (name, package, link, meshes, options))
-    model = Recipe(_link_model, (name, package, key, looks, options))
+    record = _link_record(name, package, link, meshes, options)
+    model = _link_model(name, package, key, looks, options)
     return (
         Artifact(f"Links/{name.record}.mo", Role.RECORD, LINK_RECORD, record, owner),
         Artifact(f"Links/{name.type}.mo", Role.MODEL, LINK_MODEL, model, owner),
@@ -204,8 +203,8 @@ def _joint(key: str, joint: Joint, names: Mapping[Key, Identifier], package: str
     """What the package approach has of a joint."""
     name, owner, loses = names["joint", key], f"joint {key}", joint.dynamics is not None
     own = Joint(key, joint.type, joint.parent, joint.child)
-    record = Recipe(_joint_record, (name, package, joint))
-    model = Recipe(_joint_model, (name, package, own, loses))
+    record = _joint_record(name, package, joint)
+    model = _joint_model(name, package, own, loses)
     return (
         Artifact(f"Joints/{name.record}.mo", Role.RECORD, joint_record_template(joint.type), record, owner),
         Artifact(f"Joints/{name.type}.mo", Role.MODEL, joint_template(joint.type), model, owner),
@@ -222,7 +221,7 @@ def _joint_names(name: Identifier, package: str, joint: Joint) -> dict[str, Any]
 
 
 def _joint_record(name: Identifier, package: str, joint: Joint) -> dict[str, Any]:
-    return _joint_names(name, package, joint) | {"joint": joint, "limits": joint.limit or _UNLIMITED}
+    return _joint_names(name, package, joint) | {"joint": joint, "limits": joint.limit or records.UNLIMITED}
 
 
 def _joint_model(name: Identifier, package: str, joint: Joint, loses: bool) -> dict[str, Any]:
@@ -247,7 +246,7 @@ def joint_record_template(kind: JointType) -> str:
 
 def _robot(structure: KinematicTree, target: Target, options: Options) -> Iterator[Artifact]:
     name, made_of = target.name, (structure, target, options)
-    robot, benches = Recipe(robot_data, made_of), Recipe(bench.bench_data, made_of)
+    robot, benches = robot_data(*made_of), bench.bench_data(*made_of)
     yield Artifact(f"{name}.mo", Role.MODEL, "robot/robot.mo.jinja", robot, "robot")
     yield Artifact(f"{name}Run.mo", Role.MODEL, "robot/run.mo.jinja", benches, "robot")
     yield Artifact(f"{name}Test.mo", Role.MODEL, "robot/test.mo.jinja", benches, "robot")
@@ -255,27 +254,35 @@ def _robot(structure: KinematicTree, target: Target, options: Options) -> Iterat
 
 def _stance(context: _Context) -> Artifact:
     made_of = (_touching(context), context.imports, context.target)
-    record = Recipe(stance.stance_data, made_of)
+    record = stance.stance_data(*made_of)
     return Artifact(f"{context.target.name}Stance.mo", Role.RECORD, "robot/stance.mo.jinja", record, "robot")
 
 
 def _record(context: _Context, urdf_name: str) -> Artifact:
-    structure, stands = context.structure, context.options.base == "floating"
+    structure, imports, target, options = context.structure, context.imports, context.target, context.options
     link_numbers, joint_numbers = _numbers(structure)
-    pieces = (
-        Recipe(records.structure_data, (structure,)),
-        [
-            RecordLink(number, structure.link(name).component, name, context.links[name].inertial)
-            for name, number in link_numbers.items()
-        ],
-        [
-            RecordJoint(number, structure.joint(name).component, context.joints[name])
-            for name, number in joint_numbers.items()
-        ],
-    )
-    ground = (_touching(context), context.imports) if stands else None
-    recipe = Recipe(records.record_data, (*pieces, ground, context.target, urdf_name, has_tables(structure.joints)))
-    return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, recipe, "robot")
+    looks = {name: found for name in link_numbers if (found := shapes.looks(context.links[name], imports, options)[0])}
+    visuals = records.record_visuals(structure, looks)
+    links = [
+        records.record_link(
+            number,
+            structure.link(name).component,
+            context.links[name],
+            visuals.get(name, ()),
+            imports,
+            target.package,
+            options,
+        )
+        for name, number in link_numbers.items()
+    ]
+    joints = [
+        RecordJoint(number, structure.joint(name).component, context.joints[name])
+        for name, number in joint_numbers.items()
+    ]
+    ground = (_touching(context), imports) if options.base == "floating" else None
+    tables = records.structure_data(structure, looks)
+    data = records.record_data(tables, links, joints, ground, target, urdf_name, has_tables(structure.joints))
+    return Artifact(f"{target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, data, "robot")
 
 
 def _touching(context: _Context) -> KinematicTree:

@@ -33,7 +33,7 @@ class UrdfDomain:
 
     name = "urdf"
     templates: Path | None = None
-    revision = 5
+    revision = 6
     fits_since = 5
     converter = 1
     options = Options
@@ -55,6 +55,10 @@ class UrdfDomain:
             from urdfsync.urdf.record_scope import out_of_scope
 
             said += tuple(out_of_scope(reading.robot, file, reading.lines))
+        if "package" in options.approach:
+            from urdfsync.urdf.passive import massless_passive_joints
+
+            said += tuple(massless_passive_joints(reading.robot, options, file, reading.lines))
         return Reading(to_snapshot(reading.robot), said, reading.lines)
 
     def dependencies(
@@ -182,8 +186,6 @@ def _with_meshes(snapshot: Snapshot, options: Options) -> Robot:
     absent: dict[str, list[Any]] = {}
     if not options.collisions or ("package" not in options.approach and options.base == "fixed"):
         absent["collisions"] = []
-    if "package" not in options.approach:
-        absent["visuals"] = []
     shown = {name: {**link, **absent} for name, link in snapshot["links"].items() if _has_mesh(link)}
     return from_snapshot({**snapshot, "links": shown, "joints": {}, "extensions": {}})
 

@@ -11,11 +11,11 @@ from types import SimpleNamespace
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.records import record_components, record_tables
 from support.trees import SCALAR, robots
 
 from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
-from urdfsync.urdf.model.numbers import joint_numbers
-from urdfsync.urdf.model.tables import Structure, has_tables, obstacles, record_tables, structure
+from urdfsync.urdf.model.tables import Structure, has_tables, obstacles, structure
 from urdfsync.urdf.robot import Joint, Link, Mimic, Robot
 
 TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: has_tables(robot.joints))
@@ -245,10 +245,9 @@ def test_references_are_to_what_the_record_has_and_no_number_is_written(robot: R
     of = KinematicTree.of(robot)
     fields = {of.link(link.name).component: {"inertial"} for link in of.links}
     for joint in of.joints:
-        numbers = joint_numbers(joint)
-        groups = {"limits", "dynamics", "mimic"} if joint.type != "fixed" else set()
-        groups |= {"axis"} if numbers.axis else set()
+        groups = {"axis", "limits", "dynamics", "mimic"} if joint.type != "fixed" else set()
         fields[of.joint(joint.name).component] = {"name", "origin", *groups}
+    assert fields.keys() == record_components(of).keys()
     text = " ".join(record_tables(of)).replace("Modelica.Constants.inf", "")
     for reference in REFERENCE.findall(text):
         component, field, *_ = reference.split(".")

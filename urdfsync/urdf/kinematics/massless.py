@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import enum
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
 
 import msgspec
 
@@ -60,18 +61,18 @@ class _Axis(msgspec.Struct, frozen=True):
         return lever > _ROUNDING * (_length(point) + _length(self.point))
 
 
-def find_massless_joints(tree: KinematicTree, free: Collection[str] | None = None) -> Mapping[str, Massless]:
+def find_massless_joints(tree: KinematicTree, free: AbstractSet[str] | None = None) -> Mapping[str, Massless]:
     """Return the joints with an axis that move no mass, by name in canonical order, and why.
 
-    Joints that follow others are left out; what they move counts for their leader. `free` joints are those that can
-    undo, or be undone, since nothing prescribes their motion; None stands for all that neither follow nor lead others.
+    Joints that follow others are left out; what they move counts for their leader. Joints that are not `free` move as
+    prescribed, so that they undo no motion; None for all.
     """
     poses, children = link_poses(tree, start_positions(tree)), tree.children()
     links = {link.name: link for link in tree.links}
     axes = {joint.name: _axis(joint, poses) for joint in tree.joints if joint.type in MOTION_KINDS}
     followers = tree.followers_by_leader()
-    single = axes.keys() - followers.keys() - {joint.name for joint, _ in tree.followers()}
-    free = single if free is None else single & set(free)
+    single = {name for name in axes if name not in followers} - {joint.name for joint, _ in tree.followers()}
+    free = single if free is None else single & free
 
     def moves_something(joint: Joint, undone: bool = False) -> bool:
         """Return whether the joint moves a mass; with `undone`, not what is behind a free joint on the same axis."""

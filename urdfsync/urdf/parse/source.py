@@ -68,7 +68,7 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = False) -> Robot
     return RobotReading(None if findings.failed else robot, findings.result(), findings.lines)
 
 
-@profiling.staged("cross-check")
+@profiling.stage("cross-check")
 def _cross_check(content: bytes, robot: Robot, findings: Findings) -> None:
     # Late, since yourdfpy takes most of a second to load, and a plain build does without it.
     from urdfsync.urdf.parse.second_reader import compare_readers

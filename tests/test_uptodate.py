@@ -1,4 +1,4 @@
-"""The stamp: says again what a command has said, as long as the command would say so."""
+"""The up-to-date check prints a saved answer as long as the command would say the same."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
+import types
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -14,12 +16,12 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from support import stamps
-from support.stamps import repeated, stamped
+from support import answers
+from support.answers import save, saved
 
-from urdfsync import cli, dependencies, report, streams
+from urdfsync import cli, dependencies, report, streams, uptodate
+from urdfsync.__main__ import main as program
 from urdfsync.checking import afterbuild
-from urdfsync.stamping import beside, making, stamp, trust
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]
@@ -31,33 +33,18 @@ URDF = "robots/leg.urdf"
 IN_STEP = "arm: in step, 17 files, 1 kept because you edited it\nleg: in step, 16 files, 1 kept because you edited it"
 
 
-SHARING = [True, False] if hasattr(os, "fork") else [False]
-"""Whether a second process looks at half of the files."""
-
-
-def share(monkeypatch: pytest.MonkeyPatch, whether: bool) -> None:
-    monkeypatch.setattr(stamp, "_MANY", 0 if whether else sys.maxsize)
-    monkeypatch.setattr(beside, "_may_fork", lambda: True)
-
-
-def both_ways(monkeypatch: pytest.MonkeyPatch, *command: str) -> list[str] | None:
-    """What the stamp answers, whether a second process helps or not."""
-    answers = []
-    for whether in SHARING:
-        with monkeypatch.context() as patch:
-            share(patch, whether)
-            answers.append(repeated(*command))
-    assert answers[0] == answers[-1]
-    return answers[0]
+@pytest.fixture(autouse=True)
+def _no_tmpfs(tmp_path: Path) -> None:
+    if answers.tmpfs(tmp_path):
+        pytest.skip("on tmpfs no answer is saved: use --basetemp")
 
 
 @pytest.fixture
 def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A project in step, which is the working folder; no command has left a stamp in it."""
+    """A project in step, which is the working folder; no answer is saved in it."""
     place = tmp_path / "project"
     shutil.copytree(in_step, place)
     (place / STAMP).unlink(missing_ok=True)
-    stamps.program(tmp_path, monkeypatch)
     monkeypatch.chdir(place)
     return place
 
@@ -70,63 +57,63 @@ def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pa
     [BUILD, CHECK, STATUS, ["build", "leg"], ["build", "-q"], ["build", "--check", "--json"], ["status", "-v"]],
 )
 def test_what_was_said_is_said_again(folder: Path, command: list[str], capsys: Capture) -> None:
-    stamped(*command)
+    save(*command)
     capsys.readouterr()
     assert cli.main(command) == 0
     said = capsys.readouterr()
-    assert stamp.repeat(command) == 0
+    assert uptodate.print_answer(command) == 0
     assert capsys.readouterr() == said
     assert "stray-state" in said.out + said.err or command[-1] == "-q"
 
 
-def test_commands_share_a_stamp(folder: Path) -> None:
+def test_commands_share_a_file(folder: Path) -> None:
     for command in (BUILD, CHECK, STATUS):
-        stamped(*command)
-    assert all(repeated(*command) is not None for command in (BUILD, CHECK, STATUS))
+        save(*command)
+    assert all(saved(*command) is not None for command in (BUILD, CHECK, STATUS))
 
 
 def test_a_check_says_nothing_of_a_build(folder: Path) -> None:
     shutil.rmtree(".urdfsync/base")  # a clone: what its files are merged with is not there yet
-    stamped(*CHECK)
-    assert repeated(*BUILD) is None
+    save(*CHECK)
+    assert saved(*BUILD) is None
 
 
 def test_the_answer_belongs_to_the_folder_and_the_environment(
     folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    stamped(*BUILD)
+    save(*BUILD)
     with monkeypatch.context() as patch:
         patch.chdir("robots")
-        assert repeated(*BUILD) is None, "paths look different from here"
+        assert saved(*BUILD) is None, "paths look different from here"
     with monkeypatch.context() as patch:
         patch.setenv("ROS_PACKAGE_PATH", str(folder))
-        assert repeated(*BUILD) is None
+        assert saved(*BUILD) is None
     with monkeypatch.context() as patch:
         patch.setenv("MODELICAPATH", str(folder))
-        assert repeated(*BUILD) is None
-    assert repeated(*BUILD) is not None
+        assert saved(*BUILD) is None
+    assert saved(*BUILD) is not None
 
 
 def test_a_configuration_that_is_named(folder: Path) -> None:
     Path("urdfsync.toml").rename("robots.toml")
-    stamped("build", "--config", "robots.toml")
-    assert repeated("build", "--config=./robots.toml") is None, "another command, as far as anybody knows"
-    stamped("build", "--config=./robots.toml")
+    save("build", "--config", "robots.toml")
+    assert saved("build", "--config=./robots.toml") is None, "another command, as far as anybody knows"
+    save("build", "--config=./robots.toml")
 
 
 @pytest.mark.parametrize("command", [["build", "--full"], ["build", "--svg"], ["diff"], ["build", "--check", "nobody"]])
 def test_what_is_not_said_again(folder: Path, command: list[str], capsys: Capture) -> None:
     time.sleep(0.1)
     cli.main(command)
-    assert repeated(*command) is None
+    assert saved(*command) is None
 
 
-def test_a_build_that_wrote_leaves_no_stamp(folder: Path) -> None:
+def test_a_build_that_wrote_saves_no_answer(folder: Path) -> None:
     time.sleep(0.1)
     Path(LEG).unlink()
     assert cli.main(BUILD) == 0
-    assert repeated(*BUILD) is None
-    stamped(*BUILD)
+    assert saved(*BUILD) is None
+    save(*BUILD)
 
 
 def test_builds_with_checks_are_not_said_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -135,11 +122,11 @@ def test_builds_with_checks_are_not_said_again(folder: Path, monkeypatch: pytest
     assert cli.main(BUILD) == 0
     time.sleep(0.1)
     assert cli.main(BUILD) == 0
-    assert repeated(*BUILD) is None
-    stamped(*CHECK)
+    assert saved(*BUILD) is None
+    save(*CHECK)
 
 
-# What a stamp rests on
+# What an answer depends on
 
 
 def _rewrite(path: str) -> Edit:
@@ -199,7 +186,7 @@ EDITS: dict[str, Edit] = {
             *(".urdfsync/robots/gone.toml", "modelica/Leg/package.order"),
         )
     },
-    "a mesh that is better placed": _write("robots/arm_meshes/base.stl", stamps.TETRAHEDRON),
+    "a mesh that is better placed": _write("robots/arm_meshes/base.stl", answers.TETRAHEDRON),
     "a package that hides another": _write("ros/a/package.xml", "<name>arm_meshes</name>"),
     "a folder to be ignored": _write("ros/group/COLCON_IGNORE"),
     "a template": _write("own/link.mo.jinja", "<< this >>"),
@@ -221,16 +208,16 @@ EDITS: dict[str, Edit] = {
 
 
 @pytest.mark.parametrize("name", EDITS)
-def test_whatever_matters_ends_a_stamp(folder: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_dependency_counts(folder: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(folder / "later"))
     (folder / "ros/closed").mkdir(mode=0)
     (folder / "ros/marked").mkdir()
     (folder / "target").mkdir()
     (folder / "ros/marked/package.xml").symlink_to(folder / "target")
-    stamped(*BUILD)
-    assert both_ways(monkeypatch, *BUILD) is not None
+    save(*BUILD)
+    assert saved(*BUILD) is not None
     EDITS[name](folder)
-    assert both_ways(monkeypatch, *BUILD) is None
+    assert saved(*BUILD) is None
 
 
 def test_so_does_a_library_that_comes_to_modelicapath(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -238,103 +225,62 @@ def test_so_does_a_library_that_comes_to_modelicapath(folder: Path, monkeypatch:
     source = Path(URDF).read_text()
     assert "package://leg_meshes/" in source
     Path(URDF).write_text(source.replace("package://leg_meshes/", "modelica://LegMeshes/"))
-    stamped(*BUILD)
-    assert both_ways(monkeypatch, *BUILD) is not None
+    save(*BUILD)
+    assert saved(*BUILD) is not None
     _write("libraries/LegMeshes 2.0/package.mo")(folder)
-    assert both_ways(monkeypatch, *BUILD) is None
+    assert saved(*BUILD) is None
 
 
 def test_so_does_another_program(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    stamped(*BUILD)
+    save(*BUILD)
     with monkeypatch.context() as patch:
-        patch.setattr(stamp, "__version__", "0.0.1")
-        assert repeated(*BUILD) is None
+        patch.setattr(uptodate, "__version__", "0.0.1")
+        assert saved(*BUILD) is None
     with monkeypatch.context() as patch:
         patch.setattr(os, "geteuid", lambda: 12345, raising=False)
-        assert repeated(*BUILD) is None, "another user may not be allowed to read all that"
+        assert saved(*BUILD) is None, "another user may not be allowed to read all that"
     with monkeypatch.context() as patch:
         patch.setattr(os, "getgroups", lambda: [12345], raising=False)
-        assert repeated(*BUILD) is None, "nor one of other groups"
-    _rewrite("program.py")(tmp_path)
-    assert repeated(*BUILD) is None, "a version that is being worked on"
+        assert saved(*BUILD) is None, "nor one of other groups"
+
+
+def test_so_does_a_module_that_somebody_is_working_on(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    module = types.ModuleType("urdfsync.addition")
+    module.__file__ = str(tmp_path / "addition.py")
+    Path(module.__file__).write_text("VERSION = 1\n")
+    monkeypatch.setitem(sys.modules, module.__name__, module)
+    save(*BUILD)
+    _rewrite("addition.py")(tmp_path)
+    assert saved(*BUILD) is None
 
 
 def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
-    stamped(*BUILD)
+    save(*BUILD)
     for path in ("notes.txt", "modelica/notes.txt", "modelica/Leg/Own.mo", "robots/other.urdf", ".urdfsync/own.txt"):
         _write(path)(folder)
-    assert repeated(*BUILD) is not None
+    assert saved(*BUILD) is not None
 
 
-FILES = st.lists(st.tuples(st.sampled_from(["a", "b", "a/deep"]), st.booleans()), min_size=1, max_size=8)
-"""Folders of files; whether a file is seen as the target of a link."""
+# When an answer is saved
 
 
-@given(st.data(), FILES)
-@settings(max_examples=20)
-def test_every_file_counts_whoever_looks_at_it(
-    tmp_path_factory: pytest.TempPathFactory, data: st.DataObject, files: list[tuple[str, bool]]
-) -> None:
-    site = tmp_path_factory.mktemp("site")
-    for folder in ("a/deep", "b"):
-        (site / folder).mkdir(parents=True)
-    paths = [site / folder / f"{number}.mo" for number, (folder, _) in enumerate(files)]
-    for path in paths:
-        path.write_text("1")
-    groups: tuple[list[Path], list[Path]] = [], []
-    for path, (_, is_target) in zip(paths, files, strict=True):
-        groups[is_target].append(path)
-    reading = _reading(site, *groups)
-    with pytest.MonkeyPatch.context() as patch:
-        for whether in SHARING:
-            share(patch, whether)
-            assert reading.holds()
-        data.draw(st.sampled_from(paths)).write_text("22")
-        for whether in SHARING:
-            share(patch, whether)
-            assert not reading.holds()
-
-
-def _reading(site: Path, own: list[Path], targets: list[Path]) -> stamp.Reading:
-    """A stamp that rests on these files, and on four other places."""
-    contents: list[dict[str, stamp.Facts]] = [
-        {str(path): dependencies.stat_of(path.stat()) for path in paths} for paths in (own, targets)
-    ]
-    kinds: dict[str, stamp.Facts] = {str(site): (0o040000,), str(site / "none"): (0,)}
-    made = stamp.Stamp("program", (contents[0], contents[1]), (kinds, kinds), {})
-    return stamp.Reading(made.dumps(1, 2), 1, 2)
-
-
-def test_two_processes_share_the_work(tmp_path: Path) -> None:
-    """By the number of paths: folders may differ much."""
-    for number in range(20):
-        (tmp_path / f"{number}.mo").touch()
-    reading = _reading(tmp_path, paths := sorted(tmp_path.iterdir()), [])
-    first, second = reading._halves
-    assert [half[0].count("\0") for half in (first, second)] == [12, 8], "four more go with the second"
-    assert reading.own == [str(path) for path in paths]
-
-
-# When a stamp is trusted
-
-
-def test_what_is_written_at_the_same_time_is_not_believed(folder: Path) -> None:
-    stamped(*BUILD)
-    Path(STAMP).unlink()
-    for written in (True, False):
-        time.sleep(0.1)  # what was before is old enough
-        begin = time.monotonic_ns(), time.time_ns()
-        with dependencies.record_dependencies() as looks:
-            dependencies.read_file(folder / "urdfsync.toml")
-            if written:
-                Path(URDF).write_bytes(Path(URDF).read_bytes())
-            dependencies.read_file(folder / URDF)
-        making.keep(str(folder / "urdfsync.toml"), {"question": []}, looks, begin)
-        assert Path(STAMP).exists() is not written
+@pytest.mark.parametrize("written", [True, False])
+def test_no_answer_depends_on_a_file_that_was_written_meanwhile(folder: Path, written: bool) -> None:
+    time.sleep(0.1)  # what was before is old enough
+    started = uptodate.read_clocks()
+    with dependencies.record_dependencies() as found:
+        dependencies.read_file(folder / "urdfsync.toml")
+        if written:
+            Path(URDF).write_bytes(Path(URDF).read_bytes())
+        dependencies.read_file(folder / URDF)
+    uptodate.save_answer(str(folder / "urdfsync.toml"), "key", ["answer"], found, started)
+    assert Path(STAMP).exists() is not written
 
 
 @pytest.mark.parametrize(
-    ("age", "facts", "settled"),
+    ("age", "stat", "is_settled"),
     [
         (0.04, {}, False),
         (0.06, {}, True),
@@ -349,61 +295,101 @@ def test_what_is_written_at_the_same_time_is_not_believed(folder: Path) -> None:
         (100, {"altered": 0.01}, False),
     ],
 )
-def test_only_what_is_older_than_the_command_is_believed(age: float, facts: dict[str, float], settled: bool) -> None:
-    now, passed, tick = 5_000_000_000_000_000_123, 3_000_000_000, 1_000_000_000
-    changed = now - passed - int(age * tick)
-    if facts.get("second"):
+def test_files_that_changed_shortly_before_are_racy(age: float, stat: dict[str, float], is_settled: bool) -> None:
+    now, elapsed, tick = 5_000_000_000_000_000_123, 3_000_000_000, 1_000_000_000
+    changed = now - elapsed - int(age * tick)
+    if stat.get("second"):
         changed -= changed % tick - tick  # a clock that counts seconds
-    altered = (
-        changed if "altered" not in facts else (now - passed - int(facts["altered"] * tick)) * bool(facts["altered"])
-    )
-    seen = (0o100644, 7, int(facts.get("device", 1)), 10, changed, altered)
-    status = os.stat_result((0o100644, 8, 1, 1, 0, 0, 0, 0, 0, 0), {"st_mtime_ns": now, "st_dev": 1})
-    assert trust.Clock(status, is_sound=True).trusts(seen, passed) is settled
-    assert not trust.Clock(status, is_sound=False).trusts(seen, passed)
+    altered = changed
+    if "altered" in stat:
+        altered = (now - elapsed - int(stat["altered"] * tick)) * bool(stat["altered"])
+    found = (0o100644, 7, int(stat.get("device", 1)), 10, changed, altered)
+    created = os.stat_result((0o100644, 8, 1, 1, 0, 0, 0, 0, 0, 0), {"st_mtime_ns": now, "st_dev": 1})
+    assert uptodate.is_racy(found, uptodate.Clock(created, is_reliable=True), elapsed) is not is_settled
+    assert uptodate.is_racy(found, uptodate.Clock(created, is_reliable=False), elapsed)
+    assert uptodate.is_racy(found, uptodate.Clock(created, is_reliable=True, tmpfs=frozenset([found[2]])), elapsed)
 
 
-# What is no stamp
+@pytest.mark.skipif(sys.platform != "linux", reason="needs tmpfs")
+def test_on_tmpfs_no_answer_is_saved(in_step: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A store through a memory map is never noted there."""
+    if not (Path("/dev/shm").is_dir() and answers.tmpfs(Path("/dev/shm"))):
+        pytest.skip("there is no tmpfs")
+    with tempfile.TemporaryDirectory(dir="/dev/shm") as folder:
+        place = Path(folder) / "project"
+        shutil.copytree(in_step, place, ignore=shutil.ignore_patterns("stamp"))
+        monkeypatch.chdir(place)
+        time.sleep(0.1)
+        assert cli.main(BUILD) == 0
+        assert not (place / STAMP).exists()
 
 
-def test_a_damaged_stamp_is_none(folder: Path) -> None:
-    stamped(*BUILD)
+# Files that hold no answer
+
+
+def test_a_truncated_file_holds_no_answer(folder: Path) -> None:
+    save(*BUILD)
     content, status = Path(STAMP).read_bytes(), Path(STAMP).stat()
-    damaged = [content[:length] for length in (0, 5, 30, len(content) // 2, len(content) - 1)]
-    damaged += [content[:n] + bytes([content[n] ^ 1]) + content[n + 1 :] for n in range(0, len(content), 501)]
-    for other in [*damaged, content + b"x"]:
+    zeros = [content[: len(content) // 2] + b"\0" * (len(content) // 2)]
+    for other in [*(content[:n] for n in (0, 5, 30, len(content) // 2, len(content) - 1)), *zeros, b"\xff\0\0"]:
         Path(STAMP).write_bytes(other)
         os.utime(STAMP, ns=(status.st_mtime_ns, status.st_mtime_ns))
-        assert repeated(*BUILD) is None
-        assert stamp.repeat(BUILD) is None
+        assert saved(*BUILD) is None
+        assert uptodate.print_answer(BUILD) is None
     Path(STAMP).write_bytes(content)
     os.utime(STAMP, ns=(status.st_mtime_ns, status.st_mtime_ns))
-    assert repeated(*BUILD) is not None, "nothing else was wrong"
+    assert saved(*BUILD) is not None, "nothing else was wrong"
 
 
-def test_a_copy_of_a_stamp_is_none(folder: Path) -> None:
-    stamped(*BUILD)
+def test_a_copy_holds_no_answer(folder: Path) -> None:
+    save(*BUILD)
     shutil.copy2(STAMP, "copy")
     Path("copy").replace(STAMP)
-    assert repeated(*BUILD) is None, "such as one that somebody has committed"
+    assert saved(*BUILD) is None, "such as one that somebody has committed"
 
 
-def test_a_pipe_in_its_place_is_none(folder: Path) -> None:
+def test_neither_a_pipe_nor_a_link_in_its_place_is_read(folder: Path) -> None:
+    save(*BUILD)
+    Path(STAMP).rename(folder / "elsewhere")
+    Path(STAMP).symlink_to(folder / "elsewhere")
+    assert saved(*BUILD) is None
+    Path(STAMP).unlink()
     os.mkfifo(STAMP)
-    assert repeated(*BUILD) is None, "nobody waits for it"
+    assert saved(*BUILD) is None, "nobody waits for it"
 
 
-def test_there_is_none_where_nobody_knows_when_a_file_changed(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    time.sleep(0.1)  # so that it would be written
+@pytest.mark.parametrize("name", ["stamp", ".stamp.urdfsync-tmp", ".clock.urdfsync-tmp"])
+def test_no_link_is_followed_where_an_answer_is_saved(folder: Path, name: str) -> None:
+    victim = folder.parent / "victim"
+    victim.write_text("precious")
+    (folder / ".urdfsync" / name).symlink_to(victim)
+    save(*BUILD)
+    assert victim.read_text() == "precious"
+    assert not (folder / ".urdfsync" / name).is_symlink()
+
+
+def test_nothing_is_written_through_a_linked_state_folder(folder: Path) -> None:
+    (folder / ".urdfsync").rename(folder.parent / "elsewhere")
+    (folder / ".urdfsync").symlink_to(folder.parent / "elsewhere")
+    before = sorted(path.name for path in (folder.parent / "elsewhere").iterdir())
+    time.sleep(0.1)
+    cli.main(["status"])
+    assert sorted(path.name for path in (folder.parent / "elsewhere").iterdir()) == before
+
+
+@pytest.mark.parametrize("system", ["Windows", "FAT"])
+def test_no_answer_is_saved_where_the_time_of_a_change_can_be_set(
+    folder: Path, system: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    time.sleep(0.1)  # so that it would be saved
     with monkeypatch.context() as patch:
-        patch.setattr(trust, "HAS_CHANGE_TIMES", False)
+        if system == "Windows":
+            patch.setattr(uptodate, "HAS_CHANGE_TIMES", False)
+        else:
+            patch.setattr(os, "fstat", lambda descriptor, original=os.fstat: _as_on_fat(original(descriptor)))
         assert cli.main(BUILD) == 0
         assert not Path(STAMP).exists()
-    with monkeypatch.context() as patch:
-        patch.setattr(os, "fstat", lambda descriptor, original=os.fstat: _as_on_fat(original(descriptor)))
-        assert cli.main(BUILD) == 0
-        assert not Path(STAMP).exists()
-    stamped(*BUILD)
+    save(*BUILD)
 
 
 def _as_on_fat(status: os.stat_result) -> os.stat_result:
@@ -412,26 +398,26 @@ def _as_on_fat(status: os.stat_result) -> os.stat_result:
     return os.stat_result(tuple(status), times)
 
 
-def test_a_progress_bar_is_not_said_again(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_progress_bar_is_not_saved(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(report, "_PATIENCE", 0.0)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
-    stamped(*BUILD)
+    save(*BUILD)
     assert "━" in capsys.readouterr().err, "there was one"
-    assert stamp.repeat(BUILD) == 0
+    assert uptodate.print_answer(BUILD) == 0
     said = capsys.readouterr()
     assert "━" not in said.err
     assert said.out.count("in step") == 2
 
 
-def test_a_stamp_that_can_not_be_written_is_no_error(folder: Path, capsys: Capture) -> None:
+def test_an_answer_that_can_not_be_saved_is_no_error(folder: Path, capsys: Capture) -> None:
     Path(STAMP).mkdir()
-    time.sleep(0.1)  # so that it would be written
+    time.sleep(0.1)  # so that it would be saved
     assert cli.main(BUILD) == 0
     assert capsys.readouterr().out == f"{IN_STEP}\n"
     assert sorted(path.name for path in Path(".urdfsync").iterdir() if path.name.startswith(".")) == [".gitignore"]
 
 
-# Stamp and decision agree, whatever happens to the files
+# Check and command agree, whatever happens to the files
 
 
 PATHS = (
@@ -458,7 +444,7 @@ STEPS = st.lists(st.one_of(CHANGES, st.sampled_from([BUILD, CHECK, STATUS, "rest
 @pytest.mark.slow
 @settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(STEPS)
-def test_stamp_and_decision_agree(
+def test_check_and_command_agree(
     in_step: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch, steps: list[object]
 ) -> None:
     """About 15 s of CPU."""
@@ -468,8 +454,7 @@ def test_stamp_and_decision_agree(
     first = {path: _state(place / path) for path in PATHS}
     with monkeypatch.context() as patch:
         patch.chdir(place)
-        stamps.program(site, patch)
-        stamped(*CHECK)
+        save(*CHECK)
         for step in steps:
             if isinstance(step, list):
                 cli.main(step)
@@ -477,9 +462,9 @@ def test_stamp_and_decision_agree(
                 path, what, how, old = step
                 _bring(place / path, what, how, old, first[path])
             else:
-                time.sleep(0.06)  # long enough for the next stamp
+                time.sleep(0.06)  # long enough for the next answer
             for command in (BUILD, CHECK, STATUS):
-                said = both_ways(monkeypatch, *command)
+                said = saved(*command)
                 assert said is None or said == _full(command), (command, step)
 
 
@@ -515,14 +500,22 @@ def _bring(path: Path, what: str, how: str, old: bool, first: State) -> None:
 
 
 def _full(command: list[str]) -> list[str] | None:
-    """What the command says if it is carried out, in the form of a stamp; None unless it succeeds."""
-    said: streams.Said = []
-    with streams.guarded(said):
+    """What the command says if it is carried out, in the form of a saved answer; None unless it succeeds."""
+    said: streams.Transcript = []
+    with streams.safe_streams(said):
         code = cli._main(command)
     return [text for pair in said if pair[1] for text in pair] if code == 0 else None
 
 
 # The whole program
+
+
+def test_an_interruption_is_an_exit_code(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(arguments: list[str]) -> int:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(uptodate, "print_answer", interrupted)
+    assert program() == 130
 
 
 def imported(*arguments: str, code: int = 0) -> tuple[set[str], str]:
@@ -536,37 +529,14 @@ def imported(*arguments: str, code: int = 0) -> tuple[set[str], str]:
 
 
 def test_nothing_heavy_is_imported(folder: Path) -> None:
-    end = time.monotonic() + stamps.LIMIT
+    end = time.monotonic() + answers.LIMIT
     anyway, _ = imported("-c", "import runpy")
     while "urdfsync.cli" in (names := imported("-m", "urdfsync", *BUILD))[0]:
-        assert time.monotonic() < end, "no stamp"
+        assert time.monotonic() < end, "no answer was saved"
     assert names[1] == f"{IN_STEP}\n"
-    ours = {"urdfsync", "urdfsync.program", "urdfsync.stamping", "urdfsync.stamping.stamp", "urdfsync.streams"}
-    assert names[0] - anyway - ours <= {"atexit", "gc", "zlib", "runpy"}
-
-
-TWO = """
-import os, sys
-from urdfsync.stamping import beside, stamp
-from urdfsync.__main__ import main
-beside._may_fork, stamp._MANY, fork, made = lambda: True, 0, os.fork, []
-os.fork = lambda: made.append(process := fork()) or process
-code = main()
-assert made and "argparse" not in sys.modules
-sys.exit(code)
-"""
-
-
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs a second process")
-def test_two_processes_speak_once(folder: Path) -> None:
-    stamped_program(CHECK)
-    said = []
-    for code in (TWO, FULL):
-        with started(code, CHECK, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-            said.append(process.communicate())
-        assert process.returncode == 0
-    assert said[0] == said[1]
-    assert said[0][0] == f"{IN_STEP}\n".encode()
+    ours = {f"urdfsync.{name}" for name in ("uptodate", "dependencies", "streams")}
+    light = {"__future__", "_contextvars", "collections.abc", "contextvars", "errno", "runpy", "time"}
+    assert names[0] - anyway - ours <= {"urdfsync", *light}
 
 
 FULL = "import sys; from urdfsync.cli import main; sys.exit(main())"
@@ -578,23 +548,23 @@ def started(code: str, command: list[str], **options: Any) -> subprocess.Popen[b
     return subprocess.Popen([sys.executable, "-c", code, *command], env=variables, **options)
 
 
-def stamped_program(command: list[str]) -> None:
-    """Let the whole program run until it has left a stamp."""
-    end = time.monotonic() + stamps.LIMIT
+def save_by_program(command: list[str]) -> None:
+    """Let the whole program run until it has saved an answer."""
+    end = time.monotonic() + answers.LIMIT
     while not Path(STAMP).exists():
         with started(FULL, command, stdout=subprocess.PIPE) as process:
             process.communicate()
-        assert time.monotonic() < end, "no stamp"
+        assert time.monotonic() < end, "no answer was saved"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
 @pytest.mark.parametrize("variables", [{}, {"NO_COLOR": "1"}])
 def test_it_looks_the_same_on_a_terminal(folder: Path, variables: dict[str, str]) -> None:
     said = {_on_terminal(FULL, variables)}
-    end = time.monotonic() + stamps.LIMIT
+    end = time.monotonic() + answers.LIMIT
     while not Path(STAMP).exists():
         said.add(_on_terminal(FULL, variables))
-        assert time.monotonic() < end, "no stamp"
+        assert time.monotonic() < end, "no answer was saved"
     said.add(_on_terminal(SHORT.replace("sys.exit(main())", "main(); assert 'argparse' not in sys.modules"), variables))
     (same,) = said
     assert (b"\x1b[" in same) is not bool(variables)
@@ -642,6 +612,6 @@ def _without_reader(code: str) -> tuple[int, bytes]:
 @pytest.mark.parametrize("ending", [_with_full_disk, _without_reader])
 def test_an_output_that_ends_early(folder: Path, ending: Callable[[str], tuple[int, bytes]]) -> None:
     whole = ending(FULL)
-    stamped_program(CHECK)
+    save_by_program(CHECK)
     assert ending(SHORT) == whole
     assert whole[0] == (2 if ending is _with_full_disk else 0)

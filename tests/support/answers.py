@@ -1,4 +1,4 @@
-"""Projects in step, and the stamps of commands in them."""
+"""Projects in step, and the saved answers of commands in them."""
 
 from __future__ import annotations
 
@@ -6,13 +6,10 @@ import shutil
 import time
 from pathlib import Path
 
-import pytest
-
-from urdfsync import cli, dependencies
-from urdfsync.stamping import making, stamp
+from urdfsync import cli, uptodate
 
 LIMIT = 60.0
-"""Seconds after which a stamp does not come any more."""
+"""Seconds after which an answer is not saved any more."""
 TETRAHEDRON = (
     "solid t\n"
     + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
@@ -68,28 +65,24 @@ def built(folder: Path) -> Path:
     return folder
 
 
-def stamped(*arguments: str, code: int = 0) -> None:
-    """Run a command until it has left a stamp: not as long as what it looks at is as new as the command."""
+def save(*arguments: str) -> None:
+    """Run a command until its answer is saved: not as long as its dependencies are racy."""
     end = time.monotonic() + LIMIT
-    while repeated(*arguments) is None:
+    while saved(*arguments) is None:
         time.sleep(0.06)
-        assert cli.main(arguments) == code
-        assert time.monotonic() < end, "no stamp"
+        assert cli.main(arguments) == 0
+        assert time.monotonic() < end, "no answer was saved"
 
 
-def repeated(*arguments: str) -> list[str] | None:
-    """What the stamp answers to a command; None if it does not."""
-    file = stamp.configuration(list(arguments))
-    return stamp.answer(stamp.question(list(arguments), file), stamp.place(file)) if file else None
+def saved(*arguments: str) -> list[str] | None:
+    """The saved answer of a command, if it holds."""
+    file = uptodate.find_config(list(arguments))
+    return uptodate.find_answer(file, uptodate.answer_key(list(arguments), file)) if file else None
 
 
-def program(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Let stamps rest on this file instead of the modules of the program, which somebody may be working on."""
-    file = folder / "program.py"
-    file.write_text("VERSION = 1\n")
-    monkeypatch.setattr(stamp, "since_begin", lambda: 0)
-    monkeypatch.setattr(making, "_modules", lambda: iter([(str(file), dependencies.stat_of(file.stat()))]))
-    return file
+def tmpfs(path: Path) -> bool:
+    """Whether a path is on tmpfs, where no answer is saved."""
+    return path.stat().st_dev in set(uptodate._tmpfs_devices())
 
 
 def _write(path: Path, text: str) -> None:
