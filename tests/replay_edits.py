@@ -21,9 +21,9 @@ from support import edits, replay
 from support.replay import Fresh, Project
 from support.steps import Answer, Known, Step, plain
 
-from urdfsync.manifest import text_hash
 from urdfsync.plan import Kind
 from urdfsync.standoff import Choice
+from urdfsync.state.manifest import text_hash
 
 EPISODE = 40
 """Steps with one project."""

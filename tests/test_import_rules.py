@@ -51,58 +51,56 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "domain": ("urdfsync.urdf", "urdfsync.render", "urdfsync.registry", *SHELL_MODULES, *IO, *HEAVY),
     "changes": ("rich", "pathlib", "jinja2", "urdfsync.urdf", *IO, *SHELL_MODULES),
     "difference": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
-    "render": ("urdfsync.urdf", "urdfsync.manifest", "rich", *SHELL_MODULES),
-    "manifest": ("rich", "pathlib", *IO, *SHELL_MODULES),
-    "modelfile": ("rich", "pathlib", *IO, *SHELL_MODULES),
-    "plan": ("pathlib", "urdfsync.manifest", "urdfsync.registry", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
+    "render": ("urdfsync.urdf", "urdfsync.state.manifest", "rich", *SHELL_MODULES),
+    "state/manifest": ("rich", "pathlib", *IO, *SHELL_MODULES),
+    "state/modelfile": ("rich", "pathlib", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *IO),
+    "plan": ("pathlib", "urdfsync.state.manifest", "urdfsync.registry", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
     "order": ("urdfsync", "pathlib", *IO, *HEAVY),
-    "shelf": ("urdfsync", "pathlib", *IO, *HEAVY),
     "moves": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
     "outcome": (*SHELL_MODULES, *IO, *HEAVY),
-    "status": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
+    "status": ("pathlib", "urdfsync.state.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
     "records": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "standalone": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "resolution": (*SHELL_MODULES, *HEAVY),
-    "comparing/comparison": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
+    "comparing/comparison": ("pathlib", "urdfsync.state.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
     "comparing/figures": ("urdfsync", "pathlib", *IO, *HEAVY),
-    "comparing/outline": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
-    "comparing/revisions": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "comparing/subjects": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "comparing/outline": ("pathlib", "urdfsync.state.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
+    "comparing/revisions": ("urdfsync.state.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "comparing/subjects": ("urdfsync.state.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "comparing/versions": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "comparing/differ": ("urdfsync.report", "urdfsync.cli", "urdfsync.render", *HEAVY),
     "wording": (*SHELL_MODULES, *IO, *HEAVY),
     "documents": (*SHELL_MODULES, *IO, *HEAVY),
     **{f"modelica/{name}": ("urdfsync", *IO, *HEAVY) for name in ("names", "literals")},
     **{
-        f"modelica/{name}": ("pathlib", "urdfsync.manifest", "urdfsync.merging", *SHELL_MODULES, *IO, *HEAVY)
+        f"modelica/{name}": ("pathlib", "urdfsync.state.manifest", "urdfsync.merging", *SHELL_MODULES, *IO, *HEAVY)
         for name in ("lexer", "syntax", "reader", "expressions", "parser", "scopes", "unresolved")
     },
     "merge": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
-    "merging/soundness": ("pathlib", "urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY),
+    "merging/soundness": ("pathlib", "urdfsync.state.manifest", *SHELL_MODULES, *IO, *HEAVY),
     "tomlfile": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "tables": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "targets": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "build": ("rich", "watchdog", "urdfsync.report", "urdfsync.cli"),
     "planning/planner": ("rich", "watchdog", "urdfsync.report", "urdfsync.cli"),
-    "state/journal": ("pathlib", "urdfsync", *IO, *HEAVY),
-    "state/operations": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
-    "state/batch": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
-    "state/transactions": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
-    "state/lock": ("urdfsync.build", "urdfsync.config", "urdfsync.manifest", *HEAVY),
-    "state/repair": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
+    "state/journal": ("urdfsync.build", "urdfsync.config", "urdfsync.state.manifest", *HEAVY),
+    "state/file_operations": ("urdfsync.build", "urdfsync.config", "urdfsync.state.manifest", *HEAVY),
+    "state/transaction": ("urdfsync.build", "urdfsync.config", *HEAVY),
+    "state/lock": ("urdfsync.build", "urdfsync.config", "urdfsync.state.manifest", *HEAVY),
+    "state/repair": ("pathlib", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *IO, *HEAVY),
     "planning/memory": ("pathlib", "urdfsync.build", "urdfsync.config", "urdfsync.urdf", *IO, *HEAVY),
     "spelling": ("urdfsync", "pathlib", *IO, *HEAVY),
     "planning/decide": ("rich", "watchdog", "urdfsync.build", "urdfsync.report", "urdfsync.cli"),
-    "planning/disk": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "planning/disk": ("urdfsync.state.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "staging/staged": (
         "urdfsync.build",
         "urdfsync.config",
-        "urdfsync.manifest",
+        "urdfsync.state.manifest",
         "urdfsync.report",
         "urdfsync.cli",
         *HEAVY,
     ),
-    "staging/mirror": ("urdfsync.build", "urdfsync.manifest", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "staging/mirror": ("urdfsync.build", "urdfsync.state.manifest", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "staging/verdict": (*SHELL_MODULES, *IO, *HEAVY),
     "staging/worktree": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "staging/judging": ("urdfsync.report", "urdfsync.cli", *HEAVY),
@@ -134,11 +132,11 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
         *("jinja2", "rich", "lxml", "yourdfpy", "trimesh", "numpy", "collada", "deepdiff", "watchdog"),
     ),
     **{
-        f"checking/diagnosis/{name}": ("urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS)
+        f"checking/diagnosis/{name}": ("urdfsync.state.manifest", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS)
         for name in ("package", "complaints", "mentions", "problems")
     },
     "checking/diagnosis/layout": (
-        "urdfsync.manifest",
+        "urdfsync.state.manifest",
         "urdfsync.build",
         "urdfsync.report",
         "urdfsync.cli",
@@ -164,7 +162,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "urdf/robot": ("lxml", "yourdfpy", "numpy", "pathlib", *IO),
     "urdf/reader/chunks": ("lxml", "urdfsync.urdf.robot", "pathlib", *IO, *SHELL_MODULES),
     "urdf/reader/renumbering": ("lxml", "pathlib", *IO, *SHELL_MODULES),
-    "urdf/source": ("jinja2", "urdfsync.render", "urdfsync.manifest", *SHELL_MODULES),
+    "urdf/source": ("jinja2", "urdfsync.render", "urdfsync.state.manifest", *SHELL_MODULES),
     "urdf/naming": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
     "urdf/artifacts": ("jinja2", "pathlib", *IO, *SHELL_MODULES),
 }
@@ -178,11 +176,11 @@ LIGHT = (
     "registry",
     "build",
     "planning/planner",
-    "state/transactions",
+    "state/transaction",
     "state/lock",
     "report",
-    "manifest",
-    "modelfile",
+    "state/manifest",
+    "state/modelfile",
     "plan",
     "state/store",
     "urdf/domain",
@@ -223,11 +221,10 @@ PURE = (
         "diagnostics",
         "difference",
         "domain",
-        "manifest",
-        "modelfile",
+        "state/manifest",
+        "state/modelfile",
         "plan",
         "order",
-        "shelf",
         "outcome",
         "spelling",
         "resolution",
@@ -309,7 +306,10 @@ def test_the_core_knows_no_domain(module: str) -> None:
 
 @pytest.mark.parametrize("module", [m for m in MODULES if m.startswith("urdf/")])
 def test_the_domain_knows_the_contract_only(module: str) -> None:
-    assert broken(all_imports(module), (*SHELL_MODULES, "urdfsync.plan", "urdfsync.manifest", "rich", "jinja2")) == []
+    assert (
+        broken(all_imports(module), (*SHELL_MODULES, "urdfsync.plan", "urdfsync.state.manifest", "rich", "jinja2"))
+        == []
+    )
 
 
 @pytest.mark.parametrize("module", [m for m in MODULES if m != "report" and not m.startswith("views/")])

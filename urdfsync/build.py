@@ -20,10 +20,9 @@ from urdfsync.planning.crew import Crew
 from urdfsync.planning.disk import Disk
 from urdfsync.planning.situation import Progress, Request
 from urdfsync.planning.work import Work
-from urdfsync.state.batch import SavedError
-from urdfsync.state.lock import Lock, LockedError
+from urdfsync.state.lock import Lock, LockedError, build_lock
 from urdfsync.state.store import Store
-from urdfsync.state.transactions import Change, Transactions, UnfinishedError
+from urdfsync.state.transaction import Change, Transactions, UnfinishedError
 
 __all__ = ["Progress", "Request", "build"]
 
@@ -33,7 +32,10 @@ _ATTEMPTS = 5
 
 def build(config: Config, robots: Sequence[RobotConfig], request: Request) -> Iterator[Result]:
     """Build robots one after the other; one that fails does not stop the others."""
-    with Lock(config.root / STATE_FOLDER / "lock", request.wait, shown) as lock, Crew(config, robots, request) as crew:
+    with (
+        build_lock(config.root, config.root / STATE_FOLDER, request.wait, shown) as lock,
+        Crew(config, robots, request) as crew,
+    ):
         builder = _Builder(config, request, lock, crew)
         for count, robot in enumerate(robots):
             request.progress(robot.name, count, len(robots))
@@ -47,7 +49,8 @@ class _Builder:
 
     def __init__(self, config: Config, request: Request, lock: Lock, crew: Crew) -> None:
         self._config, self._request, self._lock, self._crew = config, request, lock, crew
-        self._transactions = Transactions(config.root, config.root / STATE_FOLDER, shown)
+        outputs = list(dict.fromkeys(robot.output for robot in config.robots))
+        self._transactions = Transactions(config.root, config.root / STATE_FOLDER, shown, outputs)
         self._said: list[Diagnostic] = []
         self._first = True
 
@@ -84,23 +87,36 @@ class _Builder:
                 if self._is_current(work):
                     return _done(result, work)
                 continue
-            if work.writes or any(action.writes for action in work.decision.actions.decided):
+            if work.writes or work.bases or any(action.writes for action in work.decision.actions.decided):
                 looking.beyond()  # and it will look different
                 with profiling.stage("waiting"):
                     self._lock.acquire(waiting=self._wait)
                 if not self._is_current(work):
                     continue
-                try:
-                    self._transactions.apply(robot.name, [*self._around(robot, work), *work.writes], work.emptied)
-                except SavedError as error:
-                    saved = error.path
+                overtaken = self._write(robot, work)
+                if overtaken:
+                    saved = overtaken[0]
                     continue
-                if self._request.memory:
-                    self._request.memory.invalidate(robot.name)
             return _done(result, work)
         message = "it changes all the time while urdfsync builds"
         hint = "close what writes to it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
+
+    def _write(self, robot: RobotConfig, work: Work) -> tuple[Path, ...]:
+        """Carry out a plan. Returns the files that somebody saved in between."""
+        store, changes = Store(self._config.root, shown), [*self._around(robot, work), *work.writes]
+        if self._request.memory:
+            self._request.memory.invalidate(robot.name)
+        store.bases(robot.name).add(work.bases)
+        if not changes:
+            return ()
+        applied = self._transactions.apply(robot.name, changes, work.emptied)
+        self._said += applied.diagnostics
+        if work.mentioned is not None and not applied.overtaken:
+            store.bases(robot.name).prune(work.mentioned)
+            if work.former:
+                store.bases(work.former).prune(())
+        return applied.overtaken
 
     def _around(self, robot: RobotConfig, work: Work) -> list[Change]:
         """What this robot needs of the files that it shares with others."""
@@ -118,21 +134,19 @@ class _Builder:
         return not self._transactions.pending() and Store(self._config.root, shown).is_unchanged(work.witness, targets)
 
     def _recover(self) -> None:
-        """Wait for a build that is writing; finish or undo what one has left that was killed."""
+        """Wait for a build that is writing; finish what one has left that was killed."""
         if not self._transactions.pending():
             return
         if self._request.dry:
-            with Lock(self._config.root / STATE_FOLDER / "lock", self._request.wait, shown) as lock:
+            with build_lock(self._config.root, self._config.root / STATE_FOLDER, self._request.wait, shown) as lock:
                 lock.acquire(shared=True, waiting=self._wait)
             if self._transactions.pending():
-                message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes or undoes it"
+                message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
                 place = shown(self._config.root / STATE_FOLDER)
                 raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, place, hint=hint))
             return
         self._lock.acquire(waiting=self._wait)
-        robots = self._config.robots
-        note = self._transactions.recover([robot.output for robot in robots], [robot.folder for robot in robots])
-        self._said += [note] if note else []
+        self._said += self._transactions.recover(self._request.repair)
 
     def _wait(self) -> None:
         self._request.progress("waiting for another build", 0, 1)

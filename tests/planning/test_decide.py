@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 from urdfsync import config
 from urdfsync.domain import Role
 from urdfsync.files import digest, text_digest
-from urdfsync.manifest import Generator, Manifest, Source
 from urdfsync.plan import FileRecord, Kind, State, Wanted
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.disk import Disk
 from urdfsync.planning.parents import Parents
+from urdfsync.state.manifest import Generator, Manifest, Source
 
 FOLDER = "modelica/Arm"
 TEXTS = ("a\n", "b\n", "a\r\n")

@@ -103,17 +103,6 @@ def test_a_text_counts_as_stale_once_its_data_is_forgotten(tmp_path: Path) -> No
     assert {artifact.owner for artifact in one.artifacts.values()} == {"part"}
 
 
-def test_a_text_is_put_aside_unless_its_hash_is_another_than_that_of_its_bytes(tmp_path: Path) -> None:
-    (tmp_path / "t").write_text("<< text >>")
-    files = [Artifact(f"{n}.mo", Role.MODEL, "t", {"text": text}, "part") for n, text in enumerate(["a\r\nb", "a\rb"])]
-    package = Generated(files, Templates((tmp_path,), ""))
-    assert package.shelved("0.mo", "hash") is None  # nobody has asked for it yet
-    assert [package.content(path) for path in package.artifacts] == [b"a\nb", b"a\rb"]
-    even, uneven = (package.shelved(path, "hash") for path in package.artifacts)
-    assert even is not None
-    assert (even.read(), even.hash, uneven) == (b"a\nb", "hash", None)
-
-
 @pytest.fixture
 def own(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An empty folder for templates, below the working folder."""

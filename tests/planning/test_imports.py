@@ -11,10 +11,10 @@ from urdfsync import registry
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Dependency
 from urdfsync.files import digest
-from urdfsync.manifest import DependencyRecord
-from urdfsync.modelfile import ConversionFacts
 from urdfsync.planning import imports
 from urdfsync.planning.imports import Imported, Recorded
+from urdfsync.state.manifest import DependencyRecord
+from urdfsync.state.modelfile import ConversionFacts
 
 pytestmark = pytest.mark.usefixtures("rc_domain")
 

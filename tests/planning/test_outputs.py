@@ -13,7 +13,7 @@ from urdfsync.files import text_digest
 from urdfsync.plan import FileRecord, State
 from urdfsync.planning.generate import Generated
 from urdfsync.planning.outputs import Outputs
-from urdfsync.state.bases import Bases
+from urdfsync.state.bases import BaseStore
 
 
 class Package(Generated):
@@ -26,6 +26,21 @@ class Package(Generated):
     def content(self, path: str) -> bytes:
         self.rendered.append(path)
         return _text(path, self.artifacts[path].data["number"]).encode()
+
+
+class Kept(BaseStore):
+    """Bases without files."""
+
+    def __init__(self, texts: Mapping[str, str]) -> None:
+        super().__init__(Path())
+        self._texts = texts
+
+    def __contains__(self, digest: str | None) -> bool:
+        return digest in self._texts
+
+    def get(self, digest: str) -> str | None:
+        text = self._texts.get(digest)
+        return text if text is not None and text_digest(text.encode()) == digest else None
 
 
 def _artifact(path: str, number: int) -> Artifact:
@@ -55,7 +70,7 @@ def _outputs(
     older: Sequence[Generated] = (),
     again: bool = False,
 ) -> Outputs:
-    kept = Bases({text_digest(text.encode()): text for text in bases})
+    kept = Kept({text_digest(text.encode()): text for text in bases})
     differing = stale(last.artifacts if last else {}, now.artifacts).render
     return Outputs(now, last, differing, (records or {}).get, kept, aside or {}, (disk or {}).get, older, again)
 
@@ -85,7 +100,7 @@ def test_without_base_and_file_it_is_rendered(disk: Mapping[str, bytes]) -> None
 
 def test_a_text_that_is_kept_under_a_wrong_hash_is_rendered() -> None:
     now = Package(a=1)
-    kept = Bases({_hash("a", 1): "somebody else's"})
+    kept = Kept({_hash("a", 1): "somebody else's"})
     outputs = Outputs(now, Package(a=1), frozenset(), _record("a", 1).get, kept, {}, lambda path: None)
     assert outputs.digest("a") == _hash("a", 1)
     assert outputs.content("a") == _text("a", 1).encode()

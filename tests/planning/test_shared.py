@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from urdfsync.files import digest
 from urdfsync.planning.shared import Shared, changes
-from urdfsync.state.transactions import Change
+from urdfsync.state.transaction import Change
 
 ORDER = Path("Plant/package.order")
 PACKAGE = Path("Plant/package.mo")
@@ -23,7 +23,7 @@ def written(files: list[Shared], disk: Mapping[Path, bytes]) -> dict[Path, bytes
     for change in found:
         there = disk.get(change.path)
         assert change.old == (None if there is None else digest(there))
-    return {change.path: change.read() for change in found}
+    return {change.path: change.content for change in found}
 
 
 def test_a_package_is_made_if_nobody_else_has_made_it() -> None:

@@ -12,10 +12,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync import modelfile
 from urdfsync.diagnostics import StateError
 from urdfsync.domain import Import, Role
-from urdfsync.manifest import (
+from urdfsync.plan import FileRecord, Found, Kind, decide
+from urdfsync.state import modelfile
+from urdfsync.state.manifest import (
     DependencyRecord,
     Generator,
     Manifest,
@@ -23,8 +24,7 @@ from urdfsync.manifest import (
     dumps,
     text_hash,
 )
-from urdfsync.modelfile import ConversionFacts
-from urdfsync.plan import FileRecord, Found, Kind, decide
+from urdfsync.state.modelfile import ConversionFacts
 from urdfsync.state.repair import Recovered, choose, rebuilt, recover, sides
 
 GRIPPER = "Arm/Links/Gripper.mo"

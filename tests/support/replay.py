@@ -21,7 +21,7 @@ from support.packages import proposed_base, read
 from urdfsync import config, render
 from urdfsync.build import Request, build
 from urdfsync.outcome import Result
-from urdfsync.state import operations
+from urdfsync.state import file_operations
 from urdfsync.state.store import State, Store
 
 PACKAGE = "modelica/Bot"
@@ -62,7 +62,7 @@ def in_haste() -> Iterator[None]:
     compiled = functools.cache(render.Renderer)
     with (
         mock.patch.object(render, "Renderer", lambda folders: compiled(tuple(folders))),
-        mock.patch.object(operations, "sync"),
+        mock.patch.object(file_operations, "sync"),
     ):
         yield
 

@@ -12,9 +12,9 @@ from pathlib import Path
 from support import edits, replay
 from support.replay import Files, Project
 from urdfsync.domain import Role
-from urdfsync.manifest import text_hash
 from urdfsync.plan import Kind
 from urdfsync.standoff import Choice, Standoff
+from urdfsync.state.manifest import text_hash
 
 CONFLICTS = ".urdfsync/conflicts/bot"
 _MARKERS = re.compile(rb"^(<{7}|={7}|>{7}|\|{7})", re.MULTILINE)

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import modelfile
 from urdfsync.comparing.revisions import Revision
 from urdfsync.comparing.subjects import Subject
 from urdfsync.config import shown
@@ -18,6 +17,7 @@ from urdfsync.difference import Version
 from urdfsync.domain import Dependency, Domain, Lookup
 from urdfsync.files import digest
 from urdfsync.planning import imports, inputs
+from urdfsync.state import modelfile
 
 _POINTER = re.compile(rb"version https://git-lfs.*^oid sha256:([0-9a-f]{64})$", re.DOTALL | re.MULTILINE)
 """What git holds in the place of a file that is in Git LFS."""

@@ -13,7 +13,6 @@ from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.files import text_digest
-from urdfsync.manifest import Manifest
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.plan import (
     CONFLICTS,
@@ -35,6 +34,7 @@ from urdfsync.planning.disk import Disk, encode
 from urdfsync.planning.parents import Parents
 from urdfsync.planning.shared import Shared
 from urdfsync.standoff import Choice, Standoff
+from urdfsync.state.manifest import Manifest
 
 USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE, Kind.CONFLICT, Kind.ORPHAN})
 """Actions on files in which the user's text stays or goes on."""

@@ -14,7 +14,6 @@ from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Recipe, Snapshot, Target, Templates
-from urdfsync.shelf import Shelf, Shelved
 
 if TYPE_CHECKING:
     from urdfsync.render import Renderer
@@ -27,9 +26,8 @@ _FORBIDDEN = frozenset('\\:*?"<>|')
 class Generated:
     """The package: text files by their path, and the names for each `package.order`; POSIX, below the package.
 
-    They are in the order of their paths. Once a text is rendered it stands on a shelf, and what it was made of is
-    dropped, to save memory. The recipe that takes its place equals no other, so later comparisons count the text as
-    stale.
+    They are in the order of their paths. Once a text is rendered, what it was made of is dropped, to save memory. The
+    recipe that takes its place equals no other, so later comparisons count the text as stale.
     """
 
     def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates) -> None:
@@ -37,25 +35,17 @@ class Generated:
         self.artifacts: dict[str, Artifact] = {a.path: a for a in artifacts if isinstance(a, Artifact)}
         self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in artifacts if isinstance(a, Order)}
         self._templates = templates
-        self._shelf = Shelf()
-        self._uneven: set[str] = set()
-        """Paths of texts with carriage returns, which their hashes leave out."""
+        self._rendered: dict[str, bytes] = {}
 
     def content(self, path: str) -> bytes:
         """The text of one file. Raises ConfigError for a template that can't be used."""
-        if path in self._shelf:
-            return self._shelf.get(path)
+        if path in self._rendered:
+            return self._rendered[path]
         artifact = self.artifacts[path]
         content = _content(_renderer(self._templates), artifact, self._templates.folders)
-        self._shelf.put(path, content)
-        if b"\r" in content:
-            self._uneven.add(path)
+        self._rendered[path] = content
         self.artifacts[path] = msgspec.structs.replace(artifact, source=Recipe(dict, (object(),)))
         return content
-
-    def shelved(self, path: str, digest: str) -> Shelved | None:
-        """The text of one file, with its hash as a text, for later; None if that is not its hash as bytes, too."""
-        return Shelved(self._shelf, path, digest) if path in self._shelf and path not in self._uneven else None
 
 
 @functools.lru_cache(maxsize=4)

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from urdfsync.config import Config, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.manifest import Manifest
 from urdfsync.plan import DELETES, Action
 from urdfsync.planning.disk import Disk
+from urdfsync.state.manifest import Manifest
 from urdfsync.state.store import Store
 
 _FEW = 3

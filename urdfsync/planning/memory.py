@@ -14,16 +14,12 @@ import msgspec
 
 from urdfsync.domain import Artifact, Domain, Import, Order, Parts, Reading, Snapshot, Target
 from urdfsync.looking import NO_FACTS
-from urdfsync.manifest import Tables
-from urdfsync.modelfile import Elements
 from urdfsync.planning import generate
 from urdfsync.stamping import stamp
 
 if TYPE_CHECKING:
     from urdfsync.planning.disk import Hashes
     from urdfsync.stamping.trust import Clock
-    from urdfsync.state.bases import Bases
-    from urdfsync.state.store import State
 
 _FEW = 4
 """So many files are sooner read again than the clock is."""
@@ -31,23 +27,17 @@ _Value = TypeVar("_Value")
 
 
 class Memory:
-    """The source that was read last, the files that were made last of a model, and the state that was recorded last.
+    """The source that was read last, and the files that were made last of a model.
 
     And of each robot, what was seen of its files.
     """
 
     def __init__(self) -> None:
-        self.tables = Tables()
-        """Of the last manifest."""
-        self.elements = Elements()
-        """Of the last model."""
         self._seen: dict[str, Hashes] = {}
         self._current: set[str] = set()
         self._reading: _Last[Reading] = _Last()
         self._parts: _Last[Parts] = _Last()
         self._artifacts: _Files | None = None
-        self._state: _Last[State] = _Last()
-        self._bases: _Last[Bases] = _Last()
         self._shipped: dict[Hashable, Mapping[str, str]] = {}
 
     def read(self, domain: Domain, options: Any, content: bytes, name: str) -> Reading:
@@ -75,14 +65,6 @@ class Memory:
         if folder not in self._shipped:
             self._shipped[folder] = read()
         return self._shipped[folder]
-
-    def state(self, contents: tuple[bytes, bytes | None], load: Callable[[], State]) -> State:
-        """The recorded state in the contents of its two files."""
-        return self._state.get(contents, load)
-
-    def bases(self, content: bytes, load: Callable[[], Bases]) -> Bases:
-        """The kept texts in the content of their file."""
-        return self._bases.get(content, load)
 
     def seen(self, robot: str) -> Hashes:
         """What was seen last of a robot's outputs and recorded state; without facts where these can't be believed."""
@@ -123,14 +105,6 @@ class Memory:
         self._shipped.clear()
         for robot, seen in self._seen.items():
             self._seen[robot] = {path: entry and (NO_FACTS, *entry[1:]) for path, entry in seen.items()}
-
-    def note_state(self, contents: tuple[bytes, bytes], state: State) -> None:
-        """A build is about to write a state, which is what will be loaded from these contents."""
-        self._state.put(contents, state)
-
-    def note_bases(self, bases: Bases) -> None:
-        """A build is about to write these texts."""
-        self._bases.put(bases.content, bases)
 
 
 class _Files(msgspec.Struct):
@@ -175,7 +149,3 @@ class _Last(Generic[_Value]):
         if self._entry is None or self._entry[0] != key:
             self._entry = key, make()
         return self._entry[1]
-
-    def put(self, key: object, value: _Value) -> None:
-        """Let this be the last value."""
-        self._entry = key, value

@@ -11,8 +11,7 @@ from collections.abc import Callable, Mapping, Sequence, Set
 from urdfsync.files import normalised, text_digest
 from urdfsync.plan import FileRecord, State
 from urdfsync.planning.generate import Generated
-from urdfsync.shelf import Shelved
-from urdfsync.state.bases import Bases
+from urdfsync.state.bases import BaseStore
 
 _AS_GENERATED = (State.GENERATED, State.EDITED)
 """States of files whose base is what the last build generated."""
@@ -27,7 +26,7 @@ class Outputs:
         last: Generated | None,
         differing: Set[str],
         record: Callable[[str], FileRecord | None],
-        bases: Bases,
+        bases: BaseStore,
         aside: Mapping[str, str],
         mine: Callable[[str], bytes | None],
         older: Sequence[Generated] = (),
@@ -57,13 +56,6 @@ class Outputs:
         """What would be written."""
         known = self._known(path, self._recorded(path))
         return self._now.content(path) if known is None else known.encode()
-
-    def shelved(self, path: str) -> Shelved | bytes:
-        """As `content`, but possibly as a reference, read when the file is written: so that not all are in memory."""
-        known = self._known(path, self._recorded(path))
-        if known is not None:
-            return known.encode()
-        return self._now.shelved(path, self.digest(path)) or self._now.content(path)
 
     def generates(self, path: str, digest: str) -> bool:
         """Whether the text of this hash is what would be written to a path."""

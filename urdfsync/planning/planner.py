@@ -9,13 +9,14 @@ import msgspec
 
 from urdfsync import looking, profiling
 from urdfsync.config import Config, RobotConfig, shown
-from urdfsync.manifest import Manifest
 from urdfsync.plan import CONFLICTS, State, Wanted
 from urdfsync.planning import imports
 from urdfsync.planning.decide import Aim, Decision, decide
 from urdfsync.planning.situation import NO_MODEL, Request, Situation
 from urdfsync.planning.work import Work
 from urdfsync.stamping import stamp, trust
+from urdfsync.state import manifest
+from urdfsync.state.manifest import Manifest
 
 
 def plan(config: Config, robot: RobotConfig, request: Request) -> Work:
@@ -84,7 +85,7 @@ def _if_unchanged(situation: Situation) -> Work | None:
         return None
     renewed = msgspec.structs.replace(recorded, files=decision.files, orders=decision.orders)
     left_out = imports.reminder(dependencies, recorded.dependencies, shown(situation.robot.source))
-    writes = () if request.dry else tuple(store.changes(situation.robot.name, situation.dumps(renewed), None, None))
+    writes = () if request.dry else tuple(store.changes(situation.robot.name, manifest.dumps(renewed), None, None))
     return Work(decision, store.witness(), writes, diagnostics=left_out)
 
 

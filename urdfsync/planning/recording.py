@@ -1,18 +1,17 @@
-"""What is written when a plan is carried out: files, conflicts put aside, bases, model and manifest, in that order."""
+"""What is written when a plan is carried out: files, conflicts put aside, model and manifest, in that order."""
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 
 import msgspec
 
-from urdfsync import manifest, modelfile, profiling
+from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role, Snapshot
-from urdfsync.manifest import Manifest
 from urdfsync.plan import CONFLICTS, DELETES, FileRecord
 from urdfsync.plan import State as FileState
 from urdfsync.planning.decide import Decision
@@ -20,11 +19,10 @@ from urdfsync.planning.disk import encode
 from urdfsync.planning.imports import Imported
 from urdfsync.planning.outputs import Outputs
 from urdfsync.planning.situation import Situation
-from urdfsync.shelf import Shelved
 from urdfsync.standoff import aside
-from urdfsync.state import bases
-from urdfsync.state.store import State
-from urdfsync.state.transactions import Change
+from urdfsync.state import manifest, modelfile
+from urdfsync.state.manifest import Manifest
+from urdfsync.state.transaction import Change
 
 _OUTLIVING = (FileState.CONFLICT, FileState.WAITING, FileState.ORPHAN)
 """States of files whose base is older than the recorded model, which can't give it back."""
@@ -55,9 +53,8 @@ class Recording:
         if self._drawing is not None:
             changes += store.drawing(name, self._drawing)[1]
         if self._stays(decision):
-            changes += store.changes(name, situation.dumps(self._chosen(decision)), None, None)
+            changes += store.changes(name, manifest.dumps(self._chosen(decision)), None, None)
         else:
-            changes += store.keep_bases(name, self._bases(decision), former)
             changes += store.changes(name, *self._state(decision), former)
         return tuple(changes), tuple(self._emptied(changes))
 
@@ -89,7 +86,7 @@ class Recording:
                 content = None if action.kind in DELETES else self._content(decision, action.path, action.role)
                 yield Change(disk.path(action.path), content, disk.seen(action.path))
 
-    def _content(self, decision: Decision, key: str, role: Role) -> bytes | Shelved:
+    def _content(self, decision: Decision, key: str, role: Role) -> bytes:
         if key in decision.texts:
             return encode(decision.texts[key])
         path = key.removeprefix(self._situation.key(""))
@@ -98,7 +95,7 @@ class Recording:
         mine = (self._situation.disk.read(key) or b"") if self._situation.disk.has_returns(key) else b""
         if 2 * mine.count(b"\r\n") > mine.count(b"\n"):
             return self._outputs.content(path).replace(b"\n", b"\r\n")
-        return self._outputs.shelved(path)
+        return self._outputs.content(path)
 
     def _import(self, key: str, path: str) -> bytes:
         """The bytes of an imported file. Raises OutputError if its copy was to serve, and has changed since."""
@@ -136,14 +133,8 @@ class Recording:
         before = self._situation.written_by if since else None
         revision = msgspec.UNSET if before in (None, self._situation.domain.revision) else before
         model = modelfile.of(self._snapshot, self._imported.imports, outliving, since, revision)
-        memory = self._situation.request.memory
-        text = modelfile.dumps(model, memory.elements if memory else None)
-        whole = self._manifest(decision, text).recorded
-        texts = self._situation.dumps(whole), text
-        if memory:
-            state = State(whole, model, intact=True)
-            memory.note_state((texts[0].encode(), texts[1].encode()), state)
-        return texts
+        text = modelfile.dumps(model)
+        return manifest.dumps(self._manifest(decision, text)), text
 
     def _manifest(self, decision: Decision, model: str) -> Manifest:
         situation, robot = self._situation, self._situation.robot
@@ -183,23 +174,15 @@ class Recording:
                     texts[key.removeprefix(prefix)] = text
         return texts
 
-    def _bases(self, decision: Decision) -> bytes:
-        """The content of the file with every base that is known: the one that is there and what is new, or all anew."""
-        if (more := self._more_bases(decision)) is None:
-            return bases.dumps(self._known(_keys(decision.files)))
-        if memory := self._situation.request.memory:
-            memory.note_bases(more)
-        return more.content
+    def bases(self, decision: Decision) -> tuple[Mapping[str, str], Collection[str] | None]:
+        """The bases that are not kept yet, by their hashes; and all hashes that the manifest mentions.
 
-    def _more_bases(self, decision: Decision) -> bases.Bases | None:
-        """The bases that are there, and what is new; None if it is time to write all of them anew."""
-        kept = self._outputs.bases  # those of unchanged files are among them
-        new = {digest: key for digest, key in _keys(decision.others).items() if digest not in kept}
-        if 2 * len(new) > len(decision.files):
-            return None
-        recorded = self._situation.recorded.files if self._situation.recorded else {}
-        before = {digest: recorded[key].base or "" for digest, key in new.items() if key in recorded}
-        return kept.plus(dict(self._known(new)), before)
+        None for the latter if the record of the package's old folder stays, with its bases.
+        """
+        if self._stays(decision):
+            return {}, None
+        kept, keys = self._situation.store.bases(self._situation.robot.name), _keys(decision.files)
+        return dict(self._known({digest: key for digest, key in keys.items() if digest not in kept})), keys.keys()
 
     def _known(self, keys: Mapping[str, str]) -> Iterator[tuple[str, str]]:
         """Hash and text of bases that are not lost; one after the other, so that not all are in memory."""

@@ -60,7 +60,19 @@ class Renewal:
             return Work(decision, situation.store.witness(), diagnostics=tuple(said), changes=news)
         recording = Recording(situation, self._outputs, self._imported, self._snapshot, self.base)
         writes, emptied = recording.writes(decision)
-        return Work(decision, situation.store.witness(), writes, emptied, tuple(said), recording.drawing(), news)
+        bases, mentioned = recording.bases(decision)
+        return Work(
+            decision,
+            situation.store.witness(),
+            writes,
+            emptied,
+            tuple(said),
+            bases,
+            None if mentioned is None else frozenset(mentioned),
+            situation.former,
+            recording.drawing(),
+            news,
+        )
 
     @profiling.staged("meshes")
     def _import(self) -> imports.Imported:

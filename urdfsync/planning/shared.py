@@ -12,7 +12,7 @@ import msgspec
 
 from urdfsync import order
 from urdfsync.files import digest
-from urdfsync.state.transactions import Change
+from urdfsync.state.transaction import Change
 
 
 class Shared(msgspec.Struct, frozen=True):

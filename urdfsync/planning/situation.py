@@ -11,16 +11,17 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync import manifest, registry
+from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.difference import Version
 from urdfsync.domain import Dependency, Import, Lookup, Role, Snapshot
 from urdfsync.files import digest, text_digest
-from urdfsync.manifest import Generator, Manifest
-from urdfsync.modelfile import Model
 from urdfsync.planning import imports, inputs, leftovers, parents
 from urdfsync.planning.disk import Disk
+from urdfsync.state import manifest
+from urdfsync.state.manifest import Generator, Manifest
+from urdfsync.state.modelfile import Model
 from urdfsync.state.store import State, Store
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ class Situation:
                 with contextlib.suppress(OutputError):  # it may be a link
                     self.disk.look(path)
         self.parents = parents.check(config, robot, self.domain.uses(robot.options))
-        self.store = Store(config.root, shown, request.memory)
+        self.store = Store(config.root, shown)
         self.folder = self.disk.key(robot.folder)
         self.recovered: Recovered | None = None
         """What could be saved of a state that can't be read, if that was asked for."""
@@ -154,11 +155,6 @@ class Situation:
             if (record := dependencies.get(key)) is not None
         }
         return Version(model.snapshot, imported, self.recorded.generator.fingerprint if self.recorded else "")
-
-    def dumps(self, recorded: Manifest) -> str:
-        """The text of a manifest."""
-        memory = self.request.memory
-        return manifest.dumps(recorded, memory.tables if memory else None)
 
     def key(self, path: str) -> str:
         """How manifest and plan call a file of the package; `path` is below its folder."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.planning.decide import Decision
 from urdfsync.state.store import Witness
-from urdfsync.state.transactions import Change
+from urdfsync.state.transaction import Change
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
@@ -27,6 +28,12 @@ class Work(msgspec.Struct, frozen=True):
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
     diagnostics: tuple[Diagnostic, ...] = ()
+    bases: Mapping[str, str] = {}
+    """Texts that are written now, by their hashes: kept to merge with."""
+    mentioned: frozenset[str] | None = None
+    """All hashes that the manifest mentions then; None if others may be needed as well."""
+    former: str | None = None
+    """The name that the robot had in the last build, if it has another one now."""
     drawing: Path | None = None
     """Where the main model's diagram is then."""
     changes: Changes | None = None

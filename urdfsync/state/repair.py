@@ -14,13 +14,13 @@ from typing import NamedTuple, TypeVar
 
 import msgspec
 
-from urdfsync import manifest, modelfile
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Role
-from urdfsync.manifest import FORMAT, DependencyRecord, Manifest
 from urdfsync.merge import split_lines
-from urdfsync.modelfile import ConversionFacts, Model
 from urdfsync.plan import FileRecord
+from urdfsync.state import manifest, modelfile
+from urdfsync.state.manifest import FORMAT, DependencyRecord, Manifest
+from urdfsync.state.modelfile import ConversionFacts, Model
 
 _DEEPEST = 3
 """Conflicts within each other whose sides are told apart; a branch with unsettled markers was merged again."""

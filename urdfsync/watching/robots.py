@@ -177,7 +177,7 @@ class Robots:
         return trust.clock(self._config.root / STATE_FOLDER)
 
     def _scope(self, robot: RobotConfig) -> Scope:
-        return scope(self._config, robot, self._package_paths, self._memory)
+        return scope(self._config, robot, self._package_paths)
 
 
 def _look(disk: Disk, path: str, seen: Hashed | None) -> Hashed | None:

@@ -19,7 +19,6 @@ from urdfsync.domain import Dependency, Lookup
 from urdfsync.files import placed
 from urdfsync.planning import parents
 from urdfsync.planning.imports import sought
-from urdfsync.planning.memory import Memory
 from urdfsync.state.store import State, Store
 from urdfsync.watching.samples import all_files_below
 
@@ -55,9 +54,9 @@ class Scope(msgspec.Struct, frozen=True, dict=True):
         yield from all_files_below(self.templates) if self.templates else ()
 
 
-def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path], memory: Memory | None = None) -> Scope:
+def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path]) -> Scope:
     """What matters to a robot, as far as the last build knew it; `package_paths` are those beside the robot's own."""
-    state = _recorded(config, robot, memory)
+    state = _recorded(config, robot)
     store, outputs = Store(config.root), set(parents.files(robot))
     outputs.update(map(str, store.paths(robot.name)))
     inputs = {str(robot.source)}
@@ -77,10 +76,10 @@ def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path], mem
     )
 
 
-def _recorded(config: Config, robot: RobotConfig, memory: Memory | None) -> State | None:
+def _recorded(config: Config, robot: RobotConfig) -> State | None:
     """The recorded state; None if there is none, or if it can't be read: then the build says so."""
     try:
-        return Store(config.root, shown, memory).load(robot.name)
+        return Store(config.root, shown).load(robot.name)
     except (UrdfsyncError, OSError):
         return None
 

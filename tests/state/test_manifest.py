@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-import re
 
 import msgspec
 import pytest
@@ -12,18 +11,17 @@ from hypothesis import strategies as st
 
 from urdfsync.diagnostics import StateError
 from urdfsync.domain import Role
-from urdfsync.manifest import (
+from urdfsync.plan import FileRecord, State
+from urdfsync.standoff import Choice
+from urdfsync.state.manifest import (
     DependencyRecord,
     Generator,
     Manifest,
     Source,
-    Tables,
     dumps,
     loads,
     text_hash,
 )
-from urdfsync.plan import FileRecord, State
-from urdfsync.standoff import Choice
 
 MANIFEST = Manifest(
     package="Plant.Arm",
@@ -98,14 +96,6 @@ def test_what_comes_back_is_known_before(manifest: Manifest) -> None:
     assert found == expected
     assert dumps(found) == text
     assert "m/Q/A.mo" not in found.files
-
-
-@given(st.lists(manifests, min_size=2, max_size=3))
-def test_tables_of_another_manifest_make_no_difference(several: list[Manifest]) -> None:
-    tables = Tables()
-    for manifest in several:
-        assert dumps(manifest, tables) == dumps(manifest, tables) == dumps(manifest)
-        assert len(tables.texts(manifest.recorded)) == len(re.findall(r"^\[", dumps(manifest), re.MULTILINE)) + 1
 
 
 def test_order_of_entries_does_not_matter() -> None:
