@@ -57,8 +57,12 @@ def read(path: Path) -> bytes | None:
 
 def write(path: Path, content: bytes, like: Path | None = None) -> None:
     """Write a new file, with the permissions of `like` if that exists."""
-    with os.fdopen(os.open(path, _CREATE, 0o666), "wb") as file:
-        file.write(content)
+    descriptor = os.open(path, _CREATE, 0o666)
+    try:
+        while content:
+            content = content[os.write(descriptor, content) :]
+    finally:
+        os.close(descriptor)
     if like is not None:
         with contextlib.suppress(FileNotFoundError):
             path.chmod(stat.S_IMODE(like.lstat().st_mode))

@@ -19,6 +19,7 @@ import tomli_w
 
 from urdfsync import tomlfile
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
+from urdfsync.domain import Role
 from urdfsync.plan import FileRecord, State
 
 FORMAT = 1
@@ -32,6 +33,8 @@ _HEADER = """\
 _ORDER = "package.order"
 _PARENT = "../package.order"
 """The parent package's order file, as it stands in the text."""
+_RESOURCES = "Resources/"
+"""Where imported files are."""
 _PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
 """What nearly all paths are: nothing that could lead elsewhere."""
 REPAIR = "restore it from version control, or let `urdfsync build --repair` make it again"
@@ -209,7 +212,7 @@ def _with_origin(record: FileRecord, origin: str) -> FileRecord:
 
 
 def _check_places(manifest: Manifest, text: str, file: str) -> None:
-    """Refuse every path that could lead a build to a file that is not of the package; keys are those of the text."""
+    """Refuse every path at which no build has written a file of the package; keys are those of the text."""
     for fine, path, place in _places(manifest):
         if not fine:
             line = tomlfile.nearest(tomlfile.lines(text), *place)
@@ -224,14 +227,14 @@ def _places(manifest: Manifest) -> Iterator[tuple[bool, str, tuple[str, ...]]]:
     yield _is_normal(folder) and folder.split("/")[-len(steps) :] == steps, folder, ("folder",)
     yield _is_text(manifest.source.path), manifest.source.path, ("source", "path")
     for path, record in manifest.files.items():
-        yield _is_inside(path), path, ("files", path)
+        yield _is_of_role(path, record.role), path, ("files", path)
         if record.origin is not None:
-            yield _is_inside(record.origin), record.origin, ("files", path, "origin")
+            yield _is_of_role(record.origin, record.role), record.origin, ("files", path, "origin")
     for path in manifest.orders:
         own = path == _PARENT or _is_inside(path)
         yield own and posixpath.basename(path) == _ORDER, path, ("orders", path)
     for key, dependency in manifest.dependencies.items():
-        yield _is_inside(dependency.target), dependency.target, ("dependencies", key, "target")
+        yield _is_of_role(dependency.target, Role.IMPORT), dependency.target, ("dependencies", key, "target")
 
 
 def _is_text(path: str) -> bool:
@@ -242,6 +245,11 @@ def _is_normal(path: str) -> bool:
     """Whether a path is relative, with forward slashes, without detours and control characters."""
     absolute = path.startswith("/") or re.match(r"[A-Za-z]:", path) is not None
     return not absolute and _is_text(path) and "\\" not in path and posixpath.normpath(path) == path
+
+
+def _is_of_role(path: str, role: Role) -> bool:
+    """Whether a path below the package is one that a build writes for such a file."""
+    return _is_inside(path) and (path.startswith(_RESOURCES) if role is Role.IMPORT else path.endswith(".mo"))
 
 
 def _is_inside(path: str) -> bool:

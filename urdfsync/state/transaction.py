@@ -20,7 +20,7 @@ import contextlib
 import itertools
 import os
 import secrets
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
 import msgspec
@@ -192,7 +192,9 @@ class Transactions:
         return sorted(missing)
 
     def _key(self, path: Path) -> str:
-        return os.path.relpath(path, self._root).replace(os.sep, "/")
+        if path.is_relative_to(self._root):
+            return path.relative_to(self._root).as_posix()
+        return Path(os.path.relpath(path, self._root)).as_posix()
 
 
 class _Transaction:
@@ -256,7 +258,8 @@ class _Transaction:
             self._enter(Phase.DONE)
         last = self._files[-1]
         adjusted = _File(last.path, self._temporary(last.path, _ADJUSTED), last.old, last.new)
-        saved = [(file, name) for file in (*self._files, adjusted) for name in file.clear()]
+        left = {str(path) for folder in {path.parent for path in self.targets} for path in _files_in(folder)}
+        saved = [(file, name) for file in (*self._files, adjusted) for name in file.clear(left)]
         for path in self.journal.emptied:
             file_operations.remove_folder(_join(self._root, path))
         file_operations.remove(journal_file(self._folder, Phase.DONE))
@@ -265,10 +268,13 @@ class _Transaction:
     def _change_all(self) -> list[Path]:
         """Change the targets. Returns those that somebody saved in between."""
         *others, last = self._files
-        for file in others:
-            file.change()
+        changed = [file.change() for file in others]
         # again, since somebody may have written to an old file through a handle that was opened before
-        overtaken = [file.path for file in others if not file.change()]
+        overtaken = [
+            file.path
+            for file, done in zip(others, changed, strict=True)
+            if not (done if file.old is None else file.change())
+        ]
         is_manifest = _is_manifest(last) and last.new is not None
         done = self._record(last, overtaken) if overtaken and is_manifest else last.change()
         return overtaken if done else [*overtaken, last.path]
@@ -337,10 +343,13 @@ class _File(msgspec.Struct, frozen=True):
         except (FileNotFoundError, FileExistsError, NotADirectoryError):
             return False  # somebody deleted the file or its folder, or saved a file whose name was free
 
-    def clear(self) -> Iterator[Path]:
-        """Remove what is left under temporary names. What nobody planned with is kept; yields under which name."""
+    def clear(self, left: Collection[str]) -> Iterator[Path]:
+        """Remove what is left under temporary names. What nobody planned with is kept; yields under which name.
+
+        `left` are all paths that exist: nearly all temporary files are gone.
+        """
         for path in (self.temporary, file_operations.spare(self.temporary)):
-            found = hash_of(path)
+            found = hash_of(path) if str(path) in left else None
             if found in (self.old, self.new):
                 file_operations.remove(path)
             elif found is not None:
@@ -398,6 +407,13 @@ def hash_of(path: Path) -> str | None:
     except IsADirectoryError:
         return _OTHER
     return None if content is None else digest(content)
+
+
+def _files_in(folder: Path) -> list[Path]:
+    try:
+        return list(folder.iterdir())
+    except (FileNotFoundError, NotADirectoryError):
+        return []
 
 
 def _find(wanted: str | None, paths: Iterable[Path]) -> bytes | None:
