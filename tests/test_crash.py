@@ -20,9 +20,9 @@ from support.crashes import Operation, before_each, contents, killed, recorded, 
 from support.marks import LONG
 
 from urdfsync import render
-from urdfsync.standoff import Choice
 from urdfsync.state import file_operations
 from urdfsync.state.journal import find_phase
+from urdfsync.state.record import Choice
 
 LADDER = "modelica/Ladder"
 RECORD = f"{LADDER}/Elements/C2Parameters.mo"

@@ -17,8 +17,9 @@ import pytest
 
 import urdfsync
 from urdfsync import cli, config
-from urdfsync.build import Request, build
 from urdfsync.diagnostics import OutputError
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.state.lock import Lock, LockedError, _try, build_lock
 
@@ -143,7 +144,7 @@ def test_a_lock_file_that_cant_be_one(path: Path) -> None:
 
 def run(project: Path, **request: object) -> Result:
     loaded = config.load(project / "urdfsync.toml")
-    (result,) = build(loaded, loaded.robots, Request(wait=0.1, **request))  # type: ignore[arg-type]
+    (result,) = build(loaded, loaded.robots, BuildOptions(wait=0.1, **request))  # type: ignore[arg-type]
     return result
 
 
@@ -190,10 +191,10 @@ def test_the_lock_belongs_to_the_whole_command(project: Path) -> None:
         file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
     loaded = config.load(project / "urdfsync.toml")
     with holder(project):
-        results = list(build(loaded, loaded.robots, Request(wait=0)))
+        results = list(build(loaded, loaded.robots, BuildOptions(wait=0)))
     assert [result.locked for result in results] == [True, True]
     results = []
-    for result in build(loaded, loaded.robots, Request()):
+    for result in build(loaded, loaded.robots, BuildOptions()):
         results.append(result)
         with pytest.raises(LockedError):
             build_lock(project, project / ".urdfsync", 0).acquire()

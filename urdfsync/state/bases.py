@@ -14,7 +14,7 @@ import zlib
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 
-from urdfsync import looking
+from urdfsync.dependencies import list_folder
 from urdfsync.files import TEMPORARY, failure, text_digest
 from urdfsync.state import file_operations
 
@@ -34,7 +34,7 @@ class BaseStore:
             self._names = set()
             with contextlib.suppress(OSError):  # there is none, or it can't be read: then nothing is kept
                 self._check_links()
-                self._names.update(looking.names(self._folder))
+                self._names.update(list_folder(self._folder))
         return digest in self._names
 
     def get(self, digest: str) -> str | None:

@@ -14,7 +14,7 @@ from typing import NoReturn
 
 import msgspec
 
-from urdfsync import looking
+from urdfsync.dependencies import list_folder
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree
 from urdfsync.state import file_operations
@@ -194,7 +194,7 @@ def _is_token(token: str) -> bool:
 
 def _names(folder: Path) -> list[str]:
     try:
-        return looking.names(os.fspath(folder))
+        return list_folder(os.fspath(folder))
     except (FileNotFoundError, NotADirectoryError):
         return []
 

@@ -7,7 +7,6 @@ Two files in `.urdfsync/robots/`, both committed: `<robot>.toml`, which people r
 from __future__ import annotations
 
 import contextlib
-import functools
 import hashlib
 import posixpath
 import re
@@ -20,7 +19,7 @@ import tomli_w
 from urdfsync import tomlfile
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Role
-from urdfsync.plan import FileRecord, State
+from urdfsync.state.record import FileRecord, RecordState
 
 FORMAT = 1
 """Raised when an older urdfsync could misread what a newer one records."""
@@ -71,7 +70,7 @@ class DependencyRecord(msgspec.Struct, frozen=True, omit_defaults=True):
     unreadable_by: int | None = None
 
 
-class Manifest(msgspec.Struct, frozen=True, kw_only=True, dict=True):
+class Manifest(msgspec.Struct, frozen=True, kw_only=True):
     """The state of one robot after a build.
 
     The keys of `files` and `orders` are POSIX paths relative to the configuration's folder, like
@@ -108,16 +107,6 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True, dict=True):
                 if path.startswith(inside)
             },
         )
-
-    @functools.cached_property
-    def plain(self) -> Mapping[str, FileRecord]:
-        """The files that are just as generated, and for which nothing waits."""
-        return {path: record for path, record in self.files.items() if record.plain}
-
-    @functools.cached_property
-    def special(self) -> Mapping[str, FileRecord]:
-        """All other files."""
-        return {path: record for path, record in self.files.items() if path not in self.plain}
 
 
 def dumps(manifest: Manifest) -> str:
@@ -159,7 +148,7 @@ def with_overtaken(planned: bytes, before: Iterable[bytes], keys: Iterable[str])
         if record is None and key in files:
             record = FileRecord(files[key].owner, files[key].role)
         if record is not None:
-            files[key] = msgspec.structs.replace(record, state=State.CONFLICT)
+            files[key] = msgspec.structs.replace(record, state=RecordState.CONFLICT)
     source = msgspec.structs.replace(manifest.source, hash="")
     orders = {key: names for key, names in orders.items() if names}
     return dumps(msgspec.structs.replace(manifest, source=source, files=files, orders=orders)).encode()

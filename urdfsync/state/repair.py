@@ -17,10 +17,10 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Role
 from urdfsync.merge import split_lines
-from urdfsync.plan import FileRecord
 from urdfsync.state import manifest, modelfile
 from urdfsync.state.manifest import FORMAT, DependencyRecord, Manifest
 from urdfsync.state.modelfile import ConversionFacts, Model
+from urdfsync.state.record import FileRecord
 
 _DEEPEST = 3
 """Conflicts within each other whose sides are told apart; a branch with unsettled markers was merged again."""

@@ -8,8 +8,8 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync import looking
 from urdfsync.config import STATE_FOLDER
+from urdfsync.dependencies import is_folder, list_folder
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree, digest
 from urdfsync.state import manifest, modelfile
@@ -52,7 +52,7 @@ class Store:
     def names(self) -> list[str]:
         """The robots that have a state, by their names."""
         try:
-            files = looking.names(self.folder / "robots")
+            files = list_folder(self.folder / "robots")
         except OSError:  # there is none; that it can't be read is what `load` says
             return []
         return sorted(name.removesuffix(".toml") for name in files if name.endswith(".toml"))
@@ -88,7 +88,7 @@ class Store:
 
     def has_bases(self, robot: str) -> bool:
         """Whether the texts that were written last are kept."""
-        return looking.is_folder(self._base_folder(robot))
+        return is_folder(self._base_folder(robot))
 
     def bases(self, robot: str) -> BaseStore:
         """The texts that were written last, as far as they are kept."""
