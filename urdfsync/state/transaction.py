@@ -105,16 +105,12 @@ class Transactions:
         transaction = _Transaction(self._root, self._folder, self._shown, journal)
         try:
             transaction.prepare(change.content for change in changes)
-        except BaseException as error:
-            if find_phase(self._folder) is Phase.APPLY:
-                raise
-            try:
-                transaction.discard()
-            except OSError as other:
-                first = error.diagnostics if isinstance(error, OutputError) else ()
-                raise self._unfinished(other, *first) from error
+            applied = self._finish(transaction)
+        except UnfinishedError:
             raise
-        applied = self._finish(transaction)
+        except BaseException as error:
+            self._give_up(transaction, error)
+            raise
         profiling.count("written", len(changes) - len(applied.overtaken))
         return applied
 
@@ -146,6 +142,19 @@ class Transactions:
         applied = self._finish(transaction)
         message = f"the last build of robot `{transaction.journal.robot}` was interrupted; it is finished"
         return Diagnostic(Severity.NOTE, "recovered", message), *applied.diagnostics
+
+    def _give_up(self, transaction: _Transaction, error: BaseException) -> None:
+        """End a transaction that was stopped: go back as long as nothing is durable, else forward."""
+        known = error.diagnostics if isinstance(error, OutputError) else ()
+        if find_phase(self._folder) in (Phase.APPLY, Phase.DONE):
+            if known:
+                raise UnfinishedError(*known) from error
+            self._finish(transaction)  # Ctrl-C: it takes some milliseconds
+            return
+        try:
+            transaction.discard()
+        except OSError as other:
+            raise self._unfinished(other, *known) from error
 
     def _load(self, phase: Phase) -> _Transaction | None:
         journal = load(self._root, self._folder, phase, self._shown)
