@@ -9,7 +9,6 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-import secrets
 import zlib
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
@@ -55,7 +54,7 @@ class BaseStore:
         new = {digest: text for digest, text in texts.items() if digest not in self}
         if not new:
             return
-        temporary = self._folder / f".{secrets.token_hex(8)}{TEMPORARY}"
+        temporary = self._folder / f".{os.urandom(8).hex()}{TEMPORARY}"
         try:
             self._check_links()
             for folder in (self._folder.parent.parent, self._folder.parent, self._folder):

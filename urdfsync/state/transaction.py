@@ -19,7 +19,6 @@ from __future__ import annotations
 import contextlib
 import itertools
 import os
-import secrets
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
@@ -97,7 +96,7 @@ class Transactions:
         check_paths(paths, trees, self._folder, self._shown)
         journal = Journal(
             robot,
-            secrets.token_hex(8),
+            os.urandom(8).hex(),
             tuple(Step(self._key(c.path), c.old, None if c.content is None else digest(c.content)) for c in changes),
             tuple(self._key(folder) for folder in self._missing_folders(changes)),
             tuple(map(self._key, emptied)),
