@@ -16,8 +16,8 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
 from urdfsync.engine import ros_packages as packages
 from urdfsync.files import digest
-from urdfsync.manifest import DependencyRecord
-from urdfsync.modelfile import ConversionFacts
+from urdfsync.state.manifest import DependencyRecord
+from urdfsync.state.modelfile import ConversionFacts
 
 _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
