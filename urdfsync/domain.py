@@ -55,11 +55,9 @@ class Recipe(msgspec.Struct, frozen=True):
 
 
 class Piece(msgspec.Struct, eq=False):
-    """What a part of a text is made of, or its recipe. While it is kept, that part is rendered once: see `once`."""
+    """What a part of a text is made of, or its recipe."""
 
     of: Any
-    rendered: tuple[object, str] | None = None
-    """The macro that has rendered it, and the text."""
 
     def __eq__(self, other: object) -> bool:
         return self.of == other.of if isinstance(other, Piece) else NotImplemented

@@ -39,27 +39,15 @@ MAX_MEMORY = 2_000_000_000
 
 
 def once(pieces: Iterable[Any], macro: Callable[[Any], str]) -> str:
-    """What the macro makes of some pieces, one after the other, or of something that nobody keeps.
-
-    The macro must be one that is imported: the others are made anew for each text. Nothing but a macro is called,
-    since the call goes round the sandbox.
-    """
+    """Join what a macro makes of each piece. Nothing but a macro is called, since the call goes round the sandbox."""
     if not isinstance(macro, Macro):
         raise TypeError("`once` takes a macro")
-    texts: list[str] = []
-    for piece in pieces:
-        known = piece.rendered if type(piece) is Piece else None
-        texts.append(known[1] if known and known[0] is macro else _text(piece, macro))
-    return "".join(texts)
+    return "".join(macro(_data(piece)) for piece in pieces)
 
 
-def _text(piece: Any, macro: Callable[[Any], str]) -> str:
-    """What the macro makes of a piece, which keeps it, or of something else; of a recipe by what it makes."""
+def _data(piece: Any) -> Any:
     of = piece.of if isinstance(piece, Piece) else piece
-    text = macro(of.make(*of.made_of) if isinstance(of, Recipe) else of)
-    if isinstance(piece, Piece):
-        piece.rendered = macro, text
-    return text
+    return of.make(*of.made_of) if isinstance(of, Recipe) else of
 
 
 _FILTERS = (

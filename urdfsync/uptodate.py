@@ -85,8 +85,11 @@ def _program() -> str:
 
 
 def find_config(arguments: list[str]) -> str | None:
-    """The absolute path of the configuration that a command is about; None if there is none. Raises OSError."""
-    folder = os.getcwd()
+    """The absolute path of the configuration that a command is about; None if there is none."""
+    try:
+        folder = os.getcwd()
+    except FileNotFoundError:
+        return None  # somebody has deleted it, and the command reports it
     for number, argument in enumerate(arguments, start=1):
         if argument == "--config":
             return os.path.join(folder, *arguments[number : number + 1])
@@ -134,11 +137,8 @@ def print_answer(arguments: list[str]) -> int | None:
     """Print the saved answer of a command. Returns the exit code; None if there is none, so that the command runs."""
     if not arguments or arguments[0] not in COMMANDS or sys.stdout is None or sys.stderr is None:
         return None
-    try:
-        config_file = find_config(arguments)
-        answer = find_answer(config_file, answer_key(arguments, config_file)) if config_file else None
-    except OSError:
-        return None  # the command reports it
+    config_file = find_config(arguments)
+    answer = find_answer(config_file, answer_key(arguments, config_file)) if config_file else None
     if answer is None:
         return None
     with streams.safe_streams() as output:
