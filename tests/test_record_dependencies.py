@@ -111,13 +111,6 @@ def found() -> Iterator[dependencies.Dependencies]:
         yield record
 
 
-def test_nothing_is_recorded_outside_of_the_block(tmp_path: Path) -> None:
-    with dependencies.record_dependencies() as found:
-        pass
-    assert not dependencies.is_file(tmp_path / "a")
-    assert not any(found.entries.values())
-
-
 def test_a_file_that_changes_meanwhile(found: dependencies.Dependencies, tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.write_text("a")
@@ -133,16 +126,6 @@ def test_a_file_that_comes_meanwhile(found: dependencies.Dependencies, tmp_path:
     (tmp_path / "file").write_text("a")
     assert dependencies.is_file(tmp_path / "file")
     assert not found.complete
-
-
-def test_a_link_and_its_target_are_both_recorded(found: dependencies.Dependencies, tmp_path: Path) -> None:
-    target, link = tmp_path / "file", tmp_path / "link"
-    target.write_text("a")
-    link.symlink_to(target)
-    assert dependencies.read_file(link) == b"a"
-    assert dependencies.read_stat(link) is not None
-    assert found.entries[STAT][str(link)] == dependencies.stat_of(target.stat())
-    assert found.entries[LSTAT][str(link)] == dependencies.stat_of(link.lstat())
 
 
 def test_an_error_makes_the_record_incomplete(found: dependencies.Dependencies, tmp_path: Path) -> None:

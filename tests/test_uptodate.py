@@ -66,12 +66,6 @@ def test_what_was_said_is_said_again(folder: Path, command: list[str], capsys: C
     assert "stray-state" in said.out + said.err or command[-1] == "-q"
 
 
-def test_commands_share_a_file(folder: Path) -> None:
-    for command in (BUILD, CHECK, STATUS):
-        save(*command)
-    assert all(saved(*command) is not None for command in (BUILD, CHECK, STATUS))
-
-
 def test_a_check_says_nothing_of_a_build(folder: Path) -> None:
     shutil.rmtree(".urdfsync/base")  # a clone: what its files are merged with is not there yet
     save(*CHECK)
