@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from urdfsync import cli, dependencies, registry
-from urdfsync.dependencies import LSTAT, LSTAT_TYPE, STAT, STAT_TYPE
+from urdfsync.dependencies import LSTAT, STAT
 
 READS = ("open", "listdir", "scandir", "readlink")
 """Calls after which the content matters, not only what is there."""
@@ -69,8 +69,8 @@ def test_all_that_a_command_without_work_asks_for_is_recorded(
     with dependencies.record_dependencies() as found:
         calls = asked(lambda: cli._main(command))
     assert found.complete
-    contents = _absolute(found.entries[LSTAT]) | _absolute(found.entries[STAT])
-    known = contents | _absolute(found.entries[LSTAT_TYPE]) | _absolute(found.entries[STAT_TYPE])
+    contents = {os.path.abspath(path) for check, path in found.entries if check in (LSTAT, STAT)}  # noqa: PTH100
+    known = {os.path.abspath(path) for _, path in found.entries}  # noqa: PTH100
     calls = {(name, path) for name, path in calls if Path(path).is_relative_to(folder.parent)}
     assert len(calls) > 100, "the calls are seen at all"
     absent = {path for path in known - contents if not os.path.lexists(path)}  # there is nothing to read
@@ -79,10 +79,6 @@ def test_all_that_a_command_without_work_asks_for_is_recorded(
     wanted = ("modelica/Lab/package.order", "ros", "robots/leg_meshes/base.stl", ".urdfsync/robots", "own/notes")
     assert {str(folder / path) for path in (*wanted, "closed")} <= contents
     assert str(folder / "later") in absent
-
-
-def _absolute(paths: dict[str, Any]) -> set[str]:
-    return {os.path.abspath(path) for path in paths}  # noqa: PTH100
 
 
 def test_a_build_that_renders_is_incomplete(folder: Path) -> None:
@@ -102,7 +98,7 @@ def test_so_is_one_that_writes(folder: Path, jobs: int) -> None:
 def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_site: Path) -> None:
     with dependencies.record_dependencies() as found:
         registry.domain("rcnetwork")
-    assert str(rc_site) in found.entries[STAT]
+    assert (STAT, str(rc_site)) in found.entries
 
 
 @pytest.fixture

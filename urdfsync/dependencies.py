@@ -10,7 +10,7 @@ import contextlib
 import errno
 import os
 import stat
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextvars import ContextVar
 
 Stat = tuple[int, int, int, int, int, int]
@@ -22,23 +22,24 @@ _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
 """Errors that say that nothing is at a path; the same as for pathlib."""
 
 
-LSTAT, STAT, LSTAT_TYPE, STAT_TYPE = CHECKS = "lstat", "stat", "lstat type", "stat type"
+LSTAT, STAT, LSTAT_TYPE, STAT_TYPE = "lstat", "stat", "lstat type", "stat type"
 """How a path is checked: by all of its `Stat`, or by its file type alone (0 for nothing there); links themselves with
 `os.lstat`, what they lead to with `os.stat`."""
+Entries = dict[tuple[str, str], tuple[int, ...]]
+"""Checks and paths with what was found: a `Stat`, or a tuple of the file type."""
 
 
 class Dependencies:
     """The paths that were read."""
 
     def __init__(self) -> None:
-        self.entries: dict[str, dict[str, tuple[int, ...]]] = {check: {} for check in CHECKS}
-        """For each of `CHECKS` the paths with what was found: a `Stat`, or a tuple of the file type."""
+        self.entries: Entries = {}
         self.complete = True
         """Whether the answer depends on nothing else, and no path changed or failed while it was read."""
 
     def add(self, check: str, path: str | os.PathLike[str], found: tuple[int, ...]) -> None:
         """Record what was found at a path, before its content is read."""
-        if self.entries[check].setdefault(os.fspath(path), found) != found:
+        if self.entries.setdefault((check, os.fspath(path)), found) != found:
             self.complete = False  # it changed between two reads
 
 
@@ -67,12 +68,13 @@ def stat_of(status: os.stat_result) -> Stat:
     return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
 
 
-def check_paths(check: str, paths: Iterable[str]) -> list[tuple[int, ...]]:
-    """What is at each path now, in the form of `Dependencies.entries`. Raises OSError."""
-    status = os.lstat if check in (LSTAT, LSTAT_TYPE) else os.stat
-    if check in (LSTAT, STAT):  # written out, since there are thousands of paths
-        return [(s.st_mode, s.st_ino, s.st_dev, s.st_size, s.st_mtime_ns, s.st_ctime_ns) for s in map(status, paths)]
-    return [(_file_type(path, follow=status is os.stat),) for path in paths]
+def check_path(check: str, path: str) -> tuple[int, ...]:
+    """What is at a path now, in the form of `Entries`. Raises OSError."""
+    if check == LSTAT:
+        return stat_of(os.lstat(path))
+    if check == STAT:
+        return stat_of(os.stat(path))
+    return (_file_type(path, follow=check == STAT_TYPE),)
 
 
 def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
