@@ -201,7 +201,7 @@ LIGHT = (
 
 FIRST = (*("__main__", "hook", "uptodate", "dependencies", "streams", "staging/listing"),)
 """What is loaded before anybody knows that there is something to do."""
-AT_ONCE = {"__future__", "collections.abc", "contextlib", "contextvars", "errno", "os", "stat", "sys", "time"}
+AT_ONCE = {"__future__", "collections.abc", "contextvars", "errno", "os", "stat", "sys", "time"}
 """Modules of Python's that take no time to load, or have been loaded at its start."""
 
 NO_IO_CALLS = {

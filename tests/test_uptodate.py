@@ -496,7 +496,7 @@ def _bring(path: Path, what: str, how: str, old: bool, first: State) -> None:
 def _full(command: list[str]) -> list[str] | None:
     """What the command says if it is carried out, in the form of a saved answer; None unless it succeeds."""
     said: streams.Transcript = []
-    with streams.safe_streams(said):
+    with streams.SafeStreams(said):
         code = cli._main(command)
     return [text for pair in said if pair[1] for text in pair] if code == 0 else None
 

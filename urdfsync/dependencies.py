@@ -6,12 +6,11 @@ named by `depend_on`, or makes the record incomplete (`mark_incomplete`).
 
 from __future__ import annotations
 
-import contextlib
 import errno
 import os
 import stat
 from collections.abc import Iterator
-from contextvars import ContextVar
+from contextvars import ContextVar, Token
 
 Stat = tuple[int, int, int, int, int, int]
 """Mode, inode, device, size in bytes, and the times of change of content and of status in ns. Only ever compared."""
@@ -30,12 +29,21 @@ Entries = dict[tuple[str, str], tuple[int, ...]]
 
 
 class Dependencies:
-    """The paths that were read."""
+    """The paths that this thread reads through this module inside a `with` block."""
 
     def __init__(self) -> None:
+        self._token: Token[Dependencies | None] | None = None
         self.entries: Entries = {}
         self.complete = True
         """Whether the answer depends on nothing else, and no path changed or failed while it was read."""
+
+    def __enter__(self) -> Dependencies:
+        self._token = _current.set(self)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._token is not None:
+            _current.reset(self._token)
 
     def add(self, check: str, path: str | os.PathLike[str], found: tuple[int, ...]) -> None:
         """Record what was found at a path, before its content is read."""
@@ -46,15 +54,9 @@ class Dependencies:
 _current: ContextVar[Dependencies | None] = ContextVar("dependencies", default=None)
 
 
-@contextlib.contextmanager
-def record_dependencies() -> Iterator[Dependencies]:
-    """Record all that this thread reads through this module inside the block."""
-    dependencies = Dependencies()
-    token = _current.set(dependencies)
-    try:
-        yield dependencies
-    finally:
-        _current.reset(token)
+def record_dependencies() -> Dependencies:
+    """Record all that this thread reads through this module inside a `with` block."""
+    return Dependencies()
 
 
 def mark_incomplete() -> None:
@@ -143,8 +145,10 @@ def list_folder(folder: str | os.PathLike[str]) -> list[str]:
 def depend_on(path: str | os.PathLike[str]) -> None:
     """Record a file that is about to be read by other means, or a folder that is about to be listed."""
     if (dependencies := _current.get()) is not None:
-        with contextlib.suppress(OSError):  # the reader meets the same error, and reports it
+        try:
             _add(dependencies, path)
+        except OSError:
+            return  # the reader meets the same error, and reports it
 
 
 def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
@@ -152,9 +156,10 @@ def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
     waiting = [os.fspath(folder)]
     while waiting:
         current = waiting.pop()
-        names: list[str] = []
-        with contextlib.suppress(OSError):  # the folder is missing, or can't be read
+        try:
             names = list_folder(current)
+        except OSError:
+            continue  # the folder is missing, or can't be read
         for path in [f"{current}{os.sep}{name}" for name in names]:
             found = file_type(path)
             if found == stat.S_IFREG:
