@@ -160,10 +160,9 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "views/hooks": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf", *HEAVY),
     "cli": ("jinja2", "deepdiff", "urdfsync.urdf", "rich"),
     "urdf/robot": ("lxml", "yourdfpy", "numpy", "pathlib", *IO),
-    "urdf/reader/chunks": ("lxml", "urdfsync.urdf.robot", "pathlib", *IO, *SHELL_MODULES),
-    "urdf/reader/renumbering": ("lxml", "pathlib", *IO, *SHELL_MODULES),
-    "urdf/source": ("jinja2", "urdfsync.render", "urdfsync.manifest", *SHELL_MODULES),
-    "urdf/naming": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
+    "urdf/parse/source": ("jinja2", "urdfsync.render", "urdfsync.manifest", *SHELL_MODULES),
+    "urdf/names": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
+    "urdf/validate": ("lxml", "pathlib", *IO, *HEAVY, *SHELL_MODULES),
     "urdf/artifacts": ("jinja2", "pathlib", *IO, *SHELL_MODULES),
 }
 """Per module: what it must not import, at whatever place in the file."""

@@ -25,7 +25,6 @@ from jinja2.runtime import Context, Macro
 from jinja2.sandbox import MAX_RANGE, ImmutableSandboxedEnvironment
 
 from urdfsync import template_cache
-from urdfsync.domain import Piece, Recipe
 from urdfsync.modelica import literals
 
 if sys.platform == "linux":
@@ -39,15 +38,10 @@ MAX_MEMORY = 2_000_000_000
 
 
 def once(pieces: Iterable[Any], macro: Callable[[Any], str]) -> str:
-    """Join what a macro makes of each piece. Nothing but a macro is called, since the call goes round the sandbox."""
+    """Join what a macro makes of some values. Raises TypeError for all but macros: the call bypasses the sandbox."""
     if not isinstance(macro, Macro):
         raise TypeError("`once` takes a macro")
-    return "".join(macro(_data(piece)) for piece in pieces)
-
-
-def _data(piece: Any) -> Any:
-    of = piece.of if isinstance(piece, Piece) else piece
-    return of.make(*of.made_of) if isinstance(of, Recipe) else of
+    return "".join(map(macro, pieces))
 
 
 _FILTERS = (
@@ -71,8 +65,6 @@ MAX_BITS = 10_000
 
 _NOT_FOR_MODELS = ("lipsum", "random")
 """Names that Jinja offers and whose text is another one each time."""
-_HIDDEN = (Piece, Recipe)
-"""Data that only `once` may look into: it has functions."""
 
 
 class _CodeGenerator(CodeGenerator):
@@ -128,13 +120,9 @@ class _Environment(ImmutableSandboxedEnvironment):
         """
         if type(obj) is dict and attribute in obj:
             return obj[attribute]
-        if isinstance(obj, msgspec.Struct) and attribute in obj.__struct_fields__ and not isinstance(obj, _HIDDEN):
+        if isinstance(obj, msgspec.Struct) and attribute in obj.__struct_fields__:
             return getattr(obj, attribute)
         return super().getattr(obj, attribute)
-
-    def is_safe_attribute(self, obj: Any, attr: str, value: Any) -> bool:
-        """See Jinja; what a piece is made by is none of the template's business."""
-        return not isinstance(obj, _HIDDEN) and super().is_safe_attribute(obj, attr, value)
 
 
 def _with_small_numbers(function: Callable[..., Any]) -> Callable[..., Any]:

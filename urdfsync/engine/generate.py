@@ -67,7 +67,7 @@ def generate(
 ) -> Package:
     """Return the package of a model. Raises OutputError for paths that can't be written."""
     with profiling.stage("artifacts"):
-        found = domain.artifacts(snapshot, imports, target, options)
+        found = tuple(domain.artifacts(snapshot, imports, target, options))
         check_paths([*(artifact.path for artifact in found), *(entry.target for entry in imports.values())])
     return Package(found, templates)
 

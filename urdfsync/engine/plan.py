@@ -173,7 +173,7 @@ def _uses_of_lost_names(inputs: Inputs, generation: Generation, decision: Decisi
 def _lost_connectors(inputs: Inputs, generation: Generation) -> list[Diagnostic]:
     """Return notes on what users may have connected to, and what has another name now, or none."""
     complete, changes, robot = inputs.last_complete, generation.changes_since_complete, inputs.robot
-    if complete is None or changes is None or not changes.is_structural:
+    if complete is None or changes is None or not (changes.is_structural or changes.generator):
         return []
     notes = []
     for one in inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options):
