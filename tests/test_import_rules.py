@@ -74,11 +74,13 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "documents": (*SHELL_MODULES, *IO, *HEAVY),
     **{f"modelica/{name}": ("urdfsync", *IO, *HEAVY) for name in ("names", "literals")},
     **{
-        f"modelica/{name}": ("pathlib", "urdfsync.manifest", "urdfsync.merging", *SHELL_MODULES, *IO, *HEAVY)
+        f"modelica/{name}": ("pathlib", "urdfsync.manifest", "urdfsync.merge", *SHELL_MODULES, *IO, *HEAVY)
         for name in ("lexer", "syntax", "reader", "expressions", "parser", "scopes", "unresolved")
     },
-    "merge": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
-    "merging/soundness": ("pathlib", "urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY),
+    **{
+        f"merge/{name}": ("pathlib", "urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY)
+        for name in ("lines", "sequence", "tokens")
+    },
     "tomlfile": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "tables": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "targets": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
@@ -241,11 +243,7 @@ PURE = (
         "watching/words",
         *(f"checking/diagnosis/{name}" for name in ("package", "layout", "complaints", "mentions", "problems")),
     ),
-    *(
-        name
-        for name in MODULES
-        if name in ("merge", "state/repair") or name.startswith(("urdf/", "merging/", "modelica/"))
-    ),
+    *(name for name in MODULES if name == "state/repair" or name.startswith(("urdf/", "merge/", "modelica/"))),
 )
 
 
@@ -342,7 +340,7 @@ def test_values_are_structs(module: str) -> None:
 
 @pytest.mark.parametrize("module", MODULES)
 def test_imports_name_what_the_project_depends_on(module: str) -> None:
-    known = {*sys.stdlib_module_names, "urdfsync", "msgspec", "tomli", "tomli_w", *HEAVY, *EXTRAS}
+    known = {*sys.stdlib_module_names, "urdfsync", "msgspec", "tomli", "tomli_w", "pygit2", *HEAVY, *EXTRAS}
     assert {name.partition(".")[0] for name in all_imports(module)} <= known
 
 

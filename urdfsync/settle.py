@@ -8,7 +8,6 @@ from typing import NamedTuple
 import msgspec
 
 from urdfsync.merge import merge
-from urdfsync.merging.soundness import flaw
 from urdfsync.plan import CONFLICTS, Action, Kind
 from urdfsync.standoff import Choice, Standoff
 
@@ -22,12 +21,8 @@ class Settled(NamedTuple):
 
 def stand_off(action: Action, base: str | None, mine: str, generated: str) -> Standoff:
     """The three texts of a file, and what comes of merging them; a merge that makes no sense is none."""
-    merged = None if base is None else merge(base, mine, generated)
-    rejected = ""
-    if merged and merged.text is not None and merged.text != mine and action.path.endswith(".mo"):
-        reason = flaw(merged.text, (mine, generated))
-        if reason:
-            merged, rejected = msgspec.structs.replace(merged, text=None), f"the merge {reason}"
+    merged = None if base is None else merge(base, mine, generated, is_modelica=action.path.endswith(".mo"))
+    rejected = f"the merge {merged.flaw}" if merged and merged.flaw else ""
     return Standoff(action.path, action.owner, base, mine, generated, merged, action.origin, rejected)
 
 

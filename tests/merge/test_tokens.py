@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.merging.tokens import inner_lines, is_comment, is_telling, is_trivia, is_word, tokens
+from urdfsync.merge.tokens import inner_lines, tokens
 
 
 @pytest.mark.parametrize(
@@ -40,26 +40,3 @@ def test_lines_inside_strings_and_comments() -> None:
     text = 'a = "one\ntwo\nthree"; // no "\nb /* four\nfive */ c\n"unfinished\n\n'
     assert inner_lines(text) == {1, 2, 4, 6, 7}
     assert inner_lines('a = "b";\nc = 1;\n') == frozenset()
-
-
-@pytest.mark.parametrize(
-    ("token", "kinds"),
-    [
-        ("mass", "word telling"),
-        ("final", "word"),
-        ("1.05", "word"),
-        ("{0, 0}", "word"),
-        ('""', "word telling"),
-        ("'a b'", "word telling"),
-        ("// c", "trivia comment telling"),
-        ("/* c */", "trivia comment telling"),
-        ("/", ""),
-        (",", ""),
-        ("\n", "trivia"),
-        ("  ", "trivia"),
-        ("→", "word"),
-    ],
-)
-def test_kinds(token: str, kinds: str) -> None:
-    asked = {"word": is_word, "trivia": is_trivia, "comment": is_comment, "telling": is_telling}
-    assert " ".join(kind for kind in ("word", "trivia", "comment", "telling") if asked[kind](token)) == kinds

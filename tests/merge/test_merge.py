@@ -13,10 +13,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.merge import Merge, merge, merge_lines, split_lines
-from urdfsync.merging.tokens import is_word, tokens
+from urdfsync.merge import Merge, merge, split_lines
+from urdfsync.merge.lines import find_flaw, merge_lines
+from urdfsync.merge.tokens import is_word, tokens
 
-EXAMPLES = Path(__file__).parents[1] / "modelica" / "UrdfSync" / "Examples"
+EXAMPLES = Path(__file__).parents[2] / "modelica" / "UrdfSync" / "Examples"
 
 RECORD = """\
 record ForearmParameters "Numbers of link \\"forearm\\""
@@ -267,6 +268,46 @@ def test_markers_stand_on_lines_of_their_own() -> None:
     assert "\r\n" in merge("a\r\n", "b\r\n", "c\r\n").proposal
 
 
+# --- Modelica -----------------------------------------------------------------------------------------------------
+
+DECLARED = "model A\n  Real a;\n  Real b;\n  Real c;\nequation\n  a = b;\n  b = c;\n  c = 1;\nend A;\n"
+
+
+def test_a_merge_that_makes_no_sense_as_modelica_is_none() -> None:
+    mine, generated = (DECLARED.replace(f"  Real {name};\n", f"  Real {name};\n  Real d;\n") for name in "ac")
+    plain, result = (merge(DECLARED, mine, generated, is_modelica=flag) for flag in (False, True))
+    assert plain.text == plain.proposal == result.proposal
+    assert result == Merge(None, plain.proposal, (), "declares `d` twice (line 6)")
+
+
+@pytest.mark.parametrize("side", ["mine", "generated"])
+def test_what_a_side_has_is_its_authors_business(side: str) -> None:
+    """A flaw is what the merge has more often than each of the sides."""
+    odd, plain = DECLARED.replace("  Real a", "  Real c;\n  Real a"), DECLARED.replace("c = 1", "c = 2")
+    result = merge(DECLARED, *((odd, plain) if side == "mine" else (plain, odd)), is_modelica=True)
+    assert (result.text, result.flaw) == (odd.replace("c = 1", "c = 2"), "")
+    odd, more = "x\n<<<<<<< a\ny\n", "x\ny\n<<<<<<< a\n"
+    assert merge("x\ny\n", odd, more, is_modelica=True).flaw == "has the conflict marker `<<<<<<<` (line 4)"
+    assert find_flaw(odd, [odd, ""]) == find_flaw(odd, ["", odd]) == ""
+
+
+def test_what_is_no_modelica_hides_nothing_behind_it() -> None:
+    odd = DECLARED.replace("  Real a;", "  Real ?a;")
+    assert find_flaw(odd, [DECLARED]) == "lacks a name before `?` (line 2)"
+    assert find_flaw(odd.replace("Real b", "Real c"), [odd, odd]) == "declares `c` twice (line 4)"
+
+
+fragments = st.lists(
+    st.sampled_from([*set(tokens(DECLARED)), '"', "'", "/*", "?", "(", ")", "<<<<<<< x\n", "\n"]), max_size=30
+)
+
+
+@given(parts=fragments, others=fragments)
+def test_any_text_is_right_if_a_side_is_the_same(parts: list[str], others: list[str]) -> None:
+    text, other = " ".join(parts), " ".join(others)
+    assert find_flaw(text, [text]) == find_flaw(text, [other, text]) == ""
+
+
 # --- what must hold for all texts ---------------------------------------------------------------------------------
 
 lines = st.lists(
@@ -413,7 +454,7 @@ def random_case(rng: random.Random, files: Sequence[Sequence[str]]) -> Texts:
     generated = edited(rng, base if rng.random() < 0.8 else mine, pool)
     for text in (base, mine, generated):
         if text and rng.random() < 0.1:
-            text[-1] = text[-1].rstrip("\n")
+            text[:] = split_lines("".join(text).removesuffix("\n"))
     return base, mine, generated
 
 
@@ -431,13 +472,13 @@ def git_merge(folder: Path, texts: Texts) -> str | None:
 
 def by_lines(texts: Texts) -> str | None:
     """What merging whole lines alone makes of it."""
-    _, mine, generated = texts
+    _, mine, _ = texts
     result: list[str] = []
     place = 0
-    for (_, ours, theirs), clash in merge_lines(*texts):
-        if clash:
+    for (_, ours, _), text in merge_lines(*texts):
+        if text is None:
             return None
-        result += mine[place : ours.start] + generated[theirs.start : theirs.stop]
+        result += [*mine[place : ours.start], text]
         place = ours.stop
     return "".join(result + mine[place:])
 
