@@ -21,8 +21,7 @@ from support.replay import Project
 
 from urdfsync import cli
 from urdfsync.classfiles import StoredClasses
-from urdfsync.difference import Effect, Version
-from urdfsync.domain import Order, Snapshot, Target
+from urdfsync.domain import Effect, Order, Snapshot, Target, Version
 from urdfsync.modelica.scopes import Node, Scopes
 from urdfsync.modelica.unresolved import unresolved
 from urdfsync.urdf.domain import DOMAIN

@@ -12,10 +12,9 @@ import msgspec
 import pytest
 
 from urdfsync import config, modelfile, registry
-from urdfsync.changes import compare
 from urdfsync.config import Keys
 from urdfsync.diagnostics import Severity
-from urdfsync.difference import Version
+from urdfsync.diff.changes import compare
 from urdfsync.domain import (
     Artifact,
     Dependency,
@@ -28,6 +27,7 @@ from urdfsync.domain import (
     Snapshot,
     Target,
     Templates,
+    Version,
 )
 from urdfsync.files import digest, templates_digest
 from urdfsync.modelica.names import is_identifier, within

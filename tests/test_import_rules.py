@@ -36,7 +36,7 @@ SHELL = (
         "records",
         "standalone",
     ),
-    *(f"comparing.{name}" for name in ("differ", "versions", "revisions", "subjects")),
+    *(f"diff.{name}" for name in ("comparison", "revisions")),
     *(f"staging.{name}" for name in ("staged", "mirror", "worktree", "judging", "committing")),
     "hook",
 )
@@ -49,8 +49,10 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "stamping/trust": ("urdfsync.config", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "stamping/making": ("urdfsync.config", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "domain": ("urdfsync.urdf", "urdfsync.render", "urdfsync.registry", *SHELL_MODULES, *IO, *HEAVY),
-    "changes": ("rich", "pathlib", "jinja2", "urdfsync.urdf", *IO, *SHELL_MODULES),
-    "difference": ("pathlib", *IO, *HEAVY, *SHELL_MODULES),
+    "diff/changes": ("rich", "pathlib", "jinja2", "urdfsync.urdf", *IO, *SHELL_MODULES),
+    "diff/outline": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
+    "diff/revisions": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "diff/comparison": ("urdfsync.report", "urdfsync.cli", "urdfsync.render", *HEAVY),
     "render": ("urdfsync.urdf", "urdfsync.manifest", "rich", *SHELL_MODULES),
     "manifest": ("rich", "pathlib", *IO, *SHELL_MODULES),
     "modelfile": ("rich", "pathlib", *IO, *SHELL_MODULES),
@@ -63,13 +65,6 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "records": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "standalone": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "resolution": (*SHELL_MODULES, *HEAVY),
-    "comparing/comparison": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
-    "comparing/figures": ("urdfsync", "pathlib", *IO, *HEAVY),
-    "comparing/outline": ("pathlib", "urdfsync.manifest", "urdfsync.urdf", *SHELL_MODULES, *IO, *HEAVY),
-    "comparing/revisions": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "comparing/subjects": ("urdfsync.manifest", "urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "comparing/versions": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "comparing/differ": ("urdfsync.report", "urdfsync.cli", "urdfsync.render", *HEAVY),
     "wording": (*SHELL_MODULES, *IO, *HEAVY),
     "documents": (*SHELL_MODULES, *IO, *HEAVY),
     **{f"modelica/{name}": ("urdfsync", *IO, *HEAVY) for name in ("names", "literals")},
@@ -157,7 +152,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     **{
         f"views/{name}": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf")
         for name in (
-            *("area", "builds", "chronicle", "comparisons", "conflicts", "diversion", "drafts", "hunks", "statuses"),
+            *("area", "builds", "chronicle", "conflicts", "diversion", "drafts", "hunks", "statuses"),
             *("checks", "profiles", "terminal", "watching"),
         )
     },
@@ -218,12 +213,9 @@ NO_IO_CALLS = {
 }  # fmt: skip
 PURE = (
     *(
-        "changes",
-        "comparing/comparison",
-        "comparing/outline",
-        "comparing/figures",
+        "diff/changes",
+        "diff/outline",
         "diagnostics",
-        "difference",
         "domain",
         "manifest",
         "modelfile",
@@ -310,7 +302,9 @@ def test_the_domain_knows_the_contract_only(module: str) -> None:
     assert broken(all_imports(module), (*SHELL_MODULES, "urdfsync.plan", "urdfsync.manifest", "rich", "jinja2")) == []
 
 
-@pytest.mark.parametrize("module", [m for m in MODULES if m != "report" and not m.startswith("views/")])
+@pytest.mark.parametrize(
+    "module", [m for m in MODULES if m not in ("report", "commands/diff") and not m.startswith("views/")]
+)
 def test_only_the_report_knows_rich(module: str) -> None:
     assert broken(all_imports(module), ("rich",)) == []
 

@@ -12,7 +12,7 @@ import pytest
 from urdfsync.build import Request, build
 from urdfsync.checking.subject import Subject
 from urdfsync.config import load
-from urdfsync.difference import ChangeClass
+from urdfsync.domain import ChangeClass
 from urdfsync.outcome import Result
 from urdfsync.plan import Kind
 

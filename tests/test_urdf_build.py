@@ -13,8 +13,7 @@ from urdfsync import wording
 from urdfsync.build import Request, build
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
-from urdfsync.difference import ChangeClass
-from urdfsync.domain import Role
+from urdfsync.domain import ChangeClass, Role
 from urdfsync.outcome import Result
 
 SAMPLES = Path(__file__).parents[1] / "modelica" / "UrdfSync" / "Resources" / "robots"

@@ -13,7 +13,7 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.plan import CONFLICTS, Action, Actions, Kind
 
 if TYPE_CHECKING:
-    from urdfsync.changes import Changes
+    from urdfsync.diff.changes import Changes
     from urdfsync.standoff import Standoff
 
 

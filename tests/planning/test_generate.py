@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync import changes, cli, registry
+from urdfsync import cli, registry
 from urdfsync.diagnostics import ConfigError, OutputError
+from urdfsync.diff import changes
 from urdfsync.domain import Artifact, Recipe, Role, Target, Templates
 from urdfsync.files import templates_digest
 from urdfsync.planning.generate import Generated, check_paths, generate
@@ -98,7 +99,7 @@ def test_a_text_counts_as_stale_once_its_data_is_forgotten(tmp_path: Path) -> No
         for n in (1, 2)
     )
     for _ in range(2):
-        assert changes.stale(one.artifacts, two.artifacts).render == {"A.mo"}
+        assert changes.stale_files(one.artifacts, two.artifacts).render == {"A.mo"}
         assert (one.content("A.mo"), two.content("A.mo")) == (b"1", b"2")
     assert {artifact.owner for artifact in one.artifacts.values()} == {"part"}
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.changes import stale
+from urdfsync.diff.changes import stale_files
 from urdfsync.domain import Artifact, Role, Templates
 from urdfsync.files import text_digest
 from urdfsync.plan import FileRecord, State
@@ -56,7 +56,7 @@ def _outputs(
     again: bool = False,
 ) -> Outputs:
     kept = Bases({text_digest(text.encode()): text for text in bases})
-    differing = stale(last.artifacts if last else {}, now.artifacts).render
+    differing = stale_files(last.artifacts if last else {}, now.artifacts).render
     return Outputs(now, last, differing, (records or {}).get, kept, aside or {}, (disk or {}).get, older, again)
 
 

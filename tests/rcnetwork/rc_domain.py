@@ -17,13 +17,17 @@ from typing import Any
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
-from urdfsync.difference import ChangeClass, Difference, Effect, ElementKey, Meaning, Version
 from urdfsync.domain import (
     Artifact,
+    ChangeClass,
     Conversion,
     Dependency,
+    Difference,
+    Effect,
+    ElementKey,
     Import,
     Lookup,
+    Meaning,
     Order,
     Parts,
     Proposal,
@@ -31,6 +35,7 @@ from urdfsync.domain import (
     Role,
     Snapshot,
     Target,
+    Version,
 )
 
 GROUND = "ground"

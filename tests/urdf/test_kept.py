@@ -14,8 +14,7 @@ from hypothesis import strategies as st
 from support import mutations
 from support.packages import RENDERER
 
-from urdfsync.difference import Version
-from urdfsync.domain import Artifact, Lookup, Order, Parts, Piece, Snapshot, Target
+from urdfsync.domain import Artifact, Lookup, Order, Parts, Piece, Snapshot, Target, Version
 from urdfsync.urdf.domain import DOMAIN, UrdfDomain
 from urdfsync.urdf.kept import Kept
 from urdfsync.urdf.options import Options

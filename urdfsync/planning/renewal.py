@@ -6,12 +6,12 @@ import contextlib
 import functools
 from collections.abc import Mapping
 
-from urdfsync import changes, profiling
-from urdfsync.changes import Changes, Stale
+from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.difference import ElementKey, Version
-from urdfsync.domain import Role, Target
+from urdfsync.diff import changes
+from urdfsync.diff.changes import Changes, StaleFiles
+from urdfsync.domain import ElementKey, Role, Target, Version
 from urdfsync.moves import places
 from urdfsync.plan import FileRecord, State, Wanted
 from urdfsync.planning import imports, inputs, leftovers, outdated
@@ -111,11 +111,12 @@ class Renewal:
         )
 
     @profiling.staged("comparing")
-    def _compared(self) -> Stale:
+    def _compared(self) -> StaleFiles:
         """The files that may be other than those of the last build, if templates and options are the same."""
         if self._before is None:
-            return Stale(frozenset(), frozenset())  # nothing can be told; of a first build, there are only new ones
-        return changes.stale(self._before.artifacts, self._generated.artifacts)
+            # nothing can be told; of a first build, there are only new ones
+            return StaleFiles(frozenset(), frozenset())
+        return changes.stale_files(self._before.artifacts, self._generated.artifacts)
 
     def _last(self) -> Generated | None:
         """The package of the last build. Its texts are right only if the generator still is the same."""
@@ -328,7 +329,7 @@ class Renewal:
         }
         old = {path: (a.owner, a.template) for path, a in before.items() if path in texts}
         old |= {path: (before[place].owner, before[place].template) for path, place in given.items()}
-        renamed = changes.moves(old, {path: (a.owner, a.template) for path, a in now.items()}, renames)
+        renamed = changes.moved_files(old, {path: (a.owner, a.template) for path, a in now.items()}, renames)
         targets = {situation.old_key(path): situation.key(renamed.get(path, path)) for path in texts}
         return places(recorded.files, targets, {situation.key(path) for path in now})
 
@@ -348,7 +349,7 @@ class Renewal:
             return {}
         files = {self._old_path(key): (one.owner, str(one.role)) for key, one in recorded.files.items()}
         today = {path: (one.owner, str(one.role)) for path, one in self._before.artifacts.items()}
-        return changes.moves({path: key for path, key in files.items() if key[0] in owners}, today, {})
+        return changes.moved_files({path: key for path, key in files.items() if key[0] in owners}, today, {})
 
     def _is_placed_alike(self) -> bool:
         """Whether every file of the last build still is one: of the same element, from the same template."""

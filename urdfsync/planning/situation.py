@@ -14,8 +14,7 @@ import msgspec
 from urdfsync import manifest, registry
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
-from urdfsync.difference import Version
-from urdfsync.domain import Dependency, Import, Lookup, Role, Snapshot
+from urdfsync.domain import Dependency, Import, Lookup, Role, Snapshot, Version
 from urdfsync.files import digest, text_digest
 from urdfsync.manifest import Generator, Manifest
 from urdfsync.modelfile import Model

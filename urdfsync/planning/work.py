@@ -13,7 +13,7 @@ from urdfsync.state.store import Witness
 from urdfsync.state.transactions import Change
 
 if TYPE_CHECKING:
-    from urdfsync.changes import Changes
+    from urdfsync.diff.changes import Changes
 
 
 class Work(msgspec.Struct, frozen=True):

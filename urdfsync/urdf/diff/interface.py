@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from urdfsync.difference import Effect, ElementKey, Version
-from urdfsync.domain import Target
+from urdfsync.domain import Effect, ElementKey, Target, Version
 from urdfsync.urdf.drives import can_be_driven, driven_joints
 from urdfsync.urdf.model.robot import connector_names
 from urdfsync.urdf.options import Options

@@ -7,9 +7,8 @@ from typing import Any
 import support.urdfs as urdfs
 from support.packages import read
 
-from urdfsync.difference import ElementKey, Version
-from urdfsync.domain import Target
-from urdfsync.urdf.changes import interface
+from urdfsync.domain import ElementKey, Target, Version
+from urdfsync.urdf.diff.interface import interface
 from urdfsync.urdf.options import Options
 
 TARGET = Target("Robot", "Robot")

@@ -5,9 +5,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfsync.changes import Change, Changes
-from urdfsync.comparing.outline import LONG, Entry, Row, Tone, effects, outline
-from urdfsync.difference import ChangeClass, Effect, Kind
+import pytest
+from hypothesis import assume, example, given
+from hypothesis import strategies as st
+
+from urdfsync.diff.changes import Change, Changes
+from urdfsync.diff.outline import LONG, OutlineEntry, OutlineRow, Tone, effect_rows, outline
+from urdfsync.domain import ChangeClass, ChangeKind, Effect
 
 
 def change(
@@ -16,7 +20,7 @@ def change(
     new: Any,
     unit: str = "",
     reach: ChangeClass = ChangeClass.PARAMETER,
-    kind: Kind = Kind.CHANGED,
+    kind: ChangeKind = ChangeKind.CHANGED,
 ) -> Change:
     return Change(tuple(path.split(" / ")), kind, reach, old, new, unit)
 
@@ -30,7 +34,7 @@ def lines(*found: Change, everything: bool = False) -> list[str]:
     ]
 
 
-def words(row: Row) -> list[str]:
+def words(row: OutlineRow) -> list[str]:
     value = f"{row.old} → {row.new}" if row.old else row.new
     return [part for part in (row.label, value, row.relation) if part]
 
@@ -85,11 +89,11 @@ def test_what_comes_and_goes_is_told_apart() -> None:
     joint = {"type": "fixed", "parent": "a", "child": "b", "axis": [1, 0, 0], "origin": {"xyz": [0, 0, 0]}}
     limit = {"lower": -1.0, "upper": 1.5}
     found = lines(
-        change("joint new", None, joint, reach=structural, kind=Kind.ADDED),
-        change("joint old", joint, None, reach=structural, kind=Kind.REMOVED),
-        change("joint elbow / limit", None, limit, kind=Kind.ADDED),
-        change("joint wrist / limit", limit, None, kind=Kind.REMOVED),
-        change("link left", "left", "port", reach=structural, kind=Kind.RENAMED),
+        change("joint new", None, joint, reach=structural, kind=ChangeKind.ADDED),
+        change("joint old", joint, None, reach=structural, kind=ChangeKind.REMOVED),
+        change("joint elbow / limit", None, limit, kind=ChangeKind.ADDED),
+        change("joint wrist / limit", limit, None, kind=ChangeKind.REMOVED),
+        change("link left", "left", "port", reach=structural, kind=ChangeKind.RENAMED),
     )
     assert found == [
         "joint new",
@@ -113,22 +117,22 @@ def test_elements_with_the_same_rows_share_an_entry() -> None:
 
 
 def test_things_that_are_counted_share_a_row() -> None:
-    removed = [change(f"link a / visual {k}", {"name": "x"}, None, kind=Kind.REMOVED) for k in (2, 3, 5)]
+    removed = [change(f"link a / visual {k}", {"name": "x"}, None, kind=ChangeKind.REMOVED) for k in (2, 3, 5)]
     assert lines(*removed) == ["link a", "  visual 2, 3, 5 removed: name x"]
 
 
 def test_long_lists_of_names_are_cut() -> None:
     names = [f"a_rather_long_name_{k}" for k in range(30)]
-    title = Entry(tuple(f"joint {name}" for name in names), ()).title
+    title = OutlineEntry(tuple(f"joint {name}" for name in names), ()).title
     assert title.startswith("joint a_rather_long_name_0, a_rather_long_name_1, ")
     assert title.endswith(" and 24 more")
 
 
 def test_what_is_not_modelled_is_marked_and_does_not_crowd_out_the_rest() -> None:
     unmodelled = ChangeClass.UNMODELLED
-    few = [change("robot / gazebo", None, "<gazebo>" * 9, reach=unmodelled, kind=Kind.ADDED)]
+    few = [change("robot / gazebo", None, "<gazebo>" * 9, reach=unmodelled, kind=ChangeKind.ADDED)]
     assert lines(*few) == ["robot", "  gazebo added not modelled"]
-    many = [change(f"robot / transmission {k}", "x", None, reach=unmodelled, kind=Kind.REMOVED) for k in range(9)]
+    many = [change(f"robot / transmission {k}", "x", None, reach=unmodelled, kind=ChangeKind.REMOVED) for k in range(9)]
     name = change("robot / name", "a", "b")
     assert lines(*many, name) == ["robot", "  name a → b", "  not modelled 9 removed"]
 
@@ -147,8 +151,8 @@ def test_a_long_outline_is_condensed_to_a_row_per_element() -> None:
     assert found.condensed
     assert found.entries[0].title == "link 0"
     assert found.entries[0].rows == (
-        Row("", Tone.CHANGED, new="2 in visual; 1 by rounding"),
-        Row("type", Tone.CHANGED, "a", "b"),
+        OutlineRow("", Tone.CHANGED, new="2 in visual; 1 by rounding"),
+        OutlineRow("type", Tone.CHANGED, "a", "b"),
     )
     assert len(found.entries) == 2, "all others have the same row"
     everything = outline(Changes((*numbers, noise, kind)), everything=True)
@@ -156,7 +160,7 @@ def test_a_long_outline_is_condensed_to_a_row_per_element() -> None:
 
 
 def test_effects() -> None:
-    found = effects(
+    found = effect_rows(
         [
             Effect(("robot", "mass"), 12.5, 12.75, "kg"),
             Effect(("robot", "centre of mass"), (0.1, 0.0, 0.2), (0.1, 0.0, 0.25), "m"),
@@ -172,8 +176,113 @@ def test_effects() -> None:
 
 def test_effects_that_are_none() -> None:
     centre = ("robot", "centre of mass")
-    assert effects([Effect(centre, (0.1, 0.2), (0.1, 0.2 + 1e-16), "m"), Effect(("mass",), 1.0, 1.0)]) == []
-    (gone,) = effects([Effect(centre, (0.1, 0.2), None, "m")])
+    assert effect_rows([Effect(centre, (0.1, 0.2), (0.1, 0.2 + 1e-16), "m"), Effect(("mass",), 1.0, 1.0)]) == []
+    (gone,) = effect_rows([Effect(centre, (0.1, 0.2), None, "m")])
     assert words(gone) == ["robot centre of mass", "was (0.1, 0.2) m"]
-    (come,) = effects([Effect(centre, None, (0.1, 0.2), "m")])
+    (come,) = effect_rows([Effect(centre, None, (0.1, 0.2), "m")])
     assert words(come) == ["robot centre of mass", "now (0.1, 0.2) m"]
+
+
+# --- values in few characters -------------------------------------------------------------------------------------
+
+NUMBERS = st.floats(-1e6, 1e6)
+
+
+def row(old: Any, new: Any, kind: ChangeKind = ChangeKind.CHANGED, *, everything: bool = False) -> OutlineRow:
+    """The only row of one change."""
+    (entry,) = outline(Changes((change("a / b", old, new, kind=kind),)), everything=everything).entries
+    return entry.rows[0]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "shown"),
+    [
+        (1.0, 1.5, "1 → 1.5"),
+        (1.2345678, 2.3456789, "1.235 → 2.346"),
+        (1.2345678, 1.2345999, "1.2345678 → 1.2345999"),
+        (1e-5, 2e-5, "1e-05 → 2e-05"),
+        (0.00123456789, 0.00234567891, "0.001235 → 0.002346"),
+        (123456.789, 234567.891, "123457 → 234568"),
+        (1e300, 1.5e300, "1e+300 → 1.5e+300"),
+        (True, False, "true → false"),
+        (None, 1.5, "null → 1.5"),
+        ("revolute", "fixed", "revolute → fixed"),
+        ("", "b", '"" → b'),
+        ("a" * 64, "b" * 64, "aaaaaaaa → bbbbbbbb"),
+        (
+            f"{'x' * 50}1.5{'y' * 50}",
+            f"{'x' * 50}2.5{'y' * 50}",
+            f"…{'x' * 12}1.5{'y' * 23}… → …{'x' * 12}2.5{'y' * 23}…",
+        ),
+        (f"{'x' * 50}", f"{'x' * 50}z", f"…{'x' * 12} → …{'x' * 12}z"),
+    ],
+)
+def test_pairs(old: Any, new: Any, shown: str) -> None:
+    found = row(old, new)
+    assert f"{found.old} → {found.new}" == shown
+
+
+def test_everything_is_everything() -> None:
+    found = row(0.1 + 0.2, 1e-17, everything=True)
+    assert (found.old, found.new) == ("0.30000000000000004", "1e-17")
+    found = row("x" * 99, "", everything=True)
+    assert (found.old, found.new) == ("x" * 99, '""')
+
+
+@given(NUMBERS, NUMBERS)
+@example(0.0, 5e-324)
+def test_numbers_that_differ_look_different(old: float, new: float) -> None:
+    assume(abs(new - old) > 1e-6 * max(abs(old), abs(new)))
+    found = row(old, new)
+    assert found.old != found.new
+    for text, value in ((found.old, old), (found.new, new)):
+        assert float(text) == pytest.approx(value, abs=0.01 * abs(new - old), rel=1e-9)
+        assert len(text) <= 17
+
+
+@given(st.lists(st.tuples(NUMBERS, NUMBERS), min_size=1, max_size=4))
+def test_vectors_that_differ_look_different(pairs: list[tuple[float, float]]) -> None:
+    old, new = zip(*pairs, strict=True)
+    assume(max(abs(b - a) for a, b in pairs) > 1e-6 * max(map(abs, (*old, *new))))
+    (found,) = effect_rows([Effect(("a",), old, new)])
+    assert found.old != found.new
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "shown"),
+    [
+        (2, 1, "-50 %"),
+        (54.0, 60.0, "+11.1 %"),
+        (52.345, 52.695, "+0.669 %"),
+        (1.2345678, 1.2345999, "+0.0026 %"),
+        (1.0, 1.000002, "< 0.001 %"),
+        (100.0, 700.0, "+600 %"),
+        (1.0, 100.0, "× 100"),
+        (-2.0, -1.0, "+50 %"),
+        (0.5, 0.0, "-100 %"),
+        (1.0, -1.0, ""),
+        (0.0, 0.5, ""),
+        (None, 0.5, ""),
+        (True, 2, ""),
+    ],
+)
+def test_percent(old: Any, new: Any, shown: str) -> None:
+    assert row(old, new).relation == shown
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [
+        (None, "added"),
+        (1.5, "added: 1.5"),
+        ([1, 0.5, 1 / 3], "added: (1, 0.5, 0.3333)"),
+        ([{"a": 1}], "added"),
+        ("<gazebo reference='a'/>", "added"),
+        ("package://arm/tip.stl", "added: package://arm/tip.stl"),
+        ({"lower": -1, "upper": 1.5, "name": ""}, "added: lower -1, upper 1.5"),
+        ({"name": "a", "geometry": {"kind": "box", "size": [1, 2, 3]}}, "added: name a, geometry kind box"),
+        ({"gazebo": "<gazebo>" * 9}, "added: gazebo"),
+    ],
+)
+def test_what_comes(value: Any, shown: str) -> None:
+    assert row(None, value, ChangeKind.ADDED).new == shown

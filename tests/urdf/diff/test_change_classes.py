@@ -16,10 +16,8 @@ from support import mutations
 from support.corpus import ABSENT, FOLDER
 from support.packages import RENDERER, read
 
-from urdfsync.changes import Changes, compare, stale
-from urdfsync.difference import ChangeClass, Version
-from urdfsync.domain import Artifact, Import, Lookup, Order, Role, Snapshot, Target
-from urdfsync.urdf import changes as urdf
+from urdfsync.diff.changes import Changes, compare, stale_files
+from urdfsync.domain import Artifact, ChangeClass, Import, Lookup, Order, Role, Snapshot, Target, Version
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 
@@ -89,15 +87,15 @@ def test_the_class_of_random_changes_says_which_files_differ(random: Random, cou
     second = mutations.mutated(first, random, count)
     old, new = referenced(first, options), referenced(second, options)
     before, after = render(old, options), render(new, options)
-    check(compare(old, new, urdf, options), before, after)
-    candidates = stale(*({file.path: file for file in artifacts(one, options)} for one in (old, new)))
+    check(compare(old, new, DOMAIN, options), before, after)
+    candidates = stale_files(*({file.path: file for file in artifacts(one, options)} for one in (old, new)))
     assert differing(before, after) <= candidates.render | candidates.gone
 
 
 @given(st.randoms(use_true_random=False), OPTIONS)
 def test_the_class_of_drives_says_which_files_differ(random: Random, options: Options) -> None:
     old, new = (referenced(version, options) for version in mutations.driven_and_passive(random))
-    check(compare(old, new, urdf, options), render(old, options), render(new, options))
+    check(compare(old, new, DOMAIN, options), render(old, options), render(new, options))
 
 
 def everything_found(snapshot: Snapshot, options: Options) -> Mapping[str, Import]:
@@ -121,4 +119,4 @@ def test_the_class_of_real_changes_says_which_files_differ(corpus: Path, name: s
     options = Options(base="floating" if meshes else "fixed")
     readable = ((new, render(new, options)) for new in versions(corpus / "histories" / name, options, meshes))
     for (old, before), (new, after) in itertools.pairwise(readable):
-        check(compare(old, new, urdf, options), before, after)
+        check(compare(old, new, DOMAIN, options), before, after)

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from support.git import NEEDS_GIT, Repository
 
-from urdfsync.comparing.revisions import Revision
 from urdfsync.diagnostics import SourceError
+from urdfsync.diff.revisions import Revision
 
 pytestmark = NEEDS_GIT
 

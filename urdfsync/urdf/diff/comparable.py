@@ -7,8 +7,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from urdfsync.difference import ElementKey
-from urdfsync.domain import Snapshot
+from urdfsync.domain import ElementKey, Snapshot
 from urdfsync.urdf.drives import can_be_driven, passive_joints
 from urdfsync.urdf.snapshot import joints_of
 

@@ -11,16 +11,15 @@ import pytest
 import support.urdfs as urdfs
 from support.packages import read
 
-from urdfsync.changes import Change, compare
-from urdfsync.difference import ChangeClass, Kind, Version
-from urdfsync.domain import Import
-from urdfsync.urdf import changes as urdf
+from urdfsync.diff.changes import Change, compare
+from urdfsync.domain import ChangeClass, ChangeKind, Import, Version
+from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Mesh
 
 NONE, UNMODELLED, PARAMETER, STRUCTURAL = list(ChangeClass)[:4]
-ADDED, REMOVED, CHANGED, RENAMED = list(Kind)
+ADDED, REMOVED, CHANGED, RENAMED = list(ChangeKind)
 FIXED, FLOATING = Options(), Options(base="floating")
 MESH = lookup.key(Mesh("arm.stl"))
 Data = dict[str, Any]
@@ -65,7 +64,7 @@ def version(edit: Callable[[Data], object] = lambda _: None, found: Import | Non
 def changes(edit: Callable[[Data], object], options: Options = FIXED) -> list[Change]:
     """The changes that an edit of the robot's snapshot makes; its mesh is there before and after."""
     found = import_("a")
-    return list(compare(version(found=found), version(edit, found), urdf, options).changes)
+    return list(compare(version(found=found), version(edit, found), DOMAIN, options).changes)
 
 
 def put(*path: str | int, value: Any) -> Callable[[Data], object]:
@@ -157,7 +156,7 @@ CASES = [
 
 @pytest.mark.parametrize(("edit", "path", "kind", "unit", "reach"), CASES, ids=[case[1] for case in CASES])
 def test_an_edit_is_one_change_in_the_words_of_urdf(
-    edit: Callable[[Data], object], path: str, kind: Kind, unit: str, reach: ChangeClass
+    edit: Callable[[Data], object], path: str, kind: ChangeKind, unit: str, reach: ChangeClass
 ) -> None:
     found = [change for change in changes(edit) if str(change) == path]
     assert [(change.kind, change.unit, change.change_class) for change in found] == [(kind, unit, reach)]
@@ -175,7 +174,7 @@ def test_what_is_named_by_its_element_alone_came_or_went() -> None:
 def test_the_order_of_visuals_of_one_kind_is_a_parameter() -> None:
     boxes = [{"geometry": {"kind": "box", "size": [size] * 3}, "origin": {}, "name": ""} for size in (1.0, 2.0)]
     old, new = (version(put(*BASE, "visuals", value=order)) for order in (boxes, boxes[::-1]))
-    assert compare(old, new, urdf, FIXED).change_class is PARAMETER
+    assert compare(old, new, DOMAIN, FIXED).change_class is PARAMETER
 
 
 def test_another_kind_of_geometry_is_structural() -> None:
@@ -205,8 +204,10 @@ def test_a_mobile_robot_stands_on_collisions_even_if_they_are_not_wanted() -> No
     assert [change.change_class for change in changes(edit, Options(base="floating", collisions=False))] == [PARAMETER]
 
 
-def mesh_change(old: Import | None, new: Import | None, options: Options = FIXED) -> Iterator[tuple[str, Kind, str]]:
-    for change in compare(version(found=old), version(found=new), urdf, options).changes:
+def mesh_change(
+    old: Import | None, new: Import | None, options: Options = FIXED
+) -> Iterator[tuple[str, ChangeKind, str]]:
+    for change in compare(version(found=old), version(found=new), DOMAIN, options).changes:
         yield str(change), change.kind, change.change_class
 
 
@@ -215,7 +216,7 @@ def test_the_content_of_a_mesh_is_a_parameter() -> None:
 
 
 @pytest.mark.parametrize(("old", "new", "kind"), [(None, import_("a"), ADDED), (import_("a"), None, REMOVED)])
-def test_a_mesh_that_is_found_or_lost_is_structural(old: Import | None, new: Import | None, kind: Kind) -> None:
+def test_a_mesh_that_is_found_or_lost_is_structural(old: Import | None, new: Import | None, kind: ChangeKind) -> None:
     assert list(mesh_change(old, new)) == [("mesh arm.stl / content", kind, STRUCTURAL)]
 
 
@@ -227,7 +228,7 @@ def test_a_mesh_that_can_no_longer_touch_the_ground_is_structural_for_mobile_rob
 
 def test_a_shape_without_its_mesh_is_not_modelled() -> None:
     edit = put(*BASE, "visuals", 1, "origin", "xyz", 0, value=1.0)
-    found = compare(version(), version(edit), urdf, FIXED).changes
+    found = compare(version(), version(edit), DOMAIN, FIXED).changes
     assert [(str(c), c.change_class) for c in found] == [("link base / visual 2 / origin / xyz[0]", UNMODELLED)]
 
 
@@ -235,7 +236,7 @@ def test_a_shape_without_its_mesh_is_not_modelled() -> None:
 def test_another_mesh_file_matters_as_far_as_it_is_found(meshes: dict[str, Import] | None, reach: ChangeClass) -> None:
     edit = put(*BASE, "visuals", 1, "geometry", "filename", value="other.stl")
     old, new = (msgspec.structs.replace(version(e), imports=meshes) for e in (lambda _: None, edit))
-    found = compare(old, new, urdf, FIXED).changes
+    found = compare(old, new, DOMAIN, FIXED).changes
     assert [(str(c), c.change_class) for c in found] == [("link base / visual 2 / geometry / filename", reach)]
 
 
@@ -243,7 +244,7 @@ def test_reading_the_same_robot_written_differently_gives_no_change() -> None:
     text = ROBOT.replace('mass value="2"', 'mass value="2.0"').replace("><", ">\n <!-- a comment --> <")
     snapshot = read(text.encode()).snapshot
     assert snapshot is not None
-    found = compare(version(), Version(snapshot, {}), urdf, FIXED)
+    found = compare(version(), Version(snapshot, {}), DOMAIN, FIXED)
     assert found.change_class is NONE
 
 
@@ -264,7 +265,7 @@ def drives(old: Sequence[str], new: Sequence[str], options: Options = FIXED) -> 
     one, two = (read(urdfs.robot(*elements).encode()).snapshot for elements in (old, new))
     assert one is not None
     assert two is not None
-    found = compare(Version(one, {}), Version(two, {}), urdf, options).changes
+    found = compare(Version(one, {}), Version(two, {}), DOMAIN, options).changes
     return {
         str(c): (c.old, c.new, c.change_class) if c.path[-1] == "drive" else (None, None, c.change_class) for c in found
     }

@@ -15,12 +15,10 @@ from support import mutations
 from support.corpus import label, robots
 from support.packages import read
 
-from urdfsync.changes import compare, moves
-from urdfsync.difference import ElementKey, Kind, Version
-from urdfsync.domain import Artifact, Role, Snapshot, Target
-from urdfsync.urdf import changes as urdf
-from urdfsync.urdf.changes import renames
-from urdfsync.urdf.differences import renames as module
+from urdfsync.diff.changes import compare, moved_files
+from urdfsync.domain import Artifact, ChangeKind, ElementKey, Role, Snapshot, Target, Version
+from urdfsync.urdf.diff import renames as module
+from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.naming import identify
 from urdfsync.urdf.options import Options
@@ -81,35 +79,35 @@ def with_names(old: Snapshot, new: Mapping[ElementKey, str]) -> Snapshot:
 def test_links_joints_subtrees_and_whole_robots(names: Mapping[ElementKey, str]) -> None:
     old = snapshot(*ARM)
     new = with_names(old, names)
-    assert renames(old, new) == names
-    found = compare(Version(old), Version(new), urdf, Options())
-    assert {change.kind for change in found.changes} == {Kind.RENAMED}
+    assert find_renames(old, new) == names
+    found = compare(Version(old), Version(new), DOMAIN, Options())
+    assert {change.kind for change in found.changes} == {ChangeKind.RENAMED}
 
 
 def test_nothing_is_renamed_where_nothing_came_or_nothing_went() -> None:
-    assert renames(snapshot(*ARM), snapshot(*ARM)) == {}
-    assert renames(snapshot(*ARM), snapshot(*ARM, link("tool"), joint("flange", "lower", "tool"))) == {}
+    assert find_renames(snapshot(*ARM), snapshot(*ARM)) == {}
+    assert find_renames(snapshot(*ARM), snapshot(*ARM, link("tool"), joint("flange", "lower", "tool"))) == {}
 
 
 def test_other_numbers_are_no_rename() -> None:
     heavier = snapshot(
         ARM[0], link("arm", 2.5), ARM[2], joint("shoulder", "base", "arm"), joint("elbow", "arm", "lower")
     )
-    assert renames(snapshot(*ARM), heavier) == {}
+    assert find_renames(snapshot(*ARM), heavier) == {}
     farther = snapshot(*ARM[:4], joint("bend", "upper", "lower", x=0.1))
-    assert renames(snapshot(*ARM), farther) == {}
+    assert find_renames(snapshot(*ARM), farther) == {}
 
 
 def test_another_place_is_no_rename() -> None:
     moved = snapshot(*ARM[:4], joint("bend", "base", "lower"))
-    assert renames(snapshot(*ARM), moved) == {}
+    assert find_renames(snapshot(*ARM), moved) == {}
 
 
 def test_changes_elsewhere_do_not_hide_a_rename() -> None:
     changed = snapshot(
         link("base", 9), *ARM[1:3], joint("swing", "base", "upper"), joint("elbow", "upper", "lower", x=1.0)
     )
-    assert renames(snapshot(*ARM), changed) == {("joint", "shoulder"): "swing"}
+    assert find_renames(snapshot(*ARM), changed) == {("joint", "shoulder"): "swing"}
 
 
 def test_names_of_materials_and_shapes_are_names_too() -> None:
@@ -117,17 +115,17 @@ def test_names_of_materials_and_shapes_are_names_too() -> None:
         visual = Visual(Sphere(1.0), name=name, material=Material(name, (1.0, 0.0, 0.0, 1.0)))
         return snapshot(ARM[0], Link(name, visuals=(visual,)), joint("shoulder", "base", name))
 
-    assert renames(arm("upper"), arm("arm")) == {("link", "upper"): "arm"}
+    assert find_renames(arm("upper"), arm("arm")) == {("link", "upper"): "arm"}
 
 
 def test_swapped_names_are_no_rename() -> None:
     old = snapshot(*ARM)
-    assert renames(old, with_names(old, {("link", "upper"): "lower", ("link", "lower"): "upper"})) == {}
+    assert find_renames(old, with_names(old, {("link", "upper"): "lower", ("link", "lower"): "upper"})) == {}
 
 
 def test_a_name_that_another_element_takes_is_no_rename() -> None:
     old = snapshot(*ARM)
-    assert renames(old, with_names(old, {("link", "upper"): "lower", ("link", "lower"): "hand"})) == {}
+    assert find_renames(old, with_names(old, {("link", "upper"): "lower", ("link", "lower"): "hand"})) == {}
 
 
 def legs(*names: str, x: float = 0.0, foot: Mapping[str, float] | None = None) -> Snapshot:
@@ -146,29 +144,29 @@ def leg_names(**names: str) -> Mapping[ElementKey, str]:
 
 
 def test_legs_that_look_the_same_are_not_guessed() -> None:
-    assert renames(legs("left", "right"), legs("l", "r")) == {}
+    assert find_renames(legs("left", "right"), legs("l", "r")) == {}
 
 
 def test_one_of_two_legs_that_look_the_same_can_be_renamed() -> None:
-    assert renames(legs("left", "right"), legs("left", "r")) == leg_names(right="r")
+    assert find_renames(legs("left", "right"), legs("left", "r")) == leg_names(right="r")
 
 
 def test_one_of_two_legs_that_both_went_is_not_guessed() -> None:
-    assert renames(legs("left", "right"), legs("l")) == {}
+    assert find_renames(legs("left", "right"), legs("l")) == {}
 
 
 def test_legs_at_different_places_are_told_apart() -> None:
-    assert renames(legs("left", "right", x=0.2), legs("l", "r", x=0.2)) == leg_names(left="l", right="r")
+    assert find_renames(legs("left", "right", x=0.2), legs("l", "r", x=0.2)) == leg_names(left="l", right="r")
 
 
 def test_legs_are_told_apart_by_what_hangs_on_them() -> None:
     old, new = legs("left", "right", foot={"right": 1.5}), legs("l", "r", foot={"l": 1.5})
-    assert renames(old, new) == leg_names(left="r", right="l")
+    assert find_renames(old, new) == leg_names(left="r", right="l")
 
 
 def test_what_is_left_over_is_not_matched_because_it_is_left_over() -> None:
     old, new = legs("left", "right", foot={"right": 1.5}), legs("l", "r", foot={"r": 1.75})
-    assert renames(old, new) == leg_names(left="l")
+    assert find_renames(old, new) == leg_names(left="l")
 
 
 def test_joints_that_follow_another_joint_are_renamed_with_it() -> None:
@@ -181,7 +179,7 @@ def test_joints_that_follow_another_joint_are_renamed_with_it() -> None:
     )
     old = snapshot(*fingers)
     names = {("joint", "one"): "first", ("joint", "two"): "second"}
-    assert renames(old, with_names(old, names)) == names
+    assert find_renames(old, with_names(old, names)) == names
 
 
 def test_a_joint_that_follows_another_one_now_is_not_renamed() -> None:
@@ -197,7 +195,7 @@ def test_a_joint_that_follows_another_one_now_is_not_renamed() -> None:
         joint("zwei", "palm", "c", 2.0, "q"),
         joint("ende", "palm", "d", 3.0, "zwei"),
     )
-    assert renames(old, new) == {("joint", "x"): "p", ("joint", "y"): "q"}
+    assert find_renames(old, new) == {("joint", "x"): "p", ("joint", "y"): "q"}
 
 
 @given(st.randoms(use_true_random=False), st.integers(0, 2))
@@ -215,7 +213,7 @@ def test_what_is_recognised_is_true(random: Random, others: int) -> None:
         for name in edited[f"{kind}s"]
         if random.random() < 0.6
     }
-    found = renames(old.snapshot, with_names(edited, names))
+    found = find_renames(old.snapshot, with_names(edited, names))
     assert found.items() <= names.items()
 
 
@@ -225,7 +223,7 @@ def test_a_prefix_for_all_names_of_a_real_robot(corpus: Path, file: str) -> None
     if old is None:
         pytest.skip("a file with errors")
     names = {(kind, name): f"left/{name}" for kind in ("link", "joint") for name in old[f"{kind}s"]}
-    found = renames(old, with_names(old, names))
+    found = find_renames(old, with_names(old, names))
     assert found.items() <= names.items()
     assert found == names or _has_twins(old)
 
@@ -259,7 +257,7 @@ def test_the_renames_among_the_histories(
     old, new = (read((folder / f"{version}.urdf").read_bytes()).snapshot for version in (before, after))
     assert old is not None
     assert new is not None
-    found = [kind for kind, _ in renames(old, new)]
+    found = [kind for kind, _ in find_renames(old, new)]
     assert (found.count("link"), found.count("joint")) == (links, joints)
 
 
@@ -270,7 +268,7 @@ def test_no_other_step_of_the_histories_has_renames(corpus: Path) -> None:
         for file in sorted(folder.glob("*.urdf")):
             new = read(file.read_bytes()).snapshot
             if old is not None and new is not None:
-                assert bool(renames(old, new)) == ((folder.name, file.stem) in known), file
+                assert bool(find_renames(old, new)) == ((folder.name, file.stem) in known), file
             old = new or old
 
 
@@ -299,7 +297,7 @@ def expected_moves(old: Snapshot, new: Snapshot, names: Mapping[ElementKey, str]
 def test_files_move_with_renamed_elements() -> None:
     old = snapshot(*ARM)
     names = {("link", "upper"): "arm", ("joint", "elbow"): "bend"}
-    found = moves(owners(old), owners(with_names(old, names)), names)
+    found = moved_files(owners(old), owners(with_names(old, names)), names)
     assert found == {
         "Joints/Elbow.mo": "Joints/Bend.mo",
         "Joints/ElbowParameters.mo": "Joints/BendParameters.mo",
@@ -311,8 +309,8 @@ def test_files_move_with_renamed_elements() -> None:
 def test_files_move_when_a_new_link_takes_the_name_of_a_joint() -> None:
     old = snapshot(*ARM)
     new = snapshot(*ARM, link("elbow"), joint("tip", "lower", "elbow"))
-    assert renames(old, new) == {}
-    assert moves(owners(old), owners(new), {}) == {
+    assert find_renames(old, new) == {}
+    assert moved_files(owners(old), owners(new), {}) == {
         "Joints/Elbow.mo": "Joints/Elbow_joint.mo",
         "Joints/ElbowParameters.mo": "Joints/Elbow_jointParameters.mo",
     }
@@ -322,8 +320,8 @@ def test_files_move_when_a_new_link_takes_the_name_of_a_joint() -> None:
 def test_files_move_as_the_rule_of_names_says(random: Random, count: int) -> None:
     first = mutations.version(random)
     old, new = first.snapshot, mutations.mutated(first, random, count).snapshot
-    names = renames(old, new)
-    assert moves(owners(old), owners(new), names) == expected_moves(old, new, names)
+    names = find_renames(old, new)
+    assert moved_files(owners(old), owners(new), names) == expected_moves(old, new, names)
 
 
 def chain(prefix: str, length: int) -> Snapshot:
@@ -362,7 +360,7 @@ def test_the_work_is_linear_in_links(looks: list[object], shape: Callable[[str, 
     works = []
     for length in (500, 2000):
         looks.clear()
-        found = renames(shape("a", length), shape("b", length))
+        found = find_renames(shape("a", length), shape("b", length))
         assert len(found) == 2 * length - 1
         works.append(len(looks))
     assert works[1] <= 4.1 * works[0]
@@ -370,5 +368,5 @@ def test_the_work_is_linear_in_links(looks: list[object], shape: Callable[[str, 
 
 def test_one_rename_in_a_long_chain_looks_at_its_neighbours_only(looks: list[object]) -> None:
     old = chain("a", 1000)
-    assert renames(old, with_names(old, {("link", "a500"): "middle"})) == {("link", "a500"): "middle"}
+    assert find_renames(old, with_names(old, {("link", "a500"): "middle"})) == {("link", "a500"): "middle"}
     assert len(looks) <= 4

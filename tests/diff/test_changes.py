@@ -3,16 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, cast
 
 import deepdiff
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.changes import Change, Changes, Comparing, Stale, _by_deepdiff, _of_leaves, compare, moves, stale
-from urdfsync.difference import ChangeClass, Difference, ElementKey, Kind, Meaning, Version
-from urdfsync.domain import Artifact, Import, Order, Recipe, Role, Snapshot
+from urdfsync.diff.changes import Change, Changes, StaleFiles, by_deepdiff, compare, moved_files, of_leaves, stale_files
+from urdfsync.domain import (
+    Artifact,
+    ChangeClass,
+    ChangeKind,
+    Difference,
+    Domain,
+    ElementKey,
+    Import,
+    Meaning,
+    Order,
+    Recipe,
+    Role,
+    Snapshot,
+    Version,
+)
 
 PLAIN = st.recursive(
     st.none() | st.booleans() | st.integers(-3, 3) | st.floats(-1, 1) | st.text("ab_[]'\"", max_size=3),
@@ -42,7 +55,7 @@ class Shelf:
         return Meaning(tuple(map(str, difference.path[1:])) or ("shelf",), kind, "mm")
 
 
-SHELF: Comparing = Shelf()
+SHELF = cast(Domain, Shelf())
 
 
 def shelf(**books: Any) -> Version:
@@ -94,8 +107,8 @@ def test_only_elements_that_differ_are_compared_in_depth(compared: list[tuple[An
 @given(PLAIN, PLAIN, st.data())
 def test_what_needs_no_deepdiff_is_found_as_it_would(old: Any, new: Any, data: st.DataObject) -> None:
     new = data.draw(st.sampled_from([new, _with_other_leaves(old, data)]))
-    found = _of_leaves(("part", "name"), old, new)
-    assert found is None or sorted(found, key=repr) == sorted(_by_deepdiff(("part", "name"), old, new), key=repr)
+    found = of_leaves(("part", "name"), old, new)
+    assert found is None or sorted(found, key=repr) == sorted(by_deepdiff(("part", "name"), old, new), key=repr)
 
 
 def _with_other_leaves(value: Any, data: st.DataObject) -> Any:
@@ -155,9 +168,12 @@ def test_the_changes_lead_from_the_old_to_the_new(books: dict[str, Any], data: s
             differences.extend(found)
             return super().describe(found, old, new, options)
 
-    compare(shelf(**books), shelf(**other), Recorder(), None)
+    compare(shelf(**books), shelf(**other), cast(Domain, Recorder()), None)
     for difference in differences:
-        for version, value, absent in ((books, difference.old, Kind.ADDED), (other, difference.new, Kind.REMOVED)):
+        for version, value, absent in (
+            (books, difference.old, ChangeKind.ADDED),
+            (other, difference.new, ChangeKind.REMOVED),
+        ):
             if difference.kind is not absent:
                 assert _at(version, difference.path[1:]) == value
     assert {d.path[1] for d in differences} == {name for name in books if books[name] != other[name]}
@@ -209,7 +225,7 @@ def test_imports_that_nobody_looked_for_are_not_compared() -> None:
 
 
 def change(old: Any, new: Any, unit: str = "") -> Change:
-    return Change(("joint elbow", "origin", "xyz[2]"), Kind.CHANGED, ChangeClass.PARAMETER, old, new, unit)
+    return Change(("joint elbow", "origin", "xyz[2]"), ChangeKind.CHANGED, ChangeClass.PARAMETER, old, new, unit)
 
 
 @pytest.mark.parametrize(
@@ -259,7 +275,7 @@ def test_stale_files_are_those_with_other_data_or_template() -> None:
     others = [artifact("same", x=1), artifact("data", x=2), artifact("template", "u"), artifact("new")]
     old: list[Artifact | Order] = [*files, Order("order", ("a",))]
     new: list[Artifact | Order] = [*others, Order("order", ())]
-    assert stale(by_path(old), by_path(new)) == Stale(
+    assert stale_files(by_path(old), by_path(new)) == StaleFiles(
         frozenset({"data", "template", "new", "order"}), frozenset({"gone"})
     )
 
@@ -271,8 +287,8 @@ def test_files_with_equal_recipes_are_not_stale_and_nothing_is_made_to_find_out(
     def package(number: int) -> dict[str, Artifact | Order]:
         return by_path([Artifact("A.mo", Role.MODEL, "t", Recipe(make, (number,)), "robot")])
 
-    assert stale(package(1), package(1)) == Stale(frozenset(), frozenset())
-    assert stale(package(1), package(2)) == Stale(frozenset({"A.mo"}), frozenset())
+    assert stale_files(package(1), package(1)) == StaleFiles(frozenset(), frozenset())
+    assert stale_files(package(1), package(2)) == StaleFiles(frozenset({"A.mo"}), frozenset())
 
 
 RECORD, MODEL = Role.RECORD, Role.MODEL
@@ -281,23 +297,23 @@ RECORD, MODEL = Role.RECORD, Role.MODEL
 def test_files_move_with_the_element_that_they_belong_to() -> None:
     old = {"A.mo": ("link a", MODEL), "AParameters.mo": ("link a", RECORD), "C.mo": ("link c", MODEL)}
     new = {"B.mo": ("link b", MODEL), "BParameters.mo": ("link b", RECORD), "C.mo": ("link c", MODEL)}
-    assert moves(old, new, {("link", "a"): "b"}) == {"A.mo": "B.mo", "AParameters.mo": "BParameters.mo"}
-    assert moves(old, new, {}) == {}
+    assert moved_files(old, new, {("link", "a"): "b"}) == {"A.mo": "B.mo", "AParameters.mo": "BParameters.mo"}
+    assert moved_files(old, new, {}) == {}
 
 
 def test_files_move_when_another_element_takes_their_place() -> None:
     old = {"Joints/Arm.mo": ("joint arm", MODEL)}
     new = {"Joints/Arm_joint.mo": ("joint arm", MODEL), "Links/Arm.mo": ("link arm", MODEL)}
-    assert moves(old, new, {}) == {"Joints/Arm.mo": "Joints/Arm_joint.mo"}
+    assert moved_files(old, new, {}) == {"Joints/Arm.mo": "Joints/Arm_joint.mo"}
 
 
 def test_files_can_change_places() -> None:
     old = {"A.mo": ("link a", MODEL), "B.mo": ("link b", MODEL)}
     new = {"B.mo": ("link a", MODEL), "C.mo": ("link b", MODEL)}
-    assert moves(old, new, {}) == {"A.mo": "B.mo", "B.mo": "C.mo"}
+    assert moved_files(old, new, {}) == {"A.mo": "B.mo", "B.mo": "C.mo"}
 
 
 def test_several_files_of_one_owner_and_role_are_not_guessed() -> None:
     old = {"Arm.mo": ("robot", MODEL), "ArmRun.mo": ("robot", MODEL)}
     new = {"Leg.mo": ("robot", MODEL), "LegRun.mo": ("robot", MODEL)}
-    assert moves(old, new, {}) == {}
+    assert moved_files(old, new, {}) == {}

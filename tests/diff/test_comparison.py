@@ -6,10 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.changes import Change, Changes
-from urdfsync.comparing.comparison import Comparison, exit_code
-from urdfsync.difference import ChangeClass, Kind
-from urdfsync.domain import Role
+from urdfsync.diff.changes import Change, Changes
+from urdfsync.diff.comparison import Comparison, exit_code
+from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.outcome import Result
 from urdfsync.plan import Action, Actions
 from urdfsync.plan import Kind as Does
@@ -18,7 +17,7 @@ from urdfsync.plan import Kind as Does
 def comparison(
     reach: ChangeClass | None = None, does: Does = Does.UNCHANGED, *, failed: bool = False, locked: bool = False
 ) -> Comparison:
-    change = Change(("joint a", "limit"), Kind.CHANGED, reach, 1, 2) if reach else None
+    change = Change(("joint a", "limit"), ChangeKind.CHANGED, reach, 1, 2) if reach else None
     result = Result(
         "arm",
         "Arm",

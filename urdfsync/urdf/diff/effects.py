@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from urdfsync.difference import Effect, Version
+from urdfsync.domain import Effect, Version
 from urdfsync.urdf.kinematics import compose, link_poses, pose
 from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.skeleton import Skeleton

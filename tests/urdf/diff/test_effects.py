@@ -8,8 +8,8 @@ import pytest
 import support.urdfs as urdfs
 from support.packages import read
 
-from urdfsync.difference import Version
-from urdfsync.urdf.changes import effects
+from urdfsync.domain import Version
+from urdfsync.urdf.diff.effects import effects
 
 
 def version(*elements: str) -> Version:

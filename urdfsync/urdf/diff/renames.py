@@ -13,15 +13,14 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from typing import Any
 
-from urdfsync.difference import ElementKey
-from urdfsync.domain import Snapshot
+from urdfsync.domain import ElementKey, Snapshot
 
 _NAMES = {"joint": ("parent", "child", "actuated"), "mimic": ("joint",), "material": ("name",), "shape": ("name",)}
 """Per block of the snapshot, the entries that are names, or follow from names elsewhere (a transmission that names the
 joint): not part of what makes elements alike."""
 
 
-def renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
+def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
     """New names of the links and joints that were renamed and are otherwise the same, in the same place."""
     parts = ("links", "joints")
     if not any(old[part].keys() - new[part].keys() and new[part].keys() - old[part].keys() for part in parts):

@@ -6,7 +6,7 @@ import support.urdfs as urdfs
 from support.packages import read
 
 from urdfsync.domain import Snapshot
-from urdfsync.urdf.differences.comparable import comparable
+from urdfsync.urdf.diff.comparable import comparable
 
 
 def snapshot(*elements: str) -> Snapshot:
