@@ -15,7 +15,7 @@ from urdfsync.checking.wishes import Wishes
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity
-from urdfsync.planning.situation import Progress
+from urdfsync.engine.options import Progress
 
 Capture = pytest.CaptureFixture[str]
 

@@ -9,9 +9,9 @@ import pytest
 from urdfsync.diff.changes import Change, Changes
 from urdfsync.diff.comparison import Comparison, exit_code
 from urdfsync.domain import ChangeClass, ChangeKind, Role
+from urdfsync.engine.actions import Action, Actions
+from urdfsync.engine.actions import Kind as Does
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Actions
-from urdfsync.plan import Kind as Does
 
 
 def comparison(

@@ -19,8 +19,8 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.diff.changes import Change, Changes
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.domain import ChangeKind as Event
+from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Actions, Kind
 from urdfsync.views import watching
 from urdfsync.views.watching import ForPeople, ForPrograms
 from urdfsync.watching import events

@@ -8,8 +8,8 @@ from typing import Any
 from urdfsync.diff.changes import Change, Changes
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.domain import ChangeKind as Event
+from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Actions, Kind
 from urdfsync.watching.words import news
 
 MASS = ("link elbow", "inertial", "mass")

@@ -16,7 +16,7 @@ from urdfsync.commands import common
 from urdfsync.config import Config
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.diff.outline import OutlineEntry, OutlineRow, Tone, effect_rows, outline
-from urdfsync.plan import CONFLICTS, Action, Kind
+from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.report import Report
 from urdfsync.views import terminal
 from urdfsync.views.terminal import text

@@ -15,21 +15,23 @@ from typing import Any
 import msgspec
 
 from urdfsync import registry
-from urdfsync.build import build
 from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.diff import changes
 from urdfsync.diff.changes import Changes
 from urdfsync.diff.revisions import VersionedSource, from_file, from_revision
 from urdfsync.domain import ChangeClass, Dependency, Effect, Import, Lookup, Role, Target, Templates, Version
+from urdfsync.engine import imports
+from urdfsync.engine import source as source_files
+from urdfsync.engine.actions import Action, Actions, Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.generate import Package, generate
+from urdfsync.engine.inputs import NO_MODEL, inspect
+from urdfsync.engine.options import BuildOptions
 from urdfsync.files import Tree, digest, templates_digest, text_digest
 from urdfsync.modelfile import ConversionFacts
 from urdfsync.modelica.names import class_name
 from urdfsync.outcome import Exit, Result
-from urdfsync.plan import Action, Actions, Kind
-from urdfsync.planning import imports, inputs
-from urdfsync.planning.generate import Generated, generate
-from urdfsync.planning.situation import NO_MODEL, Request, Situation
 from urdfsync.state.store import State, Store
 
 _DOMAIN = "urdf"
@@ -159,19 +161,23 @@ def _config_error(code: str, message: str, file: Path | None = None, hint: str =
 
 
 def compare_sources(
-    sources: Sequence[ComparedSource], against: str | None, config: Config | None, request: Request, folder: Path
+    sources: Sequence[ComparedSource],
+    against: str | None,
+    config: Config | None,
+    build_options: BuildOptions,
+    folder: Path,
 ) -> Iterator[Comparison]:
     """Compare each source with the last build, or with `against`: a file, counted from `folder`, or a git revision.
 
     One that fails does not stop the others. Without `against`, sources must be those of robots of the configuration.
     """
     for count, source in enumerate(sources):
-        request.progress(source.name, count, len(sources))
+        build_options.progress(source.name, count, len(sources))
         try:
             if against is not None:
-                yield _with_version(source, against, config, request, folder)
+                yield _with_version(source, against, config, build_options, folder)
             elif config is not None and source.robot is not None:
-                yield _with_last_build(source, source.robot, config, request)
+                yield _with_last_build(source, source.robot, config, build_options)
         except UrdfsyncError as error:
             failed = msgspec.structs.replace(_result(source, config), failed=True, diagnostics=error.diagnostics)
             yield Comparison(failed, shown(source.source), against)
@@ -184,20 +190,22 @@ def _result(source: ComparedSource, config: Config | None) -> Result:
     return Result(source.name, source.target.package, source.robot.folder, config.root, dry=True)
 
 
-def _with_last_build(source: ComparedSource, robot: RobotConfig, config: Config, request: Request) -> Comparison:
-    (result,) = build(config, [robot], msgspec.structs.replace(request, dry=True))
+def _with_last_build(
+    source: ComparedSource, robot: RobotConfig, config: Config, build_options: BuildOptions
+) -> Comparison:
+    (result,) = build(config, [robot], msgspec.structs.replace(build_options, dry=True))
     comparison = Comparison(result, shown(source.source))
     if result.failed:
         return comparison
-    situation = Situation(config, robot, request)
-    last, found = situation.settled, result.changes
-    missing = "" if last else "what was built last is not known any more" if situation.recorded else "never built"
+    inputs = inspect(config, robot, build_options)
+    last, found = inputs.last_complete, result.changes
+    missing = "" if last else "what was built last is not known any more" if inputs.recorded else "never built"
     edited = frozenset(action.path for action in result.actions.decided if action.kind in _MINE)
     comparison = msgspec.structs.replace(comparison, missing=missing, edited=edited)
     if last is None or found is None or not found.changes:
         return comparison
     name = shown(source.source)
-    new = Version(inputs.read(situation.domain, source.options, situation.content, name)[0])
+    new = Version(source_files.read(inputs.domain, source.options, inputs.content, name)[0])
     try:
         effects = _effects(last, new, found, source)
     except NO_MODEL:
@@ -206,7 +214,7 @@ def _with_last_build(source: ComparedSource, robot: RobotConfig, config: Config,
 
 
 def _with_version(
-    source: ComparedSource, against: str, config: Config | None, request: Request, folder: Path
+    source: ComparedSource, against: str, config: Config | None, build_options: BuildOptions, folder: Path
 ) -> Comparison:
     """Compare a source with another version of it; the actions are those of a package that nobody edited."""
     domain, result = registry.domain(source.domain), _result(source, config)
@@ -226,14 +234,14 @@ def _with_version(
         recorded = imports.Recorded({}, {}, copy, lambda _target: None)
         if state is not None and state.model is not None and state.intact:
             recorded = imports.Recorded(state.manifest.dependencies, state.model.imports, copy, lambda _target: None)
-        new, imported, told = _read(source, from_file(source.source), recorded, request)
+        new, imported, told = _read(source, from_file(source.source), recorded, build_options)
         known = imports.Recorded(
             {key: record for key, record in imported.records.items() if key in imported.imports},
             {k: ConversionFacts(i.source_hash, i.converter, dict(i.facts)) for k, i in imported.imports.items()},
             lambda target: imported.contents.get(target) or copy(target),
             lambda _target: None,
         )
-        old, _, told_before = _read(source, other, known, request)
+        old, _, told_before = _read(source, other, known, build_options)
     found = changes.compare(old, new, domain, source.options)
     before = {(one.code, one.message) for one in told_before}
     new_findings = tuple(one for one in told if (one.code, one.message) not in before)
@@ -243,7 +251,7 @@ def _with_version(
     folders = [templates_folder(domain)]
     templates = Templates(tuple(folders), templates_digest(folders))
     if is_robot and config and source.robot:
-        templates = inputs.templates(config, source.robot, domain)
+        templates = source_files.templates(config, source.robot, domain)
     one, two = (
         generate(domain, version.snapshot, version.imports or {}, source.target, source.options, templates)
         for version in (old, new)
@@ -267,20 +275,25 @@ def _effects(old: Version, new: Version, found: Changes, source: ComparedSource)
 
 
 def _read(
-    source: ComparedSource, version: VersionedSource, known: imports.Recorded, request: Request
+    source: ComparedSource, version: VersionedSource, known: imports.Recorded, build_options: BuildOptions
 ) -> tuple[Version, imports.Imported, tuple[Diagnostic, ...]]:
     """Read a version and the files that it refers to; imports that are `known` need not be converted again.
 
     Raises SourceError for a source that can't be read.
     """
     domain = registry.domain(source.domain)
-    plain, reading = inputs.read(domain, source.options, version.content, version.name)
-    lookups = [Lookup(place, source.package_paths + request.package_paths) for place in version.places]
-    found = [imports.sought(domain, plain, lookup, source.options, reading.lines) for lookup in lookups]
+    plain, reading = source_files.read(domain, source.options, version.content, version.name)
+    lookups = [Lookup(place, source.package_paths + build_options.package_paths) for place in version.places]
+    found = [imports.find_dependencies(domain, plain, lookup, source.options, reading.lines) for lookup in lookups]
     dependencies = version.locate([_joined(same) for same in zip(*found, strict=True)])
     what = f"{source.name}: imports"
     imported = imports.bring_in(
-        domain, dependencies, known, version.name, again=False, progress=lambda *done: request.progress(what, *done)
+        domain,
+        dependencies,
+        known,
+        version.name,
+        again=False,
+        progress=lambda *done: build_options.progress(what, *done),
     )
     return Version(plain, imported.imports), imported, (*reading.diagnostics, *imported.diagnostics)
 
@@ -291,7 +304,7 @@ def _joined(same: Sequence[Dependency]) -> Dependency:
     return msgspec.structs.replace(same[0], candidates=tuple(candidates))
 
 
-def _differing_texts(before: Generated, after: Generated) -> Iterator[tuple[str, Kind, Role, str]]:
+def _differing_texts(before: Package, after: Package) -> Iterator[tuple[str, Kind, Role, str]]:
     """Yield path, action, role and owner of each file whose text differs."""
     stale = changes.stale_files(before.artifacts, after.artifacts)
     for path in stale.render | stale.gone:

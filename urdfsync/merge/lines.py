@@ -20,7 +20,7 @@ _MAX_LINES = 200
 """Length of a conflict above which it is a rewrite rather than an edit, and not tried again by tokens."""
 
 
-class Conflict(msgspec.Struct, frozen=True):
+class ConflictingLines(msgspec.Struct, frozen=True):
     """Where the sides disagree: line numbers, from 1, in the three texts; an empty range is the place before a line."""
 
     base: range
@@ -35,7 +35,7 @@ class Merge(msgspec.Struct, frozen=True):
     """The merged text; None if there is a conflict or a flaw."""
     proposal: str
     """The merged text, with all three versions of a conflict between markers: for people, never for a `.mo` file."""
-    conflicts: tuple[Conflict, ...]
+    conflicts: tuple[ConflictingLines, ...]
     flaw: str = ""
     """Why the merged text can't be right as Modelica, as the end of a sentence that begins with "the merge"."""
 
@@ -51,14 +51,14 @@ def merge(base: str, mine: str, generated: str, *, is_modelica: bool = False) ->
     ending = "\r\n" if 2 * mine.count("\r\n") > mine.count(NEWLINE) else NEWLINE
     written, place = split_lines(mine), 0
     result: list[str] = []
-    conflicts: list[Conflict] = []
+    conflicts: list[ConflictingLines] = []
     for region in _retry_by_tokens(merge_lines(*texts), texts):
         old, own, new = (
             "".join(lines[part.start : part.stop]) for lines, part in zip(texts, region.parts, strict=True)
         )
         text = region.text
         if text is None:
-            conflicts.append(Conflict(*(range(part.start + 1, part.stop + 1) for part in region.parts)))
+            conflicts.append(ConflictingLines(*(range(part.start + 1, part.stop + 1) for part in region.parts)))
             text = _with_markers(old, own, new)
         if text != own:
             result += [*written[place : region.parts[1].start], text.replace(NEWLINE, ending)]

@@ -181,7 +181,7 @@ class _Parser:
 
     def _name(self, *, has_subscripts: bool = False) -> Name:
         line, is_global = self.line, bool(self._accept("."))
-        parts = []
+        parts: list[str] = []
         while not parts or (self.word == "." and is_identifier(self.following) and self._step()):
             parts.append(self._identifier())
             if has_subscripts:
