@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, cast
 
 import deepdiff
@@ -10,9 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.diff.changes import Change, Changes, StaleFiles, by_deepdiff, compare, moved_files, of_leaves, stale_files
+from urdfsync.diff.changes import Change, Changes, by_deepdiff, compare, moved_files, of_leaves
 from urdfsync.domain import (
-    Artifact,
     ChangeClass,
     ChangeKind,
     Difference,
@@ -20,8 +19,6 @@ from urdfsync.domain import (
     ElementKey,
     Import,
     Meaning,
-    Order,
-    Recipe,
     Role,
     Snapshot,
     Version,
@@ -261,34 +258,6 @@ def test_a_change_reads_as_a_path_and_belongs_to_an_element() -> None:
     one = change(1.0, 2.0)
     assert str(one) == "joint elbow / origin / xyz[2]"
     assert Changes((one, one)).by_element() == {"joint elbow": [one, one]}
-
-
-def by_path(files: Iterable[Artifact | Order]) -> dict[str, Artifact | Order]:
-    return {file.path: file for file in files}
-
-
-def test_stale_files_are_those_with_other_data_or_template() -> None:
-    def artifact(path: str, template: str = "t", **data: Any) -> Artifact:
-        return Artifact(path, Role.MODEL, template, data, "robot")
-
-    files = [artifact("same", x=1), artifact("data", x=1), artifact("template"), artifact("gone")]
-    others = [artifact("same", x=1), artifact("data", x=2), artifact("template", "u"), artifact("new")]
-    old: list[Artifact | Order] = [*files, Order("order", ("a",))]
-    new: list[Artifact | Order] = [*others, Order("order", ())]
-    assert stale_files(by_path(old), by_path(new)) == StaleFiles(
-        frozenset({"data", "template", "new", "order"}), frozenset({"gone"})
-    )
-
-
-def test_files_with_equal_recipes_are_not_stale_and_nothing_is_made_to_find_out() -> None:
-    def make(number: int) -> dict[str, int]:
-        raise AssertionError(f"nobody needs the data of {number}")
-
-    def package(number: int) -> dict[str, Artifact | Order]:
-        return by_path([Artifact("A.mo", Role.MODEL, "t", Recipe(make, (number,)), "robot")])
-
-    assert stale_files(package(1), package(1)) == StaleFiles(frozenset(), frozenset())
-    assert stale_files(package(1), package(2)) == StaleFiles(frozenset({"A.mo"}), frozenset())
 
 
 RECORD, MODEL = Role.RECORD, Role.MODEL

@@ -9,7 +9,6 @@ import pytest
 
 from urdfsync import cli, registry
 from urdfsync.diagnostics import ConfigError, OutputError
-from urdfsync.diff import changes
 from urdfsync.domain import Artifact, Recipe, Role, Target, Templates
 from urdfsync.engine.generate import Package, check_paths, generate
 from urdfsync.files import templates_digest
@@ -98,7 +97,7 @@ def test_a_text_counts_as_stale_once_its_data_is_forgotten(tmp_path: Path) -> No
         Package([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), "")) for n in (1, 2)
     )
     for _ in range(2):
-        assert changes.stale_files(one.artifacts, two.artifacts).render == {"A.mo"}
+        assert two.changed_since(one) == {"A.mo"}
         assert (one.content("A.mo"), two.content("A.mo")) == (b"1", b"2")
     assert {artifact.owner for artifact in one.artifacts.values()} == {"part"}
 

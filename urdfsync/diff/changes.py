@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import operator
 from collections import defaultdict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
-from itertools import compress
 from typing import Any
 
 import msgspec
 
 from urdfsync.domain import (
-    Artifact,
     ChangeClass,
     ChangeKind,
     Difference,
     Domain,
     ElementKey,
     Import,
-    Order,
     Snapshot,
     Version,
 )
@@ -104,13 +100,6 @@ class Changes(msgspec.Struct, frozen=True):
         return result
 
 
-class StaleFiles(msgspec.Struct, frozen=True):
-    """Paths of the files to render, and of those that are no longer generated."""
-
-    render: frozenset[str]
-    gone: frozenset[str]
-
-
 def compare(old: Version, new: Version, domain: Domain, options: Any) -> Changes:
     """Return the changes from one version to another, with the domain's options of the new one."""
     renames: Mapping[ElementKey, str] = {}
@@ -133,15 +122,6 @@ def compare(old: Version, new: Version, domain: Domain, options: Any) -> Changes
         if meaning is not None
     ]
     return Changes(tuple(changes), renames, old.generator != new.generator)
-
-
-def stale_files(old: Mapping[str, Artifact | Order], new: Mapping[str, Artifact | Order]) -> StaleFiles:
-    """Return the files, by their paths, whose text can differ between two versions with the same templates.
-
-    A text follows from its template and data alone, so a file that is not among them has the same text.
-    """
-    differing = map(operator.ne, map(old.get, new), new.values())  # in C: there are thousands
-    return StaleFiles(frozenset(compress(new, differing)), frozenset(old.keys() - new.keys()))
 
 
 def moved_files(

@@ -306,8 +306,7 @@ def _joined(same: Sequence[Dependency]) -> Dependency:
 
 def _differing_texts(before: Package, after: Package) -> Iterator[tuple[str, Kind, Role, str]]:
     """Yield path, action, role and owner of each file whose text differs."""
-    stale = changes.stale_files(before.artifacts, after.artifacts)
-    for path in stale.render | stale.gone:
+    for path in after.changed_since(before) | (before.artifacts.keys() - after.artifacts.keys()):
         one, two = before.artifacts.get(path), after.artifacts.get(path)
         if one and two and before.content(path) == after.content(path):
             continue

@@ -16,8 +16,9 @@ from support import mutations
 from support.corpus import ABSENT, FOLDER
 from support.packages import RENDERER, read
 
-from urdfsync.diff.changes import Changes, compare, stale_files
-from urdfsync.domain import Artifact, ChangeClass, Import, Lookup, Order, Role, Snapshot, Target, Version
+from urdfsync.diff.changes import Changes, compare
+from urdfsync.domain import Artifact, ChangeClass, Import, Lookup, Order, Role, Snapshot, Target, Templates, Version
+from urdfsync.engine.generate import Package
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 
@@ -88,8 +89,10 @@ def test_the_class_of_random_changes_says_which_files_differ(random: Random, cou
     old, new = referenced(first, options), referenced(second, options)
     before, after = render(old, options), render(new, options)
     check(compare(old, new, DOMAIN, options), before, after)
-    candidates = stale_files(*({file.path: file for file in artifacts(one, options)} for one in (old, new)))
-    assert differing(before, after) <= candidates.render | candidates.gone
+    one, two = (Package(artifacts(version, options), Templates((), "")) for version in (old, new))
+    gone = one.artifacts.keys() - two.artifacts.keys()
+    orders = {path for path in one.orders.keys() | two.orders.keys() if one.orders.get(path) != two.orders.get(path)}
+    assert differing(before, after) <= two.changed_since(one) | gone | orders
 
 
 @given(st.randoms(use_true_random=False), OPTIONS)
