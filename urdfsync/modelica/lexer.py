@@ -38,7 +38,7 @@ class Token(NamedTuple):
 
 
 def lex(text: str) -> tuple[list[Token], list[Fault]]:
-    """The tokens of a text without blanks and comments, and what has no end. An empty token ends the list."""
+    """Return the tokens of a text without blanks and comments, and what has no end. An empty token ends the list."""
     found, faults = [], []
     line = 1
     for match in _TOKEN.finditer(text.removeprefix("\ufeff")):

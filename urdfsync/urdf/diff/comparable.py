@@ -16,7 +16,7 @@ _SUBJECT = re.compile(r"<[^>]*?\s(?:name|reference)=\"([^\"]*)\"")
 
 
 def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-    """The snapshot with those links and joints renamed wherever it mentions them, and extensions keyed.
+    """Return the snapshot with those links and joints renamed wherever it mentions them, and extensions keyed.
 
     Each joint that can be driven has an entry `drive` in the place of `actuated`: `driven` or `passive`, as the source
     has it. One transmission more or less can change it for joints that it does not name.

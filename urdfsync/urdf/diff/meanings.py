@@ -189,7 +189,7 @@ def _shared_meshes(old: Version, new: Version) -> Mapping[str, _Shapes]:
 
 
 def _of_import(key: str, shapes: _Shapes, versions: Sequence[Version], options: Options) -> Meaning | None:
-    """A mesh that some shape shows in both versions; what else comes or goes follows from other changes."""
+    """Return a mesh that some shape shows in both versions; what else comes or goes follows from other changes."""
     if not shapes:
         return None
     old, new = ([_appearance(*shape, version.imports, options) for shape in shapes] for version in versions)
@@ -235,7 +235,7 @@ def _joint_unit(joint: Mapping[str, Any], joints: Mapping[str, Any], field: str)
 
 
 def _of_drive(name: str, kind: ChangeKind, options: Options) -> Meaning | None:
-    """A joint that begins or ceases to be driven; None if its type or mimic says so, or if an option decides."""
+    """Return a joint that begins or ceases to be driven; None if its type or mimic says so, or if an option decides."""
     if kind is not ChangeKind.CHANGED or options.driven is not None or "package" not in options.approach:
         return None
     return Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL)

@@ -46,7 +46,7 @@ class _Tree:
         return root
 
     def depth_first(self) -> list[str]:
-        """All joints, each after those above it."""
+        """Return all joints, each after those above it."""
         order: list[str] = []
         stack = list(self.children[self.root()])
         while stack:
@@ -66,7 +66,7 @@ class _Matching:
         self.joints: dict[str, str] = {}
 
     def run(self) -> tuple[Mapping[str, str], Mapping[str, str]]:
-        """The renamed links and joints."""
+        """Return the renamed links and joints."""
         pairs = [(name, name) for name in self.old.links if name in self.common_links]
         pairs += self._match_links(self.old.root(), self.new.root())
         for old, new in pairs:  # grows while it is walked
@@ -76,7 +76,7 @@ class _Matching:
         return self.links, self.joints
 
     def _match_links(self, old: str, new: str) -> list[tuple[str, str]]:
-        """The pair, if it is a renamed link."""
+        """Return the pair, if it is a renamed link."""
         if old in self.common_links or new in self.common_links:
             return []
         if _link(self.old.links[old]) != _link(self.new.links[new]):
@@ -85,7 +85,7 @@ class _Matching:
         return [(old, new)]
 
     def _joints_between(self, old: str, new: str) -> list[tuple[str, str]]:
-        """The joints that start at a link, in both versions; what was renamed is noted."""
+        """Return the joints that start at a link, in both versions; what was renamed is noted."""
         before, after = self.old.children[old], self.new.children[new]
         same = self.common_joints.intersection(before, after)
         gone = [name for name in before if name not in self.common_joints]
@@ -105,7 +105,7 @@ class _Matching:
         return found
 
     def _alike(self, tree: _Tree, name: str) -> Hashable:
-        """What a joint has to share with its match: numbers, the joint that it follows, its child link."""
+        """Return what a joint shares with its match: numbers, the joint that it follows, its child link."""
         joint = tree.joints[name]
         leader = joint.get("mimic", {}).get("joint")
         followed = leader if leader in self.common_joints else leader is not None

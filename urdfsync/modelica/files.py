@@ -108,7 +108,7 @@ class StoredClasses:
             self.users.setdefault((*within, one.name.parts[0]), Stored(one, str(path)))
 
     def _file(self, name: tuple[str, ...]) -> Path | None:
-        """The file of a library in which a class is stored."""
+        """Return the file of a library in which a class is stored."""
         root = self._find(name[0])
         if root is None or len(name) == 1:
             return root and (root if root.suffix == ".mo" else root / _PACKAGE)
@@ -119,7 +119,7 @@ class StoredClasses:
 
 
 def modelica_files(folder: Path) -> Iterator[str]:
-    """All files of Modelica below a folder, but for links, hidden folders and `Resources`.
+    """Yield all files of Modelica below a folder, but for links, hidden folders and `Resources`.
 
     What is looked at is recorded as a dependency. What can't be looked at is left out.
     """
@@ -141,18 +141,18 @@ def modelica_files(folder: Path) -> Iterator[str]:
                 yield path
 
 
-def related(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:
+def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:
     """The files that mention one of these names, or the class of another such file, which is called like that file."""
     waiting, unused, found = dict(files), list(names), {}
     while unused:
         word = unused.pop().encode()
-        for path in [path for path, content in waiting.items() if mentions(content, word)]:
+        for path in [path for path, content in waiting.items() if has_word(content, word)]:
             found[path] = waiting.pop(path)
             unused.append(path.parent.name if path.name == _PACKAGE else path.stem)
     return dict(sorted(found.items()))
 
 
-def mentions(text: bytes, name: bytes) -> bool:
+def has_word(text: bytes, name: bytes) -> bool:
     """Whether a name stands in a text as a word of its own."""
     return name in text and re.search(rb"\b" + re.escape(name) + rb"\b", text) is not None
 
@@ -172,7 +172,7 @@ def _is_broken(found: StoredText) -> bool:
 
 
 def _package_around(path: Path, files: Mapping[Path, bytes]) -> tuple[str, ...]:
-    """The full name of the package that a file is in, by the folders around it; empty if it is in none."""
+    """Return the full name of the package that a file is in, by the folders around it; empty if it is in none."""
     folder = path.parent.parent if path.name == _PACKAGE else path.parent
     parts: list[str] = []
     while folder / _PACKAGE in files or (folder / _PACKAGE).is_file():
