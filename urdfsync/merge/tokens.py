@@ -36,6 +36,9 @@ from urdfsync.modelica.names import KEYWORDS
 
 NEWLINE = "\n"
 
+_MAX_TOKENS = 4_000
+"""Length of a text above which it is a rewrite rather than an edit: 200 lines of a package have some 2,000 tokens."""
+
 _SEPARATORS = frozenset(",;")
 _BOUNDS = frozenset("()[]{},;")
 
@@ -157,8 +160,11 @@ def merge_tokens(base: str, mine: str, generated: str) -> list[Region]:
 
     The regions follow each other and cover all three texts; they are as small as the conflicts allow.
     """
-    old = tokens(base)
-    ours, theirs = (_find_edits(old, tokens(text)) for text in (mine, generated))
+    old, own, new = map(tokens, (base, mine, generated))
+    if max(map(len, (old, own, new))) > _MAX_TOKENS:
+        one, two, three = (range(_line_count(text)) for text in (base, mine, generated))
+        return [Region((one, two, three), None)]
+    ours, theirs = _find_edits(old, own), _find_edits(old, new)
     conflicts = _find_conflicts(old, (ours, theirs))
     # the texts are cut at the ends of line that neither side touches and no conflict includes
     touched = {index for edit in (*ours, *theirs) for index in range(edit.start, edit.stop)}
@@ -175,8 +181,7 @@ def merge_tokens(base: str, mine: str, generated: str) -> list[Region]:
         is_conflict = any(low in inside for low, _ in conflicts) or tokens(text) != merged
         starts = list(ends)
         for side, edits in enumerate(([], left, right)):
-            version = "".join(_apply(old, start, stop, edits))
-            ends[side] += version.count(NEWLINE) + (version[-1:] not in ("", NEWLINE))
+            ends[side] += _line_count("".join(_apply(old, start, stop, edits)))
         if starts == ends:
             continue
         if regions and (regions[-1].text is None) == is_conflict:
@@ -186,6 +191,10 @@ def merge_tokens(base: str, mine: str, generated: str) -> list[Region]:
         one, two, three = map(range, starts, ends)
         regions.append(Region((one, two, three), None if is_conflict else text))
     return regions
+
+
+def _line_count(text: str) -> int:
+    return text.count(NEWLINE) + (text[-1:] not in ("", NEWLINE))
 
 
 def _apply(old: Sequence[str], start: int, stop: int, edits: Iterable[_Edit]) -> list[str]:
@@ -310,20 +319,19 @@ def _in_units(side: int, edits: Iterable[_Edit], words: Sequence[int]) -> Iterat
 
     Comments, white space and whole lines stay alone.
     """
-    groups: list[tuple[_Edit, ...]] = []
+    groups: list[tuple[tuple[_Edit, ...], int]] = []  # with what they change, in words
     for edit in edits:
         if edit.is_trivia:
             yield _Unit(side, (edit,), edit.low, edit.high)
             continue
-        groups.append((edit,))
+        groups.append(((edit,), edit.weight))
         while len(groups) > 1:
-            one, two = groups[-2:]
+            (one, weight), (two, other) = groups[-2:]
             between = words[two[0].start] - words[one[-1].stop]
-            weights = (sum(edit.weight for edit in group) for group in (one, two))
-            if between >= min(weights) or one[-1].is_lines or two[0].is_lines:
+            if between >= min(weight, other) or one[-1].is_lines or two[0].is_lines:
                 break
-            groups[-2:] = [one + two]
-    for group in groups:
+            groups[-2:] = [(one + two, weight + other)]
+    for group, _ in groups:
         yield _Unit(side, group, group[0].low, group[-1].high)
 
 
