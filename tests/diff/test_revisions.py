@@ -91,12 +91,6 @@ def test_a_name_that_git_must_not_see(repository: Path, name: str) -> None:
         Revision(repository, name)
 
 
-def test_no_repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(tmp_path.parent))
-    with pytest.raises(SourceError, match="there is no file 'HEAD', and no git repository around"):
-        Revision(tmp_path, "HEAD")
-
-
 def test_no_git(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", str(repository))
     with pytest.raises(SourceError, match="git is not installed, or not on PATH; install it, or give --against a file"):

@@ -327,3 +327,40 @@ def test_a_rename_that_the_transmission_has_missed_is_one_still() -> None:
         "joint wheel": (None, None, STRUCTURAL),
         "joint caster / drive": DRIVEN,
     }
+
+
+# --- names and extensions -----------------------------------------------------------------------------------------
+
+PAIR = (
+    '<link name="a"/><link name="b"/>',
+    '<joint name="a" type="fixed"><parent link="a"/><child link="b"/></joint>',
+)
+
+
+def between(old: Sequence[str], new: Sequence[str]) -> list[str]:
+    """The changes from one robot of these elements to another."""
+    one, two = (read(urdfs.robot(*elements).encode()).snapshot for elements in (old, new))
+    assert one is not None
+    assert two is not None
+    return [f"{change}: {change.kind}" for change in compare(Version(one), Version(two), DOMAIN, FIXED).changes]
+
+
+def test_a_link_and_a_joint_of_one_name_are_not_mixed_up() -> None:
+    assert between(PAIR, (PAIR[0], PAIR[1].replace('<joint name="a"', '<joint name="c"'))) == ["joint a: renamed"]
+
+
+def test_extensions_are_told_apart_by_what_they_are_about() -> None:
+    def tags(*links: str) -> list[str]:
+        return [f'<gazebo reference="{link}"><mu1>1</mu1></gazebo>' for link in links]
+
+    assert between((*PAIR, *tags("b")), (*PAIR, *tags("a", "b"))) == ["robot / gazebo a: added"]
+    assert between((*PAIR, "<gazebo><a/></gazebo>"), (*PAIR, "<gazebo><a/></gazebo>", "<gazebo><b/></gazebo>")) == [
+        "robot / gazebo (2): added"
+    ]
+
+
+def test_extensions_of_a_renamed_element_go_with_it() -> None:
+    eye = '<link name="b"><sensor name="camera"/></link>'
+    old = ('<link name="a"/>', eye, PAIR[1])
+    new = (old[0], eye.replace('"b"', '"head"'), PAIR[1].replace('"b"', '"head"'))
+    assert between(old, new) == ["link b: renamed"]
