@@ -70,7 +70,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     **{f"modelica/{name}": ("urdfsync", *IO, *HEAVY) for name in ("names", "literals")},
     **{
         f"modelica/{name}": ("pathlib", "urdfsync.manifest", "urdfsync.merge", *SHELL_MODULES, *IO, *HEAVY)
-        for name in ("lexer", "syntax", "reader", "expressions", "parser", "scopes", "unresolved")
+        for name in ("lexer", "syntax", "parser", "scopes", "unresolved")
     },
     **{
         f"merge/{name}": ("pathlib", "urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY)
@@ -235,7 +235,11 @@ PURE = (
         "watching/words",
         *(f"checking/diagnosis/{name}" for name in ("package", "layout", "complaints", "mentions", "problems")),
     ),
-    *(name for name in MODULES if name == "state/repair" or name.startswith(("urdf/", "merge/", "modelica/"))),
+    *(
+        name
+        for name in MODULES
+        if name == "state/repair" or (name.startswith(("urdf/", "merge/", "modelica/")) and name != "modelica/files")
+    ),
 )
 
 
