@@ -91,7 +91,7 @@ class _Walk:
                 yield from self._class(child)
 
     def _used(self, used: Extends, scope: Node | None) -> Iterator[Unresolved]:
-        """Yield a class with modifiers."""
+        """Yield what is wrong with a class that is used, and with the modifiers beside it."""
         yield from self._type(used.type, scope)
         yield from self._arguments(used.arguments, self._scopes.types_of(used, scope), scope)
 
@@ -114,7 +114,7 @@ class _Walk:
     def _arguments(
         self, arguments: tuple[Modifier, ...], types: Types, scope: Node | None, depth: int = 0
     ) -> Iterator[Unresolved]:
-        """Modifiers of something that may have one of these types; without any, nothing is said of their names."""
+        """Yield what is wrong with modifiers of something that may have one of these types; without any, names pass."""
         for one in arguments:
             found = self._scopes.part(types or (UNKNOWN,), one.name.parts[0])
             part = Name(one.name.parts[:1], one.name.line)
@@ -131,7 +131,7 @@ class _Walk:
                 yield from self._use(name, scope)
 
     def _redeclared(self, modifier: Modifier, scope: Node | None) -> Iterator[Unresolved]:
-        """Yield the new type of what is redeclared."""
+        """Yield what is wrong with the new type of what is redeclared."""
         if modifier.type is not None:
             yield from self._type(modifier.type, scope)
         if modifier.definition is not None and modifier.definition.alias is not None:

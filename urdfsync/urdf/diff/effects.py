@@ -1,4 +1,4 @@
-"""What differences do to the robot as a whole: mass and centre of mass."""
+"""Compare mass and centre of mass of two robots."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from urdfsync.urdf.snapshot import from_snapshot
 
 
 def effects(old: Version, new: Version) -> Sequence[Effect]:
-    """Mass and centre of mass of both versions.
+    """Return mass and centre of mass of both versions.
 
     The centre of mass is in metres, in the frame of the root link, with all joints at zero; it is None for a robot
     without mass.
@@ -27,7 +27,7 @@ def effects(old: Version, new: Version) -> Sequence[Effect]:
 
 
 def _mass(skeleton: Skeleton) -> tuple[float, Vector | None]:
-    """Total mass, and centre of mass; summed exactly, so that names and order make no difference."""
+    """Return total mass and centre of mass; summed exactly, so that names and order make no difference."""
     poses = link_poses(skeleton, {})
     masses, moments = [], []
     for link in skeleton.links:

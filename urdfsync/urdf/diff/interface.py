@@ -1,4 +1,4 @@
-"""What differences do to the connectors of the robot model, and to the variables of Run."""
+"""Compare the connectors of two robot models, and the variables of their Run."""
 
 from __future__ import annotations
 

@@ -189,7 +189,7 @@ def _shared_meshes(old: Version, new: Version) -> Mapping[str, _Shapes]:
 
 
 def _of_import(key: str, shapes: _Shapes, versions: Sequence[Version], options: Options) -> Meaning | None:
-    """Return a mesh that some shape shows in both versions; what else comes or goes follows from other changes."""
+    """Return the meaning of another content of a mesh; None if no shape shows it in both versions."""
     if not shapes:
         return None
     old, new = ([_appearance(*shape, version.imports, options) for shape in shapes] for version in versions)
@@ -235,7 +235,7 @@ def _joint_unit(joint: Mapping[str, Any], joints: Mapping[str, Any], field: str)
 
 
 def _of_drive(name: str, kind: ChangeKind, options: Options) -> Meaning | None:
-    """Return a joint that begins or ceases to be driven; None if its type or mimic says so, or if an option decides."""
+    """Return the meaning of a drive that comes or goes; None if type, mimic or an option of the joint decide on it."""
     if kind is not ChangeKind.CHANGED or options.driven is not None or "package" not in options.approach:
         return None
     return Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL)

@@ -21,7 +21,7 @@ joint): not part of what makes elements alike."""
 
 
 def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-    """New names of the links and joints that were renamed and are otherwise the same, in the same place."""
+    """Return the new names of links and joints that were renamed, and are otherwise the same in the same place."""
     parts = ("links", "joints")
     if not any(old[part].keys() - new[part].keys() and new[part].keys() - old[part].keys() for part in parts):
         return {}
@@ -141,7 +141,7 @@ class _Matching:
 def _only_matches(
     gone: Sequence[str], came: Sequence[str], key: Callable[[_Tree, str], Hashable], old: _Tree, new: _Tree
 ) -> dict[str, str]:
-    """Pairs of equal keys, as far as each occurs once on both sides."""
+    """Return pairs of names with equal keys, as far as each key occurs once on both sides."""
     before = _once((key(old, name), name) for name in gone)
     after = _once((key(new, name), name) for name in came)
     return {before[shared]: after[shared] for shared in before if shared in after}
@@ -154,7 +154,7 @@ def _once(items: Iterable[tuple[Hashable, str]]) -> Mapping[Hashable, str]:
 
 
 def _joint(joint: Mapping[str, Any]) -> Hashable:
-    """Numbers and type of a joint."""
+    """Return numbers and type of a joint."""
     plain = {key: value for key, value in joint.items() if key not in _NAMES["joint"]}
     if "mimic" in plain:
         plain["mimic"] = {key: value for key, value in plain["mimic"].items() if key not in _NAMES["mimic"]}
@@ -162,7 +162,7 @@ def _joint(joint: Mapping[str, Any]) -> Hashable:
 
 
 def _link(link: Mapping[str, Any]) -> Hashable:
-    """Numbers and shapes of a link."""
+    """Return numbers and shapes of a link."""
     return _frozen({**link, **{group: [_shape(shape) for shape in link[group]] for group in ("visuals", "collisions")}})
 
 
@@ -174,7 +174,7 @@ def _shape(shape: Mapping[str, Any]) -> Mapping[str, Any]:
 
 
 def _frozen(value: Any) -> Hashable:
-    """Plain data that can be a key, equal where the data is."""
+    """Return plain data as a key, equal where the data is."""
     if isinstance(value, Mapping):
         return tuple((key, _frozen(item)) for key, item in sorted(value.items()))
     return tuple(map(_frozen, value)) if isinstance(value, list) else value
