@@ -139,7 +139,7 @@ def _summary(found: Comparison) -> str:
 # --- text ---------------------------------------------------------------------------------------------------------
 
 
-@profiling.staged("presentation")
+@profiling.stage("presentation")
 def _show(found: Comparison, report: Report) -> None:
     """Print what there is to say about one source: a tree of changes by element, effects on the model, files."""
     report.findings(found.result.diagnostics)

@@ -202,7 +202,7 @@ def _with_last_build(
     missing = "" if last else "what was built last is not known any more" if inputs.recorded else "never built"
     edited = frozenset(action.path for action in result.actions.decided if action.kind in _MINE)
     comparison = msgspec.structs.replace(comparison, missing=missing, edited=edited)
-    if last is None or found is None or not found.changes:
+    if last is None or found is None or not (found.changes or found.generator):
         return comparison
     name = shown(source.source)
     new = Version(source_files.read(inputs.domain, source.options, inputs.content, name)[0])

@@ -20,7 +20,7 @@ from urdfsync.domain import Artifact, ChangeKind, ElementKey, Role, Snapshot, Ta
 from urdfsync.urdf.diff import renames as module
 from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.domain import DOMAIN
-from urdfsync.urdf.naming import identify
+from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Inertial, Joint, Link, Material, Mimic, Origin, Robot, Sphere, Visual
 from urdfsync.urdf.snapshot import to_snapshot

@@ -9,15 +9,15 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 from urdfsync.domain import ChangeClass, ChangeKind, Difference, Import, Meaning, Version
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, Motion
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Mesh
-from urdfsync.urdf.skeleton import MOTIONS, Motion
 
 _ABSENT = object()
 _Group: TypeAlias = Literal["visuals", "collisions"]
 
-_SCALAR = frozenset(MOTIONS)
+_SCALAR = frozenset(MOTION_KINDS)
 _MODELLED = {
     "axis": _SCALAR | {"planar"},
     "limit": _SCALAR,
@@ -225,10 +225,10 @@ def _joint_unit(joint: Mapping[str, Any], joints: Mapping[str, Any], field: str)
 
     Losses of a planar joint have none: one number stands for sliding and turning.
     """
-    motion = MOTIONS.get(joint["type"])
+    motion = MOTION_KINDS.get(joint["type"])
     if field != "multiplier":
         return _UNITS.get(field, "") or (_JOINT_UNITS[motion].get(field, "") if motion else "")
-    leader = MOTIONS.get(joints[joint["mimic"]["joint"]]["type"])
+    leader = MOTION_KINDS.get(joints[joint["mimic"]["joint"]]["type"])
     if motion is None or leader is None or motion == leader:
         return ""
     return f"{_JOINT_UNITS[motion]['lower']}/{_JOINT_UNITS[leader]['lower']}"
