@@ -12,8 +12,7 @@ from lxml import etree
 from urdfsync import wording
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
-from urdfsync.difference import ChangeClass
-from urdfsync.domain import Role
+from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
