@@ -9,7 +9,6 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import modelfile
 from urdfsync.comparing.revisions import Revision
 from urdfsync.comparing.subjects import Subject
 from urdfsync.config import shown
@@ -19,6 +18,7 @@ from urdfsync.domain import Dependency, Domain, Lookup
 from urdfsync.engine import imports
 from urdfsync.engine import source as engine_source
 from urdfsync.files import digest
+from urdfsync.state import modelfile
 
 _POINTER = re.compile(rb"version https://git-lfs.*^oid sha256:([0-9a-f]{64})$", re.DOTALL | re.MULTILINE)
 """What git holds in the place of a file that is in Git LFS."""
