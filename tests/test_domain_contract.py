@@ -11,7 +11,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import config, modelfile, registry
+from urdfsync import config, registry
 from urdfsync.config import Keys
 from urdfsync.diagnostics import Severity
 from urdfsync.diff.changes import compare
@@ -31,6 +31,7 @@ from urdfsync.domain import (
 from urdfsync.engine import generate
 from urdfsync.files import digest, templates_digest
 from urdfsync.modelica.names import is_identifier, within
+from urdfsync.state import modelfile
 
 URDF = b"""<robot name="two &quot;links&quot;">
   <link name="base link"/>

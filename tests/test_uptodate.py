@@ -197,7 +197,7 @@ EDITS: dict[str, Edit] = {
     "a class that is a folder": lambda folder: (folder / LEG).rename(folder / "modelica/Leg/Links/package2.mo"),
     "a folder that is a class": _delete("modelica/Lab/Arm/Links/Base/package.mo"),
     "another stray state": _write(".urdfsync/robots/other.toml"),
-    "bases that are lost": _delete(".urdfsync/base/leg.json.gz"),
+    "bases that are lost": lambda folder: shutil.rmtree(folder / ".urdfsync/base/leg"),
     "an interrupted build": _write(".urdfsync/journal/apply.json"),
     "a file that may not be read": lambda folder: (folder / URDF).chmod(0),
     "a linked folder": _link("modelica/Leg"),
@@ -427,7 +427,6 @@ PATHS = (
         ".urdfsync/robots/leg.json",
         ".urdfsync/robots/leg.toml",
         ".urdfsync/robots/gone.toml",
-        ".urdfsync/base/leg.json.gz",
     ),
     *("ros/a/package.xml", "ros/group/arm_meshes/package.xml", ".urdfsync/journal/prepare.json"),
 )

@@ -29,9 +29,9 @@ from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.inputs import NO_MODEL, inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import Tree, digest, templates_digest, text_digest
-from urdfsync.modelfile import ConversionFacts
 from urdfsync.modelica.names import class_name
 from urdfsync.outcome import Exit, Result
+from urdfsync.state.modelfile import ConversionFacts
 from urdfsync.state.store import State, Store
 
 _DOMAIN = "urdf"

@@ -20,10 +20,10 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.engine.rules import DesiredFile, decide, hold, keep_needed, records_after, remembered_choices
 from urdfsync.files import digest, text_digest
-from urdfsync.manifest import Manifest
 from urdfsync.modelica.literals import numbers_only
+from urdfsync.state.manifest import Manifest
 from urdfsync.state.record import FileRecord
-from urdfsync.state.transactions import Change
+from urdfsync.state.transaction import Change
 
 _GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
 """Actions on files that are not generated any more."""

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import copy
 import json
-from typing import Any
 
-import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.diagnostics import StateError
 from urdfsync.domain import Import
-from urdfsync.modelfile import Elements, Model, dumps, loads, of
+from urdfsync.state.modelfile import Model, dumps, loads, of
 
 names = st.text(st.characters(exclude_categories=["Cs"]), min_size=1, max_size=12)
 
@@ -49,18 +46,6 @@ plain_snapshots = snapshots.map(lambda snapshot: json.loads(json.dumps(snapshot,
 def test_a_model_that_comes_back_is_known_before(model: Model) -> None:
     again = loads(dumps(model), "arm.json")
     assert repr(again) == repr(model), "in the same order, too, and with the same kinds of numbers"
-
-
-others = plain_snapshots | snapshots.map(lambda snapshot: {**SNAPSHOT, **snapshot})
-
-
-@given(st.lists(others, min_size=1, max_size=3), st.lists(st.booleans(), min_size=6, max_size=6))
-def test_elements_of_another_model_make_no_difference(several: list[dict[str, Any]], copied: list[bool]) -> None:
-    elements = Elements()
-    for snapshot, is_other in zip([*several, *several], copied, strict=False):
-        model = of(copy.deepcopy(snapshot) if is_other else snapshot, IMPORTS)
-        text = msgspec.json.format(msgspec.json.encode(model, order="sorted"), indent=1).decode() + "\n"
-        assert dumps(model, elements) == dumps(model, elements) == dumps(model) == text
 
 
 def test_bases_of_files_that_wait_are_recorded_with_the_model() -> None:

@@ -6,18 +6,20 @@ Two files in `.urdfsync/robots/`, both committed: `<robot>.toml`, which people r
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import posixpath
 import re
-from collections.abc import Callable, Iterator, Mapping
-from typing import Any, TypeAlias, TypeVar
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
 import msgspec
 import tomli_w
 
 from urdfsync import tomlfile
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
-from urdfsync.state.record import FileRecord
+from urdfsync.domain import Role
+from urdfsync.state.record import FileRecord, RecordState
 
 FORMAT = 1
 """Raised when an older urdfsync could misread what a newer one records."""
@@ -30,6 +32,8 @@ _HEADER = """\
 _ORDER = "package.order"
 _PARENT = "../package.order"
 """The parent package's order file, as it stands in the text."""
+_RESOURCES = "Resources/"
+"""Where imported files are."""
 _PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
 """What nearly all paths are: nothing that could lead elsewhere."""
 REPAIR = "restore it from version control, or let `urdfsync build --repair` make it again"
@@ -100,92 +104,56 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True):
                 path: names for path, names in sorted(self.orders.items()) if path == above or path.startswith(inside)
             },
             files={
-                path: _with_origin(record, inside, len(inside)) if record.origin else record
+                path: _with_origin(record, inside + (record.origin or "")[len(inside) :])
                 for path, record in sorted(self.files.items())
                 if path.startswith(inside)
             },
         )
 
 
-_Keys: TypeAlias = tuple[str, ...]
-"""Those of a table in the text, outermost first."""
-_Name = TypeVar("_Name")
-_Value = TypeVar("_Value")
+def dumps(manifest: Manifest) -> str:
+    """The manifest as text: the same value gives the same text everywhere."""
+    manifest = manifest.recorded
+    above, below = _order_above(manifest.folder), len(manifest.folder) + 1
+    document = msgspec.to_builtins(manifest)
+    document["orders"] = {
+        _PARENT if path == above else path[below:]: list(names) for path, names in manifest.orders.items()
+    }
+    document["orders"] = dict(sorted(document["orders"].items()))
+    document["files"] = {path[below:]: record for path, record in document["files"].items()}
+    for record in document["files"].values():
+        if "origin" in record:
+            record["origin"] = record["origin"][below:]
+    return _HEADER + tomli_w.dumps({key: value for key, value in document.items() if value not in ({}, None)})
 
 
-class Tables:
-    """The tables of the last manifest's text, each with what it is made of: what is the same serves again."""
+def with_overtaken(planned: bytes, before: Iterable[bytes], keys: Iterable[str]) -> bytes:
+    """The text of a manifest after a build that left files alone because somebody saved them in between.
 
-    def __init__(self) -> None:
-        self._folder = ""
-        self._heads: dict[_Keys, tuple[object, str]] = {}
-        self._files: dict[str, tuple[FileRecord, str]] = {}
-
-    def texts(self, manifest: Manifest) -> list[str]:
-        """The texts of all tables of a manifest as it is recorded, in their order."""
-        if manifest.folder != self._folder:
-            self._folder, self._files = manifest.folder, {}
-        heads, below = dict(_heads(manifest)), len(manifest.folder) + 1
-        self._heads = _renewed(self._heads, heads, lambda keys, made_of: (keys, made_of))
-        self._files = _renewed(
-            self._files, manifest.files, lambda path, record: (("files", path[below:]), _with_origin(record, "", below))
-        )
-        found = (*self._heads.values(), *self._files.values())
-        return [text for _, text in found]
-
-
-def dumps(manifest: Manifest, tables: Tables | None = None) -> str:
-    """The manifest as text: the same value gives the same text everywhere.
-
-    `tables` are those of a manifest that was written before; they are replaced by those of this one.
+    `planned` is the text as it was planned, `before` are those of the manifests that it replaces, and `keys` are the
+    paths of these files. Their records stay as they were, and say that the files conflict. The source counts as
+    another one: so no build takes the package for up to date until all of it was looked at again.
     """
-    return _HEADER + "\n\n".join((tables or Tables()).texts(manifest.recorded)) + "\n"
-
-
-def _heads(manifest: Manifest) -> Iterator[tuple[_Keys, object]]:
-    """The tables of a manifest without those of its files: the keys of each, and what it is made of."""
-    below, above = len(manifest.folder) + 1, _order_above(manifest.folder)
-    folder = {"package": manifest.package, "class": manifest.class_, "folder": manifest.folder}
-    yield (), {"format": manifest.format, **folder}
-    yield ("source",), manifest.source
-    yield ("generator",), manifest.generator
-    if manifest.options is not None:
-        yield ("options",), manifest.options
-    yield from ((("names", kind), names) for kind, names in manifest.names.items())
-    yield from ((("dependencies", key), dependency) for key, dependency in manifest.dependencies.items())
-    orders = {_PARENT if path == above else path[below:]: names for path, names in manifest.orders.items()}
-    if orders:
-        yield ("orders",), dict(sorted(orders.items()))
-
-
-def _renewed(
-    known: dict[_Name, tuple[_Value, str]],
-    wanted: Mapping[_Name, _Value],
-    table: Callable[[_Name, _Value], tuple[_Keys, object]],
-) -> dict[_Name, tuple[_Value, str]]:
-    """What each wanted table is made of, and its text; `table` gives the keys of a table and what is in it."""
-    new = [name for name, made_of in wanted.items() if name not in known or known[name][0] != made_of]
-    texts = _texts(dict(table(name, wanted[name]) for name in new))
-    made = {name: (wanted[name], text) for name, text in zip(new, texts, strict=True)}
-    if not made.keys() <= known.keys() or len(known) != len(wanted):
-        return {name: made.get(name) or known[name] for name in wanted}
-    return {**known, **made}  # in the same order
-
-
-def _texts(tables: Mapping[_Keys, object]) -> list[str]:
-    """The text of each table, without the end of its last line: there are no empty lines but those between tables."""
-    document: dict[str, Any] = {}
-    for keys, made_of in tables.items():
-        inner = document
-        for key in keys[:-1]:
-            inner = inner.setdefault(key, {})
-        inner.update(msgspec.to_builtins({keys[-1]: made_of} if keys else made_of))
-    return tomli_w.dumps(document).removesuffix("\n").split("\n\n") if tables else []
-
-
-def _with_origin(record: FileRecord, prefix: str, cut: int) -> FileRecord:
-    """The record with `prefix` in the place of the first `cut` characters of its origin, if it has one."""
-    return msgspec.structs.replace(record, origin=prefix + record.origin[cut:]) if record.origin else record
+    manifest = loads(planned.decode(), "")
+    files, orders = dict(manifest.files), dict(manifest.orders)
+    known_files: dict[str, FileRecord] = {}
+    known_orders: dict[str, tuple[str, ...]] = {}
+    for text in before:
+        with contextlib.suppress(StateError, UnicodeDecodeError):  # a state that `--repair` is about to replace
+            recorded = loads(text.decode(), "")
+            known_files |= recorded.files
+            known_orders |= recorded.orders
+    for key in keys:
+        if key in orders or key in known_orders:
+            orders[key] = known_orders.get(key, ())
+        record = known_files.get(key)
+        if record is None and key in files:
+            record = FileRecord(files[key].owner, files[key].role)
+        if record is not None:
+            files[key] = msgspec.structs.replace(record, state=RecordState.CONFLICT)
+    source = msgspec.structs.replace(manifest.source, hash="")
+    orders = {key: names for key, names in orders.items() if names}
+    return dumps(msgspec.structs.replace(manifest, source=source, files=files, orders=orders)).encode()
 
 
 def loads(text: str, file: str) -> Manifest:
@@ -204,7 +172,8 @@ def loads(text: str, file: str) -> Manifest:
 
     folder, above = manifest.folder, _order_above(manifest.folder)
     files = {
-        f"{folder}/{path}": _with_origin(record, f"{folder}/", 0) for path, record in sorted(manifest.files.items())
+        f"{folder}/{path}": _with_origin(record, f"{folder}/{record.origin}")
+        for path, record in sorted(manifest.files.items())
     }
     orders = {above if path == _PARENT else f"{folder}/{path}": names for path, names in manifest.orders.items()}
     return msgspec.structs.replace(manifest, files=files, orders=dict(sorted(orders.items())))
@@ -234,8 +203,13 @@ def check_format(value: object, file: str, text: str = "") -> None:
     raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=REPAIR))
 
 
+def _with_origin(record: FileRecord, origin: str) -> FileRecord:
+    """The record with another origin, if it has one."""
+    return msgspec.structs.replace(record, origin=origin) if record.origin else record
+
+
 def _check_places(manifest: Manifest, text: str, file: str) -> None:
-    """Refuse every path that could lead a build to a file that is not of the package; keys are those of the text."""
+    """Refuse every path at which no build has written a file of the package; keys are those of the text."""
     for fine, path, place in _places(manifest):
         if not fine:
             line = tomlfile.nearest(tomlfile.lines(text), *place)
@@ -250,14 +224,14 @@ def _places(manifest: Manifest) -> Iterator[tuple[bool, str, tuple[str, ...]]]:
     yield _is_normal(folder) and folder.split("/")[-len(steps) :] == steps, folder, ("folder",)
     yield _is_text(manifest.source.path), manifest.source.path, ("source", "path")
     for path, record in manifest.files.items():
-        yield _is_inside(path), path, ("files", path)
+        yield _is_of_role(path, record.role), path, ("files", path)
         if record.origin is not None:
-            yield _is_inside(record.origin), record.origin, ("files", path, "origin")
+            yield _is_of_role(record.origin, record.role), record.origin, ("files", path, "origin")
     for path in manifest.orders:
         own = path == _PARENT or _is_inside(path)
         yield own and posixpath.basename(path) == _ORDER, path, ("orders", path)
     for key, dependency in manifest.dependencies.items():
-        yield _is_inside(dependency.target), dependency.target, ("dependencies", key, "target")
+        yield _is_of_role(dependency.target, Role.IMPORT), dependency.target, ("dependencies", key, "target")
 
 
 def _is_text(path: str) -> bool:
@@ -268,6 +242,11 @@ def _is_normal(path: str) -> bool:
     """Whether a path is relative, with forward slashes, without detours and control characters."""
     absolute = path.startswith("/") or re.match(r"[A-Za-z]:", path) is not None
     return not absolute and _is_text(path) and "\\" not in path and posixpath.normpath(path) == path
+
+
+def _is_of_role(path: str, role: Role) -> bool:
+    """Whether a path below the package is one that a build writes for such a file."""
+    return _is_inside(path) and (path.startswith(_RESOURCES) if role is Role.IMPORT else path.endswith(".mo"))
 
 
 def _is_inside(path: str) -> bool:

@@ -15,10 +15,10 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse.source import read_robot
 
 
-def found(urdf: str) -> dict[str, Massless]:
+def found(urdf: str, free: set[str] | None = None) -> dict[str, Massless]:
     robot = read_robot(urdf.encode(), "own.urdf").robot
     assert robot is not None
-    return dict(find_massless_joints(KinematicTree.of(robot)))
+    return dict(find_massless_joints(KinematicTree.of(robot), free))
 
 
 def is_singular(urdf: str) -> bool:
@@ -65,6 +65,8 @@ def test_joints_on_one_axis(
     )
     assert found(urdf) == expected
     assert is_singular(urdf) == bool(expected)
+    assert found(urdf, free={"first", "second", "other"}) == expected
+    assert found(urdf, free={"first"}) == found(urdf, free={"second"}) == {}
 
 
 def test_the_first_and_last_axis_of_a_straight_wrist() -> None:

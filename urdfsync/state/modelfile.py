@@ -6,7 +6,7 @@ be rendered again. What is recorded of a robot otherwise is in the manifest.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import msgspec
@@ -14,7 +14,7 @@ import msgspec
 from urdfsync import tomlfile
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Import, Snapshot
-from urdfsync.manifest import FORMAT, REPAIR, check_format
+from urdfsync.state.manifest import FORMAT, REPAIR, check_format
 
 
 class ConversionFacts(msgspec.Struct, frozen=True):
@@ -61,47 +61,9 @@ def of(
     return Model(dict(snapshot), facts, texts, None if since is None else dict(since), since_revision)
 
 
-class Elements:
-    """The text of each element of the last model, with the element: what is the same object serves again."""
-
-    def __init__(self) -> None:
-        self._parts: dict[str, dict[str, tuple[object, str]]] = {}
-
-    def text(self, part: str, elements: Any) -> str:
-        """The text of a part of a snapshot, which is a mapping of elements or something else."""
-        if not isinstance(elements, Mapping):
-            return _entry(part, elements, 2)
-        known = self._parts.get(part, {})
-        found = {
-            name: last if (last := known.get(name)) and last[0] is element else (element, _entry(name, element, 3))
-            for name, element in sorted(elements.items())
-        }
-        self._parts[part] = found
-        return _entry(part, {}, 2).removesuffix("{}") + _braced([text for _, text in found.values()], 2)
-
-
-def dumps(model: Model, elements: Elements | None = None) -> str:
-    """The JSON file's text; `elements` are those of a model that was written before, which spares most of the work."""
-    if elements is None:
-        return _json(model) + "\n"
-    parts = [elements.text(part, value) for part, value in sorted(model.snapshot.items())]
-    rest = _json(msgspec.structs.replace(model, snapshot={}))  # which comes last
-    return rest.removesuffix("{}\n}") + _braced(parts, 1) + "\n}\n"
-
-
-def _json(value: object) -> str:
-    return msgspec.json.format(msgspec.json.encode(value, order="sorted"), indent=1).decode()
-
-
-def _entry(name: str, value: object, depth: int) -> str:
-    """An entry of an object at this depth, with its indentation."""
-    indent = depth * " "
-    return indent + f"{_json(name)}: {_json(value)}".replace("\n", f"\n{indent}")
-
-
-def _braced(entries: Sequence[str], depth: int) -> str:
-    """An object of these entries, which is an entry itself."""
-    return "{\n" + ",\n".join(entries) + f"\n{depth * ' '}}}" if entries else "{}"
+def dumps(model: Model) -> str:
+    """The JSON file's text."""
+    return msgspec.json.format(msgspec.json.encode(model, order="sorted"), indent=1).decode() + "\n"
 
 
 def loads(text: str, file: str) -> Model:
