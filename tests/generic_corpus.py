@@ -35,7 +35,7 @@ from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, Comparison
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Target
 from urdfsync.urdf.model.tables import has_tables
-from urdfsync.urdf.physics import amended, motion
+from urdfsync.urdf.physics import completion, motion
 from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 from urdfsync.urdf.source import read_robot
 
@@ -286,10 +286,10 @@ def _written(file: Path) -> Iterator[str]:
 
 def _complete(file: Path) -> bytes:
     """The file as Pinocchio reads it, with inertias."""
-    content = amended.readable(file.read_bytes()).content
+    content = completion.completed_for_pinocchio(file.read_bytes()).content
     robot = read_robot(content, file.name, cross_check=False).robot
     assert robot is not None
-    return amended.with_inertias(content, Skeleton.of(robot)).content
+    return completion.with_inertias(content, Skeleton.of(robot)).content
 
 
 def _counts(skeleton: Skeleton) -> Iterator[str]:

@@ -13,7 +13,7 @@ from urdfsync.checking.verdict import Comparison
 from urdfsync.domain import Experiment, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.physics import motion, probe, variables
+from urdfsync.urdf.physics import motion, probe
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Instant, Reference
 from urdfsync.urdf.skeleton import Skeleton
@@ -92,9 +92,9 @@ def pinocchio_series(urdf: str) -> dict[str, list[float]]:
 def _values(skeleton: Skeleton, instant: Instant) -> dict[str, float]:
     """What Pinocchio says, by the names of the probe's values."""
     mass, centre = instant.mass_and_centre()
-    called = variables.variables(skeleton, Target("Bot", "Bot"), Options())
+    names = probe.robot_variables(skeleton, Target("Bot", "Bot"), Options())
     pairs: list[tuple[Sequence[str], Any]] = [
-        (probe.effort_names(skeleton, called), instant.efforts),
+        (tuple(names.efforts(skeleton).values()), instant.efforts),
         (probe.FORCE, -instant.force),
         (probe.TORQUE, -instant.torque),
         (probe.MASS, [mass]),
@@ -102,8 +102,7 @@ def _values(skeleton: Skeleton, instant: Instant) -> dict[str, float]:
     ]
     for link in skeleton.links:
         frame, (linear, angular) = instant.frame(link.name), instant.acceleration(link.name)
-        pairs.append((called.axes(link.name), frame.axes.T.ravel()))
-        parts = {variables.PLACE: frame.place, variables.VELOCITY: frame.velocity, variables.ROTATION: frame.turning}
-        for part, values in (parts | {variables.ACCELERATION: linear, variables.ANGULAR: angular}).items():
-            pairs.append((called.vector(link.name, part), values))
-    return {name: value for names, values in pairs for name, value in zip(names, values, strict=True)}
+        pairs += [(names.axes[link.name], frame.axes.T.ravel()), (names.places[link.name], frame.place)]
+        parts = {"v_0": frame.velocity, "w_a": frame.turning, "a_0": linear, "z_a": angular}
+        pairs += [(names.of_body(link.name, part), values) for part, values in parts.items()]
+    return {name: value for called, values in pairs for name, value in zip(called, values, strict=True)}

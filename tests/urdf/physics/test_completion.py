@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
-from urdfsync.urdf.physics.amended import readable, with_inertias
+from urdfsync.urdf.physics.completion import completed_for_pinocchio, with_inertias
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.skeleton import Skeleton
@@ -47,19 +47,21 @@ LACKING = {
 
 @pytest.mark.parametrize(("added", "urdf"), LACKING.items())
 def test_what_pinocchio_asks_for_is_added(added: str, urdf: str) -> None:
-    content, notes = readable(urdf.encode())
+    content, notes = completed_for_pinocchio(urdf.encode())
     assert notes == (f"what Pinocchio's reader asks for was added: {added.partition(' of')[0]}",)
     model = read(content, "robot.urdf").model
     assert sum(inertia.mass for inertia in model.inertias) == sum(masses(urdf.encode()).values())
-    assert readable(content) == (content, ())
+    assert completed_for_pinocchio(content) == (content, ())
 
 
 def test_a_good_file_stays_as_it_is() -> None:
-    assert readable(GOOD.encode()) == (GOOD.encode(), ())
+    assert completed_for_pinocchio(GOOD.encode()) == (GOOD.encode(), ())
 
 
 def test_another_encoding_becomes_utf_8() -> None:
-    content, notes = readable(f'<?xml version="1.0" encoding="utf-16"?>{GOOD}'.replace("arm", "Älm").encode("utf-16"))
+    content, notes = completed_for_pinocchio(
+        f'<?xml version="1.0" encoding="utf-16"?>{GOOD}'.replace("arm", "Älm").encode("utf-16")
+    )
     assert notes == ()
     assert [one.name for one in robot_of(content).links] == ["base", "Älm"]
     assert read(content, "robot.urdf").model.existFrame("Älm")
