@@ -12,7 +12,7 @@ import platformdirs
 import pytest
 
 from urdfsync import bytecode
-from urdfsync.checking.cache import Cache
+from urdfsync.check.cache import UserCache
 from urdfsync.render import Renderer
 
 
@@ -163,7 +163,7 @@ def test_a_place_that_is_none_is_not_used(place: str, monkeypatch: pytest.Monkey
 def test_it_is_where_the_cache_of_checks_is(home: Path, templates: Path) -> None:
     assert bytecode._base() == platformdirs.user_cache_path()
     render(templates)
-    cache = Cache.of_user()
+    cache = UserCache.default()
     assert kept(home)[0].parent == cache.templates
     assert cache.clear() > 0
     assert not cache.templates.exists()

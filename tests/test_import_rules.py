@@ -18,7 +18,7 @@ MODULES = [name for name in OURS if not name.endswith("__init__") and not name.s
 
 IO = ("os", "io", "shutil", "subprocess", "tempfile", "socket", "glob", "urllib.request", "sys")
 HEAVY = ("jinja2", "rich", "lxml", "yourdfpy", "trimesh", "numpy", "collada", "deepdiff", "rumoca", "watchdog")
-EXTRAS = ("psutil", "platformdirs", "pinocchio", "OMPython")
+EXTRAS = ("psutil", "platformdirs", "filelock", "pinocchio", "OMPython")
 """Of the optional extras, beside rumoca."""
 SHELL = (
     *(
@@ -117,38 +117,14 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
         for name in ("builder", "builds", "guard", "inbox", "reading", "robots", "runner", "samples", "scope", "stash")
     },
     "watching/checks": ("rich", "watchdog", "urdfsync.report", "urdfsync.views", "urdfsync.cli"),
-    "checking/verdict": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
-    "checking/words": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
-    "checking/cache": (*(name for name in SHELL_MODULES if name != "urdfsync.state"), *HEAVY),
-    "checking/libraries/dependencies": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY, *EXTRAS),
+    **{f"check/{name}": (*SHELL_MODULES, *IO, *HEAVY) for name in ("results", "sentences")},
+    "check/cache": (*SHELL_MODULES, *HEAVY),
+    "check/layout": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *IO, *HEAVY, *EXTRAS),
+    "check/errors": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *IO, *HEAVY, *EXTRAS),
     **{
-        f"checking/compilers/{name}": ("pathlib", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS)
-        for name in ("compiler", "rumoca")
+        f"check/{name}": ("urdfsync.urdf", "urdfsync.report", "urdfsync.cli") for name in ("robot", "run", "afterbuild")
     },
-    "checking/libraries/library": (*SHELL_MODULES, *HEAVY, *EXTRAS),
-    "checking/process": ("urdfsync", *HEAVY),
-    "checking/libraries/references": ("urdfsync", "pathlib", *IO, *HEAVY, *EXTRAS),
-    "checking/libraries/slim": (*SHELL_MODULES, *HEAVY, *EXTRAS),
-    "checking/compilers/worker": (
-        *SHELL_MODULES,
-        *("jinja2", "rich", "lxml", "yourdfpy", "trimesh", "numpy", "collada", "deepdiff", "watchdog"),
-    ),
-    **{
-        f"checking/diagnosis/{name}": ("urdfsync.manifest", *SHELL_MODULES, *IO, *HEAVY, *EXTRAS)
-        for name in ("package", "complaints", "mentions", "problems")
-    },
-    "checking/diagnosis/layout": (
-        "urdfsync.manifest",
-        "urdfsync.build",
-        "urdfsync.report",
-        "urdfsync.cli",
-        *IO,
-        *HEAVY,
-        *EXTRAS,
-    ),
-    "checking/compilers/omc": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY, *EXTRAS),
-    "checking/memory": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "checking/afterbuild": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
+    "check/compilers/compiler": (*SHELL_MODULES, *(name for name in HEAVY if name != "rumoca")),
     "watching/observer": ("rich", "urdfsync.build", "urdfsync.report", "urdfsync.views", "urdfsync.cli"),
     "check": ("rich",),
     "report": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf"),
@@ -156,7 +132,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
         f"views/{name}": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf")
         for name in (
             *("area", "builds", "chronicle", "comparisons", "conflicts", "diversion", "drafts", "hunks", "statuses"),
-            *("checks", "profiles", "terminal", "watching"),
+            *("profiles", "terminal", "watching"),
         )
     },
     "views/hooks": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf", *HEAVY),
@@ -193,12 +169,7 @@ LIGHT = (
     "commands/watch",
     "commands/check",
     "commands/record",
-    "checking/afterbuild",
-    "checking/cache",
-    *(f"checking/compilers/{name}" for name in ("choice", "compiler", "rumoca")),
-    "checking/libraries/dependencies",
-    "checking/memory",
-    "checking/libraries/slim",
+    *(f"check/{name}" for name in ("afterbuild", "run", "cache", "compilers/compiler")),
 )
 """Modules on the way of a build that has nothing to do: no heavy library, not even through others."""
 
@@ -234,12 +205,10 @@ PURE = (
         "status",
         "wording",
         "documents",
-        "checking/libraries/references",
-        "checking/verdict",
-        "checking/words",
+        "check/sentences",
+        "check/layout",
         "watching/standing",
         "watching/words",
-        *(f"checking/diagnosis/{name}" for name in ("package", "layout", "complaints", "mentions", "problems")),
     ),
     *(
         name
@@ -312,7 +281,9 @@ def test_the_domain_knows_the_contract_only(module: str) -> None:
     assert broken(all_imports(module), (*SHELL_MODULES, "urdfsync.plan", "urdfsync.manifest", "rich", "jinja2")) == []
 
 
-@pytest.mark.parametrize("module", [m for m in MODULES if m != "report" and not m.startswith("views/")])
+@pytest.mark.parametrize(
+    "module", [m for m in MODULES if m not in ("report", "check/report") and not m.startswith("views/")]
+)
 def test_only_the_report_knows_rich(module: str) -> None:
     assert broken(all_imports(module), ("rich",)) == []
 

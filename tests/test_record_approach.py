@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from urdfsync.build import Request, build
-from urdfsync.checking.subject import Subject
+from urdfsync.check.package import CheckedPackage
 from urdfsync.config import load
 from urdfsync.difference import ChangeClass
 from urdfsync.outcome import Result
@@ -54,7 +54,7 @@ class Project:
     def models(self) -> tuple[str, ...]:
         """What a check would compile."""
         config = load(self.file)
-        return tuple(Subject(config, config.robots[0], Request(dry=True)).models)
+        return tuple(CheckedPackage(config, config.robots[0], Request(dry=True)).models)
 
 
 @pytest.fixture

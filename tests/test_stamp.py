@@ -18,7 +18,7 @@ from support import stamps
 from support.stamps import repeated, stamped
 
 from urdfsync import cli, looking, report, streams
-from urdfsync.checking import afterbuild
+from urdfsync.check import afterbuild
 from urdfsync.stamping import beside, making, stamp, trust
 
 Capture = pytest.CaptureFixture[str]
@@ -130,7 +130,7 @@ def test_a_build_that_wrote_leaves_no_stamp(folder: Path) -> None:
 
 
 def test_builds_with_checks_are_not_said_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(afterbuild, "checked", lambda config, request, results: results)
+    monkeypatch.setattr(afterbuild, "with_checks", lambda config, request, results: results)
     Path("urdfsync.toml").write_text('[defaults]\non_build = "check"\n' + Path("urdfsync.toml").read_text()[11:])
     assert cli.main(BUILD) == 0
     time.sleep(0.1)

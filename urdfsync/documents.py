@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import datetime
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,9 +17,7 @@ from urdfsync.status import FileState, RobotState
 
 if TYPE_CHECKING:
     from urdfsync.changes import Change
-    from urdfsync.checking.verdict import Verdict
     from urdfsync.comparing.comparison import Comparison
-    from urdfsync.domain import Deviation
     from urdfsync.watching.events import Event
 
 VERSION = 1
@@ -118,45 +115,6 @@ def comparison(found: Comparison) -> dict[str, Any]:
     }
 
 
-def verdict(found: Verdict, strict: bool) -> dict[str, Any]:
-    """What was checked of a robot as plain data; with `strict`, what an edit does is a difference as well."""
-    from urdfsync.checking import words  # no other command has a use for it
-    from urdfsync.checking.verdict import TOLERANCE
-
-    return {
-        "name": found.robot,
-        "package": found.package,
-        "standing": found.standing(strict),
-        "failed": found.failed,
-        "built": found.built,
-        "in_step": found.in_step,
-        "conflicting": found.conflicting,
-        "summary": words.summary(found, strict),
-        "compiled": [
-            {"model": one.model, "unknowns": one.unknowns or None, "states": one.states if one.unknowns else None}
-            for one in found.compiled
-        ],
-        "reference": found.reference,
-        "tolerance": TOLERANCE,
-        "agrees": found.generated.agrees if found.generated else None,
-        "deviations": [_deviation(one) for one in found.generated.deviations] if found.generated else [],
-        "edits": [
-            {
-                "files": list(one.files),
-                "owners": list(one.owners),
-                "deviations": [_deviation(each) for each in one.deviations],
-            }
-            for one in found.effects
-        ],
-        "notes": list(found.notes),
-        "unchecked": list(found.unchecked),
-        "gaps": list(found.gaps),
-        "seconds": found.seconds,
-        "megabytes": found.megabytes,
-        "diagnostics": [finding(diagnostic) for diagnostic in found.diagnostics],
-    }
-
-
 def event(found: Event, time: datetime.datetime) -> dict[str, Any]:
     """An event of the daemon as plain data: its values under their own names, a result as the keys of `robot`.
 
@@ -171,14 +129,6 @@ def event(found: Event, time: datetime.datetime) -> dict[str, Any]:
         else:
             values[name] = _plain(value)
     return values
-
-
-def _deviation(found: Deviation) -> dict[str, Any]:
-    """How far a quantity of an element is from the reference; JSON has no words for what is no number."""
-    numbers = {name: getattr(found, name) for name in ("difference", "relative", "value", "size")}
-    finite = {name: number if math.isfinite(number) else None for name, number in numbers.items()}
-    reason = "" if finite["difference"] is not None else "the simulation gave no number"
-    return {"quantity": found.quantity, "element": found.element, **finite, "unit": found.unit, "reason": reason}
 
 
 def _plain(value: object) -> Any:

@@ -25,11 +25,11 @@ from urdfsync.views import builds, statuses, terminal
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
-    from urdfsync.checking.verdict import Verdict
+    from urdfsync.check.report import CheckReport
+    from urdfsync.check.results import CheckResult
     from urdfsync.comparing.comparison import Comparison
     from urdfsync.init import Draft
     from urdfsync.standalone import Record
-    from urdfsync.views.checks import Checks
     from urdfsync.views.watching import Watching
 
 _PATIENCE = 0.5
@@ -55,8 +55,8 @@ class Report:
         self._results: list[Result] = []
         self._states: list[RobotState] = []
         self._comparisons: list[Comparison] = []
-        self._verdicts: list[dict[str, Any]] = []
-        self._checks: Checks | None = None
+        self._checked: list[dict[str, Any]] = []
+        self._checks: CheckReport | None = None
         self._warnings: Sequence[Diagnostic] = ()
 
     def progress(self, what: str, done: int, total: int) -> None:
@@ -135,20 +135,17 @@ class Report:
         for part in comparisons.parts(found, console, self._verbose):
             console.print(part)
 
-    def verdict(self, found: Verdict, strict: bool, robots: Sequence[str] = ()) -> None:
+    def check_result(self, found: CheckResult, strict: bool, robots: Sequence[str] = ()) -> None:
         """Show what was checked of one robot; `robots` are all that the command is about, by their names."""
+        from urdfsync.check import report  # no other command has a use for it
+
         self._stop_bar()
         if self._json:
-            from urdfsync import documents
-
-            self._verdicts.append(documents.verdict(found, strict))
+            self._checked.append(report.to_json(found, strict))
             return
-        if self._checks is None:
-            from urdfsync.views import checks  # no other command has a use for it
-
-            look = checks.Look(strict=strict, verbose=self._verbose, quiet=self._quiet)
-            self._checks = checks.Checks(terminal.console(sys.stdout), robots, look)
         console = terminal.console(sys.stdout)
+        if self._checks is None:
+            self._checks = report.CheckReport(console, robots, strict=strict, verbose=self._verbose, quiet=self._quiet)
         for line in self._checks.lines(found):
             console.print(line, soft_wrap=True)
         self._findings(found.diagnostics)
@@ -261,7 +258,7 @@ class Report:
             *map(documents.robot, self._results),
             *map(documents.state, self._states),
             *map(documents.comparison, self._comparisons),
-            *self._verdicts,
+            *self._checked,
         ]
 
     def _document(

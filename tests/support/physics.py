@@ -9,8 +9,8 @@ from typing import Any
 
 from support.modelica import Run, Task, execute
 from support.packages import Package, generate
-from urdfsync.checking.verdict import Comparison
-from urdfsync.domain import Experiment, Target
+from urdfsync.check.results import agrees, largest
+from urdfsync.domain import Deviation, Experiment, Quantity, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion, probe
@@ -26,6 +26,22 @@ class Case:
 
     experiment: Experiment
     package: Package
+
+
+@dataclasses.dataclass(frozen=True)
+class Deviations:
+    """How far a package is from the reference, element by element."""
+
+    deviations: tuple[Deviation, ...]
+
+    @property
+    def agrees(self) -> bool:
+        """Whether all differences are within the tolerance."""
+        return all(map(agrees, self.deviations))
+
+    def worst(self, quantities: Sequence[Quantity] = tuple(Quantity)) -> Deviation | None:
+        """The one that is greatest against its kind; None if nothing of these quantities was compared."""
+        return largest(self.deviations, quantities)
 
 
 def prepare(source: bytes | Path, name: str = "Bot", *, complete: bool = True, **options: Any) -> Case:
@@ -55,7 +71,7 @@ def replaced(old: str, new: str) -> Callable[[str], str]:
     return change
 
 
-def compare(library: Path, folder: Path, cases: Iterable[Case]) -> list[Comparison]:
+def compare(library: Path, folder: Path, cases: Iterable[Case]) -> list[Deviations]:
     """Simulate the probes of packages with names of their own, below `folder`, and compare."""
     cases = list(cases)
     folders = [case.package.write(folder) for case in cases]
@@ -67,7 +83,7 @@ def compare(library: Path, folder: Path, cases: Iterable[Case]) -> list[Comparis
         (run,) = outcome.runs
         assert not run.error, run.error
         series = {"time": run.times.tolist()} | {name: values.tolist() for name, values in run.values.items()}
-        results.append(Comparison(tuple(case.experiment.compare(series))))
+        results.append(Deviations(tuple(case.experiment.compare(series))))
     return results
 
 

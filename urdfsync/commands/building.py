@@ -17,6 +17,6 @@ def built(config: Config, robots: Sequence[RobotConfig], request: Request) -> It
     if request.dry or not any(robot.checking for robot in robots):
         return results
     looking.beyond()  # checks look at more
-    from urdfsync.checking import afterbuild  # most configurations have no use for it
+    from urdfsync.check import afterbuild  # most configurations have no use for it
 
-    return afterbuild.checked(config, request, results)
+    return afterbuild.with_checks(config, request, results)

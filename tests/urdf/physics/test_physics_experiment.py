@@ -13,7 +13,7 @@ import pytest
 from support.physics import pinocchio_series
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
-from urdfsync.checking.verdict import TOLERANCE
+from urdfsync.check.results import TOLERANCE
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Deviation, Experiment, Quantity, Target
 from urdfsync.urdf.domain import DOMAIN
