@@ -21,8 +21,8 @@ from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, Edit
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.documents import VERSION
 from urdfsync.domain import Deviation, Quantity, Role
+from urdfsync.engine.actions import Kind
 from urdfsync.outcome import Checked, Result
-from urdfsync.plan import Kind
 from urdfsync.profiling import OTHER, STAGES
 from urdfsync.status import FileStatus
 from urdfsync.views.watching import ForPrograms

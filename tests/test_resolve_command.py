@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 from urdfsync import cli
+from urdfsync.engine.rules import sides_hash
 from urdfsync.files import digest
-from urdfsync.plan import both
 from urdfsync.state.lock import Lock
 
 Capture = pytest.CaptureFixture[str]
@@ -266,7 +266,7 @@ def test_a_choice_waits_for_what_nobody_has(unsourced: Path, capsys: Capture) ->
     """Whatever has recorded it: `resolve` itself takes an imported file at once, or not at all."""
     manifest = Path(".urdfsync/robots/ladder.toml")
     generated = tomllib.loads(manifest.read_text())["dependencies"]["step.csv"]["target_hash"]
-    chosen_for = both(digest(Path(SIGNAL).read_bytes()), generated)
+    chosen_for = sides_hash(digest(Path(SIGNAL).read_bytes()), generated)
     edit(manifest, 'state = "conflict"', f'state = "conflict"\nchoice = "take"\nchosen_for = "{chosen_for}"')
     edit("ladder.json", '"ohm": 100', '"ohm": 120')
     assert cli.main(["build"]) == 3

@@ -12,10 +12,10 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Happening
 from urdfsync.domain import Role
+from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Actions, Kind
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.merge import merge
 from urdfsync.outcome import Result
-from urdfsync.plan import CONFLICTS, WRITES, Action, Actions, Kind
-from urdfsync.standoff import Standoff
 from urdfsync.status import FileStatus, RobotState
 
 
@@ -23,7 +23,7 @@ def action(kind: Kind, held: bool = False, path: str = "") -> Action:
     return Action(path or f"Arm/{kind}.mo", kind, Role.MODEL, "link tip", base="b", held=held)
 
 
-def state(*actions: Action, changes: Changes | None = None, standoffs: tuple[Standoff, ...] = ()) -> RobotState:
+def state(*actions: Action, changes: Changes | None = None, standoffs: tuple[Conflict, ...] = ()) -> RobotState:
     folder = Path("/project/Arm")
     return status.of(
         Result("arm", "Arm", folder, folder.parent, Actions(actions), changes=changes, standoffs=standoffs)
@@ -77,7 +77,7 @@ def test_a_file_that_is_held_says_that_it_waits() -> None:
 )
 def test_a_conflict_that_can_be_merged_says_so(generated: str, reason: str) -> None:
     texts = "1\n2\n", "9\n2\n", generated
-    standoff = Standoff("Arm/conflict.mo", "link tip", *texts, merge=merge(*texts))
+    standoff = Conflict("Arm/conflict.mo", "link tip", *texts, merge=merge(*texts))
     (file,) = state(action(Kind.CONFLICT), standoffs=(standoff,)).files
     assert file.reason == reason
 

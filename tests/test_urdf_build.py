@@ -10,11 +10,12 @@ import pytest
 from lxml import etree
 
 from urdfsync import wording
-from urdfsync.build import Request, build
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
 from urdfsync.difference import ChangeClass
 from urdfsync.domain import Role
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
 
 SAMPLES = Path(__file__).parents[1] / "modelica" / "UrdfSync" / "Resources" / "robots"
@@ -36,7 +37,7 @@ def arm(tmp_path: Path) -> Path:
 
 def run(project: Path, *, full: bool = False) -> Result:
     config = load(project / "urdfsync.toml")
-    (result,) = build(config, config.robots, Request(full=full))
+    (result,) = build(config, config.robots, BuildOptions(full=full))
     return result
 
 

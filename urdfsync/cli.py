@@ -6,8 +6,9 @@ import importlib
 import sys
 from collections.abc import Callable, Sequence
 
-from urdfsync import __version__, looking, profiling, streams
+from urdfsync import __version__, profiling, streams
 from urdfsync.commands import common
+from urdfsync.dependencies import mark_incomplete
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit
 from urdfsync.report import Report, unwritten
@@ -60,7 +61,7 @@ def _main(arguments: list[str]) -> int:
 
 def _profiled(arguments: Sequence[str], run: Callable[[], int]) -> int:
     """Run a command, and measure it; also how long a stamp takes that would have answered."""
-    looking.beyond()  # times can't be said again
+    mark_incomplete()  # times can't be said again
     with profiling.measured(since=stamp.BEGUN[0]) as profile:
         with profiling.stage("stamp"):
             plain = [argument for argument in arguments if argument != "--profile"]

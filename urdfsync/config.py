@@ -15,7 +15,8 @@ from typing import Any, Literal
 
 import msgspec
 
-from urdfsync import looking, registry, tables, targets, tomlfile
+from urdfsync import registry, tables, targets, tomlfile
+from urdfsync.dependencies import depend_on, is_file, is_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, Target
 from urdfsync.modelica.names import DEVICES
@@ -130,7 +131,7 @@ def working_folder() -> Path:
 def find(start: Path) -> Path:
     """The configuration file of `start` or of the nearest folder above it. Raises ConfigError if there is none."""
     for folder in (start, *start.parents):
-        if looking.is_file(folder / FILE_NAME):
+        if is_file(folder / FILE_NAME):
             return folder / FILE_NAME
     message = f"no {FILE_NAME} in {start} or a folder above it"
     hint = "write one with `urdfsync init SOURCE`, or name one with --config"
@@ -144,7 +145,7 @@ def load(file: Path) -> Config:
         message, hint = "the configuration is no regular file", f"name a {FILE_NAME}"
         raise ConfigError(Diagnostic(Severity.ERROR, "unreadable-config", message, name, hint=hint))
     try:
-        looking.rests_on(file)
+        depend_on(file)
         text = file.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         message = "the configuration does not exist"
@@ -380,4 +381,4 @@ def templates_folder(domain: Domain) -> Path:
 def _data_folder(name: str) -> Path:
     package = Path(__file__).parent
     installed = package / "_data" / name
-    return installed if looking.is_folder(installed) else package.parent / name
+    return installed if is_folder(installed) else package.parent / name

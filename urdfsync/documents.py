@@ -10,8 +10,8 @@ import msgspec
 
 from urdfsync import difference, resolution, wording
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.engine.actions import Action, Kind
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Kind
 from urdfsync.profiling import OTHER, STAGES, Profile
 from urdfsync.status import FileState, RobotState
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import standoff as standoffs
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Kind
-from urdfsync.standoff import Choice, Standoff
+from urdfsync.state.record import Choice
 
 FOLDER = ".urdfsync/conflicts"
 """Where the versions of conflicting files are put aside, below the configuration's folder."""
@@ -30,7 +30,7 @@ class Target(msgspec.Struct, frozen=True):
 
     result: Result
     action: Action
-    standoff: Standoff | None = None
+    standoff: Conflict | None = None
     """None if the versions are no texts that could be compared."""
 
     @property
@@ -215,7 +215,7 @@ def aside(target: Target) -> Aside | None:
     if standoff is None:
         return None
     folder = Path(os.path.relpath(target.result.folder, target.result.root)).as_posix()
-    generated, base, merge = standoffs.aside(standoff, folder)
+    generated, base, merge = conflict_files(standoff, folder)
     top = f"{FOLDER}/{target.result.robot}/"
     stem = f"{top}{generated.rpartition('generated')[0]}"
     return Aside(stem, base and f"{top}{base}", f"{top}{generated}", merge and f"{top}{merge}")

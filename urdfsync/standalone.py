@@ -10,10 +10,10 @@ from urdfsync import config, registry
 from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError, UrdfsyncError
 from urdfsync.domain import Domain, Reading, Target, Templates
+from urdfsync.engine import source as source_
+from urdfsync.engine.generate import Package
 from urdfsync.files import kind_of, normalised, put, templates_digest
 from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
-from urdfsync.planning import inputs
-from urdfsync.planning.generate import Generated
 
 _SUFFIX = "Parameters"
 
@@ -36,7 +36,7 @@ def make(source: Path, domain_name: str, name: str, within: str, file: Path | No
     domain = registry.domain(domain_name)
     target = Target(_package(within), _class_name(source, name, file))
     options = domain.options()
-    snapshot, reading = inputs.read(domain, options, _content(source), shown(source))
+    snapshot, reading = source_.read(domain, options, _content(source), shown(source))
     return _render(domain, msgspec.structs.replace(reading, snapshot=snapshot), shown(source), target)
 
 
@@ -68,7 +68,7 @@ def _render(domain: Domain, reading: Reading, file: str, target: Target) -> Reco
         message = f"the domain `{domain.name}` has no record of a whole model"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-record", message, hint="use `urdfsync build`"))
     folders = (config.templates_folder(domain),)
-    generated = Generated([found.artifact], Templates(folders, templates_digest(folders)))
+    generated = Package([found.artifact], Templates(folders, templates_digest(folders)))
     text = generated.content(found.artifact.path).decode()
     said = sorted([*reading.diagnostics, *found.diagnostics], key=lambda diagnostic: diagnostic.line)
     return Record(target, text, tuple(said))

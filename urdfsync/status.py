@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.actions import Action, Kind
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Kind
 
 if TYPE_CHECKING:
-    from urdfsync.standoff import Standoff
+    from urdfsync.engine.conflicts import Conflict
 
 
 class FileStatus(enum.StrEnum):
@@ -108,7 +108,7 @@ def of(result: Result, source: str = "") -> RobotState:
     return RobotState(result, tuple(sorted(files, key=lambda file: file.path)), source)
 
 
-def _file(action: Action, standoff: Standoff | None) -> FileState:
+def _file(action: Action, standoff: Conflict | None) -> FileState:
     status, reason = _STATUSES[action.kind]
     if status is FileStatus.CONFLICT and standoff and standoff.merge and standoff.merge.text is not None:
         reason += _MERGES

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from urdfsync import difference
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.actions import DELETES, Kind
 from urdfsync.outcome import Checked, Result
-from urdfsync.plan import DELETES, Kind
 from urdfsync.status import FileStatus, RobotState
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def summary(result: Result) -> str:
         parts.append(f"{counted(waiting, 'change')} waiting for that")
     if result.in_step:
         fine = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED)
-        total = len(result.actions.unchanged) + sum(action.kind in fine for action in result.actions.decided)
+        total = sum(action.kind in fine for action in result.actions)
         parts.insert(0, f"in step, {counted(total, 'file')}")
     return "; ".join([", ".join(parts), *([checked(result.checked, result.diagnostics)] if result.checked else [])])
 

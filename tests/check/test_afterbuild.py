@@ -12,8 +12,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import cli, config, looking
-from urdfsync.build import build
+from urdfsync import cli, config, dependencies
 from urdfsync.check import afterbuild
 from urdfsync.check.compilers.compiler import CompilerError
 from urdfsync.check.libraries import LibraryError
@@ -21,8 +20,9 @@ from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
 from urdfsync.commands import building
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions, Progress
 from urdfsync.outcome import Checked, Exit, Result, exit_code
-from urdfsync.planning.situation import Progress, Request
 
 RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12, 3),), seconds=2.5)
 BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)
@@ -65,7 +65,7 @@ def add(project: Path, text: str) -> None:
 
 def run(examiner: Examiner, **wishes: Any) -> list[Result]:
     """Build and check all robots."""
-    loaded, request = config.load(Path("urdfsync.toml")), Request(wait=1, **wishes)
+    loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1, **wishes)
     return list(afterbuild.with_checks(loaded, request, build(loaded, loaded.robots, request), examiner))
 
 
@@ -366,7 +366,7 @@ def test_results_keep_their_order_and_the_lock_is_free_while_packages_are_checke
         def __call__(
             self, config: Config, robots: Sequence[RobotConfig], options: CheckOptions, tell: Progress
         ) -> Iterator[CheckResult]:
-            again = Request(wait=0)
+            again = BuildOptions(wait=0)
             (project / "ladder.json").write_text((project / "ladder.json").read_text().replace("220.5", "330"))
             assert not any(result.locked for result in build(config, config.robots, again))
             return super().__call__(config, robots, options, tell)
@@ -377,7 +377,7 @@ def test_results_keep_their_order_and_the_lock_is_free_while_packages_are_checke
 
 
 def test_who_interrupts_a_check_is_told_what_was_built(project: Path) -> None:
-    loaded, request = config.load(Path("urdfsync.toml")), Request(wait=1)
+    loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1)
     told: list[Result] = []
     results = build(loaded, loaded.robots, request)
     with pytest.raises(KeyboardInterrupt):
@@ -419,6 +419,6 @@ def test_what_is_resolved_is_built_and_checked(
 def test_what_a_check_said_is_never_said_again_without_a_look(project: Path) -> None:
     loaded = config.load(Path("urdfsync.toml"))
     run(Examiner(RIGHT))
-    with looking.taken_down() as looks:
-        assert [result.in_step for result in building.built(loaded, loaded.robots, Request(wait=1))] == [True]
+    with dependencies.record_dependencies() as looks:
+        assert [result.in_step for result in building.built(loaded, loaded.robots, BuildOptions(wait=1))] == [True]
     assert not looks.complete

@@ -14,7 +14,7 @@ from urdfsync.check.results import CheckOptions, CheckResult, EditEffect
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity
-from urdfsync.planning.situation import Progress
+from urdfsync.engine.options import Progress
 
 Capture = pytest.CaptureFixture[str]
 

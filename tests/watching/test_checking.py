@@ -17,8 +17,8 @@ from support.daemon import LIMIT, REPOSITORY, Daemons, Watch
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.options import Progress
 from urdfsync.outcome import Checked
-from urdfsync.planning.situation import Progress
 from urdfsync.watching import events
 
 RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12, 3),), seconds=2.5)

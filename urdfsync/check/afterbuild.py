@@ -21,9 +21,9 @@ from urdfsync.check import files, libraries, run
 from urdfsync.check.results import CheckOptions, CheckResult
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.options import BuildOptions, Progress
 from urdfsync.files import Tree, digest, put
 from urdfsync.outcome import Checked, Result
-from urdfsync.planning.situation import Progress, Request
 
 CheckRobots: TypeAlias = "Callable[[Config, Sequence[RobotConfig], CheckOptions, Progress], Iterator[CheckResult]]"
 """`run.check_robots`, or what stands in for it in tests of the daemon; what `Progress` raises gives a check up."""
@@ -108,7 +108,7 @@ class CheckCache:
 class BuildChecker:
     """Checks packages of one configuration as they are on disk."""
 
-    def __init__(self, config: Config, request: Request, check_robots: CheckRobots = run.check_robots) -> None:
+    def __init__(self, config: Config, request: BuildOptions, check_robots: CheckRobots = run.check_robots) -> None:
         self._config, self._request, self._check_robots = config, request, check_robots
         self.cache = CheckCache(config)
 
@@ -138,7 +138,7 @@ class BuildChecker:
 
 
 def with_checks(
-    config: Config, request: Request, results: Iterable[Result], check_robots: CheckRobots = run.check_robots
+    config: Config, request: BuildOptions, results: Iterable[Result], check_robots: CheckRobots = run.check_robots
 ) -> Iterator[Result]:
     """The results of builds, in their order, each with what the check of its package found.
 

@@ -7,15 +7,15 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from urdfsync.build import build
 from urdfsync.check import files
 from urdfsync.check.files import PackageFiles
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.rendering import Rendering
 from urdfsync.files import normalised
 from urdfsync.merging.tokens import is_trivia, tokens
-from urdfsync.planning.rendering import Rendering
-from urdfsync.planning.situation import Request
 
 _URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
 
@@ -26,7 +26,7 @@ class CheckedPackage:
     Raises UrdfsyncError for whatever is wrong with source, state or templates, OSError for what can't be read.
     """
 
-    def __init__(self, config: Config, robot: RobotConfig, request: Request) -> None:
+    def __init__(self, config: Config, robot: RobotConfig, request: BuildOptions) -> None:
         self.config, self.robot = config, robot
         (self.build_result,) = build(config, [robot], request)
         if self.build_result.failed:

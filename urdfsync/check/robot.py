@@ -21,7 +21,7 @@ from urdfsync.check.physics import PhysicsCheck
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.planning.situation import Request
+from urdfsync.engine.options import BuildOptions
 
 
 def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, tell: Callable[[Step], None]) -> CheckResult:
@@ -30,7 +30,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, tell:
     collector.expect(6)  # until more is known
     with collector.errors():
         with collector.step("reading the source and the package"):
-            request = Request(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
+            request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
             package = CheckedPackage(config, robot, request)
         collector.set(built=package.is_built, in_step=package.in_step, conflicting=bool(package.build_result.conflicts))
         collector.add(diagnostics=build_errors(package))

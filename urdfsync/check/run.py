@@ -19,7 +19,7 @@ from urdfsync.check.process import Ending, RobotOrder
 from urdfsync.check.results import CheckOptions, CheckResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.planning.situation import Progress
+from urdfsync.engine.options import Progress
 
 _EXPECTED_MEMORY = 1.5e9  # bytes that the check of a robot usually takes, at most
 _SHARE_OF_FREE_MEMORY = 0.9

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
 from urdfsync import config, profiling
-from urdfsync.planning.situation import Request
+from urdfsync.engine.options import BuildOptions
 from urdfsync.report import Report
 
 CODES = "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, 4 locked, 130 interrupted"
@@ -92,9 +92,9 @@ def default_file(options: argparse.Namespace) -> Path:
     return config.working_folder() / (options.config or config.FILE_NAME)
 
 
-def request(options: argparse.Namespace, report: Report, **wishes: Any) -> Request:
+def request(options: argparse.Namespace, report: Report, **wishes: Any) -> BuildOptions:
     """How to build, with what is the same for all commands."""
-    return Request(
+    return BuildOptions(
         package_paths=config.ros_package_path(os.environ),
         progress=report.progress,
         wait=getattr(options, "wait", 60.0),

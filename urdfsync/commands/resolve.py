@@ -9,14 +9,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from urdfsync import config, resolution
-from urdfsync.build import build
 from urdfsync.commands import common
 from urdfsync.commands.building import built
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.build import build
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.report import Report
 from urdfsync.resolution import Target, Wish
-from urdfsync.standoff import Choice
+from urdfsync.state.record import Choice
 
 
 def add(commands: common.Commands) -> None:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 
 from urdfsync import advice, status
-from urdfsync.build import build
 from urdfsync.commands import common
 from urdfsync.config import shown
+from urdfsync.engine.build import build
 from urdfsync.outcome import exit_code
 from urdfsync.report import Report
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from urdfsync.config import FILE_NAME, STATE_FOLDER, shown, working_folder
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Exit, exit_code
-from urdfsync.planning.situation import Request
 from urdfsync.report import Report
 from urdfsync.staging.judging import Judge
 from urdfsync.staging.staged import Index
@@ -21,7 +21,7 @@ from urdfsync.watching import stash
 _ROBOTS = f"{STATE_FOLDER}/robots/"
 
 
-def run(request: Request, writing: bool, named: Sequence[Path], report: Report, as_json: bool) -> Exit:
+def run(request: BuildOptions, writing: bool, named: Sequence[Path], report: Report, as_json: bool) -> Exit:
     """Judge the configurations that are `named`, or all that git tracks; `writing` brings packages in step.
 
     Raises UrdfsyncError if git can't be asked.

@@ -9,8 +9,8 @@ from typing import IO
 
 from urdfsync import wording
 from urdfsync.config import shown
+from urdfsync.engine.actions import Action, Kind
 from urdfsync.outcome import Checked, Result
-from urdfsync.plan import Action, Kind
 from urdfsync.views.terminal import Words, has_marks, is_styled, is_terminal, words
 
 _KINDS = {

@@ -15,8 +15,8 @@ import msgspec
 from urdfsync import wording
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.actions import CONFLICTS, Actions, Kind
 from urdfsync.outcome import Checked, Result
-from urdfsync.plan import CONFLICTS, Actions, Kind
 from urdfsync.views import builds, conflicts, terminal
 from urdfsync.views.terminal import text
 from urdfsync.watching import events, words
@@ -114,8 +114,8 @@ class Chronicle:
         """What `build` has below its headline; without what was said before, unless somebody wants everything."""
         if not self._verbose:
             hidden = (CONFLICTS if known else frozenset()) | (frozenset() if left else _LEFT)
-            seen = [action for action in result.actions.decided if action.kind not in hidden]
-            result = msgspec.structs.replace(result, actions=Actions(seen, result.actions.unchanged), changes=None)
+            seen = [action for action in result.actions if action.kind not in hidden]
+            result = msgspec.structs.replace(result, actions=Actions(seen), changes=None)
         lines = builds.lines(result, self._console.file, quiet=self._quiet, verbose=self._verbose)
         yield from (Line(line.__rich__()) for line in itertools.islice(lines, 1, None))
         if result.conflicts:

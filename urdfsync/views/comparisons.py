@@ -14,7 +14,7 @@ from urdfsync.comparing import outline
 from urdfsync.comparing.comparison import Comparison
 from urdfsync.comparing.outline import Entry, Row, Tone
 from urdfsync.config import shown
-from urdfsync.plan import CONFLICTS, Action, Kind
+from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.views.terminal import has_marks, text
 
 if TYPE_CHECKING:

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from urdfsync import resolution, wording
 from urdfsync.config import shown
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.outcome import Result
-from urdfsync.standoff import Choice, Standoff
+from urdfsync.state.record import Choice
 from urdfsync.views.terminal import has_marks, text
 
 if TYPE_CHECKING:
@@ -171,7 +172,7 @@ class _Block:
             line.pad_left(4)
             yield line
 
-    def _difference(self, standoff: Standoff) -> Iterator[Text]:
+    def _difference(self, standoff: Conflict) -> Iterator[Text]:
         from urdfsync.views import hunks
 
         found = hunks.hunks(standoff.base, standoff.mine, standoff.generated, standoff.merge)
@@ -192,7 +193,7 @@ class _Block:
             see = "--verbose shows them" if self._target.result.dry else f"see {place(self._target.result, full)}"
             yield text((f"    … {left} more line{'s' if left > 1 else ''}; {see}", "dim"))
 
-    def _title(self, hunk: hunks.Hunk, standoff: Standoff) -> Text:
+    def _title(self, hunk: hunks.Hunk, standoff: Conflict) -> Text:
         first, last = hunk.lines.start, hunk.lines.stop - 1
         where = f"lines {first} to {last}" if last > first else f"line {first}" if last == first else "empty"
         if hunk.clash:

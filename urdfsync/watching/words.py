@@ -10,8 +10,8 @@ from urdfsync import wording
 from urdfsync.comparing import outline
 from urdfsync.comparing.outline import Entry, Row, Tone
 from urdfsync.domain import Role
+from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.outcome import Result
-from urdfsync.plan import CONFLICTS, Action, Kind
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
