@@ -15,7 +15,6 @@ import pytest
 from urdfsync import cli, config, dependencies
 from urdfsync.check import afterbuild
 from urdfsync.check.compilers.compiler import CompilerError
-from urdfsync.check.libraries import LibraryError
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
 from urdfsync.commands import building
 from urdfsync.config import Config, RobotConfig
@@ -177,27 +176,6 @@ def test_it_is_checked_again_when_something_matters_that_a_build_does_not_see(
     assert examiner.asked == ["ladder"] * 2
 
 
-def test_it_is_checked_again_with_another_search_path(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    write(project / "path" / "Ohm.mo", "package Ohm\nend Ohm;\n")
-    monkeypatch.setenv("MODELICAPATH", str(project / "path"))
-    run(Examiner(RIGHT))
-    write(project / MODEL, (project / MODEL).read_text().replace("end R2;", "  Ohm.Law law;\nend R2;"))
-    examiner = Examiner(RIGHT)
-    run(examiner)
-    monkeypatch.setenv("MODELICAPATH", "")
-    run(examiner)
-    assert examiner.asked == ["ladder"] * 2
-
-
-def test_libraries_that_nothing_mentions_do_not_matter(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("MODELICAPATH", str(project / "path"))
-    examiner = Examiner(RIGHT)
-    run(examiner)
-    write(project / "path" / "Unused.mo", "package Unused\nend Unused;\n")
-    run(examiner)
-    assert examiner.asked == ["ladder"]
-
-
 @pytest.mark.parametrize("name", ["_version", "__version__"])
 def test_it_is_checked_again_with_another_tool(project: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     examiner = Examiner(RIGHT)
@@ -273,7 +251,6 @@ def test_what_could_not_be_checked_is_said_once_for_all_robots_and_at_each_build
 
 
 NO_COMPILER = Diagnostic(Severity.ERROR, "no-compiler", "there is no compiler", hint="install it")
-NO_LIBRARY = Diagnostic(Severity.ERROR, "wrong-library-folder", "there is no library", hint="name another folder")
 
 
 @pytest.mark.parametrize(
@@ -307,11 +284,6 @@ def test_a_gap_is_said_also_if_something_compiles(project: Path) -> None:
     (result,) = run(Examiner(verdict))
     assert result.checked is Checked.INCOMPLETE
     assert [str(found) for found in result.diagnostics] == ["warning: half of it was not compiled [not-checked]"]
-
-
-def test_a_library_that_is_named_and_not_there_is_an_error(project: Path) -> None:
-    (result,) = run(Examiner(LibraryError(NO_LIBRARY.code, NO_LIBRARY.message, NO_LIBRARY.hint)))
-    assert (result.checked, result.diagnostics) == (Checked.WRONG, (NO_LIBRARY,))
 
 
 def test_without_the_extra_the_real_check_says_what_to_install(

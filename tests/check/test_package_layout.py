@@ -12,7 +12,6 @@ from support.arm import ELBOW
 
 from urdfsync.check.files import PackageFiles, package_texts
 from urdfsync.check.layout import check_around, check_layout
-from urdfsync.diagnostics import Severity
 from urdfsync.domain import Target
 
 LIBRARY = corpus.REPOSITORY / "modelica" / "UrdfSync"
@@ -165,13 +164,6 @@ def test_a_file_holds_one_class() -> None:
     ]
 
 
-@pytest.mark.parametrize("text", ["", "\n", "// nothing\n"])
-def test_of_an_empty_file_one_thing_is_said(text: str) -> None:
-    assert findings({ELBOW: text}) == [
-        f"{ELBOW}: error: joint elbow: the file holds no class; write the class `Elbow`, or delete the file [no-class]"
-    ]
-
-
 def test_files_are_in_utf8() -> None:
     message = "the file is not in UTF-8; save it as UTF-8 [not-utf8]"
     edits = {ELBOW: arm.text().encode().replace(b"Motion along", b"Bew\xe9gung"), ORDER: b"Elbow\nSt\xfctze\n"}
@@ -213,12 +205,6 @@ def test_of_a_folder_that_can_be_no_package_one_thing_is_said(name: str) -> None
 def test_of_a_file_that_can_hold_no_class_one_thing_is_said(name: str) -> None:
     message = f"`{name}` can't be the name of a class; rename the file, or move it elsewhere"
     assert findings({f"Joints/{name}.mo": arm.text()}) == [f"Joints/{name}.mo: error: {message} [wrong-name]"]
-
-
-def test_names_in_quotes_are_names() -> None:
-    text = f"{WITHIN}\nmodel 'my elbow'\nend 'my elbow';\n"
-    edits = {"Joints/'my elbow'.mo": text, ORDER: arm.text(ORDER) + "'my elbow'\n"}
-    assert findings(edits) == []
 
 
 def test_a_package_file_with_a_capital_is_found() -> None:
@@ -278,27 +264,9 @@ def test_what_a_build_adds_to_an_order_nobody_has_to_add() -> None:
     assert [one.hint for one in check_layout(elsewhere)] == [advice]
 
 
-def test_what_a_build_adds_may_be_a_folder() -> None:
-    owners = {"package.mo": "robot", "Joints/package.mo": "robot"}
-    order = arm.text("package.order").replace("Joints\n", "")
-    (found,) = check_layout(msgspec.structs.replace(arm.package({"package.order": order}), owners=owners))
-    assert (found.message, found.hint) == ("`Joints` is not named", "`urdfsync build` adds it")
-
-
 def test_the_order_is_not_judged_by_a_package_file_that_does_not_parse() -> None:
     edits = {"Joints/package.mo": "package Joints\n  constant Real x = ;\n", ORDER: "x\n" + arm.text(ORDER)}
     assert [one.split("[")[-1] for one in findings(edits)] == ["syntax]"]
-
-
-def test_only_what_a_tool_may_load_all_the_same_is_a_warning() -> None:
-    edits = {
-        "Joints/elbow.mo": arm.text().replace("Elbow", "elbow"),
-        ELBOW: "\ufeff" + arm.text(),
-        ORDER: "Elbow\nElbow",
-    }
-    found = check_layout(arm.package(edits))
-    assert {one.severity for one in found} == {Severity.WARNING}
-    assert len({one.code for one in found}) == 4
 
 
 # --- files around the package -----------------------------------------------------------------------------------------

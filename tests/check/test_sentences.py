@@ -232,37 +232,3 @@ GAP = "what edits do was not measured: the robot can't be simulated"
 )
 def test_one_word_for_all(found: CheckResult, strict: bool, head: str) -> None:
     assert sentences.verdict(found, strict) == head
-
-
-def test_the_tally_has_a_number_for_each_word() -> None:
-    right, incomplete = CheckResult("arm", "Arm"), CheckResult("arm", "Arm", gaps=(GAP,))
-    assert sentences.tally([right, incomplete, right, right], strict=False) == "4 robots: 3 right, 1 incomplete"
-    wrong = CheckResult("arm", "Arm", deviations=(ELBOW,))
-    assert sentences.tally([wrong, wrong], strict=False) == "2 robots: 2 differ"
-
-
-def test_nothing_compared_and_nothing_compiled_is_said_to_be_no_more() -> None:
-    assert sentences.summary(CheckResult("arm", "Arm", seconds=0.31), strict=False) == "right: syntax and layout; 0.3 s"
-
-
-def test_a_tool_that_does_not_count_is_not_quoted() -> None:
-    found = CheckResult("arm", "Arm", compiled=(CompiledModel("Arm", 0, 0), CompiledModel("ArmRun", 0, 0)), seconds=2)
-    assert sentences.findings(found) == ["2 models compile"]
-
-
-@pytest.mark.parametrize(
-    ("seconds", "said"),
-    [(0.04, "0.0 s"), (12.41, "12.4 s"), (99.96, "100 s"), (599.0, "599 s"), (725.0, "12 min")],
-)
-def test_durations(seconds: float, said: str) -> None:
-    assert sentences.duration(seconds) == said
-
-
-def test_sentences_that_hold_for_several_robots_are_said_once() -> None:
-    verdicts = [CheckResult(name, name) for name in ("a", "b", "c", "d")]
-    assert sentences.shared(verdicts, [["x", "y"], ["x"], ["x", "z"], ["x", "z"]]) == [
-        "x (all robots)",
-        "y (a)",
-        "z (c and d)",
-    ]
-    assert sentences.shared(verdicts[:1], [["x", "y"]]) == ["x", "y"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from urdfsync.check import files
@@ -59,18 +59,23 @@ class CheckedPackage:
         """Those of them in which more than comments and blanks differ."""
         return [path for path in self.edits if not is_cosmetic(self.generated[path], self.on_disk[path])]
 
+    def with_one_edit(self, file: str) -> Mapping[str, bytes]:
+        """The package with one file edited; the user's own files are in it."""
+        own = {path: content for path, content in self.on_disk.items() if path not in self.generated}
+        return {**self.generated, **own, file: self.on_disk[file]}
+
     def missing_resources(self) -> Iterator[Diagnostic]:
-        """Files of the package's own `Resources` that its texts refer to and that are not there."""
+        """Files below the package's own folders that its texts refer to and that are not there, once for each text."""
+        hint = "`urdfsync build` brings back what it imported; else put the file there"
         for path in sorted(self.on_disk):
-            for number, line in enumerate(self.files.text(path).splitlines(), 1):
-                for package, below in _URI.findall(line):
-                    file = self._resource(package, below)
-                    if file is not None and not file.exists():
-                        message = f"it refers to `modelica://{package}/{below}`, and there is no such file"
-                        hint = "`urdfsync build` brings back what it imported; else put the file there"
-                        yield self.files.diagnostic(
-                            Severity.ERROR, "missing-resource", message, path, number, hint=hint
-                        )
+            text, addresses = self.files.text(path), set[str]()
+            for found in _URI.finditer(text):
+                file = self._resource(found[1], found[2])
+                if file is not None and found[0] not in addresses and not file.exists():
+                    addresses.add(found[0])
+                    line = text.count("\n", 0, found.start()) + 1
+                    message = f"it refers to `{found[0][1:-1]}`, and there is no such file"
+                    yield self.files.diagnostic(Severity.ERROR, "missing-resource", message, path, line, hint=hint)
 
     def _resource(self, package: str, below: str) -> Path | None:
         """Where a `modelica://` address leads; None if it is not in the robot's package or one around it."""
@@ -89,14 +94,3 @@ def is_cosmetic(old: bytes, new: bytes) -> bool:
     """Whether two texts differ in comments, blanks and ends of line only."""
     one, two = ([t for t in tokens(text.decode(errors="replace")) if not is_trivia(t)] for text in (old, new))
     return one == two
-
-
-def with_one_edit(package: CheckedPackage, file: str) -> Mapping[str, bytes]:
-    """The package with one file edited; the user's own files are in it."""
-    own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
-    return {**package.generated, **own, file: package.on_disk[file]}
-
-
-def build_errors(package: CheckedPackage) -> Sequence[Diagnostic]:
-    """Errors that a build would report."""
-    return [one for one in package.build_result.diagnostics if one.severity is Severity.ERROR]

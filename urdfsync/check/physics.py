@@ -10,7 +10,7 @@ from urdfsync.check import errors
 from urdfsync.check.collector import ResultCollector
 from urdfsync.check.compilation import PackageCompiler, PackageVersion
 from urdfsync.check.compilers.compiler import CompileTask, Simulation
-from urdfsync.check.package import CheckedPackage, with_one_edit
+from urdfsync.check.package import CheckedPackage
 from urdfsync.check.results import CompiledModel, EditEffect, agrees
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
@@ -120,7 +120,7 @@ class PhysicsCheck:
 
     def _move_with_one_edit(self, file: str) -> None:
         label = f"with-{file.replace('/', '-').removesuffix('.mo')}"
-        version = self._compiler.put(label, with_one_edit(self._package, file))
+        version = self._compiler.put(label, self._package.with_one_edit(file))
         try:
             self._single[file] = self._move(self._plain_experiment, version, f"the package with {file}")
         except NotMovedError:

@@ -16,7 +16,7 @@ from urdfsync.check.cache import UserCache
 from urdfsync.check.collector import ResultCollector, Step
 from urdfsync.check.compilation import PackageCompiler, PackageVersion
 from urdfsync.check.compilers.compiler import CompileResult, compile_task
-from urdfsync.check.package import CheckedPackage, build_errors
+from urdfsync.check.package import CheckedPackage
 from urdfsync.check.physics import PhysicsCheck
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
 from urdfsync.config import Config, RobotConfig, shown
@@ -33,7 +33,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, tell:
             request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
             package = CheckedPackage(config, robot, request)
         collector.set(built=package.is_built, in_step=package.in_step, conflicting=bool(package.build_result.conflicts))
-        collector.add(diagnostics=build_errors(package))
+        collector.add(diagnostics=[one for one in package.build_result.diagnostics if one.severity is Severity.ERROR])
         with collector.step("checking files and names"):
             reason = _check_texts(package, collector)
         if reason:
