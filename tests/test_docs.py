@@ -9,7 +9,8 @@ import pytest
 
 from urdfsync import cli
 from urdfsync.check.cache import LIMIT
-from urdfsync.check.results import TOLERANCE, CheckOptions
+from urdfsync.check.libraries import NEXT, OLDEST
+from urdfsync.check.results import MOST_SINGLE_EDITS, TOLERANCE, CheckOptions
 from urdfsync.domain import Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
@@ -49,6 +50,10 @@ def test_numbers_of_the_check_are_those_in_use() -> None:
     defaults = CheckOptions()
     assert f"no more than {TOLERANCE:.0e} of the largest value" in page
     assert f"It stays below {LIMIT / 2**30:.0f} GiB" in page
+    oldest, following = (".".join(map(str, version)) for version in (OLDEST, NEXT))
+    assert f"has to be {oldest}.0 or later, below {following}." in page
+    assert MOST_SINGLE_EDITS == 6
+    assert "Up to six edited files are tried one by one" in page
     assert f"| `--timeout S` | {defaults.timeout:.0f} |" in page
     assert f"| `--wait S` | {defaults.wait:.0f} |" in page
 

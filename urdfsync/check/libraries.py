@@ -24,8 +24,8 @@ Version: TypeAlias = tuple[int, ...]
 
 STANDARD = ("Modelica", "ModelicaServices", "Complex")
 """The libraries that make up the Modelica Standard Library."""
-_OLDEST: Version = (4, 1)  # the first that the embedded compiler takes
-_NEXT: Version = (5,)  # the first that is known only by its number; taken if there is no other
+OLDEST: Version = (4, 1)  # the first that the embedded compiler takes
+NEXT: Version = (5,)  # the first that is known only by its number; taken if there is no other
 
 # The copy of these takes the compiler a fifth of the time and memory that the whole library does (5 s and 1.1 GB).
 _COPIED = tuple(
@@ -65,10 +65,10 @@ def find_standard_library(environment: Mapping[str, str], configured: Path | Non
     """
     places = [configured] if configured else library_folders(environment)
     found = [library for place in places for library in _standard_libraries(place)]
-    suitable = [library for library in found if library.version >= _OLDEST]
+    suitable = [library for library in found if library.version >= OLDEST]
     if suitable:
-        return next((library for library in suitable if library.version < _NEXT), suitable[0])
-    oldest = _dotted(_OLDEST)
+        return next((library for library in suitable if library.version < NEXT), suitable[0])
+    oldest = _dotted(OLDEST)
     unsuitable = ""
     if found:
         place, version = found[0].parts["Modelica"].parent, _dotted(found[0].version) or "of unknown version"

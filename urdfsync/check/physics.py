@@ -11,7 +11,7 @@ from urdfsync.check.collector import ResultCollector
 from urdfsync.check.compilation import PackageCompiler, PackageVersion
 from urdfsync.check.compilers.compiler import CompileTask, Simulation
 from urdfsync.check.package import CheckedPackage
-from urdfsync.check.results import CompiledModel, EditEffect, agrees
+from urdfsync.check.results import MOST_SINGLE_EDITS, CompiledModel, EditEffect, agrees
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Deviation, Experiment
@@ -19,8 +19,6 @@ from urdfsync.domain import Deviation, Experiment
 Series: TypeAlias = Mapping[str, Sequence[float]]
 """Values over time by the names of variables."""
 
-_MOST_SINGLE_EDITS = 6
-"""So many edited files are tried one by one at most; more of them are looked at together."""
 _UNEXPLAINED = 0.01
 """Part of a change that single edits must leave unexplained before it is told as one of several together."""
 
@@ -56,7 +54,7 @@ class PhysicsCheck:
             return []
         jobs: list[Callable[[], None]] = [] if self._baseline is not None else [self._move_baseline]
         files = self._package.meaningful_edits
-        if 1 < len(files) <= _MOST_SINGLE_EDITS:
+        if 1 < len(files) <= MOST_SINGLE_EDITS:
             jobs += [functools.partial(self._move_with_one_edit, file) for file in files]
         return jobs
 

@@ -17,6 +17,9 @@ from urdfsync.outcome import Exit
 TOLERANCE = 1e-10
 """The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
 
+MOST_SINGLE_EDITS = 6
+"""So many edited files are tried one by one at most; more of them are looked at and told together."""
+
 POSES = (Quantity.POSITION, Quantity.ORIENTATION)
 EFFORTS = (Quantity.EFFORT, Quantity.REACTION, Quantity.ACCELERATION)
 MASSES = (Quantity.MASS, Quantity.CENTRE)

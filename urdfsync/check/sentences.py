@@ -5,7 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
-from urdfsync.check.results import EFFORTS, MASSES, POSES, CheckResult, CheckStatus, EditEffect, agrees, largest
+from urdfsync.check.results import (
+    EFFORTS,
+    MASSES,
+    MOST_SINGLE_EDITS,
+    POSES,
+    CheckResult,
+    CheckStatus,
+    EditEffect,
+    agrees,
+    largest,
+)
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import Deviation, Quantity
 from urdfsync.wording import counted
@@ -13,7 +23,6 @@ from urdfsync.wording import counted
 _KINDS = (("poses", POSES), ("torques", EFFORTS), ("masses", MASSES))
 _NAMED_ELEMENTS = 3
 _NAMED_FILES = 3
-_MANY_FILES = 6  # of more edited files there is no telling which one it comes from: only their number is said
 _LARGEST_PERCENT, _SMALLEST_PERCENT = 999.5, 0.001  # from the first on, the reference is about zero
 
 
@@ -79,7 +88,7 @@ def effect(found: EditEffect) -> str:
     """What an edit did, as a sentence without a full stop."""
     said = list(_phrases(found.deviations, "", with_size=False, owners=found.owners))
     every = ", all" if len(said) > 1 else ""
-    if len(found.files) > _MANY_FILES:
+    if len(found.files) > MOST_SINGLE_EDITS:
         edited = f"{edited_files(found)} ({', '.join(found.files[: _NAMED_FILES - 1])}, …)"
         return f"{'; '.join(said)}{every} because of {edited}" if said else f"{edited} change nothing that is compared"
     edited = f"{edited_files(found)} {'was' if len(found.files) == 1 else 'were'} edited"
@@ -88,7 +97,7 @@ def effect(found: EditEffect) -> str:
 
 def edited_files(found: EditEffect) -> str:
     """The edited files, or how many they are: `a.mo and b.mo`, `12 edited files`."""
-    return f"{len(found.files)} edited files" if len(found.files) > _MANY_FILES else listed(found.files)
+    return f"{len(found.files)} edited files" if len(found.files) > MOST_SINGLE_EDITS else listed(found.files)
 
 
 def _phrases(
