@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -13,7 +13,9 @@ from support.corpus import REPOSITORY
 from support.urdfs import dynamics, joint, limit, link, robot
 
 from urdfsync import config
+from urdfsync.check.cache import UserCache
 from urdfsync.check.collector import Step
+from urdfsync.check.compilers.compiler import CompileJob, CompileResult
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.check.robot import check_robot
 from urdfsync.engine.build import build
@@ -116,6 +118,28 @@ def test_a_package_that_is_not_in_step_is_compiled_and_said_to_be_so(arm: Path, 
     assert (result.in_step, result.status(strict=False)) == (False, CheckStatus.DIFFERS)
     assert [one.model for one in result.compiled] == ["Arm", "ArmRun", "ArmTest"]
     assert all(one.unknowns > 100 for one in result.compiled)
+
+
+def test_what_was_right_is_not_compiled_again_until_something_changes(
+    arm: Path, modelica_library: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    jobs: list[str] = []
+    problems = [""]
+
+    def run_job(name: str, job: CompileJob, cache: UserCache) -> Iterator[CompileResult]:
+        jobs.extend(task.title for task in job.tasks)
+        yield from (CompileResult(problems[0], 7, 2) for _ in job.tasks)
+
+    monkeypatch.setattr("urdfsync.check.compilers.compiler.run_job", lambda *given: (one for one in run_job(*given)))
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache")
+    first, second = check(), check()
+    assert len(jobs) == 3
+    assert first.compiled == second.compiled
+    assert (second.status(strict=True), second.unchecked) == (CheckStatus.RIGHT, first.unchecked)
+    replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
+    problems[0] = "something is wrong"
+    assert [check().failed for _ in range(2)] == [True, True]
+    assert len(jobs) == 9, "what is wrong is compiled again"
 
 
 def test_without_a_library_nothing_is_compiled(arm: Path) -> None:

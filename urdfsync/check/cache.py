@@ -1,4 +1,4 @@
-"""The user's cache folder: copies of libraries, what the compiler remembers, workspaces, compiled templates.
+"""The user's cache folder: copies of libraries, what the compiler remembers, workspaces, templates, results.
 
 Everything in it can be made again. What was used longest ago goes first; what a check works with stays.
 """
@@ -51,6 +51,7 @@ class UserCache:
         self.compiler = folder / "rumoca"
         self.workspaces = folder / "work"
         self.templates = folder / "templates"
+        self.results = folder / "results"
 
     @classmethod
     def default(cls) -> UserCache:
@@ -114,7 +115,8 @@ class UserCache:
         if busy:
             busy |= {entry.paths for entry in entries if entry.paths[0].parent == self.libraries}
         freed = sum(_delete(entry) for entry in entries if entry.paths not in busy)
-        for folder in (self.libraries, self.compiler, self.workspaces, self.templates) if not busy else ():
+        ours = (self.libraries, self.compiler, self.workspaces, self.templates, self.results)
+        for folder in ours if not busy else ():
             if _is_folder(folder):
                 shutil.rmtree(folder, ignore_errors=True)  # empty folders are left, and what is being made
         return freed
@@ -123,13 +125,15 @@ class UserCache:
         if _is_folder(self.compiler):
             yield from _records(self.compiler)
         recent = time.time() - _GRACE
-        for parent in (self.libraries, self.workspaces, self.templates):
+        for parent in (self.libraries, self.workspaces, self.templates, self.results):
             for path in list(parent.iterdir()) if _is_folder(parent) else []:
                 found = [path, *(path.rglob("*") if _is_folder(path) else ())]
                 used = max((status.st_mtime for status in _statuses([path])), default=0.0)
-                is_in_use = _is_locked(path) if parent == self.workspaces else used > recent
+                is_in_use = (
+                    _is_locked(path) if parent == self.workspaces else used > recent and parent == self.libraries
+                )
                 size = sum(map(_size, _statuses(found)))
-                yield CacheEntry((path,), used, size, is_in_use and parent != self.templates)
+                yield CacheEntry((path,), used, size, is_in_use)
 
 
 def entries_to_delete(entries: Iterable[CacheEntry], limit: int) -> list[CacheEntry]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import enum
-import json
 import os
 import queue
 import subprocess
@@ -24,7 +23,7 @@ import msgspec
 
 from urdfsync.check.collector import Step
 from urdfsync.check.compilers.compiler import end_with_parent, importable, python_module, reserve_stdout
-from urdfsync.check.results import CheckOptions, CheckResult
+from urdfsync.check.results import CheckOptions, CheckResult, from_text, to_text
 from urdfsync.config import load
 from urdfsync.diagnostics import UrdfsyncError
 
@@ -60,14 +59,13 @@ class StoppedError(Exception):
 def main() -> None:
     """Check the robot that is ordered on stdin; each step is a line on stdout."""
     answers = reserve_stdout()
-    order = msgspec.json.decode(sys.stdin.buffer.readline(), type=RobotOrder, dec_hook=_from_text)
+    order = from_text(sys.stdin.buffer.readline(), RobotOrder)
     end_with_parent()
     lock = threading.Lock()  # compilers of one robot may run at the same time
 
     def answer(step: Step) -> None:
-        text = json.dumps(msgspec.to_builtins(step, enc_hook=str))  # unlike msgspec's JSON it has infinite numbers
         with lock:
-            answers.write(text.encode() + b"\n")
+            answers.write(to_text(step).encode() + b"\n")
             answers.flush()
 
     from urdfsync.check.robot import check_robot  # 0.3 s that the process which only waits can do without
@@ -93,8 +91,8 @@ def run_process(
 ) -> tuple[Ending, int, str]:
     """Check a robot in a process of at most so many seconds and bytes: how it ended, its exit code, its last words.
 
-    At the end nothing that the process started is left. Raises StoppedError once `stopped` is set, ValueError or
-    msgspec.ValidationError if the process answers what is no step.
+    At the end nothing that the process started is left. Raises StoppedError once `stopped` is set, ValueError if the
+    process answers what is no step.
     """
     begin, lines = time.monotonic(), queue.SimpleQueue[bytes]()
     with tempfile.TemporaryFile() as errors:
@@ -108,7 +106,7 @@ def run_process(
         )
         try:
             stdin = cast(IO[bytes], process.stdin)
-            stdin.write(msgspec.json.encode(order, enc_hook=str) + b"\n")
+            stdin.write(to_text(order).encode() + b"\n")
             stdin.flush()
             threading.Thread(target=_read, args=(process.stdout, lines), daemon=True).start()
             ending = _follow(process.pid, lines, tell, begin + seconds, memory, stopped)
@@ -145,7 +143,7 @@ def _follow(
         if line == b"":
             return Ending.EXITED
         if line is not None:
-            tell(msgspec.convert(json.loads(line), Step, dec_hook=_from_text))
+            tell(from_text(line, Step))
         now = time.monotonic()
         if stopped.is_set():
             raise StoppedError
@@ -187,11 +185,6 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
     for stream in (process.stdin, process.stdout):
         if stream is not None:
             stream.close()
-
-
-def _from_text(kind: type, value: Any) -> Any:
-    """Paths travel as text."""
-    return kind(value)
 
 
 if __name__ == "__main__":

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import enum
+import json
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, TypeVar
 
 import msgspec
 
@@ -24,6 +25,7 @@ POSES = (Quantity.POSITION, Quantity.ORIENTATION)
 EFFORTS = (Quantity.EFFORT, Quantity.REACTION, Quantity.ACCELERATION)
 MASSES = (Quantity.MASS, Quantity.CENTRE)
 
+T = TypeVar("T")
 CompilerName: TypeAlias = Literal["rumoca", "omc"]
 
 
@@ -133,6 +135,16 @@ class CheckResult(msgspec.Struct, frozen=True):
         if self.differs or not self.in_step or (strict and self.is_changed_by_edits):
             return CheckStatus.DIFFERS
         return CheckStatus.INCOMPLETE if self.gaps else CheckStatus.RIGHT
+
+
+def to_text(value: Any) -> str:
+    """A line of JSON; unlike that of msgspec it has infinite numbers."""
+    return json.dumps(msgspec.to_builtins(value, enc_hook=str))
+
+
+def from_text(text: str | bytes, kind: type[T]) -> T:
+    """What `to_text` gave a text for. Raises ValueError for any other text."""
+    return msgspec.convert(json.loads(text), kind, dec_hook=lambda path, value: path(value))
 
 
 def agrees(deviation: Deviation) -> bool:

@@ -5,23 +5,31 @@ from __future__ import annotations
 import contextlib
 import functools
 import hashlib
+import importlib.metadata
+import importlib.util
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import msgspec
 
+from urdfsync import __version__
 from urdfsync.check import errors, files, layout, libraries, names
 from urdfsync.check.cache import UserCache
 from urdfsync.check.collector import ResultCollector, Step
 from urdfsync.check.compilation import PackageCompiler, PackageVersion
 from urdfsync.check.compilers.compiler import CompileResult, compile_task
+from urdfsync.check.libraries import StandardLibrary
 from urdfsync.check.package import CheckedPackage
 from urdfsync.check.physics import PhysicsCheck
-from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
+from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel, from_text, to_text
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import BuildOptions
+from urdfsync.files import put
+
+_MODULES = {"pin": "pinocchio"}  # by distribution, where that has another name
 
 
 def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, tell: Callable[[Step], None]) -> CheckResult:
@@ -78,7 +86,51 @@ def _check_models(package: CheckedPackage, options: CheckOptions, collector: Res
         compiler = PackageCompiler(package, standard, options.compiler, cache, folder)
         with collector.step("looking for libraries"):
             version = compiler.put("package", package.texts)
-        _Models(package, compiler, version, options, collector).check()
+        file = cache.results / f"{_models_key(package, standard, version, options)}.json"
+        if not _take_known_result(file, collector):
+            before = collector.result
+            _Models(package, compiler, version, options, collector).check()
+            _keep_result(file, before, collector.result)
+
+
+# Checking an unchanged package again would compile it again: 20 s for a six-axis arm, minutes for a humanoid.
+
+
+def _models_key(
+    package: CheckedPackage, standard: StandardLibrary, version: PackageVersion, options: CheckOptions
+) -> str:
+    """SHA-256 (hex) over all that compiling and comparing a package rests on."""
+    robot, paths = package.robot, {**standard.parts, **version.libraries}
+    programs = [name for name in ("rumoca", "OMPython", "pin") if importlib.util.find_spec(_MODULES.get(name, name))]
+    facts = (
+        *(__version__, [importlib.metadata.version(name) for name in programs], options.physics, options.compiler),
+        *(robot.target, robot.options, package.in_step, package.models, package.rendering.content),
+        [(name, str(path), libraries.library_state(path)) for name, path in sorted(paths.items())],
+        *(sorted(texts.items()) for texts in (package.texts, package.generated, package.around)),
+    )
+    return hashlib.sha256(repr(facts).encode(errors="surrogateescape")).hexdigest()
+
+
+def _take_known_result(file: Path, collector: ResultCollector) -> bool:
+    """Take what an earlier check of the same found; whether there was one."""
+    try:
+        known = from_text(file.read_bytes(), CheckResult)
+    except (OSError, ValueError):
+        return False
+    for name in ("compiled", "deviations", "effects", "notes", "reference", "megabytes"):
+        collector.set(**{name: getattr(known, name)})
+    collector.add(unchecked=known.unchecked, diagnostics=known.diagnostics)
+    return True
+
+
+def _keep_result(file: Path, before: CheckResult, result: CheckResult) -> None:
+    """Keep what was found, unless anything is wrong or was not checked: that is looked at again."""
+    if result.failed or result.gaps or result.differs:
+        return
+    new = tuple(one for one in result.diagnostics if one not in before.diagnostics)
+    with contextlib.suppress(OSError):  # a cache that can't be written to is none
+        file.parent.mkdir(exist_ok=True)
+        put(file, to_text(msgspec.structs.replace(result, diagnostics=new)).encode())
 
 
 class _Models:

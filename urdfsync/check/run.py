@@ -93,7 +93,7 @@ class _Checks:
             ending, code, words = process.run_process(order, tell, options.timeout, memory, self.stopped, self._command)
         except process.StoppedError:
             return self.steps[name].result
-        except (ValueError, msgspec.ValidationError, OSError) as error:
+        except (ValueError, OSError) as error:
             return self._failed(name, "check-crashed", f"its process can't be used: {error!r}", report)
         if ending is Ending.OUT_OF_MEMORY and not alone:
             self.steps[name] = Step(f"{name}: waits for more memory", 0.0, self.steps[name].result)
