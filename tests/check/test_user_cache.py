@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 import time
 from pathlib import Path
 
@@ -96,12 +95,6 @@ def test_clearing_says_how_much_that_was(cache: UserCache) -> None:
     put(cache, "templates/a.cache", 2)
     assert cache.clear() >= 31 * BLOCK
     assert cache.size() == 0
-
-
-def test_without_the_library_that_knows_its_place_there_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "platformdirs", None)
-    with pytest.raises(CacheError, match="platformdirs is not installed; pip install"):
-        UserCache.default()
 
 
 @pytest.mark.parametrize("place", ["work", "work/one", RECORDS, f"{RECORDS}/a.bin", "work/one/inside"])

@@ -28,7 +28,7 @@ from urdfsync.outcome import Checked, Result
 CheckRobots: TypeAlias = "Callable[[Config, Sequence[RobotConfig], CheckOptions, Progress], Iterator[CheckResult]]"
 """`run.check_robots`, or what stands in for it in tests of the daemon; what `Progress` raises gives a check up."""
 
-_ABSENT = ("no-compiler", "no-standard-library", "standard-library-too-old", "broken-standard-library", "no-cache")
+_ABSENT = ("no-compiler", "no-standard-library", "standard-library-too-old", "broken-standard-library")
 """Codes of what this machine lacks; the package is not to blame."""
 
 

@@ -15,6 +15,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+import platformdirs
+
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 
 LIMIT = 2**30
@@ -28,7 +30,7 @@ _TAG = "Signature: 8a477f597d28d172789f06886806bc55\n# Made by urdfsync; may be 
 
 
 class CacheError(UrdfsyncError):
-    """There is no cache that can be used; the code of the one diagnostic is `cache-not-writable` or `no-cache`."""
+    """There is no cache that can be used; the code of the one diagnostic is `cache-not-writable`."""
 
 
 class CacheEntry(NamedTuple):
@@ -55,22 +57,13 @@ class UserCache:
 
     @classmethod
     def default(cls) -> UserCache:
-        """The cache where this system keeps such: on Linux `~/.cache/urdfsync`, or below XDG_CACHE_HOME.
-
-        Raises CacheError if the library that knows the place is not installed.
-        """
-        try:
-            import platformdirs  # an optional extra
-        except ImportError:
-            message = "there is no cache: platformdirs is not installed"
-            hint = "pip install 'urdfsync[check]'"
-            raise CacheError(Diagnostic(Severity.ERROR, "no-cache", message, hint=hint)) from None
+        """The cache where this system keeps such: on Linux `~/.cache/urdfsync`, or below XDG_CACHE_HOME."""
         return cls(platformdirs.user_cache_path("urdfsync", appauthor=False))
 
     def prepare(self) -> None:
         """Make the folder; raises CacheError if that can't be."""
         with cache_errors(self.folder):
-            self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # `bytecode` takes no other
+            self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # `template_cache` takes no other
             tag = self.folder / "CACHEDIR.TAG"  # backup programs leave such a folder out
             if not tag.is_file():
                 tag.write_text(_TAG, encoding="utf-8")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from urdfsync.check import files
 from urdfsync.check.files import PackageFiles
-from urdfsync.config import Config, RobotConfig
+from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -58,6 +58,15 @@ class CheckedPackage:
     def meaningful_edits(self) -> list[str]:
         """Those of them in which more than comments and blanks differ."""
         return [path for path in self.edits if not is_cosmetic(self.generated[path], self.on_disk[path])]
+
+    def source_diagnostics(self) -> list[Diagnostic]:
+        """Errors that a build would report, and what a thorough reading of the source says beyond warnings."""
+        errors = [one for one in self.build_result.diagnostics if one.severity is Severity.ERROR]
+        robot = self.robot
+        reading = self.domain.read(self.rendering.content, shown(robot.source), robot.options, thorough=True)
+        return list(
+            dict.fromkeys([*errors, *(one for one in reading.diagnostics if one.severity is not Severity.WARNING)])
+        )
 
     def with_one_edit(self, file: str) -> Mapping[str, bytes]:
         """The package with one file edited; the user's own files are in it."""

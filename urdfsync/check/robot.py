@@ -41,7 +41,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, tell:
             request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
             package = CheckedPackage(config, robot, request)
         collector.set(built=package.is_built, in_step=package.in_step, conflicting=bool(package.build_result.conflicts))
-        collector.add(diagnostics=[one for one in package.build_result.diagnostics if one.severity is Severity.ERROR])
+        collector.add(diagnostics=package.source_diagnostics())
         with collector.step("checking files and names"):
             reason = _check_texts(package, collector)
         if reason:

@@ -29,7 +29,7 @@ MISSING = 3
 
 _TITLES = {"rumoca": "the compiler", "omc": "OpenModelica"}
 _NEEDED = {"rumoca": ("rumoca",), "omc": ("OMPython",)}
-_SHARED = ("psutil", "platformdirs", "filelock")  # what the check itself needs
+_SHARED = ("psutil", "filelock")  # what the check itself needs
 _INSTALL = {
     "rumoca": "pip install 'urdfsync[check]'",
     "omc": "install OpenModelica and `pip install 'urdfsync[check,omc]'`, or check without `--tool omc`",

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 from lxml import etree
 
-from urdfsync.urdf.reader import xml
-from urdfsync.urdf.skeleton import Skeleton
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.parse import xml
 
 Element = etree._Element
 
@@ -42,7 +42,7 @@ def attribute(element: Element, tag: str, name: str, default: str = "") -> str:
 
 def completed_for_pinocchio(content: bytes) -> CompletedSource:
     """The URDF in UTF-8, with the elements and attributes that Pinocchio's reader insists on."""
-    root = xml.tree(content)
+    root = xml.parse_tree(content)
     counts = Counter(_complete(root))
     if not counts and _is_utf8(content):
         return CompletedSource(content)
@@ -53,7 +53,7 @@ def completed_for_pinocchio(content: bytes) -> CompletedSource:
     return CompletedSource(_bytes(root), notes)
 
 
-def with_inertias(content: bytes, skeleton: Skeleton) -> CompletedSource:
+def with_inertias(content: bytes, skeleton: KinematicTree) -> CompletedSource:
     """The URDF with made-up inertias in all links that hang on a moving joint which carries no mass.
 
     The root link counts as moving: a robot without any mass gets inertias in all its links.
@@ -61,7 +61,7 @@ def with_inertias(content: bytes, skeleton: Skeleton) -> CompletedSource:
     massless = _massless_links(skeleton)
     if not massless:
         return CompletedSource(content)
-    root = xml.tree(content)
+    root = xml.parse_tree(content)
     for link in children(root, "link"):
         if link.get("name") in massless:
             for old in list(children(link, "inertial")):
@@ -102,7 +102,7 @@ def _fill(parent: Element, tag: str, names: Collection[str], value: str) -> Iter
             yield tag
 
 
-def _massless_links(skeleton: Skeleton) -> set[str]:
+def _massless_links(skeleton: KinematicTree) -> set[str]:
     """Links below moving joints that carry no mass, those joints' own links included."""
     massive = {link.name for link in skeleton.links if link.inertial and link.inertial.mass > 0}
     for joint in reversed(skeleton.joints):  # from the leaves to the root

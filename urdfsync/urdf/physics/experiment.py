@@ -10,15 +10,15 @@ import numpy as np
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Deviation, Quantity, Target
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import completion, motion
 from urdfsync.urdf.physics.probe import FORCE, MASS, MOMENT, TORQUE, RobotVariables, probe, robot_variables
 from urdfsync.urdf.physics.reading import Array, pinocchio, read
 from urdfsync.urdf.physics.reference import Configuration, FrameMotion, Instant, Reference
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
-from urdfsync.urdf.source import read_robot
 
 Series: TypeAlias = Mapping[str, Sequence[float]]
 
@@ -54,9 +54,9 @@ class PinocchioExperiment:
         robot = _robot(content, file)
         self.content, self.notes = completion.completed_for_pinocchio(content)
         if complete:
-            self.content, made_up = completion.with_inertias(self.content, Skeleton.of(robot))
+            self.content, made_up = completion.with_inertias(self.content, KinematicTree.of(robot))
             self.notes += made_up
-        self._skeleton = Skeleton.of(_robot(self.content, file), (target.name,))
+        self._skeleton = KinematicTree.of(_robot(self.content, file), (target.name,))
         self._variables = robot_variables(self._skeleton, target, options)
         self._axes, self._free = motion.driven_axes(self._skeleton), motion.free_joints(self._skeleton)
         self._courses = [motion.axis_course(joint) for joint in self._axes]
@@ -113,7 +113,7 @@ class PinocchioExperiment:
         efforts = dict(zip((joint.name for joint in self._axes), side.efforts, strict=True))
         for joint in self._skeleton.joints:
             if joint.name in efforts:
-                unit = "N·m" if MOTIONS[joint.type] == "rotational" else "N"
+                unit = "N·m" if MOTION_KINDS[joint.type] == "rotational" else "N"
                 yield _Key(Quantity.EFFORT, f"joint {joint.name}", unit), efforts[joint.name]
         root = f"link {self._skeleton.links[0].name}"
         yield _Key(Quantity.REACTION, root, "N"), side.force
@@ -152,7 +152,7 @@ class Measured:
     A value that is missing is NaN.
     """
 
-    def __init__(self, series: Series, skeleton: Skeleton, variables: RobotVariables, instant: int) -> None:
+    def __init__(self, series: Series, skeleton: KinematicTree, variables: RobotVariables, instant: int) -> None:
         self._series, self._variables, self._instant = series, variables, instant
         self.time = self._number("time")
         self.force, self.torque = -self._array(FORCE), -self._array(TORQUE)
@@ -213,7 +213,7 @@ def _robot(content: bytes, file: str) -> Robot:
     return reading.robot
 
 
-def _unchecked(skeleton: Skeleton, options: Options) -> Iterator[str]:
+def _unchecked(skeleton: KinematicTree, options: Options) -> Iterator[str]:
     """What the comparison does not cover, as far as it matters for this robot: sentences without a full stop."""
     joints, links = skeleton.joints, skeleton.links
     if all(joint.type == "fixed" for joint in joints):
@@ -221,7 +221,7 @@ def _unchecked(skeleton: Skeleton, options: Options) -> Iterator[str]:
     if not any(link.inertial and link.inertial.mass > 0 for link in links):
         yield "no link has a mass, so that efforts show the losses of joints only"
     without_effect = {
-        "limits": any(joint.limit for joint in joints if joint.type in MOTIONS),
+        "limits": any(joint.limit for joint in joints if joint.type in MOTION_KINDS),
         "calibrations": any(joint.calibration for joint in joints),
         "safety controllers": any(joint.safety_controller for joint in joints),
         "shapes": any(link.visuals or link.collisions for link in links),

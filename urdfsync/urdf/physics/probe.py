@@ -12,11 +12,11 @@ import msgspec
 
 from urdfsync.domain import Probe, Target
 from urdfsync.modelica.literals import vector
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
 from urdfsync.urdf.model.robot import connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 
 _GROUND_DEPTH = 1e9  # m: the contacts of a mobile robot are that far down, and nothing touches
 _DRIVE = """
@@ -72,10 +72,10 @@ class RobotVariables(msgspec.Struct, frozen=True):
     bodies: Mapping[str, str]
     """By link: its body, which tells velocities; empty where links have no components of their own."""
 
-    def efforts(self, skeleton: Skeleton) -> dict[str, str]:
+    def efforts(self, skeleton: KinematicTree) -> dict[str, str]:
         """By driven joint: what drives it, in the order of `motion.driven_axes`."""
         return {
-            joint.name: f"{self.flanges[joint.name]}.{'tau' if MOTIONS[joint.type] == 'rotational' else 'f'}"
+            joint.name: f"{self.flanges[joint.name]}.{'tau' if MOTION_KINDS[joint.type] == 'rotational' else 'f'}"
             for joint in motion.driven_axes(skeleton)
         }
 
@@ -84,13 +84,13 @@ class RobotVariables(msgspec.Struct, frozen=True):
         return tuple(f"{self.bodies[link]}.{part}[{i}]" for i in (1, 2, 3))
 
 
-def robot_variables(skeleton: Skeleton, target: Target, options: Options) -> RobotVariables:
+def robot_variables(skeleton: KinematicTree, target: Target, options: Options) -> RobotVariables:
     """The names for the approach that is compared: that of the package, if there is a choice."""
     compare = _package_variables if "package" in options.approach else _record_variables
     return compare(skeleton, target, options)
 
 
-def _package_variables(skeleton: Skeleton, target: Target, options: Options) -> RobotVariables:
+def _package_variables(skeleton: KinematicTree, target: Target, options: Options) -> RobotVariables:
     connectors = connector_names(skeleton, options)
     links = {link.name: f"robot.{skeleton.link(link.name).component}" for link in skeleton.links}
     resolve = "Modelica.Mechanics.MultiBody.Frames.resolve1"
@@ -109,7 +109,7 @@ def _package_variables(skeleton: Skeleton, target: Target, options: Options) -> 
     )
 
 
-def _record_variables(skeleton: Skeleton, target: Target, options: Options) -> RobotVariables:  # noqa: ARG001
+def _record_variables(skeleton: KinematicTree, target: Target, options: Options) -> RobotVariables:  # noqa: ARG001
     """The generic robot with a generated record: links are numbers there, and only their poses are told."""
     numbers = {link.name: number for number, link in enumerate(skeleton.links, 1)}
     motions: tuple[Motion, ...] = ("rotational", "translational")
@@ -134,7 +134,7 @@ def _record_variables(skeleton: Skeleton, target: Target, options: Options) -> R
     )
 
 
-def probe(skeleton: Skeleton, target: Target, options: Options, ballast: bool = False) -> Probe:
+def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bool = False) -> Probe:
     """A model in which every axis of the robot moves, and the values to compare.
 
     With `ballast`, a body hangs on each link without children.
@@ -174,7 +174,7 @@ def probe(skeleton: Skeleton, target: Target, options: Options, ballast: bool = 
     return Probe("\n".join(lines), "Probe_.Probe", stop, stop / 4, tuple(_values(skeleton, names)))
 
 
-def _values(skeleton: Skeleton, names: RobotVariables) -> Iterator[str]:
+def _values(skeleton: KinematicTree, names: RobotVariables) -> Iterator[str]:
     for link in skeleton.links:
         yield from (*names.places[link.name], *names.axes[link.name])
     for joint in motion.free_joints(skeleton):
@@ -196,7 +196,7 @@ def _world(options: Options) -> Iterator[str]:
         yield f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})"
 
 
-def _start_modifiers(skeleton: Skeleton) -> Iterator[str]:
+def _start_modifiers(skeleton: KinematicTree) -> Iterator[str]:
     """Modifiers with the start values of planar and floating joints."""
     for joint in motion.free_joints(skeleton):
         start = motion.free_start(joint)._asdict()
@@ -204,10 +204,10 @@ def _start_modifiers(skeleton: Skeleton) -> Iterator[str]:
         yield f"{skeleton.joint(joint.name).component}(fixedStart = true, {', '.join(values)})"
 
 
-def _drives(skeleton: Skeleton) -> Iterator[str]:
+def _drives(skeleton: KinematicTree) -> Iterator[str]:
     for k, joint in enumerate(motion.driven_axes(skeleton), 1):
         values = ", ".join(f"a{power} = {value!r}" for power, value in enumerate(motion.axis_course(joint)))
-        yield f"{MOTIONS[joint.type].capitalize()}Drive drive{k}({values})"
+        yield f"{MOTION_KINDS[joint.type].capitalize()}Drive drive{k}({values})"
 
 
 def _ballast_body(number: int) -> str:

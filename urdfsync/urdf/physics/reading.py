@@ -16,8 +16,8 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics.completion import Element, attribute, children
-from urdfsync.urdf.reader import xml
 
 Array = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ class PinocchioRobot(NamedTuple):
 def read(content: bytes, file: str) -> PinocchioRobot:
     """Read a URDF with Pinocchio. Raises SourceError if Pinocchio is not installed or refuses the file."""
     pin = pinocchio()
-    root = xml.tree(content)
+    root = xml.parse_tree(content)
     unused = "_" * (1 + max(len(element.get("name", "")) for element in root.iter("{*}link", "{*}joint")))
     joints = {joint.get("name", ""): joint for joint in children(root, "joint")}
     followers = {name: _follower(mimic) for name, joint in joints.items() for mimic in children(joint, "mimic")}
