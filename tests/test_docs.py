@@ -8,11 +8,9 @@ from pathlib import Path
 import pytest
 
 from urdfsync import cli
-from urdfsync.checking.cache import LIMIT
-from urdfsync.checking.edits import MANY
-from urdfsync.checking.libraries.library import NEXT, OLDEST, dotted
-from urdfsync.checking.verdict import TOLERANCE
-from urdfsync.checking.wishes import Wishes
+from urdfsync.check.cache import LIMIT
+from urdfsync.check.libraries import NEXT, OLDEST
+from urdfsync.check.results import MOST_SINGLE_EDITS, TOLERANCE, CheckOptions
 from urdfsync.domain import Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
@@ -49,14 +47,15 @@ def test_every_option_is_documented(command: str, page: str, capsys: pytest.Capt
 
 def test_numbers_of_the_check_are_those_in_use() -> None:
     page = (REPOSITORY / "docs/checking.md").read_text(encoding="utf-8")
-    wishes = Wishes()
+    defaults = CheckOptions()
     assert f"no more than {TOLERANCE:.0e} of the largest value" in page
     assert f"It stays below {LIMIT / 2**30:.0f} GiB" in page
-    assert f"| `--timeout S` | {wishes.timeout:.0f} |" in page
-    assert f"| `--wait S` | {wishes.wait:.0f} |" in page
-    assert f"has to be {dotted(OLDEST)}.0 or later, below {dotted(NEXT)}." in page
-    assert MANY == 6
+    oldest, following = (".".join(map(str, version)) for version in (OLDEST, NEXT))
+    assert f"has to be {oldest}.0 or later, below {following}." in page
+    assert MOST_SINGLE_EDITS == 6
     assert "Up to six edited files are tried one by one" in page
+    assert f"| `--timeout S` | {defaults.timeout:.0f} |" in page
+    assert f"| `--wait S` | {defaults.wait:.0f} |" in page
 
 
 def test_every_option_of_a_robot_is_documented() -> None:

@@ -21,7 +21,7 @@ from support.answers import save, saved
 
 from urdfsync import cli, dependencies, report, streams, uptodate
 from urdfsync.__main__ import main as program
-from urdfsync.checking import afterbuild
+from urdfsync.check import afterbuild
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]
@@ -111,7 +111,7 @@ def test_a_build_that_wrote_saves_no_answer(folder: Path) -> None:
 
 
 def test_builds_with_checks_are_not_said_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(afterbuild, "checked", lambda config, request, results: results)
+    monkeypatch.setattr(afterbuild, "with_checks", lambda config, request, results: results)
     Path("urdfsync.toml").write_text('[defaults]\non_build = "check"\n' + Path("urdfsync.toml").read_text()[11:])
     assert cli.main(BUILD) == 0
     time.sleep(0.1)

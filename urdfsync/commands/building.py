@@ -17,6 +17,6 @@ def built(config: Config, robots: Sequence[RobotConfig], request: BuildOptions) 
     if request.dry or not any(robot.checking for robot in robots):
         return results
     dependencies.mark_incomplete()  # checks look at more
-    from urdfsync.checking import afterbuild  # most configurations have no use for it
+    from urdfsync.check import afterbuild  # most configurations have no use for it
 
-    return afterbuild.checked(config, request, results)
+    return afterbuild.with_checks(config, request, results)

@@ -8,14 +8,14 @@ import math
 import os
 
 from urdfsync import advice, config
-from urdfsync.checking.wishes import Wishes
+from urdfsync.check.results import CheckOptions
 from urdfsync.commands import common
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Exit
 from urdfsync.report import Report
 
-_DEFAULTS = Wishes()
-_WISHES = ("robot", "physics", "strict", "tool", "jobs", "timeout", "memory", "wait")
+_DEFAULTS = CheckOptions()
+_CHECK_OPTIONS = ("robot", "physics", "strict", "tool", "jobs", "timeout", "memory", "wait")
 """What only a check has a use for."""
 
 
@@ -37,7 +37,10 @@ def add(commands: common.Commands) -> None:
         "--strict", action="store_true", help="what comes from an edit, or could not be checked, counts as a difference"
     )
     parser.add_argument(
-        "--tool", choices=("rumoca", "omc"), default=_DEFAULTS.tool, help="what compiles (rumoca); omc: OpenModelica"
+        "--tool",
+        choices=("rumoca", "omc"),
+        default=_DEFAULTS.compiler,
+        help="what compiles (rumoca); omc: OpenModelica",
     )
     limits = parser.add_argument_group("limits")
     limits.add_argument(
@@ -76,16 +79,16 @@ def _amount(text: str) -> float:
 def _run(parser: common.Parser, options: argparse.Namespace, report: Report) -> int:
     if options.clear_cache:
         return _clear_cache(parser, options, report)
-    from urdfsync.checking import checker  # not at the top: no other command needs it
-    from urdfsync.checking.verdict import exit_code
+    from urdfsync.check.results import exit_code
+    from urdfsync.check.run import check_robots  # not at the top: no other command needs it
 
     configuration = common.configuration(options)
     robots = configuration.select([*options.robots, *(options.robot or [])])
     report.warnings(advice.warnings(configuration, robots))
-    wishes = Wishes(
+    check_options = CheckOptions(
         physics=options.physics,
         strict=options.strict,
-        tool=options.tool,
+        compiler=options.tool,
         jobs=options.jobs,
         timeout=options.timeout,
         memory=options.memory,
@@ -93,18 +96,18 @@ def _run(parser: common.Parser, options: argparse.Namespace, report: Report) -> 
         package_paths=config.ros_package_path(os.environ),
     )
     names = [robot.name for robot in robots]
-    verdicts = []
-    for verdict in checker.check(configuration, robots, wishes, report.progress):
-        report.verdict(verdict, options.strict, names)
-        verdicts.append(verdict)
-    code = exit_code(verdicts, options.strict)
+    results = []
+    for result in check_robots(configuration, robots, check_options, report.progress):
+        report.check_result(result, options.strict, names)
+        results.append(result)
+    code = exit_code(results, options.strict)
     report.finish("check", code)
     return code
 
 
 def _clear_cache(parser: common.Parser, options: argparse.Namespace, report: Report) -> int:
     """Empty the cache. Nothing else may be asked for: a check fills it again."""
-    if options.robots or any(getattr(options, name) != parser.get_default(name) for name in _WISHES):
+    if options.robots or any(getattr(options, name) != parser.get_default(name) for name in _CHECK_OPTIONS):
         error = Diagnostic(
             Severity.ERROR,
             "usage",
@@ -113,8 +116,8 @@ def _clear_cache(parser: common.Parser, options: argparse.Namespace, report: Rep
         )
         report.bad_usage("check", parser.format_usage(), error)
         return Exit.ERROR
-    from urdfsync.checking.cache import Cache
+    from urdfsync.check.cache import UserCache
 
     report.waiting("emptying the cache")
-    report.cleared(Cache.of_user().clear())
+    report.cleared(UserCache.default().clear())
     return Exit.IN_STEP
