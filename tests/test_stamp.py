@@ -17,8 +17,9 @@ from hypothesis import strategies as st
 from support import stamps
 from support.stamps import repeated, stamped
 
-from urdfsync import cli, looking, report, streams
+from urdfsync import cli, looking, streams
 from urdfsync.checking import afterbuild
+from urdfsync.output import console
 from urdfsync.stamping import beside, making, stamp, trust
 
 Capture = pytest.CaptureFixture[str]
@@ -413,7 +414,7 @@ def _as_on_fat(status: os.stat_result) -> os.stat_result:
 
 
 def test_a_progress_bar_is_not_said_again(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(report, "_PATIENCE", 0.0)
+    monkeypatch.setattr(console, "_BAR_AFTER", 0.0)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     stamped(*BUILD)
     assert "━" in capsys.readouterr().err, "there was one"

@@ -18,7 +18,7 @@ from urdfsync.checking import afterbuild, memory
 from urdfsync.checking.compilers.compiler import CompilerError
 from urdfsync.checking.libraries.library import LibraryError
 from urdfsync.checking.verdict import Compiled, Verdict
-from urdfsync.commands import building
+from urdfsync.commands.build import build_and_check
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.outcome import Checked, Exit, Result, exit_code
@@ -453,14 +453,14 @@ def test_what_a_check_said_is_never_said_again_without_a_look(project: Path) -> 
     loaded = config.load(Path("urdfsync.toml"))
     run(Examiner(RIGHT))
     with looking.taken_down() as looks:
-        assert [result.in_step for result in building.built(loaded, loaded.robots, Request(wait=1))] == [True]
+        assert [result.in_step for result in build_and_check(loaded, loaded.robots, Request(wait=1))] == [True]
     assert not looks.complete
 
 
 def test_without_a_robot_to_check_nothing_is_looked_at(project: Path) -> None:
     (project / "urdfsync.toml").write_text((project / "urdfsync.toml").read_text().replace('"check"', '"nothing"'))
     loaded = config.load(Path("urdfsync.toml"))
-    assert [result.checked for result in building.built(loaded, loaded.robots, Request(wait=1))] == [None]
+    assert [result.checked for result in build_and_check(loaded, loaded.robots, Request(wait=1))] == [None]
     assert not note(project).parent.exists()
 
 

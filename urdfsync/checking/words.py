@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, TOLERANCE, Comparison, Compiled, Effect, Standing, Verdict
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import Deviation, Quantity
-from urdfsync.wording import counted
+from urdfsync.output.phrases import counted
 
 _KINDS = (("poses", POSES), ("torques", EFFORTS), ("masses", MASSES))
 _NAMED = 3

@@ -272,9 +272,9 @@ def repeat(arguments: list[str]) -> int | None:
         for name, text in zip(said[::2], said[1::2], strict=True):
             (output if name == streams.OUTPUT else sys.stderr).write(text)
         if output.trouble:
-            from urdfsync import report
+            from urdfsync import cli
 
-            return report.unwritten(output)
+            return cli.tell_unwritten(output)
     return 0
 
 

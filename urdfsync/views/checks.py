@@ -6,11 +6,10 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from urdfsync import wording
 from urdfsync.checking import words
 from urdfsync.checking.verdict import EFFORTS, POSES, TOLERANCE, Standing, Verdict
 from urdfsync.domain import Deviation, Quantity
-from urdfsync.views.terminal import has_marks, text
+from urdfsync.output.console import has_marks, text, visible
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -282,7 +281,7 @@ def _listing(columns: Sequence[_Column], rows: Sequence[tuple[Sequence[str], str
         return
     contents = zip(*(cells for cells, _ in rows), strict=True)
     fitted = [
-        column._replace(width=max(cell_len(wording.visible(cell)) for cell in (column.lower, *cells)))
+        column._replace(width=max(cell_len(visible(cell)) for cell in (column.lower, *cells)))
         for column, cells in zip(columns, contents, strict=True)
     ]
     while (room := width - len(_MARGIN) - sum(len(_GAP) + column.width for column in fitted[1:])) < _LEAST:

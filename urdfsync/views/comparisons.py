@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync import wording
 from urdfsync.comparing import outline
 from urdfsync.comparing.comparison import Comparison
 from urdfsync.comparing.outline import Entry, Row, Tone
 from urdfsync.config import shown
+from urdfsync.output.console import has_marks, text
+from urdfsync.output.phrases import GENERATOR, change_classes, counted, error_count
+from urdfsync.output.phrases import summary as build_summary
 from urdfsync.plan import CONFLICTS, Action, Kind
-from urdfsync.views.terminal import has_marks, text
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -50,7 +52,7 @@ def headline(comparison: Comparison, console: Console) -> Text:
     """The name, and the result in few words."""
     mark, style = ("✓", "green") if comparison.in_step else ("~", "yellow")
     marks = [(f"{mark} ", style)] if has_marks(console.file) else []
-    return text(*marks, (comparison.result.robot, "bold"), (f": {wording.comparison(comparison)}", ""))
+    return text(*marks, (comparison.result.robot, "bold"), (f": {summary(comparison)}", ""))
 
 
 def _tree(comparison: Comparison, console: Console, verbose: bool) -> RenderableType:
@@ -151,7 +153,7 @@ def _files(comparison: Comparison, console: Console, verbose: bool) -> Iterator[
     actions.sort(key=lambda action: (action.path not in comparison.edited, action.path.rpartition("/")))
     urgent = sum(action.path in comparison.edited for action in actions)
     few = actions if verbose or len(actions) <= _FILES else actions[: max(_FILES - 1, urgent)]
-    yield from (text(("", "")), text((wording.files(comparison), "bold")))
+    yield from (text(("", "")), text((_file_heading(comparison), "bold")))
     yield from (_file(comparison, action, console) for action in few)
     if len(few) < len(actions):
         yield _more(len(actions) - len(few), "file")
@@ -171,6 +173,29 @@ def _file(comparison: Comparison, action: Action, console: Console) -> Text:
         fits = line.cell_len + 2 + reason.cell_len <= console.width
         line.append("  " if fits else "\n" + " " * (_WORD + 3)).append_text(reason)
     return line
+
+
+def summary(found: Comparison) -> str:
+    """What changed since the older version, as the rest of a line that names the robot."""
+    if found.result.failed:
+        return f"{error_count(found.result.diagnostics)}, so nothing can be compared"
+    if found.missing:
+        return found.missing
+    since = f"since {'the last build' if found.against is None else found.against}"
+    if found.changes is None:
+        return f"nothing changed {since}{'' if found.in_step else ', but files are not as they should be'}"
+    what = change_classes(found.changes) if found.changes.changes else GENERATOR
+    return f"{what} {since}{', only by rounding' if found.changes.noise else ''}"
+
+
+def _file_heading(found: Comparison) -> str:
+    """What happens to the files of a package, as a heading."""
+    if found.against is None:
+        return f"A build: {build_summary(found.result)}"
+    number, kinds = len(found.result.actions), Counter(action.kind for action in found.result.actions)
+    parts = ", ".join(f"{kinds[kind]} to {kind}" for kind in (Kind.UPDATE, Kind.CREATE, Kind.DELETE) if kinds[kind])
+    head = f"{counted(number, 'file')} of the package {'differs' if number == 1 else 'differ'}"
+    return f"{head}: {parts}" if len(kinds) > 1 else head
 
 
 def _more(count: int, noun: str) -> Text:

@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync import status, wording
 from urdfsync.changes import Change, Changes
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.commands.status import FileStatus, PackageStatus, next_build, package_status, summary
 from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Happening
 from urdfsync.domain import Role
@@ -16,16 +15,15 @@ from urdfsync.merge import merge
 from urdfsync.outcome import Result
 from urdfsync.plan import CONFLICTS, WRITES, Action, Actions, Kind
 from urdfsync.standoff import Standoff
-from urdfsync.status import FileStatus, RobotState
 
 
 def action(kind: Kind, held: bool = False, path: str = "") -> Action:
     return Action(path or f"Arm/{kind}.mo", kind, Role.MODEL, "link tip", base="b", held=held)
 
 
-def state(*actions: Action, changes: Changes | None = None, standoffs: tuple[Standoff, ...] = ()) -> RobotState:
+def state(*actions: Action, changes: Changes | None = None, standoffs: tuple[Standoff, ...] = ()) -> PackageStatus:
     folder = Path("/project/Arm")
-    return status.of(
+    return package_status(
         Result("arm", "Arm", folder, folder.parent, Actions(actions), changes=changes, standoffs=standoffs)
     )
 
@@ -100,15 +98,15 @@ def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:
 )
 def test_a_robot_in_one_line(kinds: list[Kind], words: str) -> None:
     found = state(*map(action, kinds))
-    assert wording.state(found) == words
+    assert summary(found) == words
     assert found.in_step == words.startswith("in step")
 
 
 def test_a_robot_that_was_never_built_says_so() -> None:
     new = [Action(f"Arm/{name}.mo", Kind.CREATE, Role.MODEL) for name in "ab"]
-    assert wording.state(state(*new)) == "not built yet"
-    assert wording.state(state(*new, Action("Arm/c.mo", Kind.UNOWNED, Role.MODEL))) == "not built yet: 1 conflict"
-    assert not state(*new).built
+    assert summary(state(*new)) == "not built yet"
+    assert summary(state(*new, Action("Arm/c.mo", Kind.UNOWNED, Role.MODEL))) == "not built yet: 1 conflict"
+    assert not state(*new).is_built
 
 
 @pytest.mark.parametrize(
@@ -131,28 +129,19 @@ def test_a_robot_that_was_never_built_says_so() -> None:
     ],
 )
 def test_what_a_robot_waits_for(kinds: list[Kind], changes: Changes | None, lines: list[str]) -> None:
-    assert wording.outlook(state(*map(action, kinds), changes=changes)) == lines
+    assert next_build(state(*map(action, kinds), changes=changes)) == lines
 
 
 def test_rounding_is_called_rounding() -> None:
     found = state(action(Kind.UPDATE), changes=changed(ChangeClass.PARAMETER, noise=True))
-    assert wording.outlook(found)[0].startswith("1 parameter change in the source (rounding);")
+    assert next_build(found)[0].startswith("1 parameter change in the source (rounding);")
 
 
 def test_what_waits_for_a_conflict_is_counted() -> None:
     held = [action(Kind.UPDATE, held=True, path=path) for path in ("a.mo", "b.mo")]
     found = state(action(Kind.CONFLICT), *held, action(Kind.CREATE), changes=changed(ChangeClass.STRUCTURAL))
-    assert wording.outlook(found) == [
+    assert next_build(found) == [
         "1 structural change in the source",
         "`urdfsync build` writes 1 file; 2 files wait for the conflict",
     ]
-    assert wording.outlook(state(action(Kind.CONFLICT), held[0])) == ["1 file waits for the conflict"]
-
-
-def test_warnings_about_the_source_are_left_to_builds() -> None:
-    def said(severity: Severity, file: str) -> Diagnostic:
-        return Diagnostic(severity, "code", "message", file)
-
-    diagnostics = said(Severity.WARNING, "arm.urdf"), said(Severity.ERROR, "arm.urdf"), said(Severity.WARNING, "Arm.mo")
-    result = Result("arm", "Arm", Path("/Arm"), Path("/"), diagnostics=diagnostics)
-    assert status.of(result, "arm.urdf").findings == [*diagnostics[1:]]
+    assert next_build(state(action(Kind.CONFLICT), held[0])) == ["1 file waits for the conflict"]

@@ -12,8 +12,10 @@ from typing import Any
 import msgspec
 import tomli_w
 
-from urdfsync import registry, tables
-from urdfsync.config import is_robot_name, shown
+from urdfsync import registry
+from urdfsync.config import values
+from urdfsync.config.names import is_robot_name
+from urdfsync.config.paths import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
 from urdfsync.modelica.names import class_name
@@ -56,7 +58,7 @@ class Draft(msgspec.Struct, frozen=True):
     """Warnings about the sources."""
 
 
-def draft(file: Path, sources: Sequence[Path], domain_name: str) -> Draft:
+def make_draft(file: Path, sources: Sequence[Path], domain_name: str) -> Draft:
     """The configuration `file` for these sources, or for those that are below its folder if none is given.
 
     A source that is named twice counts once. Raises ConfigError if the file exists or if there is no source,
@@ -88,12 +90,12 @@ def draft(file: Path, sources: Sequence[Path], domain_name: str) -> Draft:
     return Draft(file, _text(guesses, domain), tuple(guesses), tuple(said))
 
 
-def write(proposal: Draft) -> None:
+def write(draft: Draft) -> None:
     """Write a draft, as a whole or not at all. Raises ConfigError if that fails, or if the file exists by now."""
-    file = proposal.file
+    file = draft.file
     temporary = file.with_name(f".{file.name}.urdfsync-tmp")
     try:
-        content = proposal.text.encode()
+        content = draft.text.encode()
         temporary.write_bytes(content)
         if file.exists():
             raise _exists(file)
@@ -201,9 +203,9 @@ def _line(key: str, value: Any) -> str:
 
 
 def _choices(kind: Any) -> str:
-    allowed = tables.choices(kind)
+    allowed = values.choices(kind)
     words = " or ".join(f'"{choice}"' for choice in allowed)
-    more = ", or several" if tables.is_list(kind) else ", or a list of names" if tables.may_be_list(kind) else ""
+    more = ", or several" if values.is_list(kind) else ", or a list of names" if values.may_be_list(kind) else ""
     return f"{words}{more}; " if allowed else ""
 
 
