@@ -21,9 +21,9 @@ from support import edits, replay
 from support.replay import Fresh, Project
 from support.steps import Answer, Known, Step, plain
 
+from urdfsync.engine.actions import Kind
 from urdfsync.manifest import text_hash
-from urdfsync.plan import Kind
-from urdfsync.standoff import Choice
+from urdfsync.state.record import Choice
 
 EPISODE = 40
 """Steps with one project."""

@@ -16,11 +16,12 @@ from typing import Any
 import pytest
 
 from urdfsync import config, files
-from urdfsync.build import Request, build
+from urdfsync.engine import imports
+from urdfsync.engine.actions import Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.files import text_digest
 from urdfsync.outcome import Exit, Result, exit_code
-from urdfsync.plan import Kind
-from urdfsync.planning import imports
 from urdfsync.state import operations
 
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
@@ -36,7 +37,7 @@ def run(**request: Any) -> Result:
 
 def run_all(**request: Any) -> list[Result]:
     loaded = config.load(Path("urdfsync.toml"))
-    return list(build(loaded, loaded.robots, Request(**request)))
+    return list(build(loaded, loaded.robots, BuildOptions(**request)))
 
 
 def kinds(result: Result) -> dict[str, Kind]:

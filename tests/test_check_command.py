@@ -15,8 +15,8 @@ from urdfsync.checking.wishes import Wishes
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity
+from urdfsync.engine.options import Progress
 from urdfsync.output.phrases import byte_size
-from urdfsync.planning.situation import Progress
 
 Capture = pytest.CaptureFixture[str]
 

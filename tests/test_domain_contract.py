@@ -29,9 +29,9 @@ from urdfsync.domain import (
     Target,
     Templates,
 )
+from urdfsync.engine import generate
 from urdfsync.files import digest, templates_digest
 from urdfsync.modelica.names import is_identifier, within
-from urdfsync.planning import generate
 
 URDF = b"""<robot name="two &quot;links&quot;">
   <link name="base link"/>
@@ -78,7 +78,7 @@ class Case:
     def artifacts(self) -> list[Artifact | Order]:
         return list(self.domain.artifacts(self.snapshot, self.imports, TARGET, self.options))
 
-    def generated(self) -> generate.Generated:
+    def generated(self) -> generate.Package:
         folders = (config.templates_folder(self.domain),)
         templates = Templates(folders, templates_digest(folders))
         return generate.generate(self.domain, self.snapshot, self.imports, TARGET, self.options, templates)
@@ -174,7 +174,7 @@ def test_a_conversion_is_repeatable(case: Case) -> None:
     assert (one.content, dict(one.facts)) == (two.content, dict(two.facts))
 
 
-def texts(package: generate.Generated) -> dict[str, bytes]:
+def texts(package: generate.Package) -> dict[str, bytes]:
     return {path: package.content(path) for path in package.artifacts}
 
 
@@ -259,7 +259,7 @@ def test_a_record_alone_is_one_that_needs_nothing_around_it(case: Case) -> None:
         assert {one.file for one in found.diagnostics} <= {"sample"}
         folders = (config.templates_folder(case.domain),)
         templates = Templates(folders, templates_digest(folders))
-        text = generate.Generated([found.artifact], templates).content(found.artifact.path).decode()
+        text = generate.Package([found.artifact], templates).content(found.artifact.path).decode()
         assert text.startswith(f"{within_clause}\nrecord Whole ")
         assert text.endswith("end Whole;\n")
 

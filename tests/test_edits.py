@@ -17,10 +17,11 @@ from typing import Any
 import pytest
 
 from urdfsync import config
-from urdfsync.build import Request, build
+from urdfsync.engine.actions import Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Exit, Result, exit_code
-from urdfsync.plan import Kind
-from urdfsync.standoff import Choice
+from urdfsync.state.record import Choice
 
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
 
@@ -33,7 +34,7 @@ ASIDE = ".urdfsync/conflicts/ladder/Elements"
 def run(**request: Any) -> Result:
     """Build the robot `ladder` of the working folder."""
     loaded = config.load(Path("urdfsync.toml"))
-    (result,) = build(loaded, loaded.robots, Request(**request))
+    (result,) = build(loaded, loaded.robots, BuildOptions(**request))
     assert not result.failed, result.diagnostics
     return result
 
@@ -557,7 +558,7 @@ def test_merge_markers_are_never_taken_for_an_edit(project: Path, snapshot_of: S
     source('"ohm": 100', '"ohm": 150')
     before = snapshot_of(project)
     loaded = config.load(Path("urdfsync.toml"))
-    for request in (Request(), Request(dry=True), Request(choices={path: Choice.MERGE})):
+    for request in (BuildOptions(), BuildOptions(dry=True), BuildOptions(choices={path: Choice.MERGE})):
         (result,) = build(loaded, loaded.robots, request)
         (found,) = result.diagnostics
         assert exit_code([result]) is Exit.ERROR

@@ -43,7 +43,7 @@ SHELL_MODULES = tuple(f"urdfsync.{name}" for name in SHELL)
 
 FORBIDDEN: dict[str, tuple[str, ...]] = {
     "diagnostics": ("urdfsync", *IO, *HEAVY),
-    "looking": ("urdfsync", *HEAVY),
+    "dependencies": ("urdfsync", *HEAVY),
     "profiling": ("urdfsync", "pathlib", *(name for name in IO if name != "sys"), *HEAVY),
     "stamping/trust": ("urdfsync.config", "urdfsync.build", "urdfsync.output.console", "urdfsync.cli", *HEAVY),
     "stamping/making": ("urdfsync.config", "urdfsync.build", "urdfsync.output.console", "urdfsync.cli", *HEAVY),
@@ -166,7 +166,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
 
 LIGHT = (
     "cli",
-    "looking",
+    "dependencies",
     "stamping/making",
     "config/load",
     "registry",

@@ -22,9 +22,9 @@ from urdfsync.checking.verdict import Effect as VerdictEffect
 from urdfsync.commands.status import FileStatus
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity, Role
+from urdfsync.engine.actions import Kind
 from urdfsync.outcome import Checked, Result
 from urdfsync.output.console import JSON_VERSION
-from urdfsync.plan import Kind
 from urdfsync.profiling import OTHER, STAGES
 from urdfsync.views.watching import ForPrograms, event_values
 from urdfsync.watching import events

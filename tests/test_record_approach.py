@@ -9,12 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.build import Request, build
 from urdfsync.checking.subject import Subject
 from urdfsync.config import load
 from urdfsync.difference import ChangeClass
+from urdfsync.engine.actions import Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
-from urdfsync.plan import Kind
 
 SOURCES = Path(__file__).parent / "golden"
 RECORD = {"package.mo", "package.order", "TwigParameters.mo", "TwigGeneric.mo"}
@@ -34,7 +35,7 @@ class Project:
         lines += [f"{key} = {value}" for key, value in {"approach": approach, **options}.items()]
         self.file.write_text("\n".join(lines) + "\n")
         config = load(self.file)
-        (result,) = build(config, config.robots, Request())
+        (result,) = build(config, config.robots, BuildOptions())
         return result
 
     def change(self, old: str, new: str) -> None:
@@ -54,7 +55,7 @@ class Project:
     def models(self) -> tuple[str, ...]:
         """What a check would compile."""
         config = load(self.file)
-        return tuple(Subject(config, config.robots[0], Request(dry=True)).models)
+        return tuple(Subject(config, config.robots[0], BuildOptions(dry=True)).models)
 
 
 @pytest.fixture

@@ -11,10 +11,11 @@ import pytest
 from support.git import NEEDS_GIT, Repository
 
 from urdfsync import config
-from urdfsync.build import Request, build
+from urdfsync.engine.actions import Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
-from urdfsync.plan import Kind
-from urdfsync.standoff import Choice
+from urdfsync.state.record import Choice
 
 LADDER = "modelica/Ladder"
 MANIFEST = ".urdfsync/robots/ladder.toml"
@@ -23,7 +24,7 @@ Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
 
 def run(**request: Any) -> Result:
     loaded = config.load(Path("urdfsync.toml"))
-    (result,) = build(loaded, loaded.robots, Request(**request))
+    (result,) = build(loaded, loaded.robots, BuildOptions(**request))
     return result
 
 

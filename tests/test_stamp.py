@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from support import stamps
 from support.stamps import repeated, stamped
 
-from urdfsync import cli, looking, streams
+from urdfsync import cli, dependencies, streams
 from urdfsync.checking import afterbuild
 from urdfsync.output import console
 from urdfsync.stamping import beside, making, stamp, trust
@@ -299,7 +299,7 @@ def test_every_file_counts_whoever_looks_at_it(
 def _reading(site: Path, own: list[Path], targets: list[Path]) -> stamp.Reading:
     """A stamp that rests on these files, and on four other places."""
     contents: list[dict[str, stamp.Facts]] = [
-        {str(path): looking.facts_of(path.stat()) for path in paths} for paths in (own, targets)
+        {str(path): dependencies.stat_of(path.stat()) for path in paths} for paths in (own, targets)
     ]
     kinds: dict[str, stamp.Facts] = {str(site): (0o040000,), str(site / "none"): (0,)}
     made = stamp.Stamp("program", (contents[0], contents[1]), (kinds, kinds), {})
@@ -325,11 +325,11 @@ def test_what_is_written_at_the_same_time_is_not_believed(folder: Path) -> None:
     for written in (True, False):
         time.sleep(0.1)  # what was before is old enough
         begin = time.monotonic_ns(), time.time_ns()
-        with looking.taken_down() as looks:
-            looking.content(folder / "urdfsync.toml")
+        with dependencies.record_dependencies() as looks:
+            dependencies.read_file(folder / "urdfsync.toml")
             if written:
                 Path(URDF).write_bytes(Path(URDF).read_bytes())
-            looking.content(folder / URDF)
+            dependencies.read_file(folder / URDF)
         making.keep(str(folder / "urdfsync.toml"), {"question": []}, looks, begin)
         assert Path(STAMP).exists() is not written
 

@@ -15,7 +15,7 @@ from support.git import NEEDS_GIT, Repository
 from support.urdfs import joint, limit, link, robot
 
 from urdfsync import cli, render
-from urdfsync.planning import inputs
+from urdfsync.engine import source
 
 Capture = pytest.CaptureFixture[str]
 
@@ -264,7 +264,7 @@ def test_the_sandbox_holds_in_all_parts_of_a_template(marker: Path, capsys: Capt
         ("<< lipsum(1000000000) >>", "lipsum"),
         ("<% macro m() %><< m() >><% endmacro %><< m() >>", "without end"),
         ("<% include 'joint/revolute.mo.jinja' %>", "without end"),
-        ("<# " + "x" * inputs.MAX_TEMPLATE + " #>", "too large for a template"),
+        ("<# " + "x" * source.MAX_TEMPLATE + " #>", "too large for a template"),
     ],
 )
 def test_a_template_has_limits(marker: Path, capsys: Capture, attack: str, words: str) -> None:

@@ -9,11 +9,12 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from urdfsync.build import Request, build
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
 from urdfsync.difference import ChangeClass
 from urdfsync.domain import Role
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
 from urdfsync.output.phrases import change_lines
 
@@ -36,7 +37,7 @@ def arm(tmp_path: Path) -> Path:
 
 def run(project: Path, *, full: bool = False) -> Result:
     config = load(project / "urdfsync.toml")
-    (result,) = build(config, config.robots, Request(full=full))
+    (result,) = build(config, config.robots, BuildOptions(full=full))
     return result
 
 

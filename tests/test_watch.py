@@ -14,8 +14,8 @@ import pytest
 from support.daemon import LIMIT, Daemons
 
 from urdfsync import registry
+from urdfsync.engine.actions import Kind
 from urdfsync.outcome import Result
-from urdfsync.plan import Kind
 from urdfsync.watching import builder, events, observer
 from urdfsync.watching.robots import Robots, Watched
 from urdfsync.watching.stash import Stash

@@ -13,7 +13,7 @@ import stat
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 
-from urdfsync import looking
+from urdfsync.dependencies import file_type, list_folder
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.scopes import UNKNOWN, Stored, Unknown
 from urdfsync.modelica.syntax import StoredText
@@ -128,13 +128,13 @@ def modelica_files(folder: Path) -> Iterator[str]:
         current = waiting.pop()
         inside: list[str] = []
         with contextlib.suppress(OSError):
-            inside = sorted(looking.names(current))
+            inside = sorted(list_folder(current))
         for name in inside:
             path, found = f"{current}{os.sep}{name}", 0
             if name.startswith(".") or name == _NOT_CLASSES:
                 continue
             with contextlib.suppress(OSError):
-                found = looking.kind(path, follow=False)
+                found = file_type(path, follow=False)
             if found == stat.S_IFDIR:
                 waiting.append(path)
             elif found == stat.S_IFREG and name.endswith(".mo"):

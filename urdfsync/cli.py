@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import FrameType
 
-from urdfsync import __version__, looking, profiling, streams
+from urdfsync import __version__, dependencies, profiling, streams
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit
@@ -119,7 +119,7 @@ def _terminated_as_interrupted() -> Iterator[None]:
 @contextlib.contextmanager
 def _measured(given: Sequence[str]) -> Iterator[None]:
     """Measure a command; also how long a stamp takes that would have answered."""
-    looking.beyond()  # times can't be said again
+    dependencies.mark_incomplete()  # times can't be said again
     with profiling.measured(since=stamp.BEGUN[0]) as profile:
         with profiling.stage("stamp"):
             plain = [argument for argument in given if argument != "--profile"]

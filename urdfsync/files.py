@@ -10,7 +10,8 @@ import stat
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from urdfsync import looking, profiling
+from urdfsync import profiling
+from urdfsync.dependencies import file_type, read_file, read_stat, walk_files
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 
 TEMPORARY = ".urdfsync-tmp"
@@ -54,10 +55,8 @@ def put(file: Path, content: bytes) -> None:
 def text_digests(folder: Path) -> dict[str, str]:
     """The `text_digest` of each file below a folder by its name in it, POSIX; hidden files are left out."""
     above = len(str(folder)) + 1
-    found = ((path[above:].replace(os.sep, "/"), path) for path in looking.files_below(folder))
-    return {
-        name: text_digest(looking.content(path)) for name, path in found if not name.rpartition("/")[2].startswith(".")
-    }
+    found = ((path[above:].replace(os.sep, "/"), path) for path in walk_files(folder))
+    return {name: text_digest(read_file(path)) for name, path in found if not name.rpartition("/")[2].startswith(".")}
 
 
 def templates_digest(folders: Sequence[Path], read: Callable[[Path], Mapping[str, str]] = text_digests) -> str:
@@ -126,7 +125,7 @@ class Tree:
         Raises OutputError as `read`.
         """
         try:
-            status = looking.status(path)
+            status = read_stat(path)
         except OSError as error:
             raise self._unreadable(path, error) from None
         if status is None or stat.S_ISREG(status.st_mode):
@@ -152,7 +151,7 @@ class Tree:
             return self._checked[folder]
         if not self.covers(folder):
             raise self._refusal("outside", folder, f"the path leaves {self._shown(self.root)}")
-        mode = looking.kind(folder, follow=False) if self.check_folder(os.path.dirname(folder)) else 0  # noqa: PTH120
+        mode = file_type(folder, follow=False) if self.check_folder(os.path.dirname(folder)) else 0  # noqa: PTH120
         if mode and not stat.S_ISDIR(mode):
             what = "a symbolic link" if stat.S_ISLNK(mode) else "a file"
             raise self._refusal("output-in-the-way", folder, f"{what} is where a folder is needed", "move it away")

@@ -75,14 +75,14 @@ def _nothing_to_do() -> bool:
 
 def _is_committed(index: "Index", path: str) -> bool:
     """Whether that holds for the robots of one configuration; if so it is stamped."""
-    from urdfsync import config, looking
-    from urdfsync.planning.situation import Request
+    from urdfsync import config, dependencies
+    from urdfsync.engine.options import BuildOptions
     from urdfsync.staging.worktree import Worktree
     from urdfsync.stamping import making
 
     begin = stamp.now()
-    with looking.taken_down() as looks:
-        request = Request(dry=True, package_paths=config.ros_package_path(os.environ))
+    with dependencies.record_dependencies() as looks:
+        request = BuildOptions(dry=True, package_paths=config.ros_package_path(os.environ))
         tree = Worktree(index, config.load(index.top / path), request)
         found = [tree.committed(robot) for robot in tree.config.robots]
         needed = [paths for paths in found if paths is not None]

@@ -6,7 +6,6 @@ Two files in `.urdfsync/robots/`, both committed: `<robot>.toml`, which people r
 
 from __future__ import annotations
 
-import functools
 import hashlib
 import posixpath
 import re
@@ -18,7 +17,7 @@ import tomli_w
 
 from urdfsync import tomlfile
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
-from urdfsync.plan import FileRecord
+from urdfsync.state.record import FileRecord
 
 FORMAT = 1
 """Raised when an older urdfsync could misread what a newer one records."""
@@ -67,7 +66,7 @@ class DependencyRecord(msgspec.Struct, frozen=True, omit_defaults=True):
     unreadable_by: int | None = None
 
 
-class Manifest(msgspec.Struct, frozen=True, kw_only=True, dict=True):
+class Manifest(msgspec.Struct, frozen=True, kw_only=True):
     """The state of one robot after a build.
 
     The keys of `files` and `orders` are POSIX paths relative to the configuration's folder, like
@@ -104,16 +103,6 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True, dict=True):
                 if path.startswith(inside)
             },
         )
-
-    @functools.cached_property
-    def plain(self) -> Mapping[str, FileRecord]:
-        """The files that are just as generated, and for which nothing waits."""
-        return {path: record for path, record in self.files.items() if record.plain}
-
-    @functools.cached_property
-    def special(self) -> Mapping[str, FileRecord]:
-        """All other files."""
-        return {path: record for path, record in self.files.items() if path not in self.plain}
 
 
 _Keys: TypeAlias = tuple[str, ...]

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.plan import CONFLICTS, Action, Actions, Kind
+from urdfsync.engine.actions import CONFLICTS, Action, Actions, Kind
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
-    from urdfsync.standoff import Standoff
+    from urdfsync.engine.conflicts import Conflict
 
 
 class Exit(enum.IntEnum):
@@ -59,7 +59,7 @@ class Result(msgspec.Struct, frozen=True):
     drawing: Path | None = None
     changes: Changes | None = None
     """What changed in the model since the last build; None if nothing did, or there is none to compare with."""
-    standoffs: tuple[Standoff, ...] = ()
+    standoffs: tuple[Conflict, ...] = ()
     """The texts of the files that conflict, in the order of their paths."""
     checked: Checked | None = None
     """What a check of the package said; None if there was none. What it found is among the diagnostics."""
@@ -83,8 +83,8 @@ class Result(msgspec.Struct, frozen=True):
     @property
     def is_first(self) -> bool:
         """Whether no build has written any file of the package before."""
-        new = any(action.kind is Kind.CREATE for action in self.actions.decided)
-        return new and not self.actions.unchanged and all(action.base is None for action in self.actions.decided)
+        new = any(action.kind is Kind.CREATE for action in self.actions)
+        return new and all(action.base is None for action in self.actions)
 
 
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import cast
 
-from urdfsync import looking
+from urdfsync.dependencies import depend_on
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain
 from urdfsync.spelling import nearest
@@ -43,7 +43,7 @@ def _installed() -> dict[str, str]:
     import importlib.metadata
 
     for folder in map(Path, sys.path):
-        looking.rests_on(folder)
+        depend_on(folder)
         for file in folder.glob("*-info/entry_points.txt"):
-            looking.rests_on(file)
+            depend_on(file)
     return {entry.name: entry.value for entry in importlib.metadata.entry_points(group=GROUP)}

@@ -22,7 +22,7 @@ import msgspec
 
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.planning.memory import Memory
+from urdfsync.engine.cache import Cache
 from urdfsync.watching import builder, events, stash
 from urdfsync.watching.builds import Builds
 from urdfsync.watching.checks import Checks
@@ -56,9 +56,9 @@ class Daemon:
         self._inbox = Inbox()
         self._observer = Observer(self._inbox.notice, lambda: self._inbox.put(Lost()))
         self._settings = Settings(options)
-        self._memory = Memory()
+        self._memory = Cache()
         self._robots = Robots(options.times, options.request.package_paths, self._memory)
-        request = msgspec.structs.replace(options.request, progress=self._progress, memory=self._memory)
+        request = msgspec.structs.replace(options.request, progress=self._progress, cache=self._memory)
         self._checks = Checks(
             options.request,
             listener,

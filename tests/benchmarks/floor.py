@@ -49,7 +49,7 @@ def _package(source: str) -> dict[str, bytes]:
 
     from urdfsync.config import templates_folder
     from urdfsync.domain import Target, Templates
-    from urdfsync.planning.generate import generate
+    from urdfsync.engine.generate import generate
     from urdfsync.urdf.domain import DOMAIN
     from urdfsync.urdf.options import Options
 

@@ -12,8 +12,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import cli, config, looking
-from urdfsync.build import build
+from urdfsync import cli, config, dependencies
 from urdfsync.checking import afterbuild, memory
 from urdfsync.checking.compilers.compiler import CompilerError
 from urdfsync.checking.libraries.library import LibraryError
@@ -21,8 +20,9 @@ from urdfsync.checking.verdict import Compiled, Verdict
 from urdfsync.commands.build import build_and_check
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions, Progress
 from urdfsync.outcome import Checked, Exit, Result, exit_code
-from urdfsync.planning.situation import Progress, Request
 
 RIGHT = Verdict("ladder", "Ladder", compiled=(Compiled("Ladder", 12, 3),), seconds=2.5)
 BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)
@@ -40,7 +40,7 @@ class Examiner:
         self._verdicts = list(verdicts)
 
     def __call__(
-        self, config: Config, robots: Sequence[RobotConfig], request: Request, tell: Progress
+        self, config: Config, robots: Sequence[RobotConfig], request: BuildOptions, tell: Progress
     ) -> Iterator[Verdict]:
         for count, robot in enumerate(robots):
             self.asked.append(robot.name)
@@ -65,7 +65,7 @@ def add(project: Path, text: str) -> None:
 
 def run(examiner: Examiner, **wishes: Any) -> list[Result]:
     """Build and check all robots."""
-    loaded, request = config.load(Path("urdfsync.toml")), Request(wait=1, **wishes)
+    loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1, **wishes)
     return list(afterbuild.checked(loaded, request, build(loaded, loaded.robots, request), examiner))
 
 
@@ -391,7 +391,7 @@ def test_results_keep_their_order_and_the_lock_is_free_while_packages_are_checke
 
     class Building(Examiner):
         def __call__(
-            self, config: Config, robots: Sequence[RobotConfig], request: Request, tell: Progress
+            self, config: Config, robots: Sequence[RobotConfig], request: BuildOptions, tell: Progress
         ) -> Iterator[Verdict]:
             again = msgspec.structs.replace(request, wait=0)
             (project / "ladder.json").write_text((project / "ladder.json").read_text().replace("220.5", "330"))
@@ -404,7 +404,7 @@ def test_results_keep_their_order_and_the_lock_is_free_while_packages_are_checke
 
 
 def test_who_interrupts_a_check_is_told_what_was_built(project: Path) -> None:
-    loaded, request = config.load(Path("urdfsync.toml")), Request(wait=1)
+    loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1)
     told: list[Result] = []
     results = build(loaded, loaded.robots, request)
     with pytest.raises(KeyboardInterrupt):
@@ -452,15 +452,15 @@ def test_what_is_resolved_is_built_and_checked(
 def test_what_a_check_said_is_never_said_again_without_a_look(project: Path) -> None:
     loaded = config.load(Path("urdfsync.toml"))
     run(Examiner(RIGHT))
-    with looking.taken_down() as looks:
-        assert [result.in_step for result in build_and_check(loaded, loaded.robots, Request(wait=1))] == [True]
+    with dependencies.record_dependencies() as looks:
+        assert [result.in_step for result in build_and_check(loaded, loaded.robots, BuildOptions(wait=1))] == [True]
     assert not looks.complete
 
 
 def test_without_a_robot_to_check_nothing_is_looked_at(project: Path) -> None:
     (project / "urdfsync.toml").write_text((project / "urdfsync.toml").read_text().replace('"check"', '"nothing"'))
     loaded = config.load(Path("urdfsync.toml"))
-    assert [result.checked for result in build_and_check(loaded, loaded.robots, Request(wait=1))] == [None]
+    assert [result.checked for result in build_and_check(loaded, loaded.robots, BuildOptions(wait=1))] == [None]
     assert not note(project).parent.exists()
 
 

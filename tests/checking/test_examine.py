@@ -12,12 +12,12 @@ from support.corpus import REPOSITORY
 from support.urdfs import dynamics, joint, limit, link, robot
 
 from urdfsync import config
-from urdfsync.build import build
 from urdfsync.checking.examine import examine
 from urdfsync.checking.process import Limits
 from urdfsync.checking.verdict import Standing, Verdict, exit_code
 from urdfsync.checking.wishes import Wishes
-from urdfsync.planning.situation import Request
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 
 ARM = robot(
     link("base", 3.0),
@@ -42,7 +42,7 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def rebuild() -> None:
     loaded = config.load(Path("urdfsync.toml").absolute())
-    (result,) = build(loaded, loaded.robots, Request())
+    (result,) = build(loaded, loaded.robots, BuildOptions())
     assert not result.failed
 
 

@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from urdfsync import config
-from urdfsync.build import build
 from urdfsync.checking import loading
 from urdfsync.checking.cache import Cache, CacheError
 from urdfsync.checking.compilers import choice
@@ -21,7 +20,8 @@ from urdfsync.checking.process import Limits
 from urdfsync.checking.subject import Subject
 from urdfsync.checking.toolbox import Toolbox
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.planning.situation import Request
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 
 PARTS = """
     package Blocks/package Constants Electrical/package Electrical/Analog Icons Math Mechanics/package
@@ -72,7 +72,7 @@ def bench(project: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     with Path("urdfsync.toml").open("a") as file:
         file.write('[check]\nlibrary = "libraries"\n')
     loaded = config.load(Path("urdfsync.toml").absolute())
-    list(build(loaded, loaded.robots, Request()))
+    list(build(loaded, loaded.robots, BuildOptions()))
     return project / "cache"
 
 
@@ -88,7 +88,7 @@ def put(name: str, text: str) -> None:
 
 def tools(cache: Path, compiler: Compiler | None = None) -> Toolbox:
     loaded = config.load(Path("urdfsync.toml").absolute())
-    subject = Subject(loaded, loaded.robots[0], Request(dry=True))
+    subject = Subject(loaded, loaded.robots[0], BuildOptions(dry=True))
     loader = Loader(subject, Cache(cache), Cache(cache).workspace("ladder"))
     return Toolbox(loader, compiler or choice.compiler("rumoca", Cache(cache)), Limits())
 

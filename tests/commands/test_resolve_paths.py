@@ -20,11 +20,12 @@ from urdfsync.commands.resolve import (
 )
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Actions, Kind
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.merge import Merge, merge
 from urdfsync.outcome import Result
 from urdfsync.output.conflicts import Target, saved_texts
-from urdfsync.plan import Action, Actions, Kind
-from urdfsync.standoff import Choice, Standoff
+from urdfsync.state.record import Choice
 
 ROOT = Path("/project").absolute()
 LINK, OTHER, MESH = "modelica/Arm/Links/Elbow.mo", "modelica/Arm/Links/Tip.mo", "modelica/Arm/Resources/tip.stl"
@@ -36,16 +37,16 @@ CLASH = merge("a\n", "b\n", "c\n")
 REJECTED = Merge(None, "a\n", ())
 
 
-def standoff(path: str, merged: Merge | None = CLEAN, origin: str | None = None, rejected: str = "") -> Standoff:
+def standoff(path: str, merged: Merge | None = CLEAN, origin: str | None = None, rejected: str = "") -> Conflict:
     base = None if merged is None else "a\n"
-    return Standoff(path, "link elbow", base, "mine\n", "generated\n", merged, origin, rejected)
+    return Conflict(path, "link elbow", base, "mine\n", "generated\n", merged, origin, rejected)
 
 
 def conflict(path: str, role: Role = Role.MODEL, kind: Kind = Kind.CONFLICT, origin: str | None = None) -> Action:
     return Action(path, kind, role, "link elbow", origin=origin, mine="hash")
 
 
-def arm(*standoffs: Standoff) -> Result:
+def arm(*standoffs: Conflict) -> Result:
     """A robot with conflicts that are texts, one that is a mesh, an orphan, an edited file and one that waits."""
     actions = [conflict(found.path, origin=found.origin) for found in standoffs]
     actions += [conflict(MESH, Role.IMPORT), conflict(GONE, kind=Kind.ORPHAN), conflict(EDITED, kind=Kind.KEEP)]

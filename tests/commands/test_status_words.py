@@ -11,17 +11,17 @@ from urdfsync.commands.status import FileStatus, PackageStatus, next_build, pack
 from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Happening
 from urdfsync.domain import Role
+from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Actions, Kind
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.merge import merge
 from urdfsync.outcome import Result
-from urdfsync.plan import CONFLICTS, WRITES, Action, Actions, Kind
-from urdfsync.standoff import Standoff
 
 
 def action(kind: Kind, held: bool = False, path: str = "") -> Action:
     return Action(path or f"Arm/{kind}.mo", kind, Role.MODEL, "link tip", base="b", held=held)
 
 
-def state(*actions: Action, changes: Changes | None = None, standoffs: tuple[Standoff, ...] = ()) -> PackageStatus:
+def state(*actions: Action, changes: Changes | None = None, standoffs: tuple[Conflict, ...] = ()) -> PackageStatus:
     folder = Path("/project/Arm")
     return package_status(
         Result("arm", "Arm", folder, folder.parent, Actions(actions), changes=changes, standoffs=standoffs)
@@ -75,7 +75,7 @@ def test_a_file_that_is_held_says_that_it_waits() -> None:
 )
 def test_a_conflict_that_can_be_merged_says_so(generated: str, reason: str) -> None:
     texts = "1\n2\n", "9\n2\n", generated
-    standoff = Standoff("Arm/conflict.mo", "link tip", *texts, merge=merge(*texts))
+    standoff = Conflict("Arm/conflict.mo", "link tip", *texts, merge=merge(*texts))
     (file,) = state(action(Kind.CONFLICT), standoffs=(standoff,)).files
     assert file.reason == reason
 

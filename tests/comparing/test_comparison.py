@@ -10,9 +10,9 @@ from urdfsync.changes import Change, Changes
 from urdfsync.comparing.comparison import Comparison, exit_code
 from urdfsync.difference import ChangeClass, Kind
 from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Actions
+from urdfsync.engine.actions import Kind as Does
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Actions
-from urdfsync.plan import Kind as Does
 
 
 def comparison(

@@ -10,12 +10,12 @@ from rich.cells import cell_len
 from rich.console import Console
 
 from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Actions, Kind
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.merge import merge
 from urdfsync.outcome import Result
 from urdfsync.output.conflicts import FULL, Extent, conflict_lines
 from urdfsync.output.hunk_lines import LINES
-from urdfsync.plan import Action, Actions, Kind
-from urdfsync.standoff import Standoff
 
 ELBOW = "modelica/Arm/Elbow.mo"
 BASE = "within Arm;\nmodel Elbow\n  Real a = 1;\n\n  Real b = 2;\nend Elbow;\n"
@@ -30,12 +30,12 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def standoff(mine: str, generated: str, base: str | None = BASE, path: str = ELBOW, **more: str) -> Standoff:
+def standoff(mine: str, generated: str, base: str | None = BASE, path: str = ELBOW, **more: str) -> Conflict:
     merged = None if base is None else merge(base, mine, generated)
-    return Standoff(path, "link elbow", base, mine, generated, merged, **more)
+    return Conflict(path, "link elbow", base, mine, generated, merged, **more)
 
 
-def result(*standoffs: Standoff, kind: Kind = Kind.CONFLICT, dry: bool = False) -> Result:
+def result(*standoffs: Conflict, kind: Kind = Kind.CONFLICT, dry: bool = False) -> Result:
     actions = [Action(s.path, kind, Role.MODEL, s.owner, origin=s.origin, mine="hash") for s in standoffs]
     return Result(
         "arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), Actions(actions), dry=dry, standoffs=standoffs
@@ -105,7 +105,7 @@ def test_a_narrow_terminal_and_a_pipe_show_the_versions_one_below_the_other() ->
 def test_why_a_merge_is_not_offered() -> None:
     twice = standoff(EDITED, EXPORTED)
     assert twice.merge
-    refused = Standoff(
+    refused = Conflict(
         **{name: getattr(twice, name) for name in ("path", "owner", "base", "mine", "generated")},
         merge=type(twice.merge)(None, twice.merge.proposal, ()),
         rejected="the merge declares `x` twice",
@@ -165,7 +165,7 @@ def test_what_is_no_text_can_be_kept_or_taken() -> None:
 
 def test_a_class_that_became_a_folder_can_only_be_kept() -> None:
     action = Action(ELBOW, Kind.CONFLICT, Role.MODEL, "link elbow")
-    texts = Standoff(ELBOW, "link elbow", BASE, EDITED, EXPORTED, None, rejected="you made a folder of the class")
+    texts = Conflict(ELBOW, "link elbow", BASE, EDITED, EXPORTED, None, rejected="you made a folder of the class")
     found = Result("arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), Actions([action]), standoffs=(texts,))
     assert seen(found)[2] == "    You edited it, and what it is made from changed too. You made a folder of the class."
     assert seen(found)[-1] == "    --keep leaves your file as it is: first put into it what you want of both"

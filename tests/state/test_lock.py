@@ -14,8 +14,9 @@ import pytest
 
 import urdfsync
 from urdfsync import cli, config
-from urdfsync.build import Request, build
 from urdfsync.diagnostics import OutputError
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.state.lock import Lock, LockedError
 
@@ -139,7 +140,7 @@ def test_a_lock_file_that_cant_be_one(path: Path) -> None:
 
 def run(project: Path, **request: object) -> Result:
     loaded = config.load(project / "urdfsync.toml")
-    (result,) = build(loaded, loaded.robots, Request(wait=0.1, **request))  # type: ignore[arg-type]
+    (result,) = build(loaded, loaded.robots, BuildOptions(wait=0.1, **request))  # type: ignore[arg-type]
     return result
 
 
@@ -187,10 +188,10 @@ def test_the_lock_belongs_to_the_whole_command(project: Path) -> None:
         file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
     loaded = config.load(project / "urdfsync.toml")
     with holder(project / ".urdfsync/lock"):
-        results = list(build(loaded, loaded.robots, Request(wait=0)))
+        results = list(build(loaded, loaded.robots, BuildOptions(wait=0)))
     assert [result.locked for result in results] == [True, True]
     results = []
-    for result in build(loaded, loaded.robots, Request()):
+    for result in build(loaded, loaded.robots, BuildOptions()):
         results.append(result)
         with pytest.raises(LockedError):
             Lock(project / ".urdfsync/lock", 0).acquire()

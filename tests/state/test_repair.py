@@ -15,6 +15,9 @@ from hypothesis import strategies as st
 from urdfsync import modelfile
 from urdfsync.diagnostics import StateError
 from urdfsync.domain import Import, Role
+from urdfsync.engine.actions import Kind
+from urdfsync.engine.renames import OnDisk
+from urdfsync.engine.rules import decide_file
 from urdfsync.manifest import (
     DependencyRecord,
     Generator,
@@ -24,7 +27,7 @@ from urdfsync.manifest import (
     text_hash,
 )
 from urdfsync.modelfile import ConversionFacts
-from urdfsync.plan import FileRecord, Found, Kind, decide
+from urdfsync.state.record import FileRecord
 from urdfsync.state.repair import Recovered, choose, rebuilt, recover, sides
 
 GRIPPER = "Arm/Links/Gripper.mo"
@@ -255,7 +258,7 @@ hashes = st.sampled_from("abcd")
 def test_a_choice_never_costs_an_edit(candidates: list[str], mine: str | None, generated: str | None) -> None:
     base = choose(candidates, mine, generated)
     assert (base in candidates) if candidates else base is None
-    kind = decide(base, Found(mine), generated)
+    kind = decide_file(base, OnDisk(mine), generated)
     if mine not in candidates:
         assert kind not in (Kind.UPDATE, Kind.DELETE)
         if set(candidates) - {generated}:

@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from urdfsync import config
-from urdfsync.build import Request, build
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
 from urdfsync.state import operations
 from urdfsync.state.store import Store
@@ -69,7 +70,7 @@ def before_each(hook: Hook) -> Iterator[None]:
 def run(project: Path, **request: Any) -> Result:
     """Build the only robot of a project."""
     loaded = config.load(project / "urdfsync.toml")
-    (result,) = build(loaded, loaded.robots, Request(**request))
+    (result,) = build(loaded, loaded.robots, BuildOptions(**request))
     return result
 
 

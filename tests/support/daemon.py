@@ -15,7 +15,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
 
-from urdfsync.planning.situation import Request
+from urdfsync.engine.options import BuildOptions
 from urdfsync.watch import Daemon
 from urdfsync.watching import events
 from urdfsync.watching.options import Options
@@ -133,7 +133,9 @@ class Daemons:
         self.events: list[events.Event] = []
         self.error: Exception | None = None
         self._news = threading.Condition()
-        self._daemon = Daemon(Options(Path("urdfsync.toml"), times=QUICK, request=Request(wait=1), **options), self)
+        self._daemon = Daemon(
+            Options(Path("urdfsync.toml"), times=QUICK, request=BuildOptions(wait=1), **options), self
+        )
         self._thread = threading.Thread(target=self._run)
         self._thread.start()
 

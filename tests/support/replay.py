@@ -19,7 +19,8 @@ from unittest import mock
 from support import corpus
 from support.packages import proposed_base, read
 from urdfsync import config, render
-from urdfsync.build import Request, build
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
 from urdfsync.state import operations
 from urdfsync.state.store import State, Store
@@ -95,7 +96,7 @@ class Project:
     def build(self, **request: object) -> Result:
         """Build once."""
         loaded = config.load(self.root / config.FILE_NAME)
-        (result,) = build(loaded, loaded.robots, Request(**request))  # type: ignore[arg-type]
+        (result,) = build(loaded, loaded.robots, BuildOptions(**request))  # type: ignore[arg-type]
         return result
 
     def files(self) -> Files:

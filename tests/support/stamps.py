@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync import cli, looking
+from urdfsync import cli, dependencies
 from urdfsync.stamping import making, stamp
 
 LIMIT = 60.0
@@ -88,7 +88,7 @@ def program(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     file = folder / "program.py"
     file.write_text("VERSION = 1\n")
     monkeypatch.setattr(stamp, "since_begin", lambda: 0)
-    monkeypatch.setattr(making, "_modules", lambda: iter([(str(file), looking.facts_of(file.stat()))]))
+    monkeypatch.setattr(making, "_modules", lambda: iter([(str(file), dependencies.stat_of(file.stat()))]))
     return file
 
 

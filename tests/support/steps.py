@@ -12,9 +12,10 @@ from pathlib import Path
 from support import edits, replay
 from support.replay import Files, Project
 from urdfsync.domain import Role
+from urdfsync.engine.actions import Kind
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.manifest import text_hash
-from urdfsync.plan import Kind
-from urdfsync.standoff import Choice, Standoff
+from urdfsync.state.record import Choice
 
 CONFLICTS = ".urdfsync/conflicts/bot"
 _MARKERS = re.compile(rb"^(<{7}|={7}|>{7}|\|{7})", re.MULTILINE)
@@ -195,7 +196,7 @@ class Step:
         """Whether the user has made a folder of a class."""
         return (self._project.package / path).with_suffix("").joinpath("package.mo").is_file()
 
-    def _put_aside(self, path: str, stem: str, standoff: Standoff) -> Iterator[str]:
+    def _put_aside(self, path: str, stem: str, standoff: Conflict) -> Iterator[str]:
         folder = plain(replay.contents(self._project.root / CONFLICTS))
         if folder.get(f"{stem}.generated.mo") != self._fresh.get(path):
             yield f"{stem}.generated.mo is not what would be written"

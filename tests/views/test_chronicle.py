@@ -14,8 +14,8 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Event
 from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Checked, Result
-from urdfsync.plan import Action, Actions, Kind
 from urdfsync.views.chronicle import Chronicle
 from urdfsync.watching import events
 

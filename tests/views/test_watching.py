@@ -20,8 +20,8 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Event
 from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Actions, Kind
 from urdfsync.views import watching
 from urdfsync.views.watching import ForPeople, ForPrograms
 from urdfsync.watching import events

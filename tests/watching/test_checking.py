@@ -17,8 +17,8 @@ from support.daemon import LIMIT, REPOSITORY, Daemons, Watch
 from urdfsync.checking.verdict import Compiled, Verdict
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.options import BuildOptions, Progress
 from urdfsync.outcome import Checked
-from urdfsync.planning.situation import Progress, Request
 from urdfsync.watching import events
 
 RIGHT = Verdict("ladder", "Ladder", compiled=(Compiled("Ladder", 12, 3),), seconds=2.5)
@@ -37,7 +37,7 @@ class Compiler:
         self.saw: list[str] = []
 
     def __call__(
-        self, config: Config, robots: Sequence[RobotConfig], request: Request, tell: Progress
+        self, config: Config, robots: Sequence[RobotConfig], request: BuildOptions, tell: Progress
     ) -> Iterator[Verdict]:
         self.saw.append(RECORD.read_text())
         wrong = "Foo" in MODEL.read_text()

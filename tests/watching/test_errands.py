@@ -11,13 +11,13 @@ import pytest
 from support.daemon import LIMIT
 
 from urdfsync import config
-from urdfsync.build import build
 from urdfsync.checking.afterbuild import Findings
 from urdfsync.checking.verdict import Compiled, Verdict
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions, Progress
 from urdfsync.outcome import Checked
-from urdfsync.planning.situation import Progress, Request
 from urdfsync.watching import events
 from urdfsync.watching.checks import Checks, Errand
 
@@ -39,11 +39,11 @@ class Bench:
         self._ends: dict[str, queue.SimpleQueue[Verdict | Exception]] = {"ladder": queue.SimpleQueue()}
         self._ends["other"] = queue.SimpleQueue()
         self._over: queue.SimpleQueue[tuple[Errand, Findings | None]] = queue.SimpleQueue()
-        self.checks = Checks(Request(), self.told.append, lambda *end: self._over.put(end), self._examine)
+        self.checks = Checks(BuildOptions(), self.told.append, lambda *end: self._over.put(end), self._examine)
         self.config = config.load(Path("urdfsync.toml"))
 
     def _examine(
-        self, config: Config, robots: Sequence[RobotConfig], request: Request, tell: Progress
+        self, config: Config, robots: Sequence[RobotConfig], request: BuildOptions, tell: Progress
     ) -> Iterator[Verdict]:
         (robot,) = robots
         self.begun.put(robot.name)
@@ -84,7 +84,7 @@ def bench(project: Path) -> Iterator[Bench]:
     with (project / "urdfsync.toml").open("a") as file:
         file.write(f'on_build = "check"\n{OTHER}')
     found = Bench()
-    assert not any(result.failed for result in build(found.config, found.config.robots, Request()))
+    assert not any(result.failed for result in build(found.config, found.config.robots, BuildOptions()))
     with found.checks:
         yield found
 

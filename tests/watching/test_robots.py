@@ -7,18 +7,17 @@ import shutil
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
 import msgspec
 import pytest
 
 from urdfsync import config
 from urdfsync.config import RobotConfig
+from urdfsync.engine import build as engine_build
+from urdfsync.engine.cache import Cache
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.plan import Plan, plan_robot
 from urdfsync.files import Tree
-from urdfsync.planning import crew, planner
-from urdfsync.planning.memory import Memory
-from urdfsync.planning.situation import Request
-from urdfsync.planning.work import Work
 from urdfsync.watching import events
 from urdfsync.watching.builds import Builds
 from urdfsync.watching.robots import Robots, Watched
@@ -34,14 +33,14 @@ class Bench:
     """Robots and builds of a project, as the daemon has them, without events and settling."""
 
     def __init__(self, project: Path) -> None:
-        self.project, self.memory = project, Memory()
+        self.project, self.memory = project, Cache()
         self.robots = Robots(Times(0, 0), (), self.memory)
         self.told: list[events.Event] = []
         self.touched: list[Watched] = []
         self.load()
         self.builds = Builds(
             self.robots,
-            Request(memory=self.memory),
+            BuildOptions(cache=self.memory),
             self.told.append,
             self.touched.append,
             arm=lambda: None,
@@ -274,27 +273,25 @@ def test_a_robot_that_is_watched_no_more_is_forgotten(bench: Bench) -> None:
     settings.write_text(ROBOT.format("ladder", "Ladder") + ROBOT.format("second", "Second"))
     bench.load()
     bench.build()
-    assert bench.memory.seen("ladder").keys() != bench.memory.seen("second").keys()
+    assert bench.memory.states("ladder").keys() != bench.memory.states("second").keys()
     settings.write_text(ROBOT.format("second", "Second"))
     bench.load()
-    assert not bench.memory.seen("ladder")
-    assert bench.memory.seen("second")
+    assert not bench.memory.states("ladder")
+    assert bench.memory.states("second")
 
 
 def test_a_plan_of_another_process_is_made_sure_of_in_this_one(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     """What it saw is not known here, and a build that writes nothing says nothing of itself."""
     plans = []
 
-    def plan(loaded: config.Config, robot: RobotConfig, request: Request) -> Work:
+    def plan(loaded: config.Config, robot: RobotConfig, request: BuildOptions) -> Plan:
         plans.append(request.jobs)
-        here = request if request.jobs == 1 else msgspec.structs.replace(request, memory=None)
-        return planner.plan(loaded, robot, here)
-
-    def survey(self: Any) -> None:
+        if request.jobs == 1:
+            return plan_robot(loaded, robot, request)
         bench.memory.invalidate("ladder")
+        return plan_robot(loaded, robot, msgspec.structs.replace(request, cache=None))
 
-    monkeypatch.setattr(crew, "plan", plan)
-    monkeypatch.setattr(crew.Crew, "_survey", survey)
+    monkeypatch.setattr(engine_build, "plan_robot", plan)
     bench.build()
     assert plans == [None, 1]
     assert bench.finds_changes() is None

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Checked, Result
-from urdfsync.plan import Action, Actions, Kind
 from urdfsync.watching import events
 from urdfsync.watching.standing import Board, Mood
 

@@ -9,8 +9,8 @@ from urdfsync.changes import Change, Changes
 from urdfsync.difference import ChangeClass
 from urdfsync.difference import Kind as Event
 from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Actions, Kind
 from urdfsync.watching.words import news
 
 MASS = ("link elbow", "inertial", "mass")

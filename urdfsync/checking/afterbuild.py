@@ -14,20 +14,20 @@ import msgspec
 from urdfsync.checking.memory import Memory, Note
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.options import BuildOptions, Progress
 from urdfsync.outcome import Checked, Result
-from urdfsync.planning.situation import Progress, Request
 
 if TYPE_CHECKING:
     from urdfsync.checking.verdict import Verdict
 
-Examine: TypeAlias = "Callable[[Config, Sequence[RobotConfig], Request, Progress], Iterator[Verdict]]"
+Examine: TypeAlias = "Callable[[Config, Sequence[RobotConfig], BuildOptions, Progress], Iterator[Verdict]]"
 """Checks the packages of robots that are on disk, in their order; whatever `Progress` raises gives it up."""
 
 _ABSENT = ("no-compiler", "no-standard-library", "standard-library-too-old", "broken-standard-library", "no-cache")
 """Codes of what this machine lacks; the package is not to blame."""
 
 
-def on_disk(config: Config, robots: Sequence[RobotConfig], request: Request, tell: Progress) -> Iterator[Verdict]:
+def on_disk(config: Config, robots: Sequence[RobotConfig], request: BuildOptions, tell: Progress) -> Iterator[Verdict]:
     """Check syntax and layout of packages, compile and balance their models; all of that in other processes.
 
     Raises CompilerError if what this needs is not installed.
@@ -54,7 +54,7 @@ class Findings(msgspec.Struct, frozen=True):
 class Inspector:
     """Checks the packages of one configuration, and remembers those that are right."""
 
-    def __init__(self, config: Config, request: Request, examine: Examine) -> None:
+    def __init__(self, config: Config, request: BuildOptions, examine: Examine) -> None:
         self._config, self._request, self._examine = config, request, examine
         self._memory = Memory(config)
 
@@ -130,7 +130,7 @@ def is_general(found: Diagnostic) -> bool:
 
 
 def checked(
-    config: Config, request: Request, results: Iterable[Result], examine: Examine = on_disk
+    config: Config, request: BuildOptions, results: Iterable[Result], examine: Examine = on_disk
 ) -> Iterator[Result]:
     """The results of builds, in their order, each with what the check of its package found.
 
@@ -158,7 +158,7 @@ def checked(
 class _AfterBuild:
     """The checks of one command."""
 
-    def __init__(self, config: Config, request: Request, examine: Examine) -> None:
+    def __init__(self, config: Config, request: BuildOptions, examine: Examine) -> None:
         self._inspector, self._request = Inspector(config, request, examine), request
         self._robots = {robot.name: robot for robot in config.robots}
         self._said: set[Diagnostic] = set()

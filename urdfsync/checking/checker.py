@@ -20,7 +20,7 @@ from urdfsync.checking.verdict import Verdict
 from urdfsync.checking.wishes import Wishes
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.planning.situation import Progress
+from urdfsync.engine.options import Progress
 
 _EXPECTED = 1.5e9
 """Bytes that the check of a robot usually takes, at most."""

@@ -31,8 +31,8 @@ from urdfsync.checking.wishes import Wishes
 from urdfsync.classfiles import StoredClasses
 from urdfsync.config import Config, RobotConfig, library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.options import BuildOptions, Progress
 from urdfsync.modelica.names import LIBRARY
-from urdfsync.planning.situation import Progress, Request
 
 
 def examine(
@@ -46,7 +46,7 @@ def examine(
     """Check one robot; `limits` are those of each compiler, `keep` gets the verdict as it grows."""
     findings = Findings(robot.name, robot.target.package, keep)
     with noting(findings):
-        request = Request(dry=True, package_paths=wishes.package_paths, wait=wishes.wait, jobs=1)
+        request = BuildOptions(dry=True, package_paths=wishes.package_paths, wait=wishes.wait, jobs=1)
         subject = Subject(config, robot, request)
         conflicting = bool(subject.result.conflicts)
         findings.note(built=subject.built, in_step=subject.in_step, conflicting=conflicting)

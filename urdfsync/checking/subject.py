@@ -6,15 +6,15 @@ import functools
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from urdfsync.build import build
 from urdfsync.checking import edits, workspace
 from urdfsync.checking.diagnosis.package import Package
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.domain import Domain
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.rendering import Rendering
 from urdfsync.outcome import Result
-from urdfsync.planning.rendering import Rendering
-from urdfsync.planning.situation import Request
 
 
 class Subject:
@@ -23,7 +23,7 @@ class Subject:
     Raises UrdfsyncError for whatever is wrong with source, state or templates, OSError for what can't be read.
     """
 
-    def __init__(self, config: Config, robot: RobotConfig, request: Request) -> None:
+    def __init__(self, config: Config, robot: RobotConfig, request: BuildOptions) -> None:
         self.config, self.robot = config, robot
         self.result: Result = next(iter(build(config, [robot], request)))
         """What a build would do."""

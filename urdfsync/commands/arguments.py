@@ -11,8 +11,8 @@ from typing import Any, NoReturn, TypeAlias
 from urdfsync import config, profiling
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.options import BuildOptions
 from urdfsync.output.console import Console
-from urdfsync.planning.situation import Request
 
 CODES = "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, 4 locked, 130 interrupted"
 
@@ -99,9 +99,9 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
     return robots
 
 
-def request(args: argparse.Namespace, console: Console, **options: Any) -> Request:
+def request(args: argparse.Namespace, console: Console, **options: Any) -> BuildOptions:
     """How to build, with what is the same for all commands."""
-    return Request(
+    return BuildOptions(
         package_paths=config.ros_package_path(os.environ),
         progress=console.progress,
         wait=getattr(args, "wait", 60.0),

@@ -6,14 +6,14 @@ import argparse
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import looking
-from urdfsync.build import build
+from urdfsync import dependencies
 from urdfsync.commands import arguments
 from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.results import show_results
-from urdfsync.planning.situation import Request
 
 
 def add(commands: arguments.Commands) -> None:
@@ -55,12 +55,12 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     return code
 
 
-def build_and_check(config: Config, robots: Sequence[RobotConfig], request: Request) -> Iterator[Result]:
+def build_and_check(config: Config, robots: Sequence[RobotConfig], request: BuildOptions) -> Iterator[Result]:
     """Build robots, and check the packages of those with `on_build = "check"`; a dry run checks nothing."""
     results = build(config, robots, request)
     if request.dry or not any(robot.checking for robot in robots):
         return results
-    looking.beyond()  # checks look at more
+    dependencies.mark_incomplete()  # checks look at more
     from urdfsync.checking import afterbuild  # most configurations have no use for it
 
     return afterbuild.checked(config, request, results)

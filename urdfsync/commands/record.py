@@ -72,8 +72,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 
 def _render(source: Path, domain_name: str, target: Target) -> tuple[str, tuple[Diagnostic, ...]]:
     """The text of the record, and what there is to say about its source. Raises SourceError or ConfigError."""
-    from urdfsync.planning import inputs
-    from urdfsync.planning.generate import Generated
+    from urdfsync.engine import source as sources
+    from urdfsync.engine.generate import Package
 
     domain, file = registry.domain(domain_name), shown(source)
     try:
@@ -81,14 +81,14 @@ def _render(source: Path, domain_name: str, target: Target) -> tuple[str, tuple[
     except OSError as error:
         message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
         raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, file, hint=hint)) from None
-    snapshot, reading = inputs.read(domain, domain.options(), content, file)
+    snapshot, reading = sources.read(domain, domain.options(), content, file)
     reading = msgspec.structs.replace(reading, snapshot=snapshot)
     found = domain.record(reading, file, target, domain.options())
     if found is None:
         message = f"the domain `{domain.name}` has no record of a whole model"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-record", message, hint="use `urdfsync build`"))
     folders = (config.templates_folder(domain),)
-    generated = Generated([found.artifact], Templates(folders, templates_digest(folders)))
+    generated = Package([found.artifact], Templates(folders, templates_digest(folders)))
     diagnostics = sorted([*reading.diagnostics, *found.diagnostics], key=lambda diagnostic: diagnostic.line)
     return generated.content(found.artifact.path).decode(), tuple(diagnostics)
 

@@ -11,16 +11,16 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import config
-from urdfsync.build import build
 from urdfsync.commands import arguments
 from urdfsync.commands.build import build_and_check
 from urdfsync.config import Config
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.build import build
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.output.conflicts import NOT_HERE, Target, describe, find_conflicts, saved_texts, shown_path
 from urdfsync.output.console import Console
 from urdfsync.output.results import show_result, show_results
-from urdfsync.standoff import Choice
+from urdfsync.state.record import Choice
 
 _FEW = 5
 """So many conflicts are named in a message; of more, only the first ones and their number."""

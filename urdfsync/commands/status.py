@@ -13,15 +13,15 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from urdfsync.build import build
 from urdfsync.commands import arguments
 from urdfsync.config import shown
 from urdfsync.diagnostics import Severity
+from urdfsync.engine.actions import DELETES, Action, Kind
+from urdfsync.engine.build import build
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.output.console import Console, StyledLine, has_marks, is_terminal, line
 from urdfsync.output.json_values import action_values, result_values
 from urdfsync.output.phrases import GENERATOR, change_classes, counted, error_count
-from urdfsync.plan import DELETES, Action, Kind
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes

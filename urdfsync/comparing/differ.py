@@ -14,7 +14,6 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import changes, registry
-from urdfsync.build import build
 from urdfsync.comparing import versions
 from urdfsync.comparing.comparison import Comparison
 from urdfsync.comparing.revisions import Revision
@@ -24,12 +23,14 @@ from urdfsync.config import Config, RobotConfig, shown, templates_folder
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.difference import Effect, ElementKey, Version
 from urdfsync.domain import Domain, Import, Role, Templates
+from urdfsync.engine import imports, source
+from urdfsync.engine.actions import Action, Actions, Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.generate import Package, generate
+from urdfsync.engine.inputs import NO_MODEL, inspect
+from urdfsync.engine.options import BuildOptions
 from urdfsync.files import Tree, digest, templates_digest, text_digest
 from urdfsync.outcome import Result
-from urdfsync.plan import Action, Actions, Kind
-from urdfsync.planning import imports, inputs
-from urdfsync.planning.generate import Generated, generate
-from urdfsync.planning.situation import NO_MODEL, Request, Situation
 from urdfsync.state.store import Store
 
 _MINE = frozenset({Kind.CONFLICT, Kind.UNOWNED, Kind.MERGE, Kind.MOVE, Kind.LEAVE, Kind.INCLUDED, Kind.ORPHAN})
@@ -37,7 +38,7 @@ _MINE = frozenset({Kind.CONFLICT, Kind.UNOWNED, Kind.MERGE, Kind.MOVE, Kind.LEAV
 
 
 def compare(
-    subjects: Sequence[Subject], against: str | None, config: Config | None, request: Request, folder: Path
+    subjects: Sequence[Subject], against: str | None, config: Config | None, request: BuildOptions, folder: Path
 ) -> Iterator[Comparison]:
     """Compare each subject with the last build, or with `against`: a file, counted from `folder`, or a git revision.
 
@@ -56,20 +57,20 @@ def compare(
             yield Comparison(failed, shown(subject.source), against)
 
 
-def _with_last_build(subject: Subject, robot: RobotConfig, config: Config, request: Request) -> Comparison:
+def _with_last_build(subject: Subject, robot: RobotConfig, config: Config, request: BuildOptions) -> Comparison:
     (result,) = build(config, [robot], msgspec.structs.replace(request, dry=True))
     comparison = Comparison(result, shown(subject.source))
     if result.failed:
         return comparison
-    situation = Situation(config, robot, request)
-    last, found = situation.settled, result.changes
+    situation = inspect(config, robot, request)
+    last, found = situation.last_complete, result.changes
     missing = "" if last else "what was built last is not known any more" if situation.recorded else "never built"
     edited = frozenset(action.path for action in result.actions.decided if action.kind in _MINE)
     comparison = msgspec.structs.replace(comparison, missing=missing, edited=edited)
     if last is None or found is None or not found.changes:
         return comparison
     name = shown(subject.source)
-    new = Version(inputs.read(situation.domain, subject.options, situation.content, name)[0])
+    new = Version(source.read(situation.domain, subject.options, situation.content, name)[0])
     try:
         effects = _effects(situation.domain, last, new, found.renames, subject)
     except NO_MODEL:
@@ -86,7 +87,7 @@ def _effects(
 class _Versions:
     """A subject and another version of it."""
 
-    def __init__(self, subject: Subject, config: Config | None, request: Request) -> None:
+    def __init__(self, subject: Subject, config: Config | None, request: BuildOptions) -> None:
         self._subject, self._request = subject, request
         self._domain = registry.domain(subject.domain)
         self._folder, self._root = _folders(subject, config)
@@ -171,10 +172,10 @@ class _Versions:
         ]
         return Actions(found)
 
-    def _package(self, version: Version) -> Generated:
+    def _package(self, version: Version) -> Package:
         subject, config, domain = self._subject, self._config, self._domain
         if config is not None and subject.robot is not None:
-            templates = inputs.templates(config, subject.robot, domain)
+            templates = source.templates(config, subject.robot, domain)
         else:
             folder = templates_folder(domain)
             templates = Templates((folder,), templates_digest([folder]))

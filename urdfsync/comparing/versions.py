@@ -16,8 +16,9 @@ from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.difference import Version
 from urdfsync.domain import Dependency, Domain, Lookup
+from urdfsync.engine import imports
+from urdfsync.engine import source as engine_source
 from urdfsync.files import digest
-from urdfsync.planning import imports, inputs
 
 _POINTER = re.compile(rb"version https://git-lfs.*^oid sha256:([0-9a-f]{64})$", re.DOTALL | re.MULTILINE)
 """What git holds in the place of a file that is in Git LFS."""
@@ -74,9 +75,9 @@ def read(
 
     Raises SourceError for a source that can't be read.
     """
-    plain, reading = inputs.read(domain, subject.options, source.content, source.name)
+    plain, reading = engine_source.read(domain, subject.options, source.content, source.name)
     lookups = [Lookup(place, subject.package_paths + package_paths) for place in source.places]
-    found = [imports.sought(domain, plain, lookup, subject.options, reading.lines) for lookup in lookups]
+    found = [imports.find_dependencies(domain, plain, lookup, subject.options, reading.lines) for lookup in lookups]
     dependencies = source.locate([_joined(same) for same in zip(*found, strict=True)])
     imported = imports.bring_in(domain, dependencies, known, source.name, again=False, progress=progress)
     return Read(Version(plain, imported.imports), imported, (*reading.diagnostics, *imported.diagnostics))

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import msgspec
 
-from urdfsync import looking, registry, tomlfile
+from urdfsync import dependencies, registry, tomlfile
 from urdfsync.config.names import find_name_problems, is_robot_name, model_class
 from urdfsync.config.paths import shown
 from urdfsync.config.settings import (
@@ -35,7 +35,7 @@ from urdfsync.spelling import nearest
 def find(start: Path) -> Path:
     """The configuration file of `start` or of the nearest folder above it. Raises ConfigError if there is none."""
     for folder in (start, *start.parents):
-        if looking.is_file(folder / FILE_NAME):
+        if dependencies.is_file(folder / FILE_NAME):
             return folder / FILE_NAME
     message = f"no {FILE_NAME} in {start} or a folder above it"
     hint = "write one with `urdfsync init SOURCE`, or name one with --config"
@@ -50,7 +50,7 @@ def load(file: Path) -> Config:
         raise ConfigError(Diagnostic(Severity.ERROR, code, message, name, hint=hint))
     line = 0
     try:
-        looking.rests_on(file)
+        dependencies.depend_on(file)
         text = file.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         message, hint, code = "the configuration does not exist", "write one with `urdfsync init SOURCE`", "no-config"

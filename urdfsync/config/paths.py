@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import urdfsync
-from urdfsync import looking
+from urdfsync import dependencies
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain
 
@@ -54,4 +54,4 @@ def _data_folder(name: str) -> Path:
     """A folder of a wheel, or of the repository that an editable installation stands in."""
     package = Path(urdfsync.__file__).parent
     installed = package / "_data" / name
-    return installed if looking.is_folder(installed) else package.parent / name
+    return installed if dependencies.is_folder(installed) else package.parent / name

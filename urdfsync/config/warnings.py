@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import looking, profiling, registry
+from urdfsync import profiling, registry
 from urdfsync.config.paths import shown, templates_folder
 from urdfsync.config.settings import Config, RobotConfig
+from urdfsync.dependencies import is_folder, read_file, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
 
@@ -24,7 +25,7 @@ def find_warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagno
 def _search_paths(config: Config, robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]:
     for robot in robots:
         for folder in robot.package_paths:
-            if not looking.is_folder(folder):
+            if not is_folder(folder):
                 message = f"the folder {shown(folder)} of `package_paths` does not exist"
                 line, hint = robot.lines.get("package_paths", 0), "correct it, or take it out"
                 yield Diagnostic(Severity.WARNING, "no-package-path", message, shown(config.file), line=line, hint=hint)
@@ -33,7 +34,7 @@ def _search_paths(config: Config, robots: Sequence[RobotConfig]) -> Iterator[Dia
 def _templates(robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]:
     """Files in template folders that are neither named as a template of the domain nor used by another file there."""
     for robot in robots:
-        if robot.templates is None or not looking.is_folder(robot.templates):
+        if robot.templates is None or not is_folder(robot.templates):
             continue
         known = set(_files(templates_folder(registry.domain(robot.domain))))
         own = _files(robot.templates)
@@ -41,7 +42,7 @@ def _templates(robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]:
             replaces = name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}"
             if replaces != name and replaces not in known:
                 continue  # a text that only lies there
-            if any(name.encode() in looking.content(path) for other, path in own.items() if other != name):
+            if any(name.encode() in read_file(path) for other, path in own.items() if other != name):
                 continue
             near = nearest(replaces, sorted(known), 0.5)
             hint = f"did you mean `{near}`?" if near else f"those of urdfsync are {', '.join(sorted(known))}"
@@ -51,7 +52,7 @@ def _templates(robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]:
 
 def _files(folder: Path) -> dict[str, Path]:
     """The files below a folder by their names in it, POSIX; hidden ones are left out."""
-    files = {path.relative_to(folder): path for path in map(Path, looking.files_below(folder))}
+    files = {path.relative_to(folder): path for path in map(Path, walk_files(folder))}
     return {
         name.as_posix(): path for name, path in files.items() if not any(part.startswith(".") for part in name.parts)
     }

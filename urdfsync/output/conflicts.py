@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
-from urdfsync import standoff as standoffs
 from urdfsync.config import shown
+from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.outcome import Result
 from urdfsync.output.console import text
 from urdfsync.output.phrases import counted, reason
-from urdfsync.plan import Action, Kind
-from urdfsync.standoff import Choice, Standoff
+from urdfsync.state.record import Choice
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -44,7 +44,7 @@ class Target(msgspec.Struct, frozen=True):
 
     result: Result
     action: Action
-    standoff: Standoff | None = None
+    standoff: Conflict | None = None
     """None if the versions are no texts that could be compared."""
 
     @property
@@ -128,7 +128,7 @@ def saved_texts(target: Target) -> SavedTexts | None:
     if target.standoff is None:
         return None
     folder = Path(os.path.relpath(target.result.folder, target.result.root)).as_posix()
-    generated, base, merge = standoffs.aside(target.standoff, folder)
+    generated, base, merge = conflict_files(target.standoff, folder)
     top = f"{_FOLDER}/{target.result.robot}/"
     return SavedTexts(base and f"{top}{base}", f"{top}{generated}", merge and f"{top}{merge}")
 

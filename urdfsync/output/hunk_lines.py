@@ -6,9 +6,9 @@ import itertools
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.output import hunks
 from urdfsync.output.console import has_marks, text, visible
-from urdfsync.standoff import Standoff
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -29,7 +29,7 @@ _PIPE = 240
 _COLOURS = {"base": "red", "mine": "cyan", "generated": "green", "both": "magenta", "": ""}
 
 
-def difference_lines(standoff: Standoff, console: Console, verbose: bool) -> tuple[list[Text], int]:
+def difference_lines(standoff: Conflict, console: Console, verbose: bool) -> tuple[list[Text], int]:
     """The versions of a file where they differ, and the number of lines that were left out for want of room."""
     found = hunks.hunks(standoff.base, standoff.mine, standoff.generated, standoff.merge)
     cells = (cell for hunk in found for row in hunk.rows for cell in (row.mine, row.generated) if cell)
@@ -48,7 +48,7 @@ def difference_lines(standoff: Standoff, console: Console, verbose: bool) -> tup
     return lines, left_out
 
 
-def _title(hunk: hunks.Hunk, standoff: Standoff, console: Console) -> Text:
+def _title(hunk: hunks.Hunk, standoff: Conflict, console: Console) -> Text:
     first, last = hunk.lines.start, hunk.lines.stop - 1
     where = f"lines {first} to {last}" if last > first else f"line {first}" if last == first else "empty"
     style = "bold red" if hunk.clash else ""

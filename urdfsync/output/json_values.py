@@ -8,10 +8,10 @@ import msgspec
 
 from urdfsync import difference
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.engine.actions import Action
 from urdfsync.outcome import Result
 from urdfsync.output import conflicts
 from urdfsync.output.phrases import reason, summary
-from urdfsync.plan import Action
 
 if TYPE_CHECKING:
     from urdfsync.changes import Change, Changes

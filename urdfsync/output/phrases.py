@@ -13,8 +13,8 @@ import msgspec
 from urdfsync import difference
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Kind
 from urdfsync.outcome import Checked, Result
-from urdfsync.plan import Action, Kind
 
 if TYPE_CHECKING:
     from urdfsync.changes import Change, Changes
@@ -58,7 +58,7 @@ def summary(result: Result) -> str:
         parts.append(f"{counted(waiting, 'change')} waiting for that")
     if result.in_step:
         fine = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED)
-        total = len(result.actions.unchanged) + sum(action.kind in fine for action in result.actions.decided)
+        total = sum(action.kind in fine for action in result.actions)
         parts.insert(0, f"in step, {counted(total, 'file')}")
     checked = [check_result(result.checked, result.diagnostics)] if result.checked else []
     return "; ".join([", ".join(parts), *checked])

@@ -8,11 +8,11 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from urdfsync.config import shown
+from urdfsync.engine.actions import Action, Kind
 from urdfsync.outcome import Checked, Result
 from urdfsync.output.console import Console, StyledLine, has_marks, is_terminal, line, rich_console
 from urdfsync.output.json_values import result_values
 from urdfsync.output.phrases import change_lines, counted, reason, summary
-from urdfsync.plan import Action, Kind
 
 _STYLES = {
     Kind.CREATE: "green",

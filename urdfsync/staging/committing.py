@@ -8,7 +8,7 @@ from pathlib import Path
 
 from urdfsync.config import FILE_NAME, STATE_FOLDER, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.planning.situation import Request
+from urdfsync.engine.options import BuildOptions
 from urdfsync.staging.judging import Judge
 from urdfsync.staging.staged import Index
 from urdfsync.staging.verdict import Verdict
@@ -18,7 +18,7 @@ _ROBOTS = f"{STATE_FOLDER}/robots/"
 
 
 def judge(
-    index: Index, folder: Path, request: Request, writing: bool, named: Sequence[Path]
+    index: Index, folder: Path, request: BuildOptions, writing: bool, named: Sequence[Path]
 ) -> tuple[list[Verdict], list[Diagnostic]]:
     """Judge the configurations that are `named`, or all that git tracks; `writing` brings packages in step.
 

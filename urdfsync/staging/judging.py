@@ -12,13 +12,13 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import config as configuration
-from urdfsync.build import build
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, UrdfsyncError
+from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.plan import plan_if_current, plan_robot
 from urdfsync.outcome import Exit, Result, exit_code
-from urdfsync.plan import Action, Kind
-from urdfsync.planning import planner
-from urdfsync.planning.situation import Request
 from urdfsync.staging.mirror import Mirror
 from urdfsync.staging.staged import Index
 from urdfsync.staging.verdict import Verdict
@@ -32,7 +32,9 @@ _FINE = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kin
 class Judge:
     """Judges the robots of one configuration after another."""
 
-    def __init__(self, index: Index, folder: Path, request: Request, writing: bool, aside: Collection[str]) -> None:
+    def __init__(
+        self, index: Index, folder: Path, request: BuildOptions, writing: bool, aside: Collection[str]
+    ) -> None:
         """`writing` allows builds; `aside` are files of which changes will be brought back when all is over.
 
         `folder` is where git is asked again what is staged.
@@ -132,7 +134,7 @@ class _Staging:
             raise ConfigError(*map(mirror.diagnostic, error.diagnostics)) from None
         self.real = mirror.config(self._config)
 
-    def result(self, name: str, request: Request) -> Result | None:
+    def result(self, name: str, request: BuildOptions) -> Result | None:
         """What a build would do with a robot; None if nothing."""
         (robot,) = self._config.select([name])
         (real,) = self.real.select([name])
@@ -141,7 +143,7 @@ class _Staging:
         elsewhere = tuple(path for path in real.package_paths if path not in robot.package_paths)
         request = msgspec.structs.replace(request, package_paths=request.package_paths + elsewhere)
         try:
-            if planner.plan_if_unchanged(self._config, robot, request) is not None:
+            if plan_if_current(self._config, robot, request) is not None:
                 return None
         except (UrdfsyncError, OSError):
             pass  # said by the build
@@ -183,7 +185,7 @@ def _verdict(
     return Verdict(tree.config.file, robot.name, tuple(add), result, tuple(sorted(hindering)), folders)
 
 
-def _records(config: Config, robot: RobotConfig, request: Request) -> bool:
+def _records(config: Config, robot: RobotConfig, request: BuildOptions) -> bool:
     """Whether a build writes to the recorded state that is committed."""
     folder = config.root / STATE_FOLDER / "robots"
-    return any(change.path.parent == folder for change in planner.plan(config, robot, request).writes)
+    return any(change.path.parent == folder for change in plan_robot(config, robot, request).writes)

@@ -11,7 +11,7 @@ import subprocess
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
-from urdfsync import looking
+from urdfsync.dependencies import mark_incomplete
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.staging.listing import LISTING, TOP, environment
 
@@ -66,14 +66,14 @@ class Index:
         if parent not in self._folders:
             self._folders[parent] = os.path.realpath(parent) + os.sep
             if self._folders[parent] != str(parent) + os.sep:
-                looking.beyond()  # nobody takes down where links lead to
+                mark_incomplete()  # nobody takes down where links lead to
         top = str(self.top).rstrip(os.sep) + os.sep
         place = self._folders[parent]
         if not place.startswith(top):
             return None
         path = (place[len(top) :] + file.name).replace(os.sep, "/")
         if any(path.startswith(module) for module in self._submodules):
-            looking.beyond()  # it may be none some day
+            mark_incomplete()  # it may be none some day
             return None
         return path
 

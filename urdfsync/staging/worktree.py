@@ -9,14 +9,14 @@ import os
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import looking
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
+from urdfsync.dependencies import mark_incomplete
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Snapshot
-from urdfsync.files import digest
-from urdfsync.plan import DELETES, Action, Kind
-from urdfsync.planning import planner
-from urdfsync.planning.situation import NO_MODEL, Request, Situation
+from urdfsync.engine.actions import DELETES, Action, Kind
+from urdfsync.engine.inputs import NO_MODEL, Inputs, inspect
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.plan import plan_if_current
 from urdfsync.staging.staged import Index
 
 _OWN = (Kind.ORPHAN, Kind.NEEDED, Kind.FORGET)
@@ -26,17 +26,17 @@ _OWN = (Kind.ORPHAN, Kind.NEEDED, Kind.FORGET)
 class Worktree:
     """The robots of one configuration, as they are in the working tree."""
 
-    def __init__(self, index: Index, config: Config, request: Request) -> None:
+    def __init__(self, index: Index, config: Config, request: BuildOptions) -> None:
         """`request` must be a dry one."""
         self.index, self.config, self._request = index, config, request
 
     def settled(self, robot: RobotConfig) -> Sequence[Action] | None:
         """The plan if a build has nothing to do, found out without reading or rendering anything anew; else None."""
         try:
-            work = planner.plan_if_unchanged(self.config, robot, self._request)
+            work = plan_if_current(self.config, robot, self._request)
         except (UrdfsyncError, OSError):
             return None  # said by the build that this leads to
-        return work.decision.actions if work else None
+        return work.actions if work else None
 
     def is_committed(self, robot: RobotConfig) -> bool:
         """Whether a build has nothing to do, and all of the robot is staged as it is."""
@@ -95,7 +95,7 @@ class Worktree:
         paths = {file: path for file in _sources(robot) if (path := self.index.path(file)) is not None}
         untracked = {file: path for file, path in paths.items() if not self.index.tracks(path) and file.is_file()}
         if untracked:
-            looking.beyond()  # git decides
+            mark_incomplete()  # git decides
         ignored = self.index.ignored(sorted(set(untracked.values()))) if untracked else set()
         return [file for file, path in untracked.items() if path not in ignored]
 
@@ -123,11 +123,11 @@ class Worktree:
 
     def _dependencies(self, robot: RobotConfig) -> Iterator[Path]:
         try:
-            situation = Situation(self.config, robot, self._request)
-            model = situation.state.model if situation.state else None
-            known = situation.recorded is not None and situation.recorded.source.hash == digest(situation.content)
-            snapshot: Snapshot = model.snapshot if model is not None and known else self._read(situation)
-            found = situation.dependencies(snapshot, {})
+            inputs = inspect(self.config, robot, self._request)
+            model = inputs.state.model if inputs.state else None
+            known = inputs.recorded is not None and inputs.recorded.source.hash == inputs.source.hash
+            snapshot: Snapshot = model.snapshot if model is not None and known else _read(inputs)
+            found = inputs.dependencies(snapshot, {})
         except (UrdfsyncError, OSError, *NO_MODEL):
             return  # said by the build that this leads to
         for dependency in found:
@@ -135,16 +135,16 @@ class Worktree:
                 yield candidate
                 yield Path(os.path.realpath(candidate))
 
-    def _read(self, situation: Situation) -> Snapshot:
-        reading = situation.domain.read(situation.content, situation.robot.source_text, situation.robot.options)
-        return reading.snapshot or {}
+
+def _read(inputs: Inputs) -> Snapshot:
+    return inputs.domain.read(inputs.content, inputs.robot.source_text, inputs.robot.options).snapshot or {}
 
 
 def _sources(robot: RobotConfig) -> list[Path]:
     """Source and templates, whatever git makes of them."""
     files = [robot.source, Path(os.path.realpath(robot.source))]
     if files[0] != files[1]:
-        looking.beyond()  # nobody takes down where links lead to
+        mark_incomplete()  # nobody takes down where links lead to
     if robot.templates is not None and robot.templates.is_dir():
         files += [path for path in sorted(robot.templates.rglob("*")) if not path.name.startswith(".")]
     return files

@@ -8,7 +8,8 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
-from urdfsync import looking, streams
+from urdfsync import streams
+from urdfsync.dependencies import Dependencies, Stat, file_type, record_dependencies, stat_of
 from urdfsync.files import TEMPORARY
 from urdfsync.stamping import stamp, trust
 from urdfsync.stamping.stamp import Facts, Stamp
@@ -25,7 +26,7 @@ def carry_out(arguments: list[str], run: Callable[[streams.Said | None], int]) -
         return run(None)
     said: streams.Said = []
     begin = stamp.now()
-    with looking.taken_down() as looks:
+    with record_dependencies() as looks:
         question, file = _question(arguments)
         code = run(said)
     if code == 0 and file is not None and looks.complete and sum(len(text) for _, text in said) <= _LONGEST:
@@ -33,7 +34,7 @@ def carry_out(arguments: list[str], run: Callable[[streams.Said | None], int]) -
     return code
 
 
-def keep(file: str, claims: dict[str, list[str]], looks: looking.Looks, begin: tuple[int, int]) -> None:
+def keep(file: str, claims: dict[str, list[str]], looks: Dependencies, begin: tuple[int, int]) -> None:
     """Stamp what follows from looks since `begin` for a configuration; what can't be stamped is not."""
     if not looks.complete or not trust.HAS_CHANGE_TIMES:
         return
@@ -54,12 +55,12 @@ def _question(arguments: list[str]) -> tuple[str, str | None]:
         return "", None
 
 
-def _paths(looks: looking.Looks) -> tuple[tuple[_Paths, _Paths], tuple[_Paths, _Paths]]:
+def _paths(looks: Dependencies) -> tuple[tuple[_Paths, _Paths], tuple[_Paths, _Paths]]:
     """Contents and kinds with absolute paths; kinds that follow from contents are left out."""
     folder = os.getcwd()  # noqa: PTH109
-    own, targets = (_absolute(group, folder) for group in looks.contents)
+    own, targets = (_absolute(group, folder) for group in looks.stats)
     plain = {path for path, facts in own.items() if not _is_link(facts)}
-    of_links, of_targets = (_absolute({path: (kind,) for path, kind in group.items()}, folder) for group in looks.kinds)
+    of_links, of_targets = (_absolute({path: (kind,) for path, kind in group.items()}, folder) for group in looks.types)
     of_links = {path: kind for path, kind in of_links.items() if path not in own}
     of_targets = {path: kind for path, kind in of_targets.items() if path not in targets and path not in plain}
     return (own, targets), (of_links, of_targets)
@@ -73,13 +74,13 @@ def _is_link(facts: Sequence[int]) -> bool:
     return facts[0] & 0o170000 == 0o120000
 
 
-def _modules() -> Iterator[tuple[str, looking.Facts]]:
+def _modules() -> Iterator[tuple[str, Stat]]:
     """The program itself, with all that it loaded to come to its conclusions."""
     for name, module in list(sys.modules.items()):
         file = getattr(module, "__file__", None)
         if file and name.partition(".")[0] not in sys.stdlib_module_names:
             with contextlib.suppress(FileNotFoundError, NotADirectoryError):  # in an archive: its version has to do
-                yield os.path.abspath(file), looking.facts_of(os.stat(file))  # noqa: PTH100, PTH116
+                yield os.path.abspath(file), stat_of(os.stat(file))  # noqa: PTH100, PTH116
 
 
 def _with_older(made: Stamp, path: str) -> Stamp:
@@ -99,8 +100,8 @@ def _with_older(made: Stamp, path: str) -> Stamp:
 def _unpacked(reading: stamp.Reading) -> Stamp | None:
     """A stamp with its facts, which are those of now; None if it does not stand."""
     try:
-        own: _Paths = {path: looking.facts_of(os.lstat(path)) for path in reading.own}
-        targets: _Paths = {path: looking.facts_of(os.stat(path)) for path in reading.targets}  # noqa: PTH116
+        own: _Paths = {path: stat_of(os.lstat(path)) for path in reading.own}
+        targets: _Paths = {path: stat_of(os.stat(path)) for path in reading.targets}  # noqa: PTH116
         links, kinds = map(_kinds, reading.kinds, (False, True))
     except (OSError, ValueError):
         return None
@@ -109,10 +110,10 @@ def _unpacked(reading: stamp.Reading) -> Stamp | None:
 
 
 def _kinds(paths: Iterable[str], follow: bool) -> _Paths:
-    return {path: (looking.kind(path, follow=follow),) for path in paths}
+    return {path: (file_type(path, follow=follow),) for path in paths}
 
 
-def _write(made: Stamp, looks: looking.Looks, path: str, begin: tuple[int, int]) -> None:
+def _write(made: Stamp, looks: Dependencies, path: str, begin: tuple[int, int]) -> None:
     """Write a stamp unless something that it rests on is too new to be trusted. Raises OSError or ValueError."""
     folder, name = os.path.split(path)
     temporary = os.path.join(folder, f".{name}{TEMPORARY}")  # noqa: PTH118
@@ -122,7 +123,7 @@ def _write(made: Stamp, looks: looking.Looks, path: str, begin: tuple[int, int])
         file = stack.enter_context(open(temporary, "xb"))  # noqa: PTH123
         stack.callback(_remove, temporary)
         clock = trust.Clock.of(file.fileno())
-        seen = (facts for group in looks.contents for facts in group.values())
+        seen = (facts for group in looks.stats for facts in group.values())
         modules = (facts for _, facts in _modules())
         passed, running = stamp.passed(begin), stamp.since_begin()
         if not all(clock.trusts(facts, passed) for facts in seen):

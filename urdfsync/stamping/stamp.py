@@ -47,7 +47,7 @@ _VARIABLES = (
 """What of the environment decides what is found, and how it looks."""
 
 Facts = tuple[int, ...]
-"""What is known of a path: of a content see `looking.Facts`, of a kind the file type alone."""
+"""What is known of a path: of a content see `dependencies.Stat`, of a kind the file type alone."""
 
 
 class Stamp:
@@ -184,7 +184,7 @@ def _files(group: str) -> list[Facts]:
 
 
 def _facts(found: "Iterable[os.stat_result]") -> list[Facts]:
-    """The same as of `looking.facts_of`; in one go, as there are thousands."""
+    """The same as of `dependencies.stat_of`; in one go, as there are thousands."""
     return [(s.st_mode, s.st_ino, s.st_dev, s.st_size, s.st_mtime_ns, s.st_ctime_ns) for s in found]
 
 

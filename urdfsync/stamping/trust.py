@@ -11,8 +11,8 @@ import os
 from pathlib import Path
 from typing import Self
 
+from urdfsync.dependencies import Stat
 from urdfsync.files import TEMPORARY
-from urdfsync.looking import Facts
 
 HAS_CHANGE_TIMES = os.name != "nt"
 """Whether files have a time of change that nobody can set: on Windows it is that of their creation."""
@@ -43,7 +43,7 @@ class Clock:
         os.utime(descriptor, ns=(0, 0))
         return cls(made, os.fstat(descriptor).st_ctime_ns >= made.st_ctime_ns)
 
-    def trusts(self, facts: Facts, passed: int) -> bool:
+    def trusts(self, facts: Stat, passed: int) -> bool:
         """Whether a file has been as it was seen since before the looking began, `passed` ns ago, for certain."""
         _, _, device, _, changed, altered = facts
         now = self.made.st_mtime_ns
@@ -53,7 +53,7 @@ class Clock:
         return self._is_sound and altered > 0 and newest < now - passed - margin
 
 
-def is_young(facts: Facts, now: int) -> bool:
+def is_young(facts: Stat, now: int) -> bool:
     """Whether a file may change again without a trace, since it changed just before this moment (ns), or after it.
 
     By our own clock: sources are on whatever file systems, and nobody makes files there to read theirs.

@@ -19,7 +19,7 @@ import stat
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
-from urdfsync import looking
+from urdfsync.dependencies import list_folder
 from urdfsync.files import TEMPORARY, digest, failure
 from urdfsync.state import operations
 from urdfsync.state.journal import MAY_BE_APART, Journal, Phase, Step
@@ -338,7 +338,7 @@ def _identity(path: str) -> tuple[int, ...] | None:
 def find_phase(folder: operations.AnyPath) -> Phase | None:
     """The phase of the batch that a state folder has, None if it has none."""
     try:
-        names = looking.names(f"{os.fspath(folder)}{os.sep}journal")
+        names = list_folder(f"{os.fspath(folder)}{os.sep}journal")
     except (FileNotFoundError, NotADirectoryError):
         return None
     return next((phase for phase in reversed(Phase) if f"{phase}.json" in names), None)

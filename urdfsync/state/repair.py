@@ -20,7 +20,7 @@ from urdfsync.domain import Role
 from urdfsync.manifest import FORMAT, DependencyRecord, Manifest
 from urdfsync.merge import split_lines
 from urdfsync.modelfile import ConversionFacts, Model
-from urdfsync.plan import FileRecord
+from urdfsync.state.record import FileRecord
 
 _DEEPEST = 3
 """Conflicts within each other whose sides are told apart; a branch with unsettled markers was merged again."""

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import msgspec
 
-from urdfsync import looking, manifest, modelfile
+from urdfsync import manifest, modelfile
 from urdfsync.config import STATE_FOLDER
+from urdfsync.dependencies import is_file, list_folder
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree, digest
 from urdfsync.manifest import Manifest
 from urdfsync.modelfile import Model
 from urdfsync.state.bases import Bases
 from urdfsync.state.transactions import Change
-
-if TYPE_CHECKING:
-    from urdfsync.planning.memory import Memory
 
 _IGNORE = """\
 # Written by urdfsync. robots/ belongs into version control, everything else is safe to lose.
@@ -45,9 +43,9 @@ class State(msgspec.Struct, frozen=True):
 class Store:
     """The state folder of one configuration, as one build sees it."""
 
-    def __init__(self, root: Path, shown: Callable[[Path], str] = str, memory: Memory | None = None) -> None:
+    def __init__(self, root: Path, shown: Callable[[Path], str] = str) -> None:
         self.folder = root / STATE_FOLDER
-        self._shown, self._memory = shown, memory
+        self._shown = shown
         self._tree = Tree(root, shown)
         self._seen: dict[Path, bytes | None] = {}
         self._hashes: dict[Path, str | None] = {}
@@ -55,19 +53,17 @@ class Store:
     def names(self) -> list[str]:
         """The robots that have a state, by their names."""
         try:
-            files = looking.names(self.folder / "robots")
+            files = list_folder(self.folder / "robots")
         except OSError:  # there is none; that it can't be read is what `load` says
             return []
         return sorted(name.removesuffix(".toml") for name in files if name.endswith(".toml"))
 
     def load(self, robot: str) -> State | None:
         """The robot's state, None if it was never built. Raises StateError or OutputError if it can't be used."""
-        path, beside = self.paths(robot)
-        found = self._bytes(path)
-        if found is None:
+        path, _ = self.paths(robot)
+        if self._bytes(path) is None:
             return None
-        contents = found, self._bytes(beside)
-        return self._memory.state(contents, lambda: self._loaded(robot)) if self._memory else self._loaded(robot)
+        return self._loaded(robot)
 
     def _loaded(self, robot: str) -> State:
         path, beside = self.paths(robot)
@@ -96,12 +92,12 @@ class Store:
 
     def has_bases(self, robot: str) -> bool:
         """Whether the texts that were written last are kept."""
-        return looking.is_file(self._base_file(robot))
+        return is_file(self._base_file(robot))
 
     def bases(self, robot: str) -> Bases:
         """The texts that were written last, as far as they are kept."""
         content = self._bytes(self._base_file(robot)) or b""
-        return self._memory.bases(content, lambda: Bases.loads(content)) if self._memory else Bases.loads(content)
+        return Bases.loads(content)
 
     def keep_bases(self, robot: str, content: bytes, former: str | None) -> Iterator[Change]:
         """How the texts that are written now are kept, see `bases.dumps`; `former` as in `changes`."""

@@ -11,7 +11,6 @@ import msgspec
 from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree, digest
-from urdfsync.shelf import Shelved
 from urdfsync.state import operations
 from urdfsync.state.batch import Batch, SavedError, find_phase
 from urdfsync.state.journal import FORMAT, Journal, Phase, Step
@@ -25,19 +24,17 @@ class Change(msgspec.Struct, frozen=True):
     """What is to happen to one file."""
 
     path: Path
-    content: bytes | Shelved | None
+    content: bytes | None
     """None to delete it."""
     old: str | None
     """SHA-256 (hex) of the bytes that were there when this was decided; None if there was no file."""
 
     def read(self) -> bytes | None:
         """The bytes that are to be there; None for no file."""
-        return self.content.read() if isinstance(self.content, Shelved) else self.content
+        return self.content
 
     def hash(self) -> str | None:
         """SHA-256 (hex) of these bytes; None for no file."""
-        if isinstance(self.content, Shelved):
-            return self.content.hash
         return None if self.content is None else digest(self.content)
 
 

@@ -14,12 +14,12 @@ import msgspec
 
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.engine.actions import CONFLICTS, Actions, Kind
 from urdfsync.outcome import Checked, Result
 from urdfsync.output.conflicts import Extent, conflict_lines
 from urdfsync.output.console import findings, text
 from urdfsync.output.phrases import check_result, counted, summary
 from urdfsync.output.results import result_lines
-from urdfsync.plan import CONFLICTS, Actions, Kind
 from urdfsync.watching import events, words
 
 if TYPE_CHECKING:
@@ -115,8 +115,8 @@ class Chronicle:
         """What `build` has below its headline; without what was said before, unless somebody wants everything."""
         if not self._verbose:
             hidden = (CONFLICTS if known else frozenset()) | (frozenset() if left else _LEFT)
-            seen = [action for action in result.actions.decided if action.kind not in hidden]
-            result = msgspec.structs.replace(result, actions=Actions(seen, result.actions.unchanged), changes=None)
+            seen = [action for action in result.actions if action.kind not in hidden]
+            result = msgspec.structs.replace(result, actions=Actions(seen), changes=None)
         lines = result_lines(result, quiet=self._quiet, verbose=self._verbose)
         yield from (Line(line.__rich__()) for line in itertools.islice(lines, 1, None))
         if result.conflicts:

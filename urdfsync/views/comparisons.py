@@ -14,10 +14,10 @@ from urdfsync.comparing import outline
 from urdfsync.comparing.comparison import Comparison
 from urdfsync.comparing.outline import Entry, Row, Tone
 from urdfsync.config import shown
+from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.output.console import has_marks, text
 from urdfsync.output.phrases import GENERATOR, change_classes, counted, error_count
 from urdfsync.output.phrases import summary as build_summary
-from urdfsync.plan import CONFLICTS, Action, Kind
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any, Protocol, Self
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.engine.actions import Kind
 from urdfsync.outcome import Result
 from urdfsync.output.console import JSON_VERSION, has_marks, text
 from urdfsync.output.json_values import finding_values, result_values
-from urdfsync.plan import Kind
 from urdfsync.views.area import Area
 from urdfsync.views.chronicle import NAME, Chronicle
 from urdfsync.views.diversion import Diversion

@@ -7,19 +7,19 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from urdfsync.build import build
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions, no_progress
+from urdfsync.engine.plan import plan_robot
 from urdfsync.outcome import Result
-from urdfsync.planning.planner import plan
-from urdfsync.planning.situation import Request, in_silence
 
 
 class StoppedError(Exception):
     """The daemon is told to end while it plans a build: nothing of it is written yet."""
 
 
-def results(config: Config, robots: Sequence[RobotConfig], request: Request) -> Iterator[Result]:
+def results(config: Config, robots: Sequence[RobotConfig], request: BuildOptions) -> Iterator[Result]:
     """Build robots. One that makes the program fail unexpectedly has failed as any other; the rest is built.
 
     Going on is safe then: a batch of files is written or put back as a whole, whatever stops it, and the next
@@ -70,7 +70,9 @@ def warm_up(config: Config, robots: Sequence[RobotConfig]) -> None:
     importlib.import_module("deepdiff")  # loaded by the first difference only
     for robot in {robot.domain: robot for robot in sorted(robots, key=_size, reverse=True)}.values():
         try:
-            plan(config, robot, Request(dry=True, draw=True, progress=in_silence))  # to draw, all has to be read
+            plan_robot(
+                config, robot, BuildOptions(dry=True, draw=True, progress=no_progress)
+            )  # to draw, all has to be read
         except Exception:  # noqa: BLE001, S112 - whatever is wrong is said when the robot is built
             continue
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.config import Config, RobotConfig
+from urdfsync.engine.actions import Kind
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
-from urdfsync.plan import Kind
-from urdfsync.planning.situation import Request
 from urdfsync.watching import builder, events
 from urdfsync.watching.robots import Robots, Watched
 from urdfsync.watching.samples import alike, changed
@@ -25,7 +25,7 @@ class Builds:
     def __init__(
         self,
         robots: Robots,
-        request: Request,
+        request: BuildOptions,
         tell: Callable[[events.Event], None],
         touch: Callable[[Watched], None],
         arm: Callable[[], None],
@@ -64,7 +64,7 @@ class Builds:
         self._say_failed(watched, builder.failure(config, watched.robot, watched.trouble))
         self._leave(watched)
 
-    def _build_once(self, config: Config, settled: dict[str, Watched], request: Request) -> None:
+    def _build_once(self, config: Config, settled: dict[str, Watched], request: BuildOptions) -> None:
         for result in builder.results(config, [watched.robot for watched in settled.values()], request):
             watched = settled[result.robot]
             if not result.failed:

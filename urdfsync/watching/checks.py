@@ -16,8 +16,8 @@ import msgspec
 from urdfsync.checking.afterbuild import Examine, Findings, Inspector, is_general
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Checked
-from urdfsync.planning.situation import Request
 from urdfsync.watching import builder, events
 
 _PATIENCE = 10.0
@@ -38,7 +38,7 @@ class Checks:
 
     def __init__(
         self,
-        request: Request,
+        request: BuildOptions,
         tell: Callable[[events.Event], None],
         ended: Callable[[Errand, Findings | None], None],
         examine: Examine,

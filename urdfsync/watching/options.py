@@ -7,7 +7,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.checking import afterbuild
-from urdfsync.planning.situation import Request
+from urdfsync.engine.options import BuildOptions
 from urdfsync.watching.settling import Times
 
 
@@ -25,7 +25,7 @@ class Options(msgspec.Struct, frozen=True):
     """Do without events."""
     command: str = ""
     """What to run after a build that changed something; empty for nothing."""
-    request: Request = msgspec.field(default_factory=Request)
+    request: BuildOptions = msgspec.field(default_factory=BuildOptions)
     """How to build; the daemon adds how progress is told."""
     examine: afterbuild.Examine = afterbuild.on_disk
     """How to check packages."""

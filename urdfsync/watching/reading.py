@@ -9,9 +9,9 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine import source
+from urdfsync.engine.cache import Cache
 from urdfsync.files import digest
-from urdfsync.planning import inputs
-from urdfsync.planning.memory import Memory
 
 _MANY = 3
 """So many elements have to be gone at least for a source to be doubtful, and more than half of all."""
@@ -29,15 +29,15 @@ class Judgement(msgspec.Struct, frozen=True):
 
 
 def judge(
-    config: Config, robot: RobotConfig, known: AbstractSet[tuple[str, str]], memory: Memory | None = None
+    config: Config, robot: RobotConfig, known: AbstractSet[tuple[str, str]], cache: Cache | None = None
 ) -> Judgement:
     """Read the source of a robot; `known` are the kinds and names of its elements in the last build."""
     try:
-        content = inputs.read_source(config, robot)
+        content = source.read_source(config, robot)
         domain = registry.domain(robot.domain)
     except UrdfsyncError as error:
         return Judgement(errors=error.diagnostics)
-    reading = (memory or Memory()).read(domain, robot.options, content, shown(robot.source))
+    reading = source.read_cached(domain, robot.options, content, shown(robot.source), cache)
     errors = tuple(found for found in reading.diagnostics if found.severity is Severity.ERROR)
     if reading.snapshot is None or errors:
         return Judgement(digest(content), reading.diagnostics)

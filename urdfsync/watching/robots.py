@@ -10,16 +10,16 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
+from urdfsync.dependencies import NO_STAT, stat_of
 from urdfsync.diagnostics import Diagnostic, OutputError
-from urdfsync.looking import NO_FACTS, facts_of
-from urdfsync.planning.disk import Disk, Hashed, Hashes
-from urdfsync.planning.memory import Memory
+from urdfsync.engine.cache import Cache
+from urdfsync.engine.package_files import FileState, FileStates, PackageFiles
 from urdfsync.stamping import stamp, trust
 from urdfsync.watching.samples import Sample, Sampler, alike
 from urdfsync.watching.scope import Scope, scope
 from urdfsync.watching.settling import Settler, Times
 
-_IN_THE_WAY: Hashed = (NO_FACTS, "", "")
+_IN_THE_WAY: FileState = FileState(NO_STAT, "", "")
 """An output that is no file, or can't be read."""
 
 
@@ -28,7 +28,7 @@ class Watched(msgspec.Struct):
 
     robot: RobotConfig
     scope: Scope
-    settler: Settler[tuple[Sample, Hashes]]
+    settler: Settler[tuple[Sample, FileStates]]
     built: Sample | None = None
     """What it is built from, as it was when there was nothing left to do; None if it has to be built anyway."""
     settled: Sample = msgspec.field(default_factory=dict)
@@ -68,7 +68,7 @@ class Watched(msgspec.Struct):
 class Robots:
     """All robots that are watched, and how their files are."""
 
-    def __init__(self, times: Times, package_paths: Sequence[Path], memory: Memory) -> None:
+    def __init__(self, times: Times, package_paths: Sequence[Path], memory: Cache) -> None:
         """`package_paths` are where to look for packages beside those of the configuration.
 
         The memory has what builds saw of outputs, with which they are compared; only what robots are built from is
@@ -109,10 +109,10 @@ class Robots:
         """What a robot is built from, as it is now."""
         return self._sampler.sample(watched.scope.ingredients())
 
-    def outputs(self, watched: Watched, paths: Iterable[str]) -> Hashes:
+    def outputs(self, watched: Watched, paths: Iterable[str]) -> FileStates:
         """Some outputs as they are now; hashed is what is not known, and what can't be trusted."""
-        seen = self._memory.seen(watched.name)
-        disk = Disk(self._config, watched.robot, seen)
+        seen = self._memory.states(watched.name)
+        disk = PackageFiles(self._config, watched.robot, seen)
         return {path: _look(disk, path, seen.get(path)) for path in paths}
 
     def look(self, path: str) -> Sample:
@@ -139,13 +139,13 @@ class Robots:
         """
         if watched.built is None or not alike(watched.built, now):
             return False
-        begin, seen = stamp.now(), self._memory.seen(watched.name)
+        begin, seen = stamp.now(), self._memory.states(watched.name)
         outputs = self.outputs(watched, seen)
         if outputs != seen:  # else nothing had to be hashed
             if changed := self._changed(watched, outputs):
                 watched.noticed |= changed
                 return False
-            self._memory.note_look(watched.name, outputs, begin, self._clock)
+            self._memory.note_states(watched.name, outputs, begin, self._clock)
         watched.built = now
         return True
 
@@ -157,7 +157,7 @@ class Robots:
         """Let the outputs be known as they are now, since a build has failed, however far it came."""
         begin = stamp.now()
         outputs = self.outputs(watched, watched.scope.outputs)
-        self._memory.note_look(watched.name, outputs, begin, self._clock)
+        self._memory.note_states(watched.name, outputs, begin, self._clock)
 
     def tidy(self, others: Iterable[str]) -> None:
         """Forget the samples of files that do not matter any more, but for `others`."""
@@ -166,11 +166,11 @@ class Robots:
     def distrust(self) -> None:
         """Hash everything again, whatever the system says of it."""
         self._sampler.forget()
-        self._memory.distrust()
+        self._memory.rehash_all()
 
-    def _changed(self, watched: Watched, now: Hashes) -> set[str]:
+    def _changed(self, watched: Watched, now: FileStates) -> set[str]:
         """The outputs that are not as they were seen last."""
-        seen = self._memory.seen(watched.name)
+        seen = self._memory.states(watched.name)
         return {path for path, entry in now.items() if _content(seen.get(path, _IN_THE_WAY)) != _content(entry)}
 
     def _clock(self) -> trust.Clock | None:
@@ -180,15 +180,15 @@ class Robots:
         return scope(self._config, robot, self._package_paths, self._memory)
 
 
-def _look(disk: Disk, path: str, seen: Hashed | None) -> Hashed | None:
+def _look(disk: PackageFiles, path: str, seen: FileState | None) -> FileState | None:
     """An output as plans see it; there are thousands, and nearly all are as they were seen."""
     try:
-        return seen if seen and facts_of(os.lstat(path)) == seen[0] else disk.look(path)
+        return seen if seen and stat_of(os.lstat(path)) == seen[0] else disk.state(path)
     except FileNotFoundError:
         return None
     except (OutputError, OSError):
         return _IN_THE_WAY
 
 
-def _content(seen: Hashed | None) -> str | None:
+def _content(seen: FileState | None) -> str | None:
     return seen[1] if seen else None

@@ -13,14 +13,14 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeAlias
 
-from urdfsync.looking import NO_FACTS, Facts, facts_of
+from urdfsync.dependencies import NO_STAT, Stat, stat_of
 from urdfsync.stamping import trust
 
 
 class Entry(NamedTuple):
     """One path at one moment."""
 
-    facts: Facts
+    facts: Stat
     """What the system says of a file."""
     link: str
     """Where it is, if the path is a symbolic link."""
@@ -31,7 +31,7 @@ class Entry(NamedTuple):
 Sample: TypeAlias = Mapping[str, Entry]
 """Paths at one moment."""
 
-MISSING = Entry(NO_FACTS, "", "missing")
+MISSING = Entry(NO_STAT, "", "missing")
 
 
 class Sampler:
@@ -99,7 +99,7 @@ def all_files_below(folder: str) -> Iterator[str]:
         yield from (os.path.join(current, name) for name in names)  # noqa: PTH118 - many, and often
 
 
-def _facts(path: str) -> tuple[Facts, str] | Entry:
+def _facts(path: str) -> tuple[Stat, str] | Entry:
     """What the system says of a file, and where a link leads; for everything else all that there is to say of it."""
     try:
         found, link = os.lstat(path), ""
@@ -108,13 +108,13 @@ def _facts(path: str) -> tuple[Facts, str] | Entry:
     except OSError as error:
         return _error(error)
     if stat.S_ISREG(found.st_mode):
-        return facts_of(found), link
-    return Entry(NO_FACTS, "", "folder" if stat.S_ISDIR(found.st_mode) else "other")
+        return stat_of(found), link
+    return Entry(NO_STAT, "", "folder" if stat.S_ISDIR(found.st_mode) else "other")
 
 
 def _error(error: OSError) -> Entry:
     gone = error.errno in (errno.ENOENT, errno.ENOTDIR)
-    return MISSING if gone else Entry(NO_FACTS, "", f"error {error.errno}")
+    return MISSING if gone else Entry(NO_STAT, "", f"error {error.errno}")
 
 
 def _hash(path: str) -> str:

@@ -16,10 +16,10 @@ from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Dependency, Lookup
+from urdfsync.engine import parents
+from urdfsync.engine.cache import Cache
+from urdfsync.engine.imports import find_dependencies
 from urdfsync.files import placed
-from urdfsync.planning import parents
-from urdfsync.planning.imports import sought
-from urdfsync.planning.memory import Memory
 from urdfsync.state.store import State, Store
 from urdfsync.watching.samples import all_files_below
 
@@ -55,9 +55,9 @@ class Scope(msgspec.Struct, frozen=True, dict=True):
         yield from all_files_below(self.templates) if self.templates else ()
 
 
-def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path], memory: Memory | None = None) -> Scope:
+def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path], cache: Cache | None = None) -> Scope:
     """What matters to a robot, as far as the last build knew it; `package_paths` are those beside the robot's own."""
-    state = _recorded(config, robot, memory)
+    state = _recorded(config, robot, cache)
     store, outputs = Store(config.root), set(parents.files(robot))
     outputs.update(map(str, store.paths(robot.name)))
     inputs = {str(robot.source)}
@@ -77,10 +77,15 @@ def scope(config: Config, robot: RobotConfig, package_paths: Sequence[Path], mem
     )
 
 
-def _recorded(config: Config, robot: RobotConfig, memory: Memory | None) -> State | None:
+def _recorded(config: Config, robot: RobotConfig, cache: Cache | None) -> State | None:
     """The recorded state; None if there is none, or if it can't be read: then the build says so."""
     try:
-        return Store(config.root, shown, memory).load(robot.name)
+        store = Store(config.root, shown)
+        return (
+            cache.get("state", store.texts(robot.name), lambda: store.load(robot.name))
+            if cache
+            else store.load(robot.name)
+        )
     except (UrdfsyncError, OSError):
         return None
 
@@ -90,7 +95,7 @@ def _dependencies(robot: RobotConfig, state: State, package_paths: Sequence[Path
         return ()
     lookup = Lookup(robot.source, (*robot.package_paths, *package_paths))
     try:
-        return sought(registry.domain(robot.domain), state.model.snapshot, lookup, robot.options, {})
+        return find_dependencies(registry.domain(robot.domain), state.model.snapshot, lookup, robot.options, {})
     except Exception:  # noqa: BLE001 - no model of the domain, or a mistake in it: the build says so
         return ()
 

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from urdfsync.comparing import outline
 from urdfsync.comparing.outline import Entry, Row, Tone
 from urdfsync.domain import Role
+from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.outcome import Result
 from urdfsync.output.phrases import action_counts, counted
-from urdfsync.plan import CONFLICTS, Action, Kind
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes

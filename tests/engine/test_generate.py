@@ -1,0 +1,158 @@
+"""Paths that a package can't have, and what the generated text of a whole package is worth to a compiler."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from urdfsync import changes, cli, registry
+from urdfsync.diagnostics import ConfigError, OutputError
+from urdfsync.domain import Artifact, Recipe, Role, Target, Templates
+from urdfsync.engine.generate import Package, check_paths, generate
+from urdfsync.files import templates_digest
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "../evil.mo",
+        "a/../../evil.mo",
+        "/etc/x",
+        "/x",
+        "",
+        "a//b",
+        "./a",
+        "a/.",
+        "a\\b",
+        "C:/x",
+        "a\nb",
+        "a\0b",
+        "a.",
+        "b /c",
+        "a?",
+    ],
+)
+def test_paths_that_leave_the_package_or_are_none_everywhere(path: str) -> None:
+    with pytest.raises(OutputError, match="is no path inside the package"):
+        check_paths((path,))
+
+
+@pytest.mark.parametrize(
+    ("paths", "words"),
+    [
+        (["A.mo", "A.mo"], "`A.mo` and `A.mo`"),
+        (["A.mo", "a.mo"], "`A.mo` and `a.mo`"),
+        (["Links/A.mo", "links/B.mo"], "`Links` and `links`"),
+        (["Links.mo", "Links/package.mo"], "`Links.mo` and `Links/`"),
+        (["links.mo", "Links/package.mo"], "`links.mo` and `Links/`"),
+    ],
+)
+def test_paths_that_are_one_where_case_is_folded(paths: list[str], words: str) -> None:
+    with pytest.raises(OutputError, match=words):
+        check_paths(tuple(paths))
+
+
+def test_paths_of_a_usual_package() -> None:
+    check_paths(("package.mo", "Links/package.mo", "Links/A.mo", "Links/B.mo", "A.mo", "Resources/ä b.stl"))
+
+
+NETWORK = b'{"name": "n", "elements": [{"name": "R1", "between": ["in", "ground"], "ohm": 1}]}'
+
+
+def template_error(folder: Path) -> str:
+    """What is said of the templates in a folder."""
+    domain = registry.domain("rcnetwork")
+    options = domain.options()
+    snapshot = domain.read(NETWORK, "n.json", options).snapshot or {}
+    assert domain.templates is not None
+    folders = (folder, domain.templates)
+    templates = Templates(folders, templates_digest(folders))
+    package = generate(domain, snapshot, {}, Target("N", "N"), options, templates)
+    with pytest.raises(ConfigError) as caught:
+        dict(zip(package.artifacts, map(package.content, package.artifacts), strict=True))
+    (found,) = caught.value.diagnostics
+    return str(found).replace("\\", "/")
+
+
+def test_data_that_has_a_recipe_is_made_when_the_text_is_rendered_and_once(tmp_path: Path) -> None:
+    (tmp_path / "t").write_text("<< number >>")
+    asked: list[int] = []
+
+    def data(number: int) -> Mapping[str, int]:
+        asked.append(number)
+        return {"number": number}
+
+    files = [Artifact(f"{n}.mo", Role.RECORD, "t", Recipe(data, (n,)), "part") for n in (1, 2)]
+    package = Package(files, Templates((tmp_path,), ""))
+    assert asked == []
+    assert [package.content("2.mo") for _ in range(2)] == [b"2", b"2"]
+    assert asked == [2]
+
+
+def test_a_text_counts_as_stale_once_its_data_is_forgotten(tmp_path: Path) -> None:
+    (tmp_path / "t").write_text("<< number >>")
+    one, two = (
+        Package([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), "")) for n in (1, 2)
+    )
+    for _ in range(2):
+        assert changes.stale(one.artifacts, two.artifacts).render == {"A.mo"}
+        assert (one.content("A.mo"), two.content("A.mo")) == (b"1", b"2")
+    assert {artifact.owner for artifact in one.artifacts.values()} == {"part"}
+
+
+@pytest.fixture
+def own(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder for templates, below the working folder."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "own" / "element").mkdir(parents=True)
+    return tmp_path / "own"
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("<% include 'element/model.mo.jinja' %>", 1, "it includes or calls itself without end"),
+        ("<% macro a() %><< a() >><% endmacro %>\n<< a() >>", 1, "it includes or calls itself without end"),
+        ("one\n<< 'x' * 10**15 >>", 2, "it needs more memory than it may take"),
+        ("one\n<< '\\ud800' >>", 0, "it gives '/ud800', which is no character"),
+        ("\n\n<< element.nme >>", 3, "has no attribute 'nme'"),
+        ("<< 1 | nofilter >>", 1, "No filter named 'nofilter'; correct"),
+        ("<% include 'element/nothing' %>", 1, "there is no template `element/nothing`"),
+        ("\n<% include ['a', 'b'] %>", 2, "there is no template `a` or `b`"),
+        ("<% for a in [1] %>" * 25 + "<% endfor %>" * 25, 0, "too many statically nested blocks"),
+    ],
+)
+def test_a_template_of_the_users_is_named_with_line_and_what_to_do(own: Path, text: str, line: int, words: str) -> None:
+    (own / "element/model.mo.jinja").write_text(text)
+    message = template_error(own)
+    place = f"own/element/model.mo.jinja:{line}" if line else "own/element/model.mo.jinja"
+    assert message.startswith(f"{place}: error: ")
+    assert words in message
+    assert message.endswith("; correct the template, or delete it to get that of urdfsync [template]")
+
+
+def test_a_template_that_is_not_utf8_is_named_even_if_another_includes_it(own: Path) -> None:
+    (own / "element/model.mo.jinja").write_text("<% include 'element/part.jinja' %>")
+    (own / "element/part.jinja").write_bytes(b"one\nB\xfccher")
+    assert template_error(own).startswith("own/element/part.jinja:2: error: the template is not UTF-8; correct")
+
+
+def test_a_template_that_misses_another_is_named(own: Path) -> None:
+    (own / "element/model.mo.jinja").write_text("<% include 'element/part.jinja' %>")
+    (own / "element/part.jinja").write_text("\n\n<% include 'gone' %>")
+    assert template_error(own).startswith("own/element/part.jinja:3: error: there is no template `gone`; correct")
+
+
+def test_a_compiler_reads_the_second_domain(project: Path) -> None:
+    """Every file of the RC network's package parses, by a parser that knows nothing of urdfsync."""
+    parser = pytest.importorskip("pymoca.parser", reason="pymoca is not installed")
+    cli.main(["build", "--quiet"])
+    files = sorted((project / "modelica").rglob("*.mo"))
+    assert len(files) == 11
+    for file in files:
+        tree = parser.parse(file.read_text())
+        name = file.parent.name if file.name == "package.mo" else file.stem
+        assert tree is not None
+        assert name in str(tree.to_json(tree)), file

@@ -1,0 +1,151 @@
+"""Many robots at once: the same result as one after the other, with everything that can go wrong in between."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from urdfsync import config
+from urdfsync.diagnostics import ConfigError
+from urdfsync.engine import pool
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.outcome import Result
+
+COUNT = 8
+
+
+@pytest.fixture
+def robots(project: Path) -> Path:
+    """A project with many robots in one package that does not exist yet; the third can't be read."""
+    network = json.loads((project / "ladder.json").read_text())
+    tables = ['[defaults]\ndomain = "rcnetwork"\ncreate_parents = true\n']
+    for number in range(COUNT):
+        (project / f"n{number}.json").write_text(json.dumps({**network, "name": f"network {number}"}))
+        tables.append(f'[robots.n{number}]\nsource = "n{number}.json"\npackage = "Plant.Networks.N{number}"\n')
+    (project / "n2.json").write_text("{")
+    (project / "urdfsync.toml").write_text("\n".join(tables))
+    return project
+
+
+def run(jobs: int) -> list[Result]:
+    loaded = config.load(Path("urdfsync.toml"))
+    return list(build(loaded, loaded.robots, BuildOptions(jobs=jobs)))
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+@pytest.fixture
+def started(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """How many processes were asked for, each time that a pool started."""
+    found: list[int] = []
+    real: Any = ProcessPoolExecutor
+
+    def start(workers: int, *args: object, **options: Any) -> object:
+        found.append(workers)
+        return real(workers, *args, **options)
+
+    monkeypatch.setattr(pool, "ProcessPoolExecutor", start)
+    return found
+
+
+def test_many_robots_at_once_are_built_as_one_after_the_other(robots: Path, started: list[int]) -> None:
+    alone = run(1)
+    assert started == []
+    result = files(robots)
+    for name in ("modelica", ".urdfsync"):
+        for path in sorted((robots / name).rglob("*"), reverse=True):
+            path.rmdir() if path.is_dir() else path.unlink()
+    together = run(2)
+    assert started == [2]
+    assert files(robots) == result
+    assert [one.robot for one in together] == [one.robot for one in alone]
+    assert [one.actions for one in together if one.robot == "n0"] == [one.actions for one in alone if one.robot == "n0"]
+    assert [one.failed for one in together] == [number == 2 for number in range(COUNT)]
+    assert together[2].diagnostics == alone[2].diagnostics
+
+
+def test_no_process_is_started_for_what_is_in_step(robots: Path, started: list[int]) -> None:
+    run(1)
+    (robots / "n2.json").unlink()
+    (robots / "n2.json").write_text((robots / "n1.json").read_text())
+    assert [one.in_step for one in run(2)] == [number != 2 for number in range(COUNT)]
+    assert started == []
+
+
+def test_a_save_while_the_others_plan_is_seen(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run(1)
+    for number in range(COUNT):
+        path = robots / f"n{number}.json"
+        path.write_text(path.read_text().replace("220.5", "330"))
+    record = robots / "modelica/Plant/Networks/N5/Elements/R2Parameters.mo"
+    answer = pool.Pool._result
+
+    def edited(self: pool.Pool, robot: config.RobotConfig) -> object:
+        work = answer(self, robot)
+        if robot.name == "n5":
+            record.write_text(record.read_text().replace("220.5", "221"))
+        return work
+
+    monkeypatch.setattr(pool.Pool, "_result", edited)
+    results = run(2)
+    assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
+    assert "221" in record.read_text()
+
+
+def test_a_process_that_dies_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pool, "_plan", _die)
+    results = run(2)
+    assert all(result.failed for result in results)
+    (found,) = results[0].diagnostics
+    assert "ended unexpectedly" in found.message
+    assert "--jobs 1" in found.hint
+
+
+def _die(*_: object) -> None:
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_the_work_is_told_of(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pool, "_PAUSE", 0.001)  # the others may be quick
+    told: list[tuple[str, int, int]] = []
+    tell: Callable[[str, int, int], None] = lambda what, done, total: told.append((what, done, total))  # noqa: E731
+    loaded = config.load(Path("urdfsync.toml"))
+    list(build(loaded, loaded.robots, BuildOptions(jobs=2, progress=tell)))
+    assert {total for what, _, total in told if what == "reading"} == {COUNT}
+
+
+@pytest.mark.slow
+def test_a_cluster_plans_what_this_process_writes(robots: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+    from distributed import LocalCluster
+
+    scratch = tmp_path_factory.mktemp("dask")
+    with LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None, local_directory=str(scratch)
+    ) as cluster:
+        loaded = config.load(Path("urdfsync.toml"))
+        together = list(build(loaded, loaded.robots, BuildOptions(executor=cluster.scheduler_address)))
+    assert [one.failed for one in together] == [number == 2 for number in range(COUNT)]
+    assert together[2].diagnostics == run(1)[2].diagnostics
+    result = files(robots)
+    for name in ("modelica", ".urdfsync"):
+        for path in sorted((robots / name).rglob("*"), reverse=True):
+            path.rmdir() if path.is_dir() else path.unlink()
+    run(1)
+    assert files(robots / "modelica").items() <= {(k.removeprefix("modelica/"), v) for k, v in result.items()}
+
+
+def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pool, "_PATIENCE", 1)
+    loaded = config.load(Path("urdfsync.toml"))
+    with pytest.raises(ConfigError, match="no Dask scheduler answers"):
+        list(build(loaded, loaded.robots, BuildOptions(executor="tcp://127.0.0.1:9")))

@@ -1,0 +1,289 @@
+"""Build after build, with a user who edits in between: everything pure that decides about files, on files in memory.
+
+A text stands for its own hash here, so that a recorded base is the text itself.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Collection, Mapping
+from typing import Any
+
+import msgspec
+from hypothesis import settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
+
+from urdfsync import changes
+from urdfsync.domain import Role
+from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Kind
+from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
+from urdfsync.engine.renames import OnDisk, renamed_files
+from urdfsync.engine.rules import DesiredFile, decide, hold, keep_needed, records_after, remembered_choices
+from urdfsync.modelica.literals import numbers_only
+from urdfsync.state.record import Choice, FileRecord, RecordState
+
+NAMES = ("Arm", "Base", "Cap")
+MAIN, PACKAGE = "Main.mo", "package.mo"
+
+
+@dataclasses.dataclass(frozen=True)
+class Part:
+    """An element of the model: its law shapes its files, its number does not."""
+
+    name: str
+    law: str = "v = i"
+    number: int = 1
+
+    @property
+    def owner(self) -> str:
+        return f"part {self.name}"
+
+
+def package(parts: Collection[Part]) -> dict[str, DesiredFile]:
+    """The files of a model, by path."""
+    files = {}
+    for name, law, number in map(dataclasses.astuple, parts):
+        owner, record = f"part {name}", f"{name}Parameters"
+        text = f"model {name}\n\n  {record} p;\n\nequation\n\n  {law};\n\nend {name};\n"
+        files[f"{name}.mo"] = DesiredFile(Role.MODEL, owner, text)
+        text = f"record {record}\n\n  Real {law[0]} = {number};\n\nend {record};\n"
+        files[f"{record}.mo"] = DesiredFile(Role.RECORD, owner, text)
+    used = "".join(f"  {name} {name.lower()};\n\n" for name in sorted(part.name for part in parts))
+    files[MAIN] = DesiredFile(Role.MODEL, "robot", f"model Main\n\n{used}end Main;\n")
+    files[PACKAGE] = DesiredFile(Role.PACKAGE, "robot", "package P\nend P;\n")
+    return files
+
+
+def template(path: str) -> str:
+    """What stands for the template that a file is made from."""
+    return path if path in (MAIN, PACKAGE) else "record" if path.endswith("Parameters.mo") else "model"
+
+
+def as_folder(path: str) -> str:
+    """Where a class is if the user made a folder of it."""
+    return f"{path.removesuffix('.mo')}/{PACKAGE}"
+
+
+def edits(texts: Collection[str]) -> set[str]:
+    """The lines and ends of lines that are the user's."""
+    return set(re.findall(r"// mine \d+", "".join(texts)))
+
+
+class Project:
+    """A model, its package, and what is recorded of it; elements by a number that stays when they are renamed."""
+
+    def __init__(self) -> None:
+        self.parts: dict[int, Part] = {}
+        self.files: dict[str, str] = {}
+        self.recorded: dict[str, FileRecord] = {}
+        self.merging = False
+        self._last: dict[int, Part] = {}
+
+    def moves(self) -> dict[str, str]:
+        """New and old path of every file whose element has another name; see `Generation`."""
+        records = {path: record for path, record in self.recorded.items() if record.state is not RecordState.ORPHAN}
+        before, now = package(self._last.values()), package(self.parts.values())
+        renames = {("part", old.name): self.parts[key].name for key, old in self._last.items() if key in self.parts}
+        old = {path: (file.owner, template(path)) for path, file in before.items() if path in records}
+        renamed = changes.moves(old, {path: (file.owner, template(path)) for path, file in now.items()}, renames)
+        targets = {path: renamed.get(path, path) for path in records}
+        return renamed_files(self.recorded, targets, now)
+
+    def build(self, choices: Mapping[str, Choice] | None = None) -> tuple[Action, ...]:
+        """Plan, write and record."""
+        wanted = package(self.parts.values())
+        actions, merged = self._decide(wanted, choices or {})
+        for action in actions:
+            if action.writes and action.kind in DELETES:
+                del self.files[action.path]
+        for action in actions:
+            if action.writes and action.kind not in DELETES:
+                self.files[action.path] = merged.get(action.path, wanted[action.path].hash)
+        self.recorded, self._last = records_after(actions), dict(self.parts)
+        return actions
+
+    def _decide(
+        self, wanted: Mapping[str, DesiredFile], choices: Mapping[str, Choice]
+    ) -> tuple[tuple[Action, ...], dict[str, str]]:
+        """The actions, and the texts that are merged; see `decide`."""
+        found = {path: self._found(path) for path in wanted.keys() | self.recorded.keys()}
+        planned = decide(self.recorded, wanted, found, self.moves())
+        standoffs = {a.path: self._standoff(a) for a in planned if a.kind in DISPUTED}
+        choices = {**remembered_choices(self.recorded, planned), **choices}
+        resolved, merged = resolve(planned, standoffs, choices, self.merging)
+        actions = keep_needed(
+            [msgspec.structs.replace(action, result=merged.get(action.path)) for action in resolved],
+            lambda path, gone: any(file not in gone and file != path for file in self.files),
+        )
+        records = [a for a in actions if a.kind in (Kind.UPDATE, Kind.MERGE) and a.role is Role.RECORD]
+        texts = {a.path: (self.files[a.path], merged.get(a.path) or wanted[a.path].hash) for a in records}
+        return hold(actions, {path for path, (old, new) in texts.items() if numbers_only(old, new)}), merged
+
+    def _found(self, path: str) -> OnDisk:
+        if path in self.files:
+            return OnDisk(self.files[path])
+        return OnDisk(is_folder=path != PACKAGE and as_folder(path) in self.files)
+
+    def _standoff(self, action: Action) -> Conflict:
+        place, generated = action.origin or action.path, action.generated or ""
+        if place in self.files:
+            return find_conflict(action, action.base, self.files[place], generated)
+        return Conflict(action.path, action.owner, action.base, self.files[as_folder(place)], generated, None)
+
+
+def waiting(actions: Collection[Action]) -> list[str]:
+    """The files that conflict."""
+    return [action.path for action in actions if action.kind in CONFLICTS]
+
+
+class Rounds(RuleBasedStateMachine):
+    """Anything may happen to source and files between two builds, again and again."""
+
+    picks = st.integers(0, 99)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.project = Project()
+        self._count = 0
+
+    @initialize(merging=st.booleans())
+    def begin(self, merging: bool) -> None:
+        self.project.merging = merging
+        self.project.parts = {-1: Part("Arm"), -2: Part("Base")}
+        assert not waiting(self.project.build())
+
+    # The source
+
+    @rule(pick=picks)
+    def add(self, pick: int) -> None:
+        if free := self._free():
+            self.project.parts[self._number()] = Part(free[pick % len(free)])
+
+    @rule(pick=picks)
+    def remove(self, pick: int) -> None:
+        for key in self._some(self.project.parts, pick):
+            del self.project.parts[key]
+
+    @rule(pick=picks, to=picks)
+    def rename(self, pick: int, to: int) -> None:
+        free = self._free()
+        for key in self._some(self.project.parts, pick) if free else ():
+            self.project.parts[key] = dataclasses.replace(self.project.parts[key], name=free[to % len(free)])
+
+    @rule()
+    def turn_names_round(self) -> None:
+        keys, parts = list(self.project.parts), list(self.project.parts.values())
+        for key, part in zip(keys, [*parts[1:], *parts[:1]], strict=True):
+            self.project.parts[key] = dataclasses.replace(self.project.parts[key], name=part.name)
+
+    @rule(pick=picks, law=st.sampled_from(["v = i", "i = v"]), number=st.integers(1, 3))
+    def change(self, pick: int, law: str, number: int) -> None:
+        for key in self._some(self.project.parts, pick):
+            self.project.parts[key] = dataclasses.replace(self.project.parts[key], law=law, number=number)
+
+    # The user
+
+    @rule(pick=picks, at=picks)
+    def insert_a_line(self, pick: int, at: int) -> None:
+        for path in self._some(self.project.files, pick):
+            before, *rest = re.split(r"(?<=\n)(?=\n)", self.project.files[path])
+            rest.insert(at % (len(rest) + 1), f"\n  // mine {self._number()}\n")
+            self.project.files[path] = "".join([before, *rest])
+
+    @rule(pick=picks, at=picks)
+    def change_a_line(self, pick: int, at: int) -> None:
+        for path in self._some(self.project.files, pick):
+            lines = self.project.files[path].splitlines()
+            lines[at % len(lines)] += f" + 1 // mine {self._number()}"
+            self.project.files[path] = "\n".join(lines) + "\n"
+
+    @rule(pick=picks)
+    def delete(self, pick: int) -> None:
+        for path in self._some(self.project.files, pick):
+            del self.project.files[path]
+
+    @rule(pick=picks)
+    def make_a_folder_of(self, pick: int) -> None:
+        for path in self._some([path for path in self.project.files if "/" not in path and path != PACKAGE], pick):
+            if as_folder(path) not in self.project.files:
+                self.project.files[as_folder(path)] = self.project.files.pop(path)
+
+    @rule(pick=picks, to=st.sampled_from([f"{name}{end}.mo" for name in NAMES for end in ("", "Parameters")]))
+    def move_by_hand(self, pick: int, to: str) -> None:
+        for path in self._some([path for path in self.project.files if path != PACKAGE], pick):
+            if to not in self.project.files and as_folder(to) not in self.project.files:
+                self.project.files[to] = self.project.files.pop(path)
+
+    # The build
+
+    @rule()
+    def build(self) -> None:
+        self._build({})
+
+    @rule(choices=st.lists(st.sampled_from(Choice), min_size=1, max_size=3))
+    @precondition(lambda self: any(record.state is RecordState.CONFLICT for record in self.project.recorded.values()))
+    def resolve(self, choices: list[Choice]) -> None:
+        conflicts = waiting(self._build({}))
+        self._build(dict(zip(conflicts, choices, strict=False)))
+
+    @rule(choice=st.sampled_from([Choice.KEEP, Choice.TAKE]))
+    def resolve_all(self, choice: Choice) -> None:
+        """Once every conflict is settled, nothing waits, and the package is complete."""
+        conflicts = waiting(self._build({}))
+        actions = self._build(dict.fromkeys(conflicts, choice))
+        conflicts = waiting(actions)
+        assert choice is Choice.TAKE or not conflicts
+        assert all(as_folder(path) in self.project.files for path in conflicts), "only a folder can't be taken away"
+        if not conflicts:
+            files = self.project.files
+            assert not any(action.held for action in actions)
+            assert not any(record.origin or record.choice for record in self.project.recorded.values())
+            assert all(path in files or as_folder(path) in files for path in package(self.project.parts.values()))
+
+    def _build(self, choices: Mapping[str, Choice]) -> tuple[Action, ...]:
+        project = self.project
+        before = dict(project.files)
+        actions = project.build(choices)
+        self._nothing_is_lost(before, actions)
+        self._structure_is_all_or_nothing(actions)
+        files, recorded = dict(project.files), project.recorded
+        again = project.build()
+        assert project.files == files, "the next build finds nothing to write"
+        assert project.recorded == recorded
+        assert waiting(again) == waiting(actions)
+        return actions
+
+    def _nothing_is_lost(self, before: Mapping[str, str], actions: Collection[Action]) -> None:
+        taken = {a.origin or a.path for a in actions if a.choice is Choice.TAKE and a.writes}
+        kept = edits([text for path, text in before.items() if path not in taken])
+        assert kept <= edits(self.project.files.values())
+        moved = {action.origin for action in actions if action.kind is Kind.MOVE and action.writes}
+        for action in actions:
+            if action.writes and action.path in before and action.path not in taken | moved:
+                assert action.kind is Kind.MERGE or before[action.path] in (action.base, action.replaced_hash)
+
+    def _structure_is_all_or_nothing(self, actions: Collection[Action]) -> None:
+        if waiting(actions):
+            written = [action for action in actions if action.writes]
+            assert all(action.role is Role.RECORD or action.kind is Kind.RESTORE for action in written)
+            assert not any(action.kind in DELETES for action in written)
+
+    @invariant()
+    def no_markers_are_in_any_file(self) -> None:
+        assert not any("<<<<<<<" in text for text in self.project.files.values())
+
+    def _number(self) -> int:
+        self._count += 1
+        return self._count
+
+    def _free(self) -> list[str]:
+        return [name for name in NAMES if name not in {part.name for part in self.project.parts.values()}]
+
+    def _some(self, things: Collection[Any], pick: int) -> list[Any]:
+        return [sorted(things)[pick % len(things)]] if things else []
+
+
+TestRounds = Rounds.TestCase
+TestRounds.settings = settings(max_examples=120, stateful_step_count=20, deadline=None)

@@ -1,0 +1,517 @@
+"""The one decision: every row of the table in words, and what must hold for all texts."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+
+import msgspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from urdfsync.domain import Role
+from urdfsync.engine.actions import CONFLICTS, DELETES, WRITES, Action, Kind
+from urdfsync.engine.renames import OnDisk
+from urdfsync.engine.rules import (
+    DesiredFile,
+    decide,
+    decide_file,
+    hold,
+    keep_needed,
+    records_after,
+    remembered_choices,
+    sides_hash,
+)
+from urdfsync.state.record import Choice, FileRecord, RecordState
+
+ABSENT = OnDisk()
+FOLDER = OnDisk(is_folder=True)
+
+
+def on_disk(text: str) -> OnDisk:
+    return OnDisk(text)
+
+
+@pytest.mark.parametrize(
+    ("base", "mine", "generated", "kind"),
+    [
+        pytest.param(None, ABSENT, "new", Kind.CREATE, id="never written"),
+        pytest.param("old", ABSENT, "old", Kind.RESTORE, id="deleted by the user"),
+        pytest.param("old", ABSENT, "new", Kind.RESTORE, id="deleted by the user, source changed"),
+        pytest.param("old", FOLDER, "old", Kind.KEEP, id="made a package by the user"),
+        pytest.param("old", FOLDER, "new", Kind.CONFLICT, id="made a package by the user, source changed"),
+        pytest.param(None, FOLDER, "new", Kind.UNOWNED, id="a package of the user in the way"),
+        pytest.param("old", FOLDER, None, Kind.ORPHAN, id="made a package by the user, no longer generated"),
+        pytest.param("same", on_disk("same"), "same", Kind.UNCHANGED, id="nothing to do"),
+        pytest.param("old", on_disk("new"), "new", Kind.ADOPT, id="already right"),
+        pytest.param(None, on_disk("new"), "new", Kind.ADOPT, id="already right, state lost"),
+        pytest.param("old", on_disk("old"), "new", Kind.UPDATE, id="source changed"),
+        pytest.param("old", on_disk("edited"), "old", Kind.KEEP, id="edited"),
+        pytest.param("old", on_disk("edited"), "new", Kind.CONFLICT, id="edited, source changed"),
+        pytest.param(None, on_disk("foreign"), "new", Kind.UNOWNED, id="a file of the user in the way"),
+        pytest.param("old", on_disk("old"), None, Kind.DELETE, id="no longer generated"),
+        pytest.param("old", on_disk("edited"), None, Kind.ORPHAN, id="edited, no longer generated"),
+        pytest.param("old", ABSENT, None, Kind.FORGET, id="no longer generated, deleted"),
+        pytest.param(None, on_disk("foreign"), None, Kind.FORGET, id="in the way of what is no longer generated"),
+    ],
+)
+def test_decision_table(base: str | None, mine: OnDisk, generated: str | None, kind: Kind) -> None:
+    assert decide_file(base, mine, generated) is kind
+
+
+hashes = st.sampled_from("abc")
+found = st.one_of(st.just(ABSENT), st.just(FOLDER), hashes.map(on_disk))
+
+
+@given(base=st.none() | hashes, mine=found, generated=st.none() | hashes)
+def test_nothing_of_the_user_is_ever_written_over(base: str | None, mine: OnDisk, generated: str | None) -> None:
+    kind = decide_file(base, mine, generated)
+    if kind in (Kind.UPDATE, Kind.DELETE):
+        assert mine.hash == base
+    if kind in (Kind.CREATE, Kind.RESTORE):
+        assert mine == ABSENT
+
+
+@given(base=st.none() | hashes, mine=found, generated=st.none() | hashes)
+def test_after_an_action_the_next_build_has_nothing_to_do(
+    base: str | None, mine: OnDisk, generated: str | None
+) -> None:
+    action = Action("a", decide_file(base, mine, generated), Role.MODEL, "", base, generated)
+    record = records_after([action]).get("a")
+    written = {Kind.DELETE: ABSENT}.get(action.kind, OnDisk(generated)) if action.writes else mine
+    second = decide_file(record.base if record else None, written, generated)
+    quiet = {Kind.UNCHANGED, Kind.KEEP, Kind.ORPHAN, Kind.FORGET}
+    assert second in (CONFLICTS if action.kind in CONFLICTS else quiet)
+
+
+@pytest.mark.parametrize(
+    ("kind", "reason"),
+    [
+        (Kind.RESTORE, "it was deleted; written again"),
+        (Kind.KEEP, "you edited it; there is nothing new for it"),
+        (Kind.CONFLICT, "you edited it, and what it is made from changed too"),
+        (Kind.UNOWNED, "urdfsync did not write the file that is there"),
+        (Kind.ORPHAN, "no longer generated, but you edited it; kept"),
+    ],
+)
+def test_reasons(kind: Kind, reason: str) -> None:
+    assert Action("a", kind, Role.MODEL).reason == reason
+
+
+def test_every_kind_has_a_reason_of_its_own() -> None:
+    assert len({Action("a", kind, Role.MODEL).reason for kind in Kind}) == len(Kind)
+
+
+def test_plan_covers_wanted_and_recorded_files() -> None:
+    recorded = {"gone": FileRecord("link a", Role.MODEL, "g"), "stays": FileRecord("link b", Role.RECORD, "s")}
+    wanted = {"stays": DesiredFile(Role.RECORD, "link b", "s2"), "new": DesiredFile(Role.MODEL, "link c", "n")}
+    actions = decide(recorded, wanted, {"gone": OnDisk("g"), "stays": OnDisk("s")})
+    assert [(action.path, action.kind, action.owner) for action in actions] == [
+        ("gone", Kind.DELETE, "link a"),
+        ("new", Kind.CREATE, "link c"),
+        ("stays", Kind.UPDATE, "link b"),
+    ]
+
+
+# Files whose element has another name
+
+
+def written(*names: str) -> dict[str, FileRecord]:
+    """What is recorded of models that urdfsync wrote; the base of `a` is `a0`."""
+    return {name: FileRecord(f"part {name}", Role.MODEL, f"{name}0") for name in names}
+
+
+def targets(*names: str) -> dict[str, DesiredFile]:
+    """What is generated now; the hash for `a` is `a1`."""
+    return {name: DesiredFile(Role.MODEL, f"part {name}", f"{name}1") for name in names}
+
+
+def texts(**hashes: str) -> dict[str, OnDisk]:
+    return {name: OnDisk(hash_) for name, hash_ in hashes.items()}
+
+
+Row = tuple[Kind, str | None, str | None, str | None]
+
+
+def rows(actions: Collection[Action]) -> dict[str, Row]:
+    """Kind, base, origin and hash of the user's text of every action."""
+    return {action.path: (action.kind, action.base, action.origin, action.mine) for action in actions}
+
+
+def test_an_edited_file_goes_to_its_elements_new_name() -> None:
+    assert rows(decide(written("a"), targets("b"), texts(a="mine"), {"b": "a"})) == {
+        "a": (Kind.LEAVE, "a0", None, None),
+        "b": (Kind.MOVE, "a0", "a", "mine"),
+    }
+
+
+def test_a_file_that_nobody_edited_is_written_anew() -> None:
+    actions = decide(written("a"), targets("b"), texts(a="a0"), {"b": "a"})
+    assert {action.path: action.kind for action in actions} == {"a": Kind.DELETE, "b": Kind.CREATE}
+
+
+def test_a_file_that_urdfsync_never_wrote_stays_where_it_is() -> None:
+    recorded = {"a": FileRecord("part a", Role.MODEL, None, RecordState.CONFLICT)}
+    assert rows(decide(recorded, targets("b"), texts(a="mine"), {"b": "a"})) == {"b": (Kind.CREATE, None, None, None)}
+
+
+def test_a_chain_of_names_takes_every_edit_along() -> None:
+    moves = {"b": "a", "c": "b"}
+    assert rows(decide(written("a", "b"), targets("b", "c"), texts(a="mine a", b="mine b"), moves)) == {
+        "a": (Kind.LEAVE, "a0", None, None),
+        "b": (Kind.MOVE, "a0", "a", "mine a"),
+        "c": (Kind.MOVE, "b0", "b", "mine b"),
+    }
+
+
+def test_a_cycle_of_names_takes_every_edit_along() -> None:
+    moves = {"a": "c", "b": "a", "c": "b"}
+    names, mine = ("a", "b", "c"), texts(a="mine a", b="mine b", c="mine c")
+    assert rows(decide(written(*names), targets(*names), mine, moves)) == {
+        new: (Kind.MOVE, f"{old}0", old, f"mine {old}") for new, old in moves.items()
+    }
+
+
+def test_a_new_element_may_take_the_name_that_an_edited_file_leaves() -> None:
+    assert rows(decide(written("a"), targets("a", "b"), texts(a="mine"), {"b": "a"})) == {
+        "a": (Kind.CREATE, None, None, None),
+        "b": (Kind.MOVE, "a0", "a", "mine"),
+    }
+
+
+@pytest.mark.parametrize("there", [OnDisk("foreign"), FOLDER], ids=["file", "folder"])
+def test_an_edited_file_stays_if_something_of_the_users_is_at_its_new_place(there: OnDisk) -> None:
+    actions = decide(written("a"), targets("b"), {"a": OnDisk("mine"), "b": there}, {"b": "a"})
+    assert {action.path: action.kind for action in actions} == {"a": Kind.ORPHAN, "b": Kind.UNOWNED}
+
+
+def test_one_occupied_place_stops_the_whole_chain() -> None:
+    """`c` is the user's: so `b` can't leave, and then `a` can't go there."""
+    found = texts(a="mine a", b="mine b", c="foreign")
+    actions = decide(written("a", "b"), targets("b", "c"), found, {"b": "a", "c": "b"})
+    assert {action.path: action.kind for action in actions} == {
+        "a": Kind.ORPHAN,
+        "b": Kind.CONFLICT,
+        "c": Kind.UNOWNED,
+    }
+
+
+def test_a_file_that_the_user_has_moved_is_compared_with_what_was_written_at_its_old_place() -> None:
+    assert rows(decide(written("a"), targets("b"), texts(b="mine"), {"b": "a"})) == {
+        "a": (Kind.FORGET, "a0", None, None),
+        "b": (Kind.CONFLICT, "a0", None, "mine"),
+    }
+    assert rows(decide(written("a"), targets("b"), texts(b="a0"), {"b": "a"}))["b"][0] is Kind.UPDATE
+
+
+def test_a_file_that_is_gone_from_both_places_is_written_anew() -> None:
+    assert rows(decide(written("a"), targets("b"), {}, {"b": "a"}))["b"] == (Kind.CREATE, None, None, None)
+
+
+WAITING = {
+    "a": FileRecord("part a", Role.MODEL, "a0", RecordState.WAITING),
+    "b": FileRecord("part b", Role.MODEL, "a0", RecordState.CONFLICT, origin="a"),
+}
+"""`a` is edited, its element has the name `b` now, and that conflicts."""
+
+
+def test_a_file_that_waits_goes_to_a_third_name() -> None:
+    assert rows(decide(WAITING, targets("c"), texts(a="mine"), {"c": "a"})) == {
+        "a": (Kind.LEAVE, "a0", None, None),
+        "c": (Kind.MOVE, "a0", "a", "mine"),
+    }
+
+
+def test_a_file_that_waits_has_its_name_back() -> None:
+    assert rows(decide(WAITING, {"a": DesiredFile(Role.MODEL, "part a", "a0")}, texts(a="mine"))) == {
+        "a": (Kind.KEEP, "a0", None, "mine")
+    }
+
+
+def test_a_file_that_waits_is_an_orphan_if_its_element_goes() -> None:
+    assert rows(decide(WAITING, {}, texts(a="mine"))) == {"a": (Kind.ORPHAN, "a0", None, "mine")}
+
+
+def test_a_file_that_waits_goes_to_a_third_name_although_another_element_took_the_first() -> None:
+    recorded = {**WAITING, "a": FileRecord("part a", Role.MODEL, None, RecordState.WAITING)}
+    assert rows(decide(recorded, targets("a", "c"), texts(a="mine"), {"c": "a"})) == {
+        "a": (Kind.CREATE, None, None, None),
+        "c": (Kind.MOVE, "a0", "a", "mine"),
+    }
+
+
+def test_where_a_new_name_has_to_wait_the_old_file_may_still_be_edited() -> None:
+    recorded, found = written("a", "m"), texts(a="a0", m="mine")
+    actions = hold(decide(recorded, targets("b", "m"), found, {"b": "a"}), ())
+    assert {action.path: (action.kind, action.held) for action in actions} == {
+        "a": (Kind.DELETE, True),
+        "b": (Kind.CREATE, True),
+        "m": (Kind.CONFLICT, False),
+    }
+    records = records_after(actions)
+    assert (records["b"].origin, records["b"].base) == ("a", "a0")
+    found |= texts(a="edited meanwhile")
+    assert rows(decide(records, targets("b", "m"), found, {"b": "a"}))["b"] == (
+        Kind.MOVE,
+        "a0",
+        "a",
+        "edited meanwhile",
+    )
+
+
+bases = st.none() | st.sampled_from("uvw")
+hands = st.one_of(st.just(ABSENT), st.just(FOLDER), st.sampled_from("uvwxy").map(on_disk))
+paths = st.sampled_from("abcde")
+
+
+@st.composite
+def situations(
+    draw: st.DrawFn,
+) -> tuple[dict[str, FileRecord], dict[str, DesiredFile], dict[str, OnDisk], dict[str, str]]:
+    """What is recorded, wanted and there, and moves from recorded places to wanted ones."""
+    recorded = {path: FileRecord("", Role.MODEL, base) for path, base in draw(st.dictionaries(paths, bases)).items()}
+    hashes = st.sampled_from("uvw12")
+    wanted = {path: DesiredFile(Role.MODEL, "", hash_) for path, hash_ in draw(st.dictionaries(paths, hashes)).items()}
+    found = draw(st.dictionaries(paths, hands))
+    origins = draw(st.permutations(sorted(recorded)))
+    pairs = zip(draw(st.permutations(sorted(wanted))), origins, strict=False)
+    return recorded, wanted, found, {new: old for new, old in pairs if new != old and draw(st.booleans())}
+
+
+@given(situations())
+def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
+    situation: tuple[dict[str, FileRecord], dict[str, DesiredFile], dict[str, OnDisk], Mapping[str, str]],
+) -> None:
+    recorded, _, found, _ = situation
+    actions = decide(*situation)
+    kinds = {action.path: action.kind for action in actions}
+    assert len(kinds) == len(actions)
+    moved = [action.origin for action in actions if action.kind is Kind.MOVE]
+    assert len(set(moved)) == len(moved), "no text goes to two places"
+    for action in actions:
+        if action.kind is Kind.MOVE:
+            assert kinds[action.origin or ""] in (Kind.LEAVE, Kind.CREATE, Kind.MOVE)
+            assert action.mine == found[action.origin or ""].hash != action.base
+        if action.kind is Kind.LEAVE:
+            assert action.path in moved
+        mine = found.get(action.path, ABSENT).hash
+        base = recorded[action.path].base if action.path in recorded else None
+        if action.kind in WRITES and mine not in (None, base, action.generated):
+            others = {old.base for old in recorded.values()}
+            assert action.path in moved or (action.kind is Kind.UPDATE and mine in others), "moved by hand, unedited"
+        if found.get(action.path) == FOLDER:
+            assert action.kind not in WRITES
+
+
+def spared(*actions: Action, classes: tuple[str, ...] = ()) -> dict[str, Kind]:
+    """What happens to each file, where the folders hold these classes."""
+
+    def stays(path: str, gone: Collection[str]) -> bool:
+        folder = path.removesuffix("package.mo")
+        return any(name.startswith(folder) and name != path and name not in gone for name in classes)
+
+    return {action.path: action.kind for action in keep_needed(actions, stays)}
+
+
+def test_an_edited_model_keeps_its_record() -> None:
+    model = Action("Links/Hand.mo", Kind.ORPHAN, Role.MODEL, "link hand", "old")
+    record = Action("Links/HandParameters.mo", Kind.DELETE, Role.RECORD, "link hand", "old")
+    other = Action("Links/ArmParameters.mo", Kind.DELETE, Role.RECORD, "link arm", "old")
+    assert spared(model, record, other) == {
+        "Links/Hand.mo": Kind.ORPHAN,
+        "Links/HandParameters.mo": Kind.NEEDED,
+        "Links/ArmParameters.mo": Kind.DELETE,
+    }
+    gone = Action("Links/Hand.mo", Kind.FORGET, Role.MODEL, "link hand", "old")
+    assert spared(gone, record)["Links/HandParameters.mo"] is Kind.DELETE
+    (used,) = keep_needed([record], lambda *_: False, {record.path})
+    assert used.kind is Kind.NEEDED
+
+
+def test_a_package_stays_as_long_as_there_are_classes_in_it() -> None:
+    files = ("Old/package.mo", "Old/Links/package.mo", "Old/Links/Hand.mo")
+    roles = (Role.PACKAGE, Role.PACKAGE, Role.MODEL)
+    actions = [Action(path, Kind.DELETE, role, "robot", "old") for path, role in zip(files, roles, strict=True)]
+    assert set(spared(*actions, classes=files).values()) == {Kind.DELETE}
+    assert spared(*actions, classes=(*files, "Old/Links/Mine.mo")) == {
+        "Old/package.mo": Kind.NEEDED,
+        "Old/Links/package.mo": Kind.NEEDED,
+        "Old/Links/Hand.mo": Kind.DELETE,
+    }
+
+
+def test_what_is_needed_is_remembered_with_its_base() -> None:
+    needed = Action("a", Kind.NEEDED, Role.RECORD, "link hand", "old")
+    assert records_after([needed]) == {"a": FileRecord("link hand", Role.RECORD, "old", RecordState.ORPHAN)}
+
+
+CONFLICT = Action("Arm.mo", Kind.CONFLICT, Role.MODEL, "robot", "old", "new")
+
+
+@pytest.mark.parametrize(
+    ("action", "held"),
+    [
+        (Action("a", Kind.CREATE, Role.MODEL, "", None, "new"), True),
+        (Action("a", Kind.CREATE, Role.RECORD, "", None, "new"), True),
+        (Action("a", Kind.UPDATE, Role.MODEL, "", "old", "new"), True),
+        (Action("a", Kind.UPDATE, Role.PACKAGE, "", "old", "new"), True),
+        (Action("a", Kind.UPDATE, Role.RECORD, "", "old", "new"), True),
+        (Action("a", Kind.DELETE, Role.RECORD, "", "old", None), True),
+        (Action("a", Kind.DELETE, Role.IMPORT, "", "old", None), True),
+        (Action("a", Kind.UPDATE, Role.ORDER), True),
+        (Action("a", Kind.RESTORE, Role.ORDER), True),
+        (Action("a", Kind.RESTORE, Role.MODEL, "", "old", "new"), True),
+        (Action("a", Kind.RESTORE, Role.MODEL, "", "old", "old"), False),
+        (Action("numbers", Kind.UPDATE, Role.RECORD, "", "old", "new"), False),
+        (Action("numbers", Kind.UPDATE, Role.MODEL, "", "old", "new"), True),
+        (Action("a", Kind.CREATE, Role.IMPORT, "", None, "new"), False),
+        (Action("a", Kind.UPDATE, Role.IMPORT, "", "old", "new"), False),
+        (Action("a", Kind.KEEP, Role.MODEL, "", "old", "old"), False),
+        (Action("a", Kind.ADOPT, Role.MODEL, "", "old", "new"), False),
+        (Action("a", Kind.MOVE, Role.MODEL, "", "old", "new", "b"), True),
+        (Action("numbers", Kind.MOVE, Role.RECORD, "", "old", "new", "b"), True),
+        (Action("b", Kind.LEAVE, Role.MODEL, "", "old"), True),
+        (Action("a", Kind.MERGE, Role.MODEL, "", "old", "new"), True),
+        (Action("a", Kind.MERGE, Role.RECORD, "", "old", "new"), True),
+        (Action("numbers", Kind.MERGE, Role.RECORD, "", "old", "new"), False),
+        (Action("a", Kind.INCLUDED, Role.MODEL, "", "old", "new"), False),
+    ],
+)
+def test_a_conflict_holds_back_what_is_structural(action: Action, held: bool) -> None:
+    assert [entry.held for entry in hold([CONFLICT, action], {"numbers"})] == [False, held]
+    assert [entry.held for entry in hold([action], set())] == [False], "without a conflict nothing waits"
+
+
+def test_what_waits_keeps_its_base() -> None:
+    waiting = Action("a", Kind.UPDATE, Role.MODEL, "link a", "old", "new", held=True)
+    assert records_after([waiting]) == {"a": FileRecord("link a", Role.MODEL, "old", RecordState.WAITING)}
+    assert waiting.reason.endswith("waits until the conflict is settled")
+
+
+WITH_BOTH = sides_hash("mine", "new")
+
+
+def record(action: Action) -> FileRecord | None:
+    return records_after([action]).get(action.path)
+
+
+@pytest.mark.parametrize(
+    ("kind", "state", "base"),
+    [
+        (Kind.UNCHANGED, RecordState.GENERATED, "new"),
+        (Kind.CREATE, RecordState.GENERATED, "new"),
+        (Kind.RESTORE, RecordState.GENERATED, "new"),
+        (Kind.ADOPT, RecordState.GENERATED, "new"),
+        (Kind.UPDATE, RecordState.GENERATED, "new"),
+        (Kind.MOVE, RecordState.GENERATED, "new"),
+        (Kind.KEEP, RecordState.EDITED, "old"),
+        (Kind.INCLUDED, RecordState.EDITED, "new"),
+        (Kind.CONFLICT, RecordState.CONFLICT, "old"),
+        (Kind.UNOWNED, RecordState.CONFLICT, "old"),
+        (Kind.ORPHAN, RecordState.ORPHAN, "old"),
+        (Kind.NEEDED, RecordState.ORPHAN, "old"),
+    ],
+)
+def test_what_is_recorded_of_each_kind(kind: Kind, state: RecordState, base: str) -> None:
+    action = Action("a", kind, Role.MODEL, "link a", "old", "new", origin="b", choice=Choice.KEEP, mine="mine")
+    waits = {"origin": "b", "choice": Choice.KEEP, "chosen_for": WITH_BOTH} if state is RecordState.CONFLICT else {}
+    assert record(action) == FileRecord("link a", Role.MODEL, base, state, **waits)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("kind", [Kind.DELETE, Kind.LEAVE, Kind.FORGET])
+def test_nothing_is_recorded_of_what_is_gone(kind: Kind) -> None:
+    assert record(Action("a", kind, Role.MODEL, "link a", "old")) is None
+
+
+@pytest.mark.parametrize("kind", sorted(WRITES))
+def test_whatever_waits_is_recorded_as_before_with_its_choice(kind: Kind) -> None:
+    generated = None if kind in DELETES else "new"
+    action = Action("a", kind, Role.MODEL, "link a", "old", generated, "b", Choice.TAKE, "mine", held=True)
+    expected = FileRecord(
+        "link a",
+        Role.MODEL,
+        "old",
+        RecordState.WAITING,
+        origin="b",
+        choice=Choice.TAKE,
+        chosen_for=sides_hash("mine", generated),
+    )
+    assert record(action) == expected
+    assert record(msgspec.structs.replace(action, choice=None)) == FileRecord(
+        "link a", Role.MODEL, "old", RecordState.WAITING, origin="b"
+    )
+
+
+@pytest.mark.parametrize("kind", [Kind.MERGE, Kind.MOVE])
+def test_a_merged_file_is_edited_unless_nothing_is_left_of_the_edits(kind: Kind) -> None:
+    merged = Action("a", kind, Role.MODEL, "link a", "old", "new", mine="mine", result="both")
+    assert record(merged) == FileRecord("link a", Role.MODEL, "new", RecordState.EDITED)
+    assert record(msgspec.structs.replace(merged, result="new")) == FileRecord("link a", Role.MODEL, "new")
+
+
+def test_orders_are_recorded_elsewhere() -> None:
+    assert record(Action("package.order", Kind.UPDATE, Role.ORDER)) is None
+
+
+@pytest.mark.parametrize(
+    ("mine", "generated", "holds"), [("mine", "new", True), ("edited", "new", False), ("mine", "newer", False)]
+)
+def test_a_choice_holds_until_one_side_changes(mine: str, generated: str, holds: bool) -> None:
+    recorded = {
+        "a": FileRecord("link a", Role.MODEL, "old", RecordState.WAITING, choice=Choice.TAKE, chosen_for=WITH_BOTH),
+        "b": FileRecord("link b", Role.MODEL, "old", RecordState.CONFLICT),
+    }
+    actions = [Action(path, Kind.CONFLICT, Role.MODEL, "", "old", generated, mine=mine) for path in ("a", "b", "c")]
+    assert remembered_choices(recorded, actions) == ({"a": Choice.TAKE} if holds else {})
+
+
+def test_both_sides_count() -> None:
+    sides = [(None, None), ("a", None), (None, "a"), ("a", "b"), ("b", "a")]
+    assert len({sides_hash(*pair) for pair in sides}) == len(sides)
+
+
+def test_places_that_are_handed_on() -> None:
+    """A's edited file goes where B's untouched one is, which goes to a new place; the same while that waits."""
+    recorded = {f"{name}.mo": FileRecord(f"part {name}", Role.MODEL, name) for name in "AB"}
+    wanted = {f"{name}.mo": DesiredFile(Role.MODEL, f"part {name}", f"new {name}") for name in "BC"}
+    found = {"A.mo": OnDisk("mine"), "B.mo": OnDisk("B")}
+    moves = {"B.mo": "A.mo", "C.mo": "B.mo"}
+    for _ in range(2):
+        actions = decide(recorded, wanted, found, moves)
+        assert {action.path: (action.kind, action.origin, action.base) for action in actions} == {
+            "A.mo": (Kind.LEAVE, None, "A"),
+            "B.mo": (Kind.MOVE, "A.mo", "A"),
+            "C.mo": (Kind.CREATE, "B.mo", "B"),
+        }
+        recorded = records_after(msgspec.structs.replace(action, held=True) for action in actions)
+
+
+def test_a_text_of_the_users_is_never_taken_for_ours() -> None:
+    """Two edited files swap names and wait; then one of the elements is gone: the other stays where it is."""
+    recorded = {name: FileRecord(f"part {name}", Role.MODEL, name) for name in ("A.mo", "B.mo")}
+    found = {"A.mo": OnDisk("mine A"), "B.mo": OnDisk("mine B")}
+    wanted = {"A.mo": DesiredFile(Role.MODEL, "part A", "new A"), "B.mo": DesiredFile(Role.MODEL, "part B", "new B")}
+    actions = decide(recorded, wanted, found, {"A.mo": "B.mo", "B.mo": "A.mo"})
+    assert {action.kind for action in actions} == {Kind.MOVE}
+    waiting = records_after(msgspec.structs.replace(action, held=True) for action in actions)
+    del wanted["B.mo"]
+    assert not any(action.writes for action in decide(waiting, wanted, found, {"A.mo": "B.mo"}))
+
+
+def test_a_place_remembers_what_was_written_there_while_another_file_is_to_come() -> None:
+    """Pan is renamed to One and back to Pan, with One's file edited meanwhile, and to One again; all of it waits."""
+    recorded = {"Pan.mo": FileRecord("joint pan", Role.MODEL, "pan", RecordState.WAITING)}
+    recorded["One.mo"] = FileRecord("joint one", Role.MODEL, "one", RecordState.GENERATED)
+    found = {"Pan.mo": OnDisk("pan"), "One.mo": OnDisk("mine")}
+    back = decide(recorded, {"Pan.mo": DesiredFile(Role.MODEL, "joint pan", "new pan")}, found, {"Pan.mo": "One.mo"})
+    assert [action.kind for action in back] == [Kind.LEAVE, Kind.MOVE]
+    waiting = records_after(msgspec.structs.replace(action, held=True) for action in back)
+    again = decide(waiting, {"One.mo": DesiredFile(Role.MODEL, "joint one", "one")}, found, {})
+    assert {action.path: action.kind for action in again} == {"One.mo": Kind.KEEP, "Pan.mo": Kind.DELETE}
+
+
+def test_what_another_file_waits_for_is_not_renewed() -> None:
+    conflict = Action("edited", Kind.CONFLICT, Role.MODEL)
+    waits = Action("b", Kind.CREATE, Role.RECORD, "", "old", "new", "numbers")
+    renewed = Action("numbers", Kind.UPDATE, Role.RECORD, "", "old", "new")
+    assert [action.held for action in hold([conflict, waits, renewed], {"numbers"})] == [False, True, True]

@@ -1,0 +1,150 @@
+"""Looks are taken down wherever a decision makes them: what the system is asked for is compared with what is noted."""
+
+from __future__ import annotations
+
+import builtins
+import io
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from urdfsync import cli, dependencies, registry
+
+READS = ("open", "listdir", "scandir", "readlink")
+"""Calls after which the content matters, not only what is there."""
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], object]], set[tuple[str, str]]]:
+    """A function that runs another and gives the calls of the system that it made, each with its path."""
+
+    def during(action: Callable[[], object]) -> set[tuple[str, str]]:
+        calls: set[tuple[str, str]] = set()
+        with monkeypatch.context() as patch:
+            for module, name in (
+                *((os, name) for name in ("stat", "lstat", "listdir", "scandir", "readlink", "access", "open")),
+                (os.path, "realpath"),
+                *((module, "open") for module in (io, builtins)),
+            ):
+                patch.setattr(module, name, _noting(getattr(module, name), name, calls))
+            action()
+        return calls
+
+    return during
+
+
+def _noting(function: Callable[..., Any], name: str, calls: set[tuple[str, str]]) -> Callable[..., Any]:
+    def noting(*arguments: Any, **options: Any) -> Any:
+        if isinstance(arguments[0], str | os.PathLike):
+            calls.add((name, os.path.abspath(arguments[0])))  # noqa: PTH100 - a string
+        return function(*arguments, **options)
+
+    return noting
+
+
+@pytest.fixture
+def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    shutil.copytree(in_step, tmp_path / "project")
+    monkeypatch.chdir(tmp_path / "project")
+    return tmp_path / "project"
+
+
+@pytest.mark.parametrize("command", [["build"], ["build", "--check"], ["status"], ["build", "--config=urdfsync.toml"]])
+def test_all_that_a_command_without_work_asks_for_is_taken_down(
+    folder: Path,
+    command: list[str],
+    asked: Callable[[Callable[[], object]], set[tuple[str, str]]],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Also where folders to be searched are missing, or may not be read."""
+    monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join([str(folder / "later"), str(folder / "closed")]))
+    (folder / "closed").mkdir(mode=0)
+    with dependencies.record_dependencies() as looks:
+        calls = asked(lambda: cli._main(command))
+    assert looks.complete
+    contents = set(_absolute(looks.stats[False]) | _absolute(looks.stats[True]))
+    known = contents | _absolute(looks.types[False]) | _absolute(looks.types[True])
+    calls = {(name, path) for name, path in calls if Path(path).is_relative_to(folder.parent)}
+    assert len(calls) > 100, "the calls are seen at all"
+    absent = {path for path in known - contents if not os.path.lexists(path)}  # there is nothing to read
+    seen = contents | absent
+    assert {(name, path) for name, path in calls if path not in (seen if name in READS else known)} == set()
+    wanted = ("modelica/Lab/package.order", "ros", "robots/leg_meshes/base.stl", ".urdfsync/robots", "own/notes")
+    assert {str(folder / path) for path in (*wanted, "closed")} <= contents
+    assert str(folder / "later") in absent
+
+
+def _absolute(paths: dict[str, Any]) -> set[str]:
+    return {os.path.abspath(path) for path in paths}  # noqa: PTH100
+
+
+def test_what_is_read_and_rendered_is_not_taken_down_and_that_is_known(folder: Path) -> None:
+    with dependencies.record_dependencies() as looks:
+        assert cli._main(["build", "--full", "--quiet"]) == 0
+    assert not looks.complete
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_neither_is_what_is_written(folder: Path, jobs: int) -> None:
+    (folder / "modelica/Leg/Leg.mo").unlink()
+    with dependencies.record_dependencies() as looks:
+        assert cli._main(["build", "--quiet", "--jobs", str(jobs)]) == 0
+    assert not looks.complete
+
+
+def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_site: Path) -> None:
+    with dependencies.record_dependencies() as looks:
+        registry.domain("rcnetwork")
+    assert str(rc_site) in looks.stats[True]
+
+
+@pytest.fixture
+def looks() -> Iterator[dependencies.Dependencies]:
+    with dependencies.record_dependencies() as found:
+        yield found
+
+
+def test_nothing_is_taken_down_without_need(tmp_path: Path) -> None:
+    with dependencies.record_dependencies() as looks:
+        pass
+    assert not dependencies.is_file(tmp_path / "a")
+    assert looks.types == ({}, {})
+
+
+def test_a_file_that_changes_meanwhile(looks: dependencies.Dependencies, tmp_path: Path) -> None:
+    file = tmp_path / "file"
+    file.write_text("a")
+    assert dependencies.read_file(file) == b"a"
+    assert looks.complete
+    file.write_text("ab")
+    assert dependencies.read_file(file) == b"ab"
+    assert not looks.complete
+
+
+def test_a_file_that_comes_meanwhile(looks: dependencies.Dependencies, tmp_path: Path) -> None:
+    assert not dependencies.is_file(tmp_path / "file")
+    (tmp_path / "file").write_text("a")
+    assert dependencies.is_file(tmp_path / "file")
+    assert not looks.complete
+
+
+def test_a_link_and_its_target_are_both_recorded(looks: dependencies.Dependencies, tmp_path: Path) -> None:
+    target, link = tmp_path / "file", tmp_path / "link"
+    target.write_text("a")
+    link.symlink_to(target)
+    assert dependencies.read_file(link) == b"a"
+    assert dependencies.read_stat(link) is not None
+    assert looks.stats[True][str(link)] == dependencies.stat_of(target.stat())
+    assert looks.stats[False][str(link)] == dependencies.stat_of(link.lstat())
+
+
+def test_what_can_not_be_told_is_in_doubt(looks: dependencies.Dependencies, tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="too long"):
+        dependencies.is_file(tmp_path / ("a" * 5000))
+    assert not looks.complete

@@ -1,0 +1,163 @@
+"""Read files and folders, and record each path read, so that the up-to-date check knows the dependencies of an answer.
+
+Code that decides whether there is anything to do reads through these functions alone. What is read by other means is
+named by `depend_on`, or makes the record incomplete (`mark_incomplete`).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import stat
+from collections.abc import Iterator
+from contextvars import ContextVar
+from typing import TypeAlias
+
+Stat: TypeAlias = tuple[int, int, int, int, int, int]
+"""Mode, inode, device, size in bytes, and the times of change of content and of status in ns. Only ever compared."""
+NO_STAT: Stat = (0, 0, 0, 0, 0, 0)
+"""Of a path at which nothing is."""
+
+_ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
+"""Errors that say that nothing is at a path; the same as for pathlib."""
+
+
+class Dependencies:
+    """The paths that were read. In each pair, the second mapping has those of which links were followed."""
+
+    def __init__(self) -> None:
+        self.stats: tuple[dict[str, Stat], dict[str, Stat]] = {}, {}
+        """Files whose content was read, and folders that were listed."""
+        self.types: tuple[dict[str, int], dict[str, int]] = {}, {}
+        """Paths of which only the file type (see `stat.S_IFMT`) was asked; 0 for nothing there."""
+        self.complete = True
+        """Whether the answer depends on nothing else, and no path changed or failed while it was read."""
+
+    def add_stat(self, path: str | os.PathLike[str], status: os.stat_result, *, follow: bool) -> None:
+        """Record that a file's content is about to be read, or a folder to be listed."""
+        found = stat_of(status)
+        if self.stats[follow].setdefault(os.fspath(path), found) != found:
+            self.complete = False  # it changed between two reads
+
+    def add_type(self, path: str | os.PathLike[str], file_type: int, *, follow: bool) -> None:
+        """Record that the file type at a path was asked."""
+        if self.types[follow].setdefault(os.fspath(path), file_type) != file_type:
+            self.complete = False
+
+
+_current: ContextVar[Dependencies | None] = ContextVar("dependencies", default=None)
+
+
+@contextlib.contextmanager
+def record_dependencies() -> Iterator[Dependencies]:
+    """Record all that this thread reads through this module inside the block."""
+    dependencies = Dependencies()
+    token = _current.set(dependencies)
+    try:
+        yield dependencies
+    finally:
+        _current.reset(token)
+
+
+def mark_incomplete() -> None:
+    """Say that the answer depends on more than what is recorded: it can't be saved."""
+    if (dependencies := _current.get()) is not None:
+        dependencies.complete = False
+
+
+def stat_of(status: os.stat_result) -> Stat:
+    """The values that differ once a file has changed."""
+    return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
+
+
+def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
+    """The file type (see `stat.S_IFMT`) at a path; 0 for nothing there. Raises OSError if the system does not tell."""
+    try:
+        found = stat.S_IFMT(os.stat(path, follow_symlinks=follow).st_mode)  # noqa: PTH116 - path may be a string
+    except OSError as error:
+        if error.errno not in _ABSENT:
+            mark_incomplete()
+            raise
+        found = 0
+    if (dependencies := _current.get()) is not None:
+        dependencies.add_type(path, found, follow=follow)
+    return found
+
+
+def is_file(path: str | os.PathLike[str]) -> bool:
+    """Whether a regular file, or a link to one, is at a path. Raises OSError if the system does not tell."""
+    return file_type(path) == stat.S_IFREG
+
+
+def is_folder(path: str | os.PathLike[str]) -> bool:
+    """Whether a folder, or a link to one, is at a path. Raises OSError if the system does not tell."""
+    return file_type(path) == stat.S_IFDIR
+
+
+def read_file(path: str | os.PathLike[str]) -> bytes:
+    """Read a file. Raises OSError."""
+    if (dependencies := _current.get()) is not None:
+        _add(dependencies, path)
+    with open(path, "rb", buffering=0) as file:  # noqa: PTH123 - path may be a string
+        return file.read()
+
+
+def read_stat(path: str | os.PathLike[str]) -> os.stat_result | None:
+    """Ask for a path itself, links not followed, before its content is read; None for nothing. Raises OSError."""
+    dependencies = _current.get()
+    try:
+        found = os.lstat(path)
+    except (FileNotFoundError, NotADirectoryError):
+        if dependencies is not None:
+            dependencies.add_type(path, 0, follow=False)
+        return None
+    except OSError:
+        mark_incomplete()
+        raise
+    if dependencies is not None:
+        dependencies.add_stat(path, found, follow=False)
+    return found
+
+
+def list_folder(folder: str | os.PathLike[str]) -> list[str]:
+    """The names in a folder, in no order. Raises OSError."""
+    if (dependencies := _current.get()) is not None:
+        _add(dependencies, folder)
+    return os.listdir(folder)  # noqa: PTH208 - names are enough
+
+
+def depend_on(path: str | os.PathLike[str]) -> None:
+    """Record a file that is about to be read by other means, or a folder that is about to be listed."""
+    if (dependencies := _current.get()) is not None:
+        with contextlib.suppress(OSError):  # the reader meets the same error, and reports it
+            _add(dependencies, path)
+
+
+def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
+    """The paths of all regular files below a folder, and of links to such files; links to folders are not followed."""
+    waiting = [os.fspath(folder)]
+    while waiting:
+        current = waiting.pop()
+        names: list[str] = []
+        with contextlib.suppress(OSError):  # the folder is missing, or can't be read
+            names = list_folder(current)
+        for path in [f"{current}{os.sep}{name}" for name in names]:
+            found = file_type(path)
+            if found == stat.S_IFREG:
+                yield path
+            elif found == stat.S_IFDIR and os.path.islink(path):  # noqa: PTH114 - it is a string
+                depend_on(path)
+            elif found == stat.S_IFDIR:
+                waiting.append(path)
+
+
+def _add(dependencies: Dependencies, path: str | os.PathLike[str]) -> None:
+    try:
+        dependencies.add_stat(path, os.stat(path), follow=True)  # noqa: PTH116
+    except (FileNotFoundError, NotADirectoryError):
+        dependencies.add_type(path, 0, follow=True)
+        raise
+    except OSError:
+        dependencies.complete = False
+        raise

@@ -1,0 +1,148 @@
+"""Builds robots: plans each, and writes what the plan says.
+
+Planning locks nothing. A build that has something to write takes the build lock, makes sure that the plan still
+holds, and keeps the lock until all robots are built.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from urdfsync import dependencies, machine, profiling
+from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
+from urdfsync.engine import orphans
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.package_files import PackageFiles
+from urdfsync.engine.plan import Plan, plan_robot
+from urdfsync.outcome import Result
+from urdfsync.state.batch import SavedError
+from urdfsync.state.lock import Lock, LockedError
+from urdfsync.state.store import Store
+from urdfsync.state.transactions import Transactions, UnfinishedError
+
+if TYPE_CHECKING:
+    from urdfsync.engine.pool import Pool
+
+
+_ATTEMPTS = 5
+"""Plans of one robot, if each is overtaken by another build or by somebody who saves a file."""
+
+
+def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
+    """Build robots one after the other; one that fails does not stop the others."""
+    with contextlib.ExitStack() as stack:
+        lock = stack.enter_context(Lock(config.root / STATE_FOLDER / "lock", options.wait, shown))
+        pool = None
+        if options.executor or (len(robots) > 1 and (options.jobs or machine.cores()) > 1):
+            from urdfsync.engine.pool import Pool  # multiprocessing takes 15 ms to import
+
+            pool = stack.enter_context(Pool(config, robots, options))
+        builder = _Builder(config, options, lock, pool)
+        for count, robot in enumerate(robots):
+            options.progress(robot.name, count, len(robots))
+            result = builder.build(robot)
+            notes = (
+                builder.notes if count else [*orphans.orphaned_state(Store(config.root, shown), config), *builder.notes]
+            )
+            builder.notes = []
+            yield msgspec.structs.replace(result, diagnostics=(*notes, *result.diagnostics)) if notes else result
+
+
+class _Builder:
+    """The robots of one command."""
+
+    def __init__(self, config: Config, options: BuildOptions, lock: Lock, pool: Pool | None) -> None:
+        self._config, self._options, self._lock, self._pool = config, options, lock, pool
+        self._transactions = Transactions(config.root, config.root / STATE_FOLDER, shown)
+        self.notes: list[Diagnostic] = []
+        """Findings that belong to no robot of this command."""
+
+    def build(self, robot: RobotConfig) -> Result:
+        """Build one robot. Whatever is wrong comes back as diagnostics."""
+        result = Result(robot.name, robot.target.package, robot.folder, self._config.root, dry=self._options.dry)
+        try:
+            plan = self._plan_and_write(robot)
+        except UrdfsyncError as error:
+            locked, unfinished = isinstance(error, LockedError), isinstance(error, UnfinishedError)
+            return msgspec.structs.replace(
+                result, diagnostics=error.diagnostics, failed=True, locked=locked, unfinished=unfinished
+            )
+        except OSError as error:
+            place = Path(error.filename) if isinstance(error.filename, str) else robot.folder
+            found = Diagnostic(Severity.ERROR, "system", error.strerror or str(error), shown(place))
+            return msgspec.structs.replace(result, diagnostics=(found,), failed=True)
+        return msgspec.structs.replace(
+            result,
+            actions=plan.actions,
+            diagnostics=plan.diagnostics,
+            changes=plan.changes,
+            standoffs=plan.conflicts,
+            drawing=plan.drawing,
+        )
+
+    def _plan_and_write(self, robot: RobotConfig) -> Plan:
+        """Plan, and write unless the run is dry; again if another build or a save overtook the plan."""
+        saved = robot.folder
+        for _ in range(_ATTEMPTS):
+            self._recover()
+            plan = self._pool.plan(robot) if self._pool else plan_robot(self._config, robot, self._options)
+            if self._options.dry or not (plan.writes or any(action.writes for action in plan.actions)):
+                if not self._options.dry or self._is_current(plan):
+                    return plan
+                continue
+            dependencies.mark_incomplete()  # what was read is about to change
+            with profiling.stage("waiting"):
+                self._lock.acquire(waiting=self._wait)
+            if not self._is_current(plan):
+                continue
+            files = PackageFiles(self._config, robot)
+            shared = [change for file in plan.shared if (change := file.change(files)) is not None]
+            ignoring = Store(self._config.root, shown).ignoring()
+            try:
+                self._transactions.apply(robot.name, [*shared, *ignoring, *plan.writes], plan.emptied)
+            except SavedError as error:
+                saved = error.path
+                continue
+            if self._options.cache:
+                self._options.cache.invalidate(robot.name)
+            return plan
+        message = "it changes all the time while urdfsync builds"
+        hint = "close what writes to it, then build again"
+        raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
+
+    @profiling.staged("looking")
+    def _is_current(self, plan: Plan) -> bool:
+        """Return whether no other build wrote, or began to, since the plan was made.
+
+        Nearly every build writes the manifest as its last file, so it is read again here; the others are when they are
+        written.
+        """
+        targets = {change.path for change in plan.writes[:-1]}
+        store = Store(self._config.root, shown)
+        return not self._transactions.pending() and store.is_unchanged(plan.witness, targets)
+
+    def _recover(self) -> None:
+        """Wait for a build that is writing; finish what a killed build left."""
+        if not self._transactions.pending():
+            return
+        if self._options.dry:
+            with Lock(self._config.root / STATE_FOLDER / "lock", self._options.wait, shown) as lock:
+                lock.acquire(shared=True, waiting=self._wait)
+            if self._transactions.pending():
+                message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes or undoes it"
+                place = shown(self._config.root / STATE_FOLDER)
+                raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, place, hint=hint))
+            return
+        self._lock.acquire(waiting=self._wait)
+        robots = self._config.robots
+        note = self._transactions.recover([robot.output for robot in robots], [robot.folder for robot in robots])
+        self.notes += [note] if note else []
+
+    def _wait(self) -> None:
+        self._options.progress("waiting for another build", 0, 1)

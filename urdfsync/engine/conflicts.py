@@ -1,0 +1,142 @@
+"""Files that both sides changed: their texts, what the user may decide about them, and what becomes of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import PurePosixPath
+from typing import NamedTuple
+
+import msgspec
+
+from urdfsync.engine.actions import CONFLICTS, Action, Kind
+from urdfsync.merge import Merge, merge
+from urdfsync.merging.soundness import flaw
+from urdfsync.state.record import Choice
+
+
+class Conflict(msgspec.Struct, frozen=True):
+    """One text file in conflict: the three texts as they are, line endings included."""
+
+    path: str
+    """Path of the generated text as in the manifest: from the configuration's folder, POSIX."""
+    owner: str
+    """Element that the file belongs to, in the domain's words."""
+    base: str | None
+    """Text that urdfsync wrote last; None if it is not known, or urdfsync never wrote the file."""
+    mine: str
+    generated: str
+    merge: Merge | None
+    """None without a base. Its `text` is None if both sides changed the same, or if the result makes no sense."""
+    origin: str | None = None
+    """Path of the user's file, if its element was renamed; None if it is at `path`."""
+    rejected: str = ""
+    """Why there is no merge although the sides do not contradict each other, as a clause; empty if there is one."""
+
+    @property
+    def place(self) -> str:
+        """Path of the user's file."""
+        return self.origin or self.path
+
+
+class ConflictFiles(NamedTuple):
+    """Paths of the versions of a file in conflict, below the robot's folder in `.urdfsync/conflicts`."""
+
+    generated: str
+    base: str | None
+    merge: str | None
+
+
+def conflict_files(conflict: Conflict, folder: str) -> ConflictFiles:
+    """Return where the versions of a file in conflict are put; `folder` is the package's.
+
+    A proposed merge with markers in it is no Modelica, so it gets the suffix `.txt`.
+    """
+    path = PurePosixPath(conflict.path).relative_to(folder)
+    stem, suffix = path.with_suffix("").as_posix(), path.suffix
+    merged = conflict.merge
+    return ConflictFiles(
+        generated=f"{stem}.generated{suffix}",
+        base=None if conflict.base is None else f"{stem}.base{suffix}",
+        merge=None if merged is None else f"{stem}.merge{'.txt' if merged.text is None else suffix}",
+    )
+
+
+def find_conflict(action: Action, base: str | None, mine: str, generated: str) -> Conflict:
+    """Merge the texts of a file; a merge that is no sound Modelica is rejected."""
+    merged, rejected = None if base is None else merge(base, mine, generated), ""
+    is_merged = merged is not None and merged.text not in (None, mine)
+    if merged and merged.text is not None and is_merged and action.path.endswith(".mo"):
+        reason = flaw(merged.text, (mine, generated))
+        if reason:
+            merged, rejected = msgspec.structs.replace(merged, text=None), f"the merge {reason}"
+    return Conflict(action.path, action.owner, base, mine, generated, merged, action.origin, rejected)
+
+
+def reject_merge(conflict: Conflict, name: str, line: int) -> Conflict:
+    """Reject a merge that uses a name which the package loses."""
+    if conflict.merge is None:
+        return conflict
+    reason = f"the merge mentions `{name}`, which the package has no more (line {line})"
+    return msgspec.structs.replace(conflict, merge=msgspec.structs.replace(conflict.merge, text=None), rejected=reason)
+
+
+def resolve(
+    actions: Iterable[Action], conflicts: Mapping[str, Conflict], choices: Mapping[str, Choice], merging: bool
+) -> tuple[tuple[Action, ...], dict[str, str]]:
+    """Decide on every file that both sides changed, and on orphans that the user decided about.
+
+    Returns the actions, and the texts of merged files by path. `conflicts` has the disputed text files by path. A merge
+    is taken only if the file moves with its element, if the user chose it, or if the configuration allows clean merges
+    (`merging`).
+    """
+    found, texts = [], {}
+    for action in actions:
+        conflict, choice = conflicts.get(action.path), choices.get(action.path)
+        if action.kind is Kind.ORPHAN:
+            action, text = _resolve_orphan(action, choice), None
+        elif action.kind is Kind.MOVE and conflict:
+            action, text = _resolve_move(action, conflict, choice)
+        elif action.kind in CONFLICTS:
+            action, text = _resolve_conflict(action, conflict, choice, merging)
+        else:
+            text = None
+        found.append(action)
+        if text is not None:
+            texts[action.path] = text
+    return tuple(found), texts
+
+
+def _resolve_orphan(action: Action, choice: Choice | None) -> Action:
+    if choice is Choice.TAKE and action.mine is not None:
+        return msgspec.structs.replace(action, kind=Kind.DELETE, choice=choice)
+    if choice is Choice.KEEP:
+        return msgspec.structs.replace(action, kind=Kind.FORGET, choice=choice)
+    return action
+
+
+def _resolve_conflict(
+    action: Action, conflict: Conflict | None, choice: Choice | None, merging: bool
+) -> tuple[Action, str | None]:
+    merged = conflict.merge.text if conflict and conflict.merge else None
+    if conflict and merged == conflict.mine:
+        return msgspec.structs.replace(action, kind=Kind.INCLUDED), None
+    action = msgspec.structs.replace(action, choice=choice)
+    if choice is Choice.KEEP:
+        return msgspec.structs.replace(action, kind=Kind.KEEP, base=action.generated), None
+    if choice is Choice.TAKE and action.replaceable:
+        return msgspec.structs.replace(action, kind=Kind.UPDATE), None
+    if merged is not None and (choice is Choice.MERGE or merging):
+        return msgspec.structs.replace(action, kind=Kind.MERGE), merged
+    return action, None
+
+
+def _resolve_move(action: Action, conflict: Conflict, choice: Choice | None) -> tuple[Action, str | None]:
+    """Merge a file that moves with its renamed element, unless the user wants one of the sides."""
+    action = msgspec.structs.replace(action, choice=choice)
+    if choice is Choice.TAKE:
+        return action, None
+    if choice is Choice.KEEP:
+        return action, conflict.mine
+    if conflict.merge and conflict.merge.text is not None:
+        return action, conflict.merge.text
+    return msgspec.structs.replace(action, kind=Kind.CONFLICT), None

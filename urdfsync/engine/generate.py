@@ -1,0 +1,192 @@
+"""A model to the files of its package. A text is rendered when it is asked for."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+
+from urdfsync import profiling
+from urdfsync.config import shown
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target, Templates
+from urdfsync.files import text_digest
+
+if TYPE_CHECKING:
+    from urdfsync.render import Renderer
+
+_FORBIDDEN = frozenset('\\:*?"<>|')
+"""Characters that a path can't have on every system."""
+
+
+class Package:
+    """A generated package: its text files by path, and the names for each `package.order`; POSIX, below the package."""
+
+    def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates) -> None:
+        found = sorted(artifacts, key=lambda artifact: artifact.path)
+        self.artifacts: dict[str, Artifact] = {a.path: a for a in found if isinstance(a, Artifact)}
+        self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in found if isinstance(a, Order)}
+        self._templates = templates
+        self._texts: dict[str, bytes] = {}
+        self._keys: dict[str, bytes] = {}
+
+    def content(self, path: str) -> bytes:
+        """Return the text of one file. Raises ConfigError for a template that can't be used."""
+        if path not in self._texts:
+            self._texts[path] = _render(_renderer(self._templates), self.artifacts[path], self._templates.folders)
+        return self._texts[path]
+
+    def hash(self, path: str) -> str:
+        """Return the text hash of one file."""
+        return text_digest(self.content(path))
+
+    def data_key(self, path: str) -> bytes:
+        """Return what the text of a file follows from, as bytes: in JSON 0.0 and -0.0 differ, as in the text."""
+        if path not in self._keys:
+            artifact = self.artifacts[path]
+            self._keys[path] = artifact.template.encode() + b"\n" + msgspec.json.encode(artifact.data)
+        return self._keys[path]
+
+    def changed_since(self, last: Package) -> frozenset[str]:
+        """Return the paths whose text can differ from that of another package of the same templates."""
+        return frozenset(
+            path for path in self.artifacts if path not in last.artifacts or self.data_key(path) != last.data_key(path)
+        )
+
+
+def generate(
+    domain: Domain,
+    snapshot: Snapshot,
+    imports: Mapping[str, Import],
+    target: Target,
+    options: Any,
+    templates: Templates,
+) -> Package:
+    """Return the package of a model. Raises OutputError for paths that can't be written."""
+    with profiling.stage("artifacts"):
+        found = domain.artifacts(snapshot, imports, target, options)
+        check_paths([*(artifact.path for artifact in found), *(entry.target for entry in imports.values())])
+    return Package(found, templates)
+
+
+@functools.lru_cache(maxsize=4)
+def _renderer(templates: Templates) -> Renderer:
+    """Return one renderer for all robots with the same templates, so that each template is compiled once."""
+    from urdfsync.render import Renderer  # Jinja takes 10 ms to import: most builds have nothing to render
+
+    return Renderer(templates.folders)
+
+
+def check_paths(paths: Sequence[str]) -> None:
+    """Refuse paths that leave the package, and pairs that are one file or one class where case is folded.
+
+    Raises OutputError with everything that is wrong.
+    """
+    problems: list[Diagnostic] = []
+    files: dict[str, str] = {}
+    folders: dict[str, str] = {}
+    known: set[str] = set()
+    for path in paths:
+        folder, slash, name = path.rpartition("/")
+        if not _is_inside(name) or (slash and folder not in known and not _is_inside(folder)):
+            problems.append(_problem("outside", f"{path!r} is no path inside the package"))
+            continue
+        if path.casefold() in files:
+            problems.append(_clash(files[path.casefold()], path))
+        files[path.casefold()] = path
+        while folder and folder not in known:
+            known.add(folder)
+            other = folders.setdefault(folder.casefold(), folder)
+            problems += [_clash(other, folder)] if other != folder else []
+            folder = folder.rpartition("/")[0]
+    classes = {folded.removesuffix(".mo"): path for folded, path in files.items() if folded.endswith(".mo")}
+    problems += [_clash(path, f"{folders[name]}/") for name, path in classes.items() if name in folders]
+    if problems:
+        raise OutputError(*problems)
+
+
+def _is_inside(path: str) -> bool:
+    parts = path.split("/")
+    whole = all(part not in ("", ".", "..") and part == part.rstrip(". ") for part in parts)
+    return whole and path.isprintable() and _FORBIDDEN.isdisjoint(path)
+
+
+def _clash(one: str, two: str) -> Diagnostic:
+    return _problem("path-clash", f"`{one}` and `{two}` can't both be in the package")
+
+
+def _problem(code: str, message: str) -> Diagnostic:
+    return Diagnostic(Severity.ERROR, code, message, hint="rename the element, the package or the class")
+
+
+@profiling.staged("rendering")
+def _render(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> bytes:
+    """One rendered file; whatever a template of the user's can do wrong is a ConfigError at its line."""
+    import jinja2
+
+    profiling.count("rendered")
+    try:
+        text = renderer.render(artifact.template, artifact.data)
+        return (text.replace("\r\n", "\n") if "\r" in text else text).encode()
+    except jinja2.TemplateSyntaxError as error:
+        place = error.filename or error.name or artifact.template, error.lineno
+        raise _template_error(str(error.message).rstrip("."), place, folders) from None
+    except jinja2.TemplateNotFound as error:
+        names = error.templates if isinstance(error, jinja2.TemplatesNotFound) else [error.name]
+        message = f"there is no template {' or '.join(f'`{name}`' for name in names)}"
+        raise _template_error(message, _place(error, artifact.template, folders), folders) from None
+    except UnicodeDecodeError as error:
+        raise _template_error("the template is not UTF-8", _undecodable(error, folders), folders) from None
+    except _RENDERING as error:
+        message = f"the template can't be rendered for `{artifact.path}`: {_reason(error)}"
+        raise _template_error(message, _place(error, artifact.template, folders), folders) from None
+    except jinja2.TemplateError as error:
+        message = f"the template can't be rendered for `{artifact.path}`: {_reason(error)}"
+        raise _template_error(message, _place(error, artifact.template, folders), folders) from None
+
+
+_RENDERING = (
+    *(ArithmeticError, AssertionError, AttributeError, LookupError, MemoryError, NameError, RuntimeError),
+    *(SyntaxError, TypeError, ValueError),
+)
+"""What expressions in a template can raise."""
+
+
+def _reason(error: Exception) -> str:
+    if isinstance(error, RecursionError):
+        return "it includes or calls itself without end"
+    if isinstance(error, MemoryError):
+        return "it needs more memory than it may take"
+    if isinstance(error, UnicodeEncodeError):
+        return f"it gives {error.object[error.start]!r}, which is no character"
+    return str(error).rstrip(".") or type(error).__name__
+
+
+def _template_error(message: str, place: tuple[str, int], folders: Sequence[Path]) -> ConfigError:
+    file, line = place
+    own = any(folder in Path(file).parents for folder in folders[:-1])
+    hint = "correct the template, or delete it to get that of urdfsync" if own else "install urdfsync again"
+    name = shown(Path(file)) if Path(file).is_absolute() else file
+    return ConfigError(Diagnostic(Severity.ERROR, "template", message, name, line, hint=hint))
+
+
+def _place(error: Exception, template: str, folders: Sequence[Path]) -> tuple[str, int]:
+    """File and line of the innermost template that the error passed through; Jinja names them in the traceback."""
+    file = next((str(folder / template) for folder in folders if (folder / template).is_file()), template)
+    line, frame = 0, error.__traceback__
+    while frame is not None:
+        name = frame.tb_frame.f_code.co_filename
+        if any(folder in Path(name).parents for folder in folders):
+            file, line = name, frame.tb_lineno
+        frame = frame.tb_next
+    return file, line
+
+
+def _undecodable(error: UnicodeDecodeError, folders: Sequence[Path]) -> tuple[str, int]:
+    """File and line of the template whose bytes could not be decoded; the error has nothing but the bytes."""
+    files = (path for folder in folders for path in sorted(folder.rglob("*")) if path.is_file())
+    name = next((str(path) for path in files if path.read_bytes() == error.object), "")
+    return name, error.object.count(b"\n", 0, error.start) + 1

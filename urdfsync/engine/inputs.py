@@ -1,0 +1,212 @@
+"""What a build of one robot starts from: configuration, source, templates, recorded state, and the files on disk."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import msgspec
+
+from urdfsync import manifest, registry
+from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
+from urdfsync.difference import Version
+from urdfsync.domain import Dependency, Domain, Import, Lookup, Role, Snapshot, Templates
+from urdfsync.engine import imports, orphans, parents, source
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.package_files import PackageFiles
+from urdfsync.engine.parents import Parents
+from urdfsync.files import digest, text_digest
+from urdfsync.manifest import Generator, Manifest
+from urdfsync.modelfile import Model
+from urdfsync.state import repair
+from urdfsync.state.bases import Bases
+from urdfsync.state.store import State, Store
+
+NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
+"""Errors that a domain raises for a recorded snapshot that is none of its own."""
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """Everything that is known of a robot before its source is parsed."""
+
+    config: Config
+    robot: RobotConfig
+    options: BuildOptions
+    domain: Domain
+    files: PackageFiles
+    parents: Parents
+    store: Store
+    state: State | None
+    """What the last build recorded; None if there was none, or it is lost."""
+    former_name: str | None
+    """Name of the robot in the last build, if it has another one now."""
+    recovered: repair.Recovered | None
+    """What `--repair` could read of a broken state."""
+    templates: Templates
+    content: bytes
+    """Bytes of the source."""
+    generator: Generator
+
+    @property
+    def recorded(self) -> Manifest | None:
+        """The manifest of the last build; None if there was none."""
+        return self.state.manifest if self.state else None
+
+    @property
+    def folder(self) -> str:
+        """Key of the package's folder."""
+        return self.files.key(self.robot.folder)
+
+    @property
+    def old_folder(self) -> str:
+        """Key of the package's folder in the last build."""
+        return self.recorded.folder if self.recorded else self.folder
+
+    def key(self, path: str) -> str:
+        """Return the key of a file by its path below the package."""
+        return f"{self.folder}/{path}"
+
+    def old_key(self, path: str) -> str:
+        """Return the key that a file had in the last build, by its path below the package."""
+        return f"{self.old_folder}/{path}"
+
+    def path(self, key: str) -> str:
+        """Return the path of a file below the package, by its key."""
+        return key.removeprefix(f"{self.folder}/")
+
+    def old_path(self, key: str) -> str:
+        """Return the path of a file of the last build below the package as it was, by its key."""
+        return key.removeprefix(f"{self.old_folder}/")
+
+    @cached_property
+    def bases(self) -> Bases:
+        """The texts that urdfsync wrote last, as far as they are stored."""
+        return self.store.bases(self.former_name or self.robot.name)
+
+    @cached_property
+    def source(self) -> manifest.Source:
+        """The source as it is recorded, but for the hash of the recorded model."""
+        return manifest.Source(self.robot.source_text, text_digest(self.content), "")
+
+    @cached_property
+    def last(self) -> Version | None:
+        """The model of the last build; None if there was none, or it is lost."""
+        if self.state is None or self.state.model is None or not self.state.intact:
+            return None
+        return self.version(self.state.model)
+
+    @cached_property
+    def last_complete(self) -> Version | None:
+        """The model of the last build after which nothing waited; without imports if that is not the last build."""
+        model = self.state.model if self.state else None
+        if self.last is None or model is None or model.since is None:
+            return self.last
+        return Version(model.since, None, self.last.generator)
+
+    @property
+    def complete_revision(self) -> int | None:
+        """The domain's revision in the last build after which nothing waited; None if there was none."""
+        since = self.state.model.since_revision if self.state and self.state.model else msgspec.UNSET
+        if since is not msgspec.UNSET:
+            return since
+        return self.recorded.generator.revision if self.recorded else None
+
+    def version(self, model: Model) -> Version:
+        """Return a recorded model with the imports that the manifest has of it."""
+        dependencies = self.recorded.dependencies if self.recorded else {}
+        imported = {
+            key: Import(record.target, facts.source_hash, record.target_hash or "", facts.converter, facts.facts)
+            for key, facts in model.imports.items()
+            if (record := dependencies.get(key)) is not None
+        }
+        return Version(model.snapshot, imported, self.recorded.generator.fingerprint if self.recorded else "")
+
+    def heading(self, model_hash: str) -> Manifest:
+        """Return the manifest of this build without its lists; `model_hash` is the text hash of the recorded model."""
+        target = self.robot.target
+        return Manifest(
+            package=target.package,
+            class_=target.name,
+            folder=self.folder,
+            source=msgspec.structs.replace(self.source, snapshot=model_hash),
+            generator=self.generator,
+        )
+
+    def dependencies(self, snapshot: Snapshot, lines: Mapping[str, int]) -> Sequence[Dependency]:
+        """Return the files that a model refers to."""
+        lookup = Lookup(self.robot.source, self.robot.package_paths + self.options.package_paths)
+        return imports.find_dependencies(self.domain, snapshot, lookup, self.robot.options, lines)
+
+    def rebuilt_manifest(self, generated: Mapping[str, str]) -> Manifest | None:
+        """Return the manifest of the last build, rebuilt with `--repair`; `generated` has hashes of files by key."""
+        if self.recovered is None:
+            return self.recorded
+        roles = {**dict.fromkeys(generated, Role.MODEL), **self.recovered.roles}
+        mine = {key: self.files.on_disk(key, role).hash for key, role in roles.items()}
+        return repair.rebuilt(self.recovered, mine, generated)
+
+
+def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs:
+    """Read all that a build of a robot starts from. Raises UrdfsyncError for whatever is wrong with it."""
+    domain = registry.domain(robot.domain)
+    cache = options.cache
+    files = PackageFiles(config, robot, cache.states(robot.name) if cache and not options.full else {})
+    if cache:
+        cache.invalidate(robot.name)
+        for path in parents.files(robot):
+            with contextlib.suppress(OutputError):  # it may be a link, which `parents.check` allows
+                files.state(path)
+    around = parents.check(config, robot, domain.uses(robot.options))
+    store, folder = Store(config.root, shown), files.key(robot.folder)
+    state, recovered = _load(store, files, robot.name, options)
+    former = None if state else orphans.former_name(store, config, folder)
+    if former:
+        state = store.load(former)
+    templates = source.templates(config, robot, domain)
+    content = source.read_source(config, robot)
+    generator = Generator(robot.domain, domain.revision, _fingerprint(robot, domain, templates))
+    recorded = state.manifest.generator if state else generator
+    if recorded.domain == robot.domain and recorded.revision > domain.revision:
+        message = f"a newer urdfsync built robot `{robot.name}`; this one would undo its improvements"
+        file = shown(store.folder / "robots" / f"{robot.name}.toml")
+        raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, hint="update urdfsync"))
+    return Inputs(
+        config, robot, options, domain, files, around, store, state, former, recovered, templates, content, generator
+    )
+
+
+def _load(
+    store: Store, files: PackageFiles, robot: str, options: BuildOptions
+) -> tuple[State | None, repair.Recovered | None]:
+    """Load the recorded state; with `--repair`, what is left of a broken one."""
+    try:
+        if options.cache is None:
+            return store.load(robot), None
+        return options.cache.get("state", store.texts(robot), lambda: store.load(robot)), None
+    except StateError:
+        if not options.repair:
+            raise
+    manifest_file, model_file = map(shown, store.paths(robot))
+    recovered = repair.recover(*store.texts(robot), manifest_file, model_file)
+    mine = {key: files.on_disk(key, role).hash for key, role in recovered.roles.items()}
+    recorded = repair.rebuilt(recovered, mine, {})
+    if recorded is None:
+        return None, recovered
+    return State(recorded, recovered.model(recorded), intact=False), recovered
+
+
+def _fingerprint(robot: RobotConfig, domain: Domain, templates: Templates) -> str:
+    """Hash templates, options and revision: all that shapes the output beside the model."""
+    facts = {
+        "class": robot.target.name,
+        "options": msgspec.to_builtins(robot.options),
+        "package": robot.target.package,
+        "revision": domain.revision,
+        "templates": templates.digest,
+    }
+    return digest(json.dumps(facts, sort_keys=True).encode())

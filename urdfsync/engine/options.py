@@ -1,0 +1,45 @@
+"""How to build."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TypeAlias
+
+import msgspec
+
+from urdfsync.engine.cache import Cache
+from urdfsync.state.record import Choice
+
+Progress: TypeAlias = Callable[[str, int, int], None]
+"""Called with a step of the work, how much of it is done, and of how much."""
+
+
+def no_progress(what: str, done: int, total: int) -> None:
+    """Report nothing."""
+
+
+class BuildOptions(msgspec.Struct, frozen=True):
+    """How to build."""
+
+    full: bool = False
+    """Render and compare everything, even if nothing changed."""
+    dry: bool = False
+    """Write nothing."""
+    draw: bool = False
+    """Also draw the main model's diagram into the state folder."""
+    package_paths: tuple[Path, ...] = ()
+    """Where to look for packages after the configured folders."""
+    wait: float = 60.0
+    """Seconds to wait for another build to finish."""
+    repair: bool = False
+    """Rebuild a recorded state that can't be read, from what is left of it and from the files."""
+    choices: Mapping[str, Choice] = msgspec.field(default_factory=dict)
+    """The user's decisions about files in conflict, by their path in the manifest."""
+    jobs: int | None = None
+    """Processes that may work at once; None for one per core."""
+    executor: str = ""
+    """Address of a Dask scheduler whose workers plan robots; empty for processes of this machine."""
+    progress: Progress = no_progress
+    cache: Cache | None = None
+    """What a process that builds again and again keeps between builds."""

@@ -1,0 +1,161 @@
+"""The files of one robot's package as one build sees them: each is read once."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Collection, Iterable, Mapping
+from pathlib import Path
+from typing import NamedTuple, TypeAlias
+
+from urdfsync import dependencies
+from urdfsync.classfiles import modelica_files, related
+from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.diagnostics import OutputError
+from urdfsync.domain import Role
+from urdfsync.engine.renames import OnDisk
+from urdfsync.files import Tree, digest, text_digest
+
+
+class FileState(NamedTuple):
+    """A file at the moment of reading."""
+
+    stat: dependencies.Stat
+    sha256: str
+    """Hex, of the bytes."""
+    text_sha256: str
+    """Hex, of the text with its line endings as line feeds."""
+
+
+FileStates: TypeAlias = Mapping[str, FileState | None]
+"""Files by absolute path; None for a path without a file."""
+
+
+class PackageFiles:
+    """The files of one robot's package, by their key: the path from the configuration's folder, POSIX."""
+
+    def __init__(self, config: Config, robot: RobotConfig, known: FileStates | None = None) -> None:
+        """`known` are states that hold as long as a file has the same stat values."""
+        self.root, self._output = config.root, robot.output
+        self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
+        self._known = known or {}
+        self.states: dict[str, FileState | None] = {}
+        """State of each file that was looked at, by absolute path."""
+
+    def key(self, path: Path) -> str:
+        """Return the key of a file."""
+        return Path(os.path.relpath(path, self.root)).as_posix()
+
+    def path(self, key: str) -> Path:
+        """Return the absolute path of a file."""
+        return Path(os.path.normpath(self.root / key))
+
+    def is_inside(self, key: str) -> bool:
+        """Return whether urdfsync may touch the file: it is below the output folder or the configuration's."""
+        return self._tree(str(self.path(key))) is not None
+
+    def read(self, key: str) -> bytes | None:
+        """Return a file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
+        return self.read_path(self.path(key))
+
+    def read_path(self, path: Path) -> bytes | None:
+        """Return a file's content by its absolute path, see `read`."""
+        tree = self._tree(str(path))
+        return tree.read(path) if tree else None
+
+    def text(self, key: str) -> str | None:
+        """Return a file as text; bytes that are not UTF-8 survive `encode`."""
+        content = self.read(key)
+        if content is None:
+            self.states.setdefault(str(self.path(key)), None)
+            return None
+        self.states.setdefault(str(self.path(key)), _state(dependencies.NO_STAT, content))
+        return content.decode(errors="surrogateescape")
+
+    def any_text(self, key: str) -> str:
+        """Return the text of a file that is only searched: empty if it can't be read, since it may be the user's."""
+        try:
+            return self.text(key) or ""
+        except OutputError:
+            return ""
+
+    def state(self, path: str) -> FileState | None:
+        """Return the state of the file at an absolute path, None if there is none. Raises OutputError as `read`."""
+        if path in self.states:
+            return self.states[path]
+        tree, state = self._tree(path), None
+        if tree and tree.check_folder(path.rpartition(os.sep)[0]) and (status := tree.status(path)):
+            stat, state = dependencies.stat_of(status), self._known.get(path)
+            if state is None or state.stat != stat:
+                content = tree.content(path)
+                state = None if content is None else _state(stat, content)
+        self.states[path] = state
+        return state
+
+    def on_disk(self, key: str, role: Role) -> OnDisk:
+        """Return what is at a path: imported files count by their bytes, others by their text."""
+        state = self.state(str(self.path(key)))
+        if state is not None:
+            return OnDisk(state.sha256 if role is Role.IMPORT else state.text_sha256)
+        return OnDisk(is_folder=self._is_class_folder(key))
+
+    def old_hash(self, key: str) -> str | None:
+        """Return the SHA-256 (hex) of the bytes that were first seen at a path; None if that was no file."""
+        state = self.state(str(self.path(key)))
+        return state.sha256 if state else None
+
+    def has_carriage_returns(self, key: str) -> bool:
+        """Return whether the file that was first seen at a path has carriage returns."""
+        state = self.state(str(self.path(key)))
+        return state is not None and state.sha256 != state.text_sha256
+
+    def has_classes(self, key: str, gone: Collection[str]) -> bool:
+        """Return whether the folder of a `package.mo` holds classes other than it and those of the files in `gone`."""
+        folder = self.path(key).parent
+        for path in map(folder.joinpath, dependencies.list_folder(folder)):
+            package = path / "package.mo"
+            if path.suffix == ".mo" and path.name != "package.mo" and dependencies.is_file(path):
+                if self.key(path) not in gone:
+                    return True
+            elif dependencies.is_file(package) and self.key(package) not in gone:
+                return True
+        return False
+
+    def classes(self, folder: str) -> set[str]:
+        """Return all Modelica files below the folder with this key, the user's own included."""
+        return {self.key(Path(path)) for path in modelica_files(self.path(folder))}
+
+    def users_files(self, folders: Iterable[str]) -> dict[Path, bytes]:
+        """Return the Modelica files below the output folder that have to do with the package in one of these folders.
+
+        They are outside of these folders. Files that can't be read are left out.
+        """
+        packages, found = {self.path(folder) for folder in folders}, {}
+        for path in map(Path, modelica_files(self._output)):
+            if packages.isdisjoint(path.parents):
+                with contextlib.suppress(OSError):
+                    found[path] = dependencies.read_file(path)
+        return related(found, [package.name for package in packages])
+
+    def _is_class_folder(self, key: str) -> bool:
+        """Return whether the class of a missing file has a folder of its own."""
+        if not key.endswith(".mo") or key.endswith("/package.mo"):
+            return False
+        path = str(self.path(key))
+        tree = self._tree(path)
+        if tree is not None and not tree.check_folder(path.rpartition(os.sep)[0]):
+            return False
+        return dependencies.is_file(f"{path.removesuffix('.mo')}{os.sep}package.mo")
+
+    def _tree(self, path: str) -> Tree | None:
+        return next((tree for tree in self._trees if tree.covers(path)), None)
+
+
+def _state(stat: dependencies.Stat, content: bytes) -> FileState:
+    sha256 = digest(content)
+    return FileState(stat, sha256, text_digest(content) if b"\r" in content else sha256)
+
+
+def encode(text: str) -> bytes:
+    """Return the bytes of a text that `PackageFiles.text` gave, or of an edited one."""
+    return text.encode(errors="surrogateescape")

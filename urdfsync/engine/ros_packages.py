@@ -1,0 +1,94 @@
+"""ROS packages and Modelica libraries on this machine: which folder holds the one of a name."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from urdfsync.dependencies import depend_on, file_type, is_file, list_folder, read_file
+
+_NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
+_IGNORED = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
+_MARKS = _IGNORED | {"package.xml"}
+_DEPTH = 8
+
+
+def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
+    """Folder of each ROS package below `folders`, and of those around `source`; of two of one name, the first.
+
+    As with rospack, a package holds no others, and folders that ask to be ignored are. Folders that can't be read
+    are passed over.
+    """
+    found: dict[str, Path] = {}
+    for folder in source.parents:
+        if name := _package_name(folder):
+            found.setdefault(name, folder)
+    for folder in folders:
+        for name, path in _below(folder):
+            found.setdefault(name, path)
+    return found
+
+
+def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:
+    """Folder of each Modelica library on MODELICAPATH; of two of one name, the one in the first entry.
+
+    As Modelica tools have it, a library is a folder `Name` or `Name VERSION` with a `package.mo`. In one entry the
+    folder without a version comes first, then the newest version.
+    """
+    found: dict[str, Path] = {}
+    for entry in filter(None, environment.get("MODELICAPATH", "").split(os.pathsep)):
+        folder = Path(entry).absolute()
+        try:
+            names = list_folder(folder)
+        except OSError:  # it is not there, or can't be read: that may change
+            continue
+        for name in sorted(names, key=_precedence):
+            if _is_file(folder / name / "package.mo"):
+                found.setdefault(name.partition(" ")[0], folder / name)
+    return found
+
+
+def _precedence(name: str) -> tuple[bool, list[int], str]:
+    """Sort the folder of a library without a version first, then newer versions before older ones."""
+    version = name.partition(" ")[2]
+    return bool(version), [-int(number) for number in re.findall("[0-9]+", version)], name
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return is_file(path)
+    except OSError:
+        return False  # a folder above it may not let us in
+
+
+def _below(top: Path) -> Iterator[tuple[str, Path]]:
+    for current, folders, files in os.walk(top, onerror=_passed_over):
+        path = Path(current)
+        depend_on(path)
+        for mark in _MARKS.intersection(folders):
+            file_type(path / mark)  # a link may lead to a file later
+        if _IGNORED.intersection(files):
+            folders.clear()
+        elif "package.xml" in files:
+            folders.clear()
+            if name := _package_name(path):
+                yield name, path
+        elif len(path.relative_to(top).parts) >= _DEPTH:
+            folders.clear()
+        folders[:] = sorted(folder for folder in folders if not folder.startswith("."))
+
+
+def _passed_over(error: OSError) -> None:
+    """A folder is not there, or can't be read: that may change."""
+    depend_on(error.filename)
+
+
+def _package_name(folder: Path) -> str | None:
+    file = folder / "package.xml"
+    try:
+        match = _NAME.search(read_file(file)) if is_file(file) else None
+    except OSError:
+        return None
+    return match[1].decode(errors="replace") if match else None
