@@ -22,7 +22,10 @@ def main() -> int:
 def _run() -> int:
     from urdfsync.stamping import stamp  # here, where an interruption leaves no traceback
 
-    code = stamp.repeat(sys.argv[1:])
+    try:
+        code = stamp.repeat(sys.argv[1:])
+    except Exception:  # noqa: BLE001 - whatever it is: the command does its work without, and says what is wrong
+        code = None
     if code is None:
         from urdfsync.cli import main as run
 

@@ -17,6 +17,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
+from urdfsync.extras import install_command
 from urdfsync.state.lock import Lock, LockedError
 
 LIMIT = 2**30
@@ -72,8 +73,7 @@ class Cache:
             import platformdirs
         except ImportError:
             message = "there is no cache: platformdirs is not installed"
-            hint = "pip install 'urdfsync[check]'"
-            raise CacheError(Diagnostic(Severity.ERROR, "no-cache", message, hint=hint)) from None
+            raise CacheError(Diagnostic(Severity.ERROR, "no-cache", message, hint=install_command("check"))) from None
         return cls(platformdirs.user_cache_path("urdfsync", appauthor=False))
 
     def prepare(self) -> None:

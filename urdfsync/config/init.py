@@ -29,7 +29,7 @@ _DEFAULTS = """\
 [defaults]
 output = "modelica"  # the folder that the packages go into
 # create_parents = true  # make the packages around `package` if they do not exist
-# on_build = "check"  # compile each package after its build; needs urdfsync[check]; default "nothing"
+# on_build = "check"  # compile each package after its build, as `urdfsync check` does; default "nothing"
 # on_conflict = "merge"  # where you and the source changed a file, merge if that leaves no doubt; default "keep"
 # package_paths = []  # folders that hold packages, where sources refer to files in them
 # templates = "templates"  # a folder with templates that replace single ones of urdfsync

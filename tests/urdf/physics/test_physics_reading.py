@@ -93,4 +93,4 @@ def test_without_pinocchio_it_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch
     with pytest.raises(SourceError) as caught:
         read(robot(link("base")).encode(), "robot.urdf")
     (diagnostic,) = caught.value.diagnostics
-    assert (diagnostic.code, diagnostic.hint) == ("no-pinocchio", "pip install 'urdfsync[physics]'")
+    assert (diagnostic.code, diagnostic.hint) == ("no-pinocchio", "pip install pin")

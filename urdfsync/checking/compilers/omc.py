@@ -18,11 +18,12 @@ from pathlib import Path
 from urdfsync.checking.compilers.compiler import Tool, ask, ignore, missing
 from urdfsync.checking.compilers.tasks import Job, Outcome, Series, Task
 from urdfsync.checking.process import Limits
+from urdfsync.extras import install_command
 
 OMC = Tool(
     "OpenModelica",
     "urdfsync.checking.compilers.omc_worker",
-    "install OpenModelica and `pip install 'urdfsync[check,omc]'`, or check without `--tool omc`",
+    f"install OpenModelica and `{install_command('check', 'omc')}`, or check without `--tool omc`",
     "check without `--tool omc`, and report it to the authors of OpenModelica",
 )
 NOT_SIMULATED = "OpenModelica only compiles here"

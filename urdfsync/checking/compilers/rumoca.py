@@ -9,11 +9,12 @@ from urdfsync.checking.cache import Cache
 from urdfsync.checking.compilers.compiler import Tool, ask, ignore, missing
 from urdfsync.checking.compilers.tasks import Job, Outcome
 from urdfsync.checking.process import Limits
+from urdfsync.extras import install_command
 
 RUMOCA = Tool(
     "the compiler",
     "urdfsync.checking.compilers.worker",
-    "pip install 'urdfsync[check]'",
+    install_command("check"),
     "report it to the authors of rumoca",
 )
 _NEEDED = ("rumoca", "psutil", "platformdirs")
