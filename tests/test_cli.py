@@ -25,9 +25,10 @@ Capture = pytest.CaptureFixture[str]
 NEXT = [
     "",
     "What to do next:",
-    f"  open {Path('modelica/Ladder/package.mo')} in OMEdit or Dymola, after what `urdfsync library` says",
-    "  urdfsync watch  builds whenever a source changes",
-    "  urdfsync check  compiles the package",
+    f"  open {Path('modelica/Ladder/package.mo')} in OMEdit or Dymola",
+    "  urdfsync library  says how they find the library UrdfSync",
+    "  urdfsync watch    builds whenever a source changes",
+    "  urdfsync check    compiles the package",
 ]
 """What follows the first build of a package."""
 

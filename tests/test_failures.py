@@ -22,7 +22,7 @@ Capture = pytest.CaptureFixture[str]
 REPOSITORY = Path(__file__).parents[1]
 URDF = """<robot name="arm">
   <link name="base"/>
-  <link name="tip"><inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="tip"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
   <joint name="hold" type="fixed"><parent link="base"/><child link="tip"/></joint>
 </robot>
 """
@@ -109,7 +109,6 @@ def test_a_signal_ends_a_build_with_130(
     environment = os.environ | {"PYTHONPATH": str(REPOSITORY)}
     with Lock(tmp_path / ".urdfsync/lock", 0) as lock:
         lock.acquire()
-        command = [sys.executable, "-m", "urdfsync", "build", "-v"]
         code = "import sys; from urdfsync import cli; from urdfsync.state.lock import Lock; acquire = Lock.acquire"
         code += "\ndef tell(*a, **k): print('waits', flush=True); return acquire(*a, **k)"
         code += "\nLock.acquire = tell; sys.exit(cli.main(['build']))"

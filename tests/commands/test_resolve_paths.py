@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -117,16 +116,6 @@ def test_a_file_that_is_named_twice_counts_once() -> None:
     assert meant(LINK, "modelica/Arm/Links", ORIGIN, MOVED) == ([LINK, OTHER, MOVED], [])
 
 
-def test_several_places_may_be_meant_by_a_path() -> None:
-    linked = TypedPath("lib/Elbow.mo", (ROOT / "lib/Elbow.mo", ROOT / LINK))
-    found, missing = find_targets([ARM], [linked])
-    assert ([target.action.path for target in found], missing) == ([LINK], [])
-
-
-def test_a_path_of_no_place_means_nothing() -> None:
-    assert find_targets([ARM], [TypedPath("", ())]) == ([], [TypedPath("", ())])
-
-
 def test_what_is_decided_but_waits_can_be_decided_again() -> None:
     held = Action(LINK, Kind.UPDATE, Role.MODEL, choice=Choice.TAKE, held=True)
     moves = Action(MOVED, Kind.MOVE, Role.MODEL, origin=ORIGIN)
@@ -160,22 +149,10 @@ def test_of_many_conflicts_a_few_are_named() -> None:
 # What may be done about them
 
 
-@pytest.mark.parametrize("choice", Choice)
-def test_a_choice_is_for_every_file(choice: Choice) -> None:
-    assert check_choices([target(), target(OTHER)], choice) == {LINK: choice, OTHER: choice}
-
-
 def refusals(choice: Choice, *found: Target) -> list[str]:
     with pytest.raises(UrdfsyncError) as caught:
         check_choices(found, choice)
     return [str(diagnostic) for diagnostic in caught.value.diagnostics]
-
-
-def test_what_contradicts_each_other_cant_be_merged() -> None:
-    assert refusals(Choice.MERGE, target(), target(OTHER, CLASH)) == [
-        f"{OTHER}: error: it can't be merged: the changes contradict each other; put what you want of "
-        ".urdfsync/conflicts/arm/Links/Tip.merge.txt into your file, then use --keep [no-merge]"
-    ]
 
 
 def test_every_file_that_cant_be_merged_is_named() -> None:
@@ -203,22 +180,6 @@ def test_what_the_user_made_a_folder_cant_be_replaced() -> None:
     ]
     assert check_choices([folder], Choice.KEEP) == {LINK: Choice.KEEP}
     assert check_choices([Target(ARM, conflict(MESH, Role.IMPORT))], Choice.TAKE) == {MESH: Choice.TAKE}
-
-
-def test_what_is_not_at_hand_can_only_be_kept() -> None:
-    mesh = Target(ARM, msgspec.structs.replace(conflict(MESH, Role.IMPORT), at_hand=False))
-    assert refusals(Choice.TAKE, mesh) == [
-        f"{MESH}: error: it can't be taken: the file it is made from is not here; "
-        f"bring it back, or keep yours with `urdfsync resolve {MESH} --keep` [no-take]"
-    ]
-    assert refusals(Choice.MERGE, mesh)[0].endswith("and the file it is made from is not here; use --keep [no-merge]")
-    assert check_choices([mesh], Choice.KEEP) == {MESH: Choice.KEEP}
-
-
-def test_what_is_impossible_can_be_left_out() -> None:
-    found = [target(), target(OTHER, CLASH)]
-    assert possible_choices(found, Choice.MERGE) == {LINK: Choice.MERGE}
-    assert possible_choices(found, Choice.TAKE) == {LINK: Choice.TAKE, OTHER: Choice.TAKE}
 
 
 FOUND = st.builds(target, st.sampled_from([LINK, OTHER, MOVED]), st.sampled_from([CLEAN, CLASH, REJECTED, None]))

@@ -15,6 +15,12 @@ from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.results import show_results
 
+_NEXT_COMMANDS = {
+    "library": "says how they find the library UrdfSync",
+    "watch": "builds whenever a source changes",
+    "check": "compiles the package",
+}
+
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
@@ -74,9 +80,9 @@ def _next_steps(results: Sequence[Result]) -> Iterator[StyledLine]:
     files = " or ".join(dict.fromkeys(shown(_top_package(result)) for result in new[:3]))
     yield line(("", ""))
     yield line(("What to do next:", "bold"))
-    yield line(("  open ", ""), (files, "bold"), (" in OMEdit or Dymola, after what `urdfsync library` says", ""))
-    yield line(("  urdfsync watch", "bold"), ("  builds whenever a source changes", ""))
-    yield line(("  urdfsync check", "bold"), ("  compiles the package", ""))
+    yield line(("  open ", ""), (files, "bold"), (" in OMEdit or Dymola", ""))
+    for command, what in _NEXT_COMMANDS.items():
+        yield line((f"  urdfsync {command:<9}", "bold"), (what, ""))
 
 
 def _top_package(result: Result) -> Path:

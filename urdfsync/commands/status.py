@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import argparse
 import enum
-import os
 import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -22,14 +20,13 @@ from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.output.console import Console, StyledLine, has_marks, is_terminal, line
 from urdfsync.output.json_values import action_values, result_values
 from urdfsync.output.phrases import GENERATOR, change_classes, counted, error_count
+from urdfsync.output.results import FileLine, file_lines
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
 
 _STALE = 20
 """So many stale files of a robot are listed at most, without --verbose."""
-_WIDEST_NAME = 40
-"""Longer names push their reason to the right."""
 _ADVICE = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
 
 
@@ -203,11 +200,8 @@ def _lines(found: PackageStatus, verbose: bool) -> Iterator[StyledLine]:
     yield line(*marks, (result.robot, "bold"), (f": {summary(found)}", ""))
     yield from (line((f"  {words}", "")) for words in next_build(found))
     files = _listed(found, verbose)
-    yield from (
-        _by_folder(found, files)
-        if is_terminal(stream)
-        else (_line("  ", file, str(_place(found, file))) for file in files)
-    )
+    lines = [FileLine(file.path, f"{file.status:<{_COLUMN}}", _STYLES[file.status], file.reason) for file in files]
+    yield from file_lines(lines, result.root, by_folder=is_terminal(stream))
     hidden = found.counts.get(FileStatus.STALE, 0) - sum(file.status is FileStatus.STALE for file in files)
     if hidden and found.is_built:
         yield line((f"  … and {hidden} more stale files; --verbose shows them", "dim"))
@@ -254,31 +248,11 @@ def _source_changes(changes: Changes) -> str:
 
 
 def _listed(found: PackageStatus, verbose: bool) -> Sequence[StatusEntry]:
-    """The files to name, those of a folder in succession; of a robot that was never built, no new ones."""
-    files = sorted(found.files, key=lambda file: file.path.rpartition("/"))
+    """The files to name; of a robot that was never built, no new ones."""
     if verbose:
-        return files
+        return found.files
+    files = sorted(found.files, key=lambda file: file.path.rpartition("/"))
     stale = [file for file in files if file.status is FileStatus.STALE]
     few = 0 if not found.is_built else len(stale) if len(stale) <= _STALE else _STALE - 1
     left_out = {file.path for file in stale[few:]}
     return [file for file in files if file.status is not FileStatus.IN_STEP and file.path not in left_out]
-
-
-def _by_folder(found: PackageStatus, files: Sequence[StatusEntry]) -> Iterator[StyledLine]:
-    folder = None
-    width = min(_WIDEST_NAME, max((len(file.path.rpartition("/")[2]) for file in files), default=0))
-    for file in files:
-        place = _place(found, file)
-        if place.parent != folder:
-            folder = place.parent
-            yield line((f"  {folder}/", "bold blue"))
-        yield _line("    ", file, f"{place.name:<{width}}")
-
-
-def _line(indent: str, file: StatusEntry, name: str) -> StyledLine:
-    word = (f"{indent}{file.status:<{_COLUMN}}  ", _STYLES[file.status])
-    return line(word, (name, ""), (f"  {file.reason}", "dim")) if file.reason else line(word, (name.rstrip(), ""))
-
-
-def _place(found: PackageStatus, file: StatusEntry) -> Path:
-    return Path(shown(Path(os.path.normpath(found.result.root / file.path))))

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
 
 from urdfsync.config import shown
 from urdfsync.engine.actions import Action, Kind
@@ -13,6 +14,9 @@ from urdfsync.outcome import Checked, Result
 from urdfsync.output.console import Console, StyledLine, has_marks, is_terminal, line, rich_console
 from urdfsync.output.json_values import result_values
 from urdfsync.output.phrases import change_lines, counted, reason, summary
+
+if TYPE_CHECKING:
+    from urdfsync.changes import Changes
 
 _STYLES = {
     Kind.CREATE: "green",
@@ -32,8 +36,35 @@ _STYLES = {
 }
 _ALWAYS_LISTED = (Kind.ORPHAN, Kind.NEEDED)
 _ORPHANS = "  `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
+_WIDEST_NAME = 40
+"""Longer names push their reason to the right."""
 _CHANGES = 12
 """So many changes of a model are shown at most, without --verbose."""
+
+
+class FileLine(NamedTuple):
+    """What to say of one file: a word and its style, and why; the path is that of the manifest."""
+
+    path: str
+    word: str
+    style: str
+    reason: str
+
+
+def file_lines(files: Iterable[FileLine], root: Path, *, by_folder: bool) -> Iterator[StyledLine]:
+    """A line for each file, those of a folder in succession: with its path, or `by_folder` below the folder's."""
+    files = sorted(files, key=lambda file: file.path.rpartition("/"))
+    width = min(_WIDEST_NAME, max((len(file.path.rpartition("/")[2]) for file in files), default=0))
+    folder = None
+    for file in files:
+        place = Path(shown(Path(os.path.normpath(root / file.path))))
+        if by_folder and place.parent != folder:
+            folder = place.parent
+            yield line((f"  {folder}/", "bold blue"))
+        name = f"{place.name:<{width}}" if by_folder else str(place)
+        indent = "    " if by_folder else "  "
+        why = [(f"  {file.reason}", "dim")] if file.reason else []
+        yield line((f"{indent}{file.word}  ", file.style), (name if why else name.rstrip(), ""), *why)
 
 
 def show_results(console: Console, results: Iterator[Result], *, explain: bool = False) -> list[Result]:
@@ -99,33 +130,15 @@ def _file_lines(result: Result, *, by_folder: bool, verbose: bool, explain: bool
         actions = [action for action in decided if action.kind is not Kind.UNCHANGED]
     else:
         actions = [action for action in decided if action.kind in _ALWAYS_LISTED]
-    actions.sort(key=lambda action: action.path.rpartition("/"))
-    if by_folder and (verbose or explain):
-        yield from _by_folder(result, actions)
-    else:
-        yield from (_file_line(result, action, "  ", str(_place(result, action))) for action in actions)
+    files = [_file_line(action, result.changes) for action in actions]
+    yield from file_lines(files, result.root, by_folder=by_folder and (verbose or explain))
     if explain and (rest := len(result.actions) - len(actions)):
         yield line((f"  {counted(rest, 'unchanged file')}; --verbose names each", "dim"))
     if any(action.kind is Kind.ORPHAN for action in actions):
         yield line((_ORPHANS, "dim"))
 
 
-def _by_folder(result: Result, actions: Sequence[Action]) -> Iterator[StyledLine]:
-    folder = None
-    width = max((len(Path(action.path).name) for action in actions), default=0)
-    for action in actions:
-        place = _place(result, action)
-        if place.parent != folder:
-            folder = place.parent
-            yield line((f"  {folder}/", "bold blue"))
-        yield _file_line(result, action, "    ", f"{place.name:<{width}}")
-
-
-def _file_line(result: Result, action: Action, indent: str, name: str) -> StyledLine:
+def _file_line(action: Action, changes: Changes | None) -> FileLine:
     word = "waiting" if action.held else action.kind.value.removeprefix("unowned-")
     style = "yellow" if action.held else _STYLES.get(action.kind, "dim")
-    return line((f"{indent}{word:<9}  ", style), (name, ""), (f"  {reason(action, result.changes)}", "dim"))
-
-
-def _place(result: Result, action: Action) -> Path:
-    return Path(shown(Path(os.path.normpath(result.root / action.path))))
+    return FileLine(action.path, f"{word:<9}", style, reason(action, changes))
