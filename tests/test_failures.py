@@ -79,6 +79,22 @@ def test_what_nobody_foresaw_ends_in_2_with_its_traceback_in_a_file(
     assert type(error).__name__ in file.read_text()
 
 
+def test_so_does_what_fails_while_an_answer_is_saved(
+    project: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise RuntimeError("no answer")
+
+    cli.main(["build"])
+    monkeypatch.setattr("urdfsync.stamping.making.keep", fail)
+    monkeypatch.setattr("urdfsync.stamping.making._question", lambda _: ("", "urdfsync.toml"))
+    capsys.readouterr()
+    assert cli.main(["build"]) == 2
+    streams = capsys.readouterr()
+    assert streams.out == "ladder: in step, 14 files\n"
+    assert streams.err.startswith("error: RuntimeError in test_failures.py, line ")
+
+
 def test_verbose_shows_the_traceback(
     project: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -34,7 +34,11 @@ def main(given: Sequence[str] | None = None) -> int:
             code = _main(given)
             return tell_unwritten(output) if output.trouble else code
 
-    return making.carry_out(given, run)
+    try:
+        return making.carry_out(given, run)
+    except Exception as error:  # noqa: BLE001 - of what saves the command's answer
+        Console().fail("", [unforeseen(error)], Exit.ERROR)
+        return Exit.ERROR
 
 
 def tell_unwritten(output: streams.Stream) -> int:

@@ -128,8 +128,10 @@ def lines(verdicts: Sequence[Verdict], place: Place, ignored: Collection[str]) -
     """Everything that there is to say of robots that are not in step, or not staged."""
     several = len({verdict.config for verdict in verdicts}) > 1
     for verdict in verdicts:
-        name = f"{verdict.robot} ({place.shown(verdict.config)})" if several else verdict.robot
-        yield f"{name}: {_fault(verdict, place)}"
+        if several:
+            yield f"{verdict.robot} ({place.shown(verdict.config)}): {_fault(verdict, place)}"
+        elif not verdict.troubled:  # else its result has been shown
+            yield f"{verdict.robot}: {_fault(verdict, place)}"
     for advice, command in _steps(verdicts, place, ignored):
         yield advice
         yield f"  {command}"
