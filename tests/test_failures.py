@@ -86,8 +86,7 @@ def test_so_does_what_fails_while_an_answer_is_saved(
         raise RuntimeError("no answer")
 
     cli.main(["build"])
-    monkeypatch.setattr("urdfsync.stamping.making.keep", fail)
-    monkeypatch.setattr("urdfsync.stamping.making._question", lambda _: ("", "urdfsync.toml"))
+    monkeypatch.setattr("urdfsync.uptodate.save_answer", fail)
     capsys.readouterr()
     assert cli.main(["build"]) == 2
     streams = capsys.readouterr()

@@ -14,12 +14,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import FrameType
 
-from urdfsync import __version__, dependencies, profiling, streams
+from urdfsync import __version__, profiling, streams, uptodate
 from urdfsync.commands import arguments
+from urdfsync.dependencies import mark_incomplete, record_dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit
 from urdfsync.output.console import Console
-from urdfsync.stamping import making, stamp
 
 _COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "record", "hook", "library")
 """In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
@@ -27,18 +27,28 @@ _COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "re
 
 def main(given: Sequence[str] | None = None) -> int:
     """Run a command; returns the exit code. Whatever happens is told in one line, never by a traceback alone."""
+    started = uptodate.PROGRAM_START if given is None else uptodate.read_clocks()
     given = sys.argv[1:] if given is None else list(given)
-
-    def run(said: streams.Said | None) -> int:
-        with streams.guarded(said) as output, _terminated_as_interrupted():
-            code = _main(given)
-            return tell_unwritten(output) if output.trouble else code
-
     try:
-        return making.carry_out(given, run)
-    except Exception as error:  # noqa: BLE001 - of what saves the command's answer
+        config_file = uptodate.find_config(given) if given and given[0] in uptodate.COMMANDS else None
+        if config_file is None or not (sys.stdout and sys.stderr):
+            return _run(given)
+        key, transcript = uptodate.answer_key(given, config_file), streams.Transcript()
+        with record_dependencies() as dependencies:
+            code = _run(given, transcript)
+        if code == Exit.IN_STEP:
+            answer = [text for entry in transcript if entry[1] for text in entry]
+            uptodate.save_answer(config_file, key, answer, dependencies, started)
+    except Exception as error:  # noqa: BLE001 - of what looks for answers and saves them
         Console().fail("", [unforeseen(error)], Exit.ERROR)
         return Exit.ERROR
+    return code
+
+
+def _run(given: list[str], transcript: streams.Transcript | None = None) -> int:
+    with streams.safe_streams(transcript) as output, _terminated_as_interrupted():
+        code = _main(given)
+        return tell_unwritten(output) if output.trouble else code
 
 
 def tell_unwritten(output: streams.Stream) -> int:
@@ -123,11 +133,11 @@ def _terminated_as_interrupted() -> Iterator[None]:
 @contextlib.contextmanager
 def _measured(given: Sequence[str]) -> Iterator[None]:
     """Measure a command; also how long a stamp takes that would have answered."""
-    dependencies.mark_incomplete()  # times can't be said again
-    with profiling.measured(since=stamp.BEGUN[0]) as profile:
+    mark_incomplete()  # times can't be said again
+    with profiling.measured(since=uptodate.PROGRAM_START[0]) as profile:
         with profiling.stage("stamp"):
             plain = [argument for argument in given if argument != "--profile"]
-            profile.stamp = stamp.answers(plain) if plain[0] in stamp.COMMANDS else None
+            profile.stamp = uptodate.has_answer(plain) if plain[0] in uptodate.COMMANDS else None
         yield
 
 

@@ -81,6 +81,8 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True):
     folder: str
     source: Source
     generator: Generator
+    options: Mapping[str, Any] | None = None
+    """The domain's options of the build as TOML has them, without those that are None; None in older states."""
     names: Mapping[str, Mapping[str, str]] = {}
     dependencies: Mapping[str, DependencyRecord] = {}
     orders: Mapping[str, tuple[str, ...]] = {}
@@ -147,6 +149,8 @@ def _heads(manifest: Manifest) -> Iterator[tuple[_Keys, object]]:
     yield (), {"format": manifest.format, **folder}
     yield ("source",), manifest.source
     yield ("generator",), manifest.generator
+    if manifest.options is not None:
+        yield ("options",), manifest.options
     yield from ((("names", kind), names) for kind, names in manifest.names.items())
     yield from ((("dependencies", key), dependency) for key, dependency in manifest.dependencies.items())
     orders = {_PARENT if path == above else path[below:]: names for path, names in manifest.orders.items()}
@@ -204,6 +208,12 @@ def loads(text: str, file: str) -> Manifest:
     }
     orders = {above if path == _PARENT else f"{folder}/{path}": names for path, names in manifest.orders.items()}
     return msgspec.structs.replace(manifest, files=files, orders=dict(sorted(orders.items())))
+
+
+def option_values(options: msgspec.Struct) -> dict[str, Any]:
+    """A domain's options as the manifest has them: TOML has lists in the place of tuples, and no None."""
+    values = msgspec.json.decode(msgspec.json.encode(options))
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def text_hash(text: str) -> str:

@@ -84,7 +84,7 @@ def _positive(text: str) -> int:
     return int(text)
 
 
-@profiling.staged("configuration")
+@profiling.stage("configuration")
 def configuration(args: argparse.Namespace) -> Config:
     """The configuration that the arguments name, or the nearest one. Raises ConfigError."""
     return config.load(args.config or config.find(config.working_folder()))

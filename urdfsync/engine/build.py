@@ -116,7 +116,7 @@ class _Builder:
         hint = "close what writes to it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
 
-    @profiling.staged("looking")
+    @profiling.stage("looking")
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build wrote, or began to, since the plan was made.
 

@@ -139,7 +139,7 @@ class Console:
         self._begin = time.monotonic()
         self._bar: tuple[Progress, TaskID] | None = None
 
-    @profiling.staged("presentation")
+    @profiling.stage("presentation")
     def print(self, lines: Iterable[StyledLine | Text], *, error: bool = False) -> None:
         """Write lines on the output stream; with `error` on the error stream."""
         self.stop_progress()
@@ -224,7 +224,10 @@ class Console:
         if self._bar is None:
             from rich.progress import Progress
 
-            screen = rich_console(streams.unrecorded(sys.stderr))
+            stream: Any = sys.stderr
+            if isinstance(stream, streams.Stream):
+                stream = stream.without_transcript()  # the bar is gone at the end: no saved answer has it
+            screen = rich_console(stream)
             bar = Progress(console=screen, transient=True, redirect_stdout=False, redirect_stderr=False)
             self._bar = bar, bar.add_task(what, total=None)
             bar.start()

@@ -149,7 +149,7 @@ def remove(path: AnyPath) -> None:
         os.unlink(path)
 
 
-@profiling.staged("syncing")
+@profiling.stage("syncing")
 def sync(paths: Sequence[AnyPath]) -> None:
     """Bring files and folders to the disk, so that they outlive a power failure.
 

@@ -49,7 +49,7 @@ class Transactions:
         """Whether a batch is under way, or was when its process ended. Needs no lock."""
         return find_phase(self._folder) is not None
 
-    @profiling.staged("writing")
+    @profiling.stage("writing")
     def apply(self, robot: str, changes: Sequence[Change], emptied: Iterable[Path] = ()) -> None:
         """Make all changes, in their order, or none; `emptied` are folders to remove if they are empty then.
 
