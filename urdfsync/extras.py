@@ -1,7 +1,7 @@
 """The optional extras of urdfsync, as commands that install them wherever urdfsync itself was installed from."""
 
 PACKAGES = {
-    "check": ("platformdirs", "psutil", "rumoca"),
+    "check": ("psutil", "rumoca"),
     "omc": ("OMPython",),
     "physics": ("pin",),
 }
@@ -9,5 +9,5 @@ PACKAGES = {
 
 
 def install_command(*extras: str) -> str:
-    """`pip install platformdirs psutil rumoca`."""
+    """`pip install psutil rumoca`."""
     return " ".join(["pip install", *(name for extra in extras for name in PACKAGES[extra])])

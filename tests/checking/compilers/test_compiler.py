@@ -102,7 +102,7 @@ def test_a_compiler_that_is_not_installed_is_named(rumoca: Compiler, monkeypatch
     monkeypatch.setitem(sys.modules, "rumoca", None)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == "rumoca" else name)
     diagnostic, _ = failure(rumoca, Job((), (GOOD,)))
-    assert (diagnostic.code, diagnostic.hint) == ("no-compiler", "pip install platformdirs psutil rumoca")
+    assert (diagnostic.code, diagnostic.hint) == ("no-compiler", "pip install psutil rumoca")
     assert "rumoca is not installed" in diagnostic.message
 
 
@@ -122,7 +122,7 @@ def test_each_tool_needs_its_own_only(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_one_that_can_not_be_loaded_too(rumoca: Compiler, monkeypatch: pytest.MonkeyPatch) -> None:
     fake_worker(monkeypatch, f"sys.stderr.write('no such wheel'); sys.exit({MISSING})")
     diagnostic, _ = failure(rumoca, Job((), (BAD, GOOD)))
-    assert (diagnostic.code, diagnostic.hint) == ("no-compiler", "pip install platformdirs psutil rumoca")
+    assert (diagnostic.code, diagnostic.hint) == ("no-compiler", "pip install psutil rumoca")
     assert "no such wheel" in diagnostic.message
 
 
