@@ -21,9 +21,10 @@ import msgspec
 from support.corpus import FOLDER
 
 import urdfsync
-from urdfsync import config, init
+from urdfsync import config
 from urdfsync.check import libraries, run
 from urdfsync.check.results import EFFORTS, MASSES, POSES, CheckOptions, CheckResult, largest
+from urdfsync.config import init
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Deviation, Quantity
 
@@ -60,7 +61,7 @@ def _check(files: Sequence[Path], options: argparse.Namespace, folder: Path) -> 
     readable = [file for file in files if not _refused(file, options.folder, folder)]
     if not readable:
         return 0
-    draft = init.draft(folder / config.FILE_NAME, readable, "urdf")
+    draft = init.make_draft(folder / config.FILE_NAME, readable, "urdf")
     text = draft.text.replace("[defaults]\n", f'[defaults]\napproach = ["{options.approach}"]\n')
     init.write(msgspec.structs.replace(draft, text=text))
     configuration = config.load(draft.file)
@@ -85,7 +86,7 @@ def _agrees(result: CheckResult) -> bool:
 def _refused(file: Path, root: Path, folder: Path) -> bool:
     """Whether a file has errors; if so its row says which."""
     try:
-        init.draft(folder / config.FILE_NAME, [file], "urdf")
+        init.make_draft(folder / config.FILE_NAME, [file], "urdf")
     except SourceError as error:
         codes = ", ".join(sorted({found.code for found in error.diagnostics}))
         _row([file.relative_to(root).as_posix(), *[""] * (len(HEADER) - 2), f"refused: {codes}"])

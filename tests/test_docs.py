@@ -36,6 +36,19 @@ def test_links_between_pages_lead_somewhere(page: Path) -> None:
     assert [target for target in targets if "://" not in target and not (page.parent / target).exists()] == []
 
 
+def test_commands_install_what_there_is() -> None:
+    """urdfsync has no release: it comes from a clone or a git address, and its extras as packages of their own."""
+    files = [*PAGES, REPOSITORY / ".pre-commit-hooks.yaml", *sorted((REPOSITORY / "urdfsync").rglob("*.py"))]
+    files += sorted((REPOSITORY / "modelica/UrdfSync").rglob("*.mo"))
+    for file in files:
+        text = file.read_text(encoding="utf-8")
+        assert re.findall(r"urdfsync\[|rev: *v?\d", text) == [], file
+        for command in re.findall(r"pip install ([^`#\n]*)", text):
+            names = [name.strip("'\"") for name in command.split("&&")[0].split() if not name.startswith("-")]
+            wanted = "." in names or any(name.startswith(".[") for name in names)
+            assert wanted or file.name in ("speed.md", "extras.py"), f"{file}: pip install {command}"
+
+
 @pytest.mark.parametrize(("command", "page"), [("watch", "watch"), ("check", "checking")])
 def test_every_option_is_documented(command: str, page: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main([command, "--help"]) == 0

@@ -16,16 +16,16 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import cli, config, documents
+from urdfsync import cli, config
 from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect
+from urdfsync.commands.status import FileStatus
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.documents import VERSION
 from urdfsync.domain import Deviation, Quantity, Role
 from urdfsync.engine.actions import Kind
 from urdfsync.outcome import Checked, Result
+from urdfsync.output.console import JSON_VERSION
 from urdfsync.profiling import OTHER, STAGES
-from urdfsync.status import FileStatus
-from urdfsync.views.watching import ForPrograms
+from urdfsync.views.watching import ForPrograms, event_values
 from urdfsync.watching import events
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
@@ -212,7 +212,7 @@ def test_the_other_events_look_as_shown() -> None:
         events.Resumed(),
     )
     times = [datetime.datetime.fromisoformat(event["time"]) for event in OTHERS]
-    shown = [documents.event(event, time) for event, time in zip(others, times, strict=True)]
+    shown = [event_values(event, time) for event, time in zip(others, times, strict=True)]
     assert json.loads(json.dumps(shown)) == OTHERS
     kinds = {kind.__name__.lower() for kind in typing.get_args(events.Event)}
     assert kinds == {event["event"] for event in (*SESSION, *OTHERS, BUILT)}
@@ -288,7 +288,7 @@ def test_a_profile(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_values_that_are_one_of_a_few_are_all_named() -> None:
     few = (*Kind, *Role, *FileStatus, *Checked, *CheckStatus, *Quantity)
     assert {f"`{kind}`" for kind in few} <= set(re.findall(r"`[\w -]+`", PAGE))
-    assert f"`version` is {VERSION}" in PAGE
+    assert f"`version` is {JSON_VERSION}" in PAGE
 
 
 @pytest.mark.parametrize("arguments", [[], ["biuld"], ["build", "--svg", "--check"], ["check", "--jobs", "0"]])

@@ -16,7 +16,7 @@ from urdfsync import cli, config, dependencies
 from urdfsync.check import afterbuild
 from urdfsync.check.compilers.compiler import CompilerError
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
-from urdfsync.commands import building
+from urdfsync.commands.build import build_and_check
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.engine.build import build
@@ -295,7 +295,7 @@ def test_without_the_extra_the_real_check_says_what_to_install(
     streams = capsys.readouterr()
     assert streams.out.splitlines()[0].endswith("files written; not checked")
     assert "warning: there is no compiler: " in streams.err
-    assert "pip install 'urdfsync[check]'" in streams.err
+    assert "pip install platformdirs psutil rumoca" in streams.err
 
 
 def test_robots_that_are_not_to_be_checked_are_not(project: Path) -> None:
@@ -392,5 +392,5 @@ def test_what_a_check_said_is_never_said_again_without_a_look(project: Path) -> 
     loaded = config.load(Path("urdfsync.toml"))
     run(Examiner(RIGHT))
     with dependencies.record_dependencies() as looks:
-        assert [result.in_step for result in building.built(loaded, loaded.robots, BuildOptions(wait=1))] == [True]
+        assert [result.in_step for result in build_and_check(loaded, loaded.robots, BuildOptions(wait=1))] == [True]
     assert not looks.complete

@@ -9,12 +9,13 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import cli, wording
+from urdfsync import cli
 from urdfsync.check.results import CheckOptions, CheckResult, EditEffect
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity
 from urdfsync.engine.options import Progress
+from urdfsync.output.phrases import byte_size
 
 Capture = pytest.CaptureFixture[str]
 
@@ -189,4 +190,4 @@ def test_the_cache_is_emptied_without_a_configuration(
     ("number", "said"), [(1, "1 byte"), (999, "999 bytes"), (1500, "1.5 kB"), (48_123_904, "48 MB"), (2**30, "1.1 GB")]
 )
 def test_sizes_are_in_the_unit_that_suits(number: int, said: str) -> None:
-    assert wording.size(number) == said
+    assert byte_size(number) == said

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from pathlib import Path
 
 import msgspec
 import pytest
 
 from urdfsync.check.results import CheckResult, CompiledModel, EditEffect
+from urdfsync.commands.check import show_results
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity
-from urdfsync.outcome import Exit
-from urdfsync.report import Report
+from urdfsync.output.console import Console
 
 Capture = pytest.CaptureFixture[str]
 
@@ -105,11 +106,8 @@ def shown(
     verbose: bool = False,
 ) -> list[str]:
     """The lines on the output stream."""
-    report = Report(quiet=quiet, verbose=verbose)
     capsys.readouterr()
-    for verdict in verdicts:
-        report.check_result(verdict, strict, [one.robot for one in verdicts])
-    report.finish("check", Exit.IN_STEP)
+    show_results(Console(quiet=quiet, verbose=verbose), verdicts, [one.robot for one in verdicts], strict)
     return [line.rstrip() for line in capsys.readouterr().out.splitlines()]
 
 
@@ -164,7 +162,7 @@ def test_one_robot_needs_no_tally(capsys: Capture) -> None:
 
 
 def test_findings_go_to_the_error_stream(capsys: Capture) -> None:
-    Report().check_result(FAILED, strict=False)
+    show_results(Console(), [FAILED], [], strict=False)
     streams = capsys.readouterr()
     assert streams.out.startswith("cart: failed: 1 error")
     assert streams.err == f"{BROKEN}\n"
@@ -319,13 +317,15 @@ def test_a_simulation_without_numbers_is_a_difference(capsys: Capture) -> None:
 
 @pytest.mark.usefixtures("_terminal")
 def test_rows_come_one_by_one(capsys: Capture) -> None:
-    report = Report()
-    report.check_result(RIGHT, False, ["arm", "a_much_longer_name"])  # noqa: FBT003 - as the command calls it
-    first = capsys.readouterr().out.splitlines()
-    assert first[1].startswith("  robot               compile")
-    report.check_result(msgspec.structs.replace(RIGHT, robot="a_much_longer_name"), False, [])  # noqa: FBT003
-    (second,) = capsys.readouterr().out.splitlines()
-    assert second.startswith("✓ a_much_longer_name        3")
+    def found() -> Iterator[CheckResult]:
+        yield RIGHT
+        first = capsys.readouterr().out.splitlines()
+        assert first[1].startswith("  robot               compile")
+        yield msgspec.structs.replace(RIGHT, robot="a_much_longer_name")
+        (second,) = capsys.readouterr().out.splitlines()
+        assert second.startswith("✓ a_much_longer_name        3")
+
+    show_results(Console(), found(), ["arm", "a_much_longer_name"], strict=False)
 
 
 def test_colours_are_for_terminals_that_want_them(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -341,9 +341,10 @@ def test_colours_are_for_terminals_that_want_them(capsys: Capture, monkeypatch: 
 
 @pytest.mark.usefixtures("_terminal")
 def test_what_stops_the_command_comes_after_what_was_found(capsys: Capture) -> None:
-    report = Report()
-    report.check_result(ABSENT, False, ["new", "arm"])  # noqa: FBT003
-    report.problems("check", [Diagnostic(Severity.ERROR, "interrupted", "interrupted")], Exit.INTERRUPTED)
-    streams = capsys.readouterr()
-    assert streams.out.splitlines()[-3] == "not checked:"
-    assert "interrupted" in streams.err
+    def found() -> Iterator[CheckResult]:
+        yield ABSENT
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        show_results(Console(), found(), ["new", "arm"], strict=False)
+    assert capsys.readouterr().out.splitlines()[-3] == "not checked:"

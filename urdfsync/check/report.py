@@ -7,12 +7,11 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from urdfsync import wording
 from urdfsync.check import sentences
 from urdfsync.check.results import EFFORTS, POSES, TOLERANCE, CheckResult, CheckStatus, agrees, largest
-from urdfsync.documents import finding
 from urdfsync.domain import Deviation, Quantity
-from urdfsync.views.terminal import has_marks, text
+from urdfsync.output.console import has_marks, text, visible
+from urdfsync.output.json_values import finding_values
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -185,7 +184,7 @@ def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
         "gaps": list(result.gaps),
         "seconds": result.seconds,
         "megabytes": result.megabytes,
-        "diagnostics": [finding(diagnostic) for diagnostic in result.diagnostics],
+        "diagnostics": [finding_values(diagnostic) for diagnostic in result.diagnostics],
     }
 
 
@@ -279,7 +278,7 @@ def _listing(titles: Sequence[str], rows: Sequence[tuple[Sequence[str], str]], w
     if not rows:
         return
     columns = [
-        Column((title,), max(cell_len(wording.visible(cell)) for cell in cells), left=title in (titles[0], "quantity"))
+        Column((title,), max(cell_len(visible(cell)) for cell in cells), left=title in (titles[0], "quantity"))
         for title, *cells in zip(titles, titles, *(row for row, _ in rows), strict=True)
     ]
     while (room := width - len(_INDENT) - sum(len(_GAP) + column.width for column in columns[1:])) < 16:

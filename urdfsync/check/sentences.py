@@ -18,7 +18,7 @@ from urdfsync.check.results import (
 )
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import Deviation, Quantity
-from urdfsync.wording import counted
+from urdfsync.output.phrases import counted
 
 _KINDS = (("poses", POSES), ("torques", EFFORTS), ("masses", MASSES))
 _NAMED_ELEMENTS = 3

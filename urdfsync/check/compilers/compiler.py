@@ -23,6 +23,7 @@ import msgspec
 from urdfsync.check.cache import UserCache
 from urdfsync.check.results import CompilerName
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.extras import install_command
 
 MISSING = 3
 """The exit code of a worker without a compiler; the last line that it writes to stderr says why there is none."""
@@ -31,8 +32,8 @@ _TITLES = {"rumoca": "the compiler", "omc": "OpenModelica"}
 _NEEDED = {"rumoca": ("rumoca",), "omc": ("OMPython",)}
 _SHARED = ("psutil", "filelock")  # what the check itself needs
 _INSTALL = {
-    "rumoca": "pip install 'urdfsync[check]'",
-    "omc": "install OpenModelica and `pip install 'urdfsync[check,omc]'`, or check without `--tool omc`",
+    "rumoca": install_command("check"),
+    "omc": f"install OpenModelica and `{install_command('check', 'omc')}`, or check without `--tool omc`",
 }
 _REPORT = {
     "rumoca": "report it to the authors of rumoca",

@@ -16,6 +16,7 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.extras import install_command
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics.completion import Element, attribute, children
 
@@ -82,7 +83,7 @@ def pinocchio() -> Any:
         import pinocchio  # an optional extra
     except ImportError:
         message = "Pinocchio, the reference for physics, is not installed"
-        hint = "pip install 'urdfsync[physics]'"
+        hint = install_command("physics")
         raise SourceError(Diagnostic(Severity.ERROR, "no-pinocchio", message, hint=hint)) from None
     return pinocchio
 

@@ -1,36 +1,39 @@
-"""What the commands of the command line share."""
+"""Arguments that several commands share."""
 
 from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
 from urdfsync import config, profiling
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
-from urdfsync.report import Report
+from urdfsync.output.console import Console
 
 CODES = "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, 4 locked, 130 interrupted"
 
 
-class UsageError(Exception):
-    """Arguments that no command takes."""
+class UsageError(UrdfsyncError):
+    """Arguments that a command does not take; `usage` says which it takes."""
 
-    def __init__(self, message: str, usage: str, program: str) -> None:
-        super().__init__(message)
-        self.usage, self.program = usage, program
+    def __init__(self, parser: argparse.ArgumentParser, message: str, hint: str = "") -> None:
+        super().__init__(Diagnostic(Severity.ERROR, "usage", message, hint=hint or f"`{parser.prog} --help` says more"))
+        self.usage = parser.format_usage()
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that leaves to `Report` what to say of bad arguments."""
+    """A parser that raises UsageError for bad arguments."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__(allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, **options)
 
     def error(self, message: str) -> NoReturn:
         """Raise UsageError."""
-        raise UsageError(message, self.format_usage(), self.prog)
+        raise UsageError(self, message)
 
 
 Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
@@ -82,22 +85,26 @@ def _positive(text: str) -> int:
 
 
 @profiling.stage("configuration")
-def configuration(options: argparse.Namespace) -> config.Config:
-    """The configuration that the options name, or the nearest one. Raises ConfigError."""
-    return config.load(options.config or config.find(config.working_folder()))
+def configuration(args: argparse.Namespace) -> Config:
+    """The configuration that the arguments name, or the nearest one. Raises ConfigError."""
+    return config.load(args.config or config.find(config.working_folder()))
 
 
-def default_file(options: argparse.Namespace) -> Path:
-    """Where a new configuration goes."""
-    return config.working_folder() / (options.config or config.FILE_NAME)
+def select_robots(args: argparse.Namespace, configuration: Config, console: Console) -> Sequence[RobotConfig]:
+    """The robots that the arguments name, or all; warns of what the configuration asks for in vain."""
+    from urdfsync.config import warnings
+
+    robots = configuration.select([*args.robots, *(args.robot or [])])
+    console.warnings(warnings.find_warnings(configuration, robots))
+    return robots
 
 
-def request(options: argparse.Namespace, report: Report, **wishes: Any) -> BuildOptions:
+def request(args: argparse.Namespace, console: Console, **options: Any) -> BuildOptions:
     """How to build, with what is the same for all commands."""
     return BuildOptions(
         package_paths=config.ros_package_path(os.environ),
-        progress=report.progress,
-        wait=getattr(options, "wait", 60.0),
-        jobs=getattr(options, "jobs", None),
-        **wishes,
+        progress=console.progress,
+        wait=getattr(args, "wait", 60.0),
+        jobs=getattr(args, "jobs", None),
+        **options,
     )

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from urdfsync import profiling, registry
-from urdfsync.config import Config, RobotConfig, shown, templates_folder
+from urdfsync.config.paths import shown, templates_folder
+from urdfsync.config.settings import Config, RobotConfig
 from urdfsync.dependencies import is_folder, read_file, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
@@ -15,7 +16,7 @@ _SUFFIX = ".jinja"
 
 
 @profiling.stage("configuration")
-def warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagnostic, ...]:
+def find_warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagnostic, ...]:
     """Search paths that do not exist, and templates that replace none."""
     found = [*_search_paths(config, robots), *_templates(robots)]
     return tuple(dict.fromkeys(found))

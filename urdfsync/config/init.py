@@ -12,11 +12,12 @@ from typing import Any
 import msgspec
 import tomli_w
 
-from urdfsync import registry, tables
-from urdfsync.config import is_robot_name, shown
+from urdfsync import registry
+from urdfsync.config import values
+from urdfsync.config.names import is_robot_name
+from urdfsync.config.paths import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
-from urdfsync.files import TEMPORARY
 from urdfsync.modelica.names import class_name
 
 _HEADER = """\
@@ -28,7 +29,7 @@ _DEFAULTS = """\
 [defaults]
 output = "modelica"  # the folder that the packages go into
 # create_parents = true  # make the packages around `package` if they do not exist
-# on_build = "check"  # compile each package after its build; needs urdfsync[check]; default "nothing"
+# on_build = "check"  # compile each package after its build, as `urdfsync check` does; default "nothing"
 # on_conflict = "merge"  # where you and the source changed a file, merge if that leaves no doubt; default "keep"
 # package_paths = []  # folders that hold packages, where sources refer to files in them
 # templates = "templates"  # a folder with templates that replace single ones of urdfsync
@@ -57,7 +58,7 @@ class Draft(msgspec.Struct, frozen=True):
     """Warnings about the sources."""
 
 
-def draft(file: Path, sources: Sequence[Path], domain_name: str) -> Draft:
+def make_draft(file: Path, sources: Sequence[Path], domain_name: str) -> Draft:
     """The configuration `file` for these sources, or for those that are below its folder if none is given.
 
     A source that is named twice counts once. Raises ConfigError if the file exists or if there is no source,
@@ -89,13 +90,13 @@ def draft(file: Path, sources: Sequence[Path], domain_name: str) -> Draft:
     return Draft(file, _text(guesses, domain), tuple(guesses), tuple(said))
 
 
-def write(proposal: Draft) -> None:
+def write(draft: Draft) -> None:
     """Write a draft, as a whole or not at all. Raises ConfigError if that fails, or if the file exists by now."""
-    file = proposal.file
-    temporary = file.with_name(f".{file.name}-{os.urandom(8).hex()}{TEMPORARY}")
+    file = draft.file
+    temporary = file.with_name(f".{file.name}.urdfsync-tmp")
     try:
-        with temporary.open("xb") as new:  # follows no link that somebody left there
-            new.write(proposal.text.encode())
+        content = draft.text.encode()
+        temporary.write_bytes(content)
         if file.exists():
             raise _exists(file)
         temporary.replace(file)
@@ -202,9 +203,9 @@ def _line(key: str, value: Any) -> str:
 
 
 def _choices(kind: Any) -> str:
-    allowed = tables.choices(kind)
+    allowed = values.choices(kind)
     words = " or ".join(f'"{choice}"' for choice in allowed)
-    more = ", or several" if tables.is_list(kind) else ", or a list of names" if tables.may_be_list(kind) else ""
+    more = ", or several" if values.is_list(kind) else ", or a list of names" if values.may_be_list(kind) else ""
     return f"{words}{more}; " if allowed else ""
 
 

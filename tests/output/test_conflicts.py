@@ -14,8 +14,8 @@ from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.merge import merge
 from urdfsync.outcome import Result
-from urdfsync.views import conflicts
-from urdfsync.views.conflicts import FULL, LINES, Look
+from urdfsync.output.conflicts import FULL, Extent, conflict_lines
+from urdfsync.output.hunk_lines import LINES
 
 ELBOW = "modelica/Arm/Elbow.mo"
 BASE = "within Arm;\nmodel Elbow\n  Real a = 1;\n\n  Real b = 2;\nend Elbow;\n"
@@ -45,7 +45,7 @@ def result(*standoffs: Conflict, kind: Kind = Kind.CONFLICT, dry: bool = False) 
 def seen(found: Result, width: int | None = None, **look: object) -> list[str]:
     """The lines as they appear on a terminal of this width, or in a pipe."""
     console = Console(file=io.StringIO(), width=width, force_terminal=width is not None, color_system=None)
-    return [line.plain.rstrip() for line in conflicts.lines(found, console, Look(**look))]  # type: ignore[arg-type]
+    return [line.plain.rstrip() for line in conflict_lines(found, console, Extent(**look))]  # type: ignore[arg-type]
 
 
 # What happened, and what to do

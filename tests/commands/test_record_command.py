@@ -15,9 +15,9 @@ from urdfsync import cli
 
 Capture = pytest.CaptureFixture[str]
 
-REPOSITORY = Path(__file__).parents[1]
-TWIG = Path(__file__).parent / "golden" / "twig.urdf"
-GOLDEN = Path(__file__).parent / "golden" / "record" / "TwigParameters.mo"
+REPOSITORY = Path(__file__).parents[2]
+TWIG = REPOSITORY / "tests/golden/twig.urdf"
+GOLDEN = REPOSITORY / "tests/golden/record/TwigParameters.mo"
 BUOY = REPOSITORY / "modelica/UrdfSync/Resources/robots/floating_buoy/floating_buoy.urdf"
 FAULTY = '<robot name="own">\n  <link name="base"/>\n  <link name="base"/>\n</robot>\n'
 
@@ -184,7 +184,7 @@ def test_a_robot_without_tables_is_written_with_a_warning(capsys: Capture) -> No
 
 
 def test_a_domain_without_a_record_says_so(rc_domain: None, capsys: Capture) -> None:
-    ladder = Path(__file__).parent / "rcnetwork" / "examples" / "ladder.json"
+    ladder = REPOSITORY / "tests/rcnetwork/examples/ladder.json"
     assert record(ladder, "--domain", "rcnetwork") == 2
     assert capsys.readouterr().err == (
         "error: the domain `rcnetwork` has no record of a whole model; use `urdfsync build` [no-record]\n"

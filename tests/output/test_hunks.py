@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.merge import merge
-from urdfsync.views.hunks import CONTEXT, Cell, Hunk, Line, hunks
+from urdfsync.output.hunks import CONTEXT, Cell, Hunk, Line, hunks
 
 TEXTS = st.lists(st.sampled_from("abcdefgh"), max_size=30).map(lambda lines: "".join(f"{line}\n" for line in lines))
 LETTERS = "".join(f"{letter}\n" for letter in "abcdefghijklmnop")

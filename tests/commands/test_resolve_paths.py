@@ -5,19 +5,25 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync import resolution
+from urdfsync.commands.resolve import (
+    TypedPath,
+    check_choices,
+    find_targets,
+    list_conflicts,
+    possible_choices,
+    unknown_paths,
+)
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.merge import Merge, merge
 from urdfsync.outcome import Result
-from urdfsync.resolution import Target, Wish
+from urdfsync.output.conflicts import Target, saved_texts
 from urdfsync.state.record import Choice
 
 ROOT = Path("/project").absolute()
@@ -58,12 +64,12 @@ CART = Result(
 )
 
 
-def wish(typed: str) -> Wish:
-    return Wish(typed, (Path(ROOT / typed),))
+def wish(typed: str) -> TypedPath:
+    return TypedPath(typed, (Path(ROOT / typed),))
 
 
 def meant(*typed: str) -> tuple[list[str], list[str]]:
-    found, missing = resolution.targets([ARM, CART], map(wish, typed))
+    found, missing = find_targets([ARM, CART], map(wish, typed))
     return [target.action.path for target in found], [wish.typed for wish in missing]
 
 
@@ -74,8 +80,9 @@ def target(path: str = LINK, merged: Merge | None = CLEAN, kind: Kind = Kind.CON
     )
 
 
-def shown(path: Path) -> str:
-    return path.relative_to(ROOT).as_posix()
+@pytest.fixture(autouse=True)
+def folder(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("os.getcwd", lambda: str(ROOT))
 
 
 # Which files are meant
@@ -109,29 +116,19 @@ def test_a_file_that_is_named_twice_counts_once() -> None:
     assert meant(LINK, "modelica/Arm/Links", ORIGIN, MOVED) == ([LINK, OTHER, MOVED], [])
 
 
-def test_several_places_may_be_meant_by_a_path() -> None:
-    linked = Wish("lib/Elbow.mo", (ROOT / "lib/Elbow.mo", ROOT / LINK))
-    found, missing = resolution.targets([ARM], [linked])
-    assert ([target.action.path for target in found], missing) == ([LINK], [])
-
-
-def test_a_path_of_no_place_means_nothing() -> None:
-    assert resolution.targets([ARM], [Wish("", ())]) == ([], [Wish("", ())])
-
-
 def test_what_is_decided_but_waits_can_be_decided_again() -> None:
     held = Action(LINK, Kind.UPDATE, Role.MODEL, choice=Choice.TAKE, held=True)
     moves = Action(MOVED, Kind.MOVE, Role.MODEL, origin=ORIGIN)
     result = Result("arm", "Arm", ROOT / "modelica/Arm", ROOT, Actions([held, moves]))
     for choice in Choice:
         for typed, path in ((LINK, LINK), (ORIGIN, MOVED)):
-            found, missing = resolution.targets([result], [wish(typed)])
-            assert (resolution.choices(found, choice, shown), missing) == ({path: choice}, [])
-    assert resolution.targets([result], [wish("modelica")])[0] == []
+            found, missing = find_targets([result], [wish(typed)])
+            assert (check_choices(found, choice), missing) == ({path: choice}, [])
+    assert find_targets([result], [wish("modelica")])[0] == []
 
 
 def message(results: Sequence[Result], *typed: str) -> str:
-    return str(resolution.unknown(results, list(map(wish, typed)), shown))
+    return str(unknown_paths(results, list(map(wish, typed))))
 
 
 def test_what_is_said_of_paths_that_mean_nothing() -> None:
@@ -146,28 +143,16 @@ def test_what_is_said_of_paths_that_mean_nothing() -> None:
 
 def test_of_many_conflicts_a_few_are_named() -> None:
     many = arm(*(standoff(f"modelica/Arm/{number}.mo") for number in range(8)))
-    assert resolution.listing([many], shown).endswith("modelica/Arm/4.mo and 4 more")
+    assert list_conflicts([many]).endswith("modelica/Arm/4.mo and 4 more")
 
 
 # What may be done about them
 
 
-@pytest.mark.parametrize("choice", Choice)
-def test_a_choice_is_for_every_file(choice: Choice) -> None:
-    assert resolution.choices([target(), target(OTHER)], choice, shown) == {LINK: choice, OTHER: choice}
-
-
 def refusals(choice: Choice, *found: Target) -> list[str]:
     with pytest.raises(UrdfsyncError) as caught:
-        resolution.choices(found, choice, shown)
+        check_choices(found, choice)
     return [str(diagnostic) for diagnostic in caught.value.diagnostics]
-
-
-def test_what_contradicts_each_other_cant_be_merged() -> None:
-    assert refusals(Choice.MERGE, target(), target(OTHER, CLASH)) == [
-        f"{OTHER}: error: it can't be merged: the changes contradict each other; put what you want of "
-        ".urdfsync/conflicts/arm/Links/Tip.merge.txt into your file, then use --keep [no-merge]"
-    ]
 
 
 def test_every_file_that_cant_be_merged_is_named() -> None:
@@ -193,24 +178,8 @@ def test_what_the_user_made_a_folder_cant_be_replaced() -> None:
     assert refusals(Choice.TAKE, folder) == [
         f"{LINK}: error: it can't be replaced: you made a folder of the class; move it away, then build [no-take]"
     ]
-    assert resolution.choices([folder], Choice.KEEP, shown) == {LINK: Choice.KEEP}
-    assert resolution.choices([Target(ARM, conflict(MESH, Role.IMPORT))], Choice.TAKE, shown) == {MESH: Choice.TAKE}
-
-
-def test_what_is_not_at_hand_can_only_be_kept() -> None:
-    mesh = Target(ARM, msgspec.structs.replace(conflict(MESH, Role.IMPORT), at_hand=False))
-    assert refusals(Choice.TAKE, mesh) == [
-        f"{MESH}: error: it can't be taken: the file it is made from is not here; "
-        f"bring it back, or keep yours with `urdfsync resolve {MESH} --keep` [no-take]"
-    ]
-    assert refusals(Choice.MERGE, mesh)[0].endswith("and the file it is made from is not here; use --keep [no-merge]")
-    assert resolution.choices([mesh], Choice.KEEP, shown) == {MESH: Choice.KEEP}
-
-
-def test_what_is_impossible_can_be_left_out() -> None:
-    found = [target(), target(OTHER, CLASH)]
-    assert resolution.possible(found, Choice.MERGE) == {LINK: Choice.MERGE}
-    assert resolution.possible(found, Choice.TAKE) == {LINK: Choice.TAKE, OTHER: Choice.TAKE}
+    assert check_choices([folder], Choice.KEEP) == {LINK: Choice.KEEP}
+    assert check_choices([Target(ARM, conflict(MESH, Role.IMPORT))], Choice.TAKE) == {MESH: Choice.TAKE}
 
 
 FOUND = st.builds(target, st.sampled_from([LINK, OTHER, MOVED]), st.sampled_from([CLEAN, CLASH, REJECTED, None]))
@@ -218,38 +187,35 @@ FOUND = st.builds(target, st.sampled_from([LINK, OTHER, MOVED]), st.sampled_from
 
 @given(st.lists(FOUND), st.sampled_from(Choice))
 def test_a_choice_is_refused_if_it_is_impossible_for_any_file(found: list[Target], choice: Choice) -> None:
-    possible = resolution.possible(found, choice)
-    impossible = [target for target in found if not resolution.possible([target], choice)]
+    possible = possible_choices(found, choice)
+    impossible = [target for target in found if not possible_choices([target], choice)]
     assert all(choice is Choice.MERGE and not target.merges for target in impossible)
     if impossible:
         assert len(refusals(choice, *found)) == len(impossible)
     else:
-        assert resolution.choices(found, choice, shown) == possible
+        assert check_choices(found, choice) == possible
 
 
 # What is put aside
 
 
 def test_where_the_versions_are() -> None:
-    aside = resolution.aside(target())
-    assert aside
-    assert aside.files == [f".urdfsync/conflicts/arm/Links/Elbow.{name}.mo" for name in ("base", "generated", "merge")]
-    lost = resolution.aside(target(merged=None))
-    assert lost
-    assert (lost.names, lost.files) == (["generated"], [".urdfsync/conflicts/arm/Links/Elbow.generated.mo"])
+    folder = ".urdfsync/conflicts/arm/Links/Elbow"
+    assert saved_texts(target()) == (f"{folder}.base.mo", f"{folder}.generated.mo", f"{folder}.merge.mo")
+    assert saved_texts(target(merged=None)) == (None, f"{folder}.generated.mo", None)
     for merged in (CLASH, REJECTED):
-        marked = resolution.aside(target(merged=merged))
+        marked = saved_texts(target(merged=merged))
         assert marked
-        assert marked.merge == ".urdfsync/conflicts/arm/Links/Elbow.merge.txt"
-    assert resolution.aside(Target(ARM, conflict(MESH, Role.IMPORT))) is None
+        assert marked.merge == f"{folder}.merge.txt"
+    assert saved_texts(Target(ARM, conflict(MESH, Role.IMPORT))) is None
 
 
 def test_a_package_outside_of_the_configurations_folder() -> None:
     path = "../lib/Arm/Arm.mo"
     action, found = conflict(path), standoff(path)
     result = Result("arm", "Arm", ROOT.parent / "lib/Arm", ROOT, Actions([action]), standoffs=(found,))
-    aside = resolution.aside(Target(result, action, found))
+    aside = saved_texts(Target(result, action, found))
     assert aside
     assert aside.generated == ".urdfsync/conflicts/arm/Arm.generated.mo"
-    ((same,), missing) = resolution.targets([result], [Wish("../lib", (ROOT.parent / "lib",))])
+    ((same,), missing) = find_targets([result], [TypedPath("../lib", (ROOT.parent / "lib",))])
     assert (same.action, missing) == (action, [])

@@ -9,17 +9,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
 
-from urdfsync.views import terminal
+from urdfsync.output.console import line, write_lines
 
 PARTS = st.lists(st.tuples(st.text(), st.sampled_from(["", "bold red", "dim"])), max_size=4)
 
 
 @given(PARTS)
 def test_a_file_gets_what_rich_would_write(parts: list[tuple[str, str]]) -> None:
-    line = terminal.words(*parts)
+    one = line(*parts)
     file, rich = io.StringIO(newline=""), io.StringIO(newline="")
-    terminal.show([line], file)
-    Console(file=rich, force_terminal=False, color_system=None).print(line, soft_wrap=True)
+    write_lines([one], file)
+    Console(file=rich, force_terminal=False, color_system=None).print(one, soft_wrap=True)
     assert file.getvalue() == rich.getvalue()
 
 
@@ -28,5 +28,5 @@ def test_a_terminal_gets_looks(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.delenv("NO_COLOR", raising=False)
     stream = io.StringIO()
-    terminal.show([terminal.words(("wrong", "bold red"), (": all", ""))], stream)
+    write_lines([line(("wrong", "bold red"), (": all", ""))], stream)
     assert stream.getvalue() == "\x1b[1;31mwrong\x1b[0m: all\n"

@@ -175,9 +175,6 @@ def test_a_build_that_is_writing_is_waited_for(built: Path, capsys: Capture) -> 
         assert shown(capsys) == ["ladder: in step, 14 files"], "it only reads, and nothing is half written"
 
 
-# Records
-
-
 # The process
 
 

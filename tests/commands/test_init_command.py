@@ -201,7 +201,7 @@ def test_config_elsewhere(bare: Path, capsys: Capture) -> None:
 def test_init_as_json(bare: Path, capsys: Capture) -> None:
     assert init("ladder.json", "--json") == 0
     loaded = json.loads(capsys.readouterr().out)
-    assert (loaded["version"], loaded["command"], loaded["exit"]) == (1, "init", 0)
+    assert (loaded["version"], loaded["command"], loaded["exit"]) == (2, "init", 0)
     assert loaded["robots"] == [
         {
             "name": "ladder",

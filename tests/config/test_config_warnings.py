@@ -6,13 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync import advice, cli, config
+from urdfsync import cli, config
+from urdfsync.config.warnings import find_warnings
 
 
 def warnings(project: Path, text: str) -> list[str]:
     (project / "urdfsync.toml").write_text(text)
     loaded = config.load(Path("urdfsync.toml"))
-    return [str(found).replace("\\", "/") for found in advice.warnings(loaded, loaded.robots)]
+    return [str(found).replace("\\", "/") for found in find_warnings(loaded, loaded.robots)]
 
 
 def robots(number: int = 1, more: str = "") -> str:

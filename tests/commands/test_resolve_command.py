@@ -464,7 +464,7 @@ def test_as_json(several: Path, capsys: Capture) -> None:
     assert document("nothing.mo", "--keep")["diagnostics"][0]["code"] == "no-conflict"
     assert document("--all", "--keep")["robots"][0]["conflicts"] == []
     assert document("--all", "--keep") == {
-        "version": 1,
+        "version": 2,
         "command": "resolve",
         "exit": 0,
         "robots": [],
