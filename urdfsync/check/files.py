@@ -16,9 +16,9 @@ from pathlib import Path, PurePosixPath
 
 import msgspec
 
-from urdfsync.classfiles import mentions, related
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.modelica.files import files_that_use, has_word
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within
 
@@ -93,7 +93,7 @@ def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
     waiting = [*texts.values(), *found.values()] if others else []
     while waiting:
         text = waiting.pop()
-        for folder in [folder for folder, name in others.items() if mentions(text, name)]:
+        for folder in [folder for folder, name in others.items() if has_word(text, name)]:
             del others[folder]
             more = _read(robot.output, folder, frozenset(others))
             found |= more
@@ -114,7 +114,7 @@ def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
     folders = frozenset(other.folder for other in config.robots)
     read = _read(robot.output, robot.output, folders) if robot.output not in folders else {}
     files = {robot.output / path: content for path, content in read.items() if path.endswith(".mo")}
-    return related(files, [robot.target.package.rpartition(".")[2]])
+    return files_that_use(files, [robot.target.package.rpartition(".")[2]])
 
 
 def write_package(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: Mapping[str, bytes]) -> Path:

@@ -17,8 +17,7 @@ import msgspec
 from urdfsync.check.files import PackageFiles, holds_class
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import normalised
-from urdfsync.merging.soundness import markers
-from urdfsync.modelica.lexer import Fault
+from urdfsync.modelica.lexer import Fault, find_markers
 from urdfsync.modelica.names import is_identifier, within
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import Class, StoredText, declared
@@ -178,7 +177,7 @@ def _syntax_diagnostics(package: PackageFiles, path: str, text: str, faults: Seq
     """The first place where the text is no Modelica; if there is none, all that stands in it twice."""
     breaking = [fault for fault in faults if not fault.reason.endswith(" twice")]
     if breaking:
-        reason, line = next(iter(markers(text)), None) or min(breaking, key=lambda fault: fault.line)
+        reason, line = next(iter(find_markers(text)), None) or min(breaking, key=lambda fault: fault.line)
         more = len(faults) - 1
         places = f"{more} more place{'s' if more > 1 else ''}"
         hint = f"correct it first: {places} in the file may look wrong because of it" if more else ""

@@ -10,13 +10,13 @@ from pathlib import Path
 from urdfsync.check import libraries
 from urdfsync.check.files import PackageFiles
 from urdfsync.check.package import CheckedPackage
-from urdfsync.classfiles import StoredClasses
 from urdfsync.config import library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.modelica.scopes import Element, Node, Scopes, Sources
 from urdfsync.modelica.syntax import Component
-from urdfsync.modelica.unresolved import Kind, Unresolved, first_type, unresolved
+from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, first_type, unresolved
 
 _NAMED_LINES = 5
 
@@ -58,7 +58,7 @@ def _unresolved_names(package: PackageFiles, classes: Iterable[tuple[str, ...]],
     Each fault is told once in each file, at its first line.
     """
     scopes = Scopes(sources)
-    found: dict[tuple[str, Kind, str, str], list[Unresolved]] = {}
+    found: dict[tuple[str, UnresolvedKind, str, str], list[Unresolved]] = {}
     for node in [node for name in sorted(classes) if isinstance(node := scopes.node(name), Node)]:
         for one in unresolved(node, scopes):
             found.setdefault((node.file, one.kind, one.owner, one.part), []).append(one)
@@ -71,13 +71,13 @@ def _diagnostic(package: PackageFiles, file: Path, places: Sequence[Unresolved])
     owners = {package.folder / path: owner for path, owner in package.owners.items()}
     edited = {package.folder / path for path in package.edited}
     one = min(places, key=lambda place: place.line)
-    if one.kind is Kind.NESTED_REDECLARE:
+    if one.kind is UnresolvedKind.NESTED_REDECLARE:
         severity, code = Severity.WARNING, "nested-redeclare"
         message = f"the redeclaration of `{one.part}` inside of another modifier is not checked: rumoca ignores it"
         hint = f"write a model that says `extends {one.owner}(redeclare … {one.part})`, and use that instead"
     else:
         severity, code, hint = Severity.ERROR, "unresolved", f"did you mean `{one.meant}`?" if one.meant else ""
-        if one.kind in (Kind.CLASS, Kind.FUNCTION):
+        if one.kind in (UnresolvedKind.CLASS, UnresolvedKind.FUNCTION):
             message = f"there is no {one.kind.value} `{one.name}`"
         else:
             noun = _noun(one.element, owners) if one.element else "part" if one.is_part else "element"

@@ -15,7 +15,7 @@ from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
 from urdfsync.files import normalised
-from urdfsync.merging.tokens import is_trivia, tokens
+from urdfsync.merge.tokens import is_trivia, tokens
 
 _URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
 
