@@ -155,9 +155,9 @@ def project(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 @pytest.fixture(scope="session")
 def in_step(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A project with all that a decision may look at, built; tests work on copies of it."""
-    from support import stamps  # needs what only its tests import
+    from support import answers  # needs what only its tests import
 
-    return stamps.built(tmp_path_factory.mktemp("built") / "project")
+    return answers.built(tmp_path_factory.mktemp("built") / "project")
 
 
 @pytest.fixture

@@ -34,10 +34,10 @@ from urdfsync.checking.libraries import library
 from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, Comparison
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Target
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
 from urdfsync.urdf.model.tables import has_tables
+from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import amended, motion
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
-from urdfsync.urdf.source import read_robot
 
 COUNTED = ("file", "moving joints", "axes", "links")
 FUNCTIONS = ("found", "mass", "inertias", "bias", "gravity", "jacobian", "places", "turns")
@@ -146,7 +146,7 @@ def _functions(standard: Path, files: Iterable[Path]) -> bool:
 def _computed(standard: Path, file: Path) -> bool | None:
     """One row of `functions`; None likewise."""
     functions = Functions(_complete(file))
-    if not any(joint.type in MOTIONS for joint in functions.robot.skeleton.joints):
+    if not any(joint.type in MOTION_KINDS for joint in functions.robot.skeleton.joints):
         _row(_name(file), *_counts(functions.robot.skeleton), "nothing moves", *[""] * (len(FUNCTIONS) - 1))
         return None
     with tempfile.TemporaryDirectory() as folder:
@@ -277,7 +277,7 @@ def _written(file: Path) -> Iterator[str]:
     texts = [generate(file, Target("Bot", "Bot"), approach=(name,)).texts for name in ("package", "record")]
     robot = read_robot(file.read_bytes(), file.name, cross_check=False).robot
     assert robot is not None
-    what = f"{sum(joint.type in MOTIONS for joint in robot.joints)} moving joints, {len(robot.links)} links"
+    what = f"{sum(joint.type in MOTION_KINDS for joint in robot.joints)} moving joints, {len(robot.links)} links"
     files = "".join(f"<td>{len(files)}</td>" for files in texts)
     lines = "".join(f"<td>{sum(text.count(chr(10)) for text in files.values()):,}</td>" for files in texts)
     yield f"<tr><td>text files, {what}</td>{files}</tr>"
@@ -289,11 +289,11 @@ def _complete(file: Path) -> bytes:
     content = amended.readable(file.read_bytes()).content
     robot = read_robot(content, file.name, cross_check=False).robot
     assert robot is not None
-    return amended.with_inertias(content, Skeleton.of(robot)).content
+    return amended.with_inertias(content, KinematicTree.of(robot)).content
 
 
-def _counts(skeleton: Skeleton) -> Iterator[str]:
-    yield str(sum(joint.type in MOTIONS for joint in skeleton.joints))
+def _counts(skeleton: KinematicTree) -> Iterator[str]:
+    yield str(sum(joint.type in MOTION_KINDS for joint in skeleton.joints))
     yield str(len(motion.driven_axes(skeleton)))
     yield str(len(skeleton.links))
 

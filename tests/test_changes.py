@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from urdfsync.changes import Change, Changes, Comparing, Stale, _by_deepdiff, _of_leaves, compare, moves, stale
 from urdfsync.difference import ChangeClass, Difference, ElementKey, Kind, Meaning, Version
-from urdfsync.domain import Artifact, Import, Order, Recipe, Role, Snapshot
+from urdfsync.domain import Artifact, Import, Order, Role, Snapshot
 
 PLAIN = st.recursive(
     st.none() | st.booleans() | st.integers(-3, 3) | st.floats(-1, 1) | st.text("ab_[]'\"", max_size=3),
@@ -262,17 +262,6 @@ def test_stale_files_are_those_with_other_data_or_template() -> None:
     assert stale(by_path(old), by_path(new)) == Stale(
         frozenset({"data", "template", "new", "order"}), frozenset({"gone"})
     )
-
-
-def test_files_with_equal_recipes_are_not_stale_and_nothing_is_made_to_find_out() -> None:
-    def make(number: int) -> dict[str, int]:
-        raise AssertionError(f"nobody needs the data of {number}")
-
-    def package(number: int) -> dict[str, Artifact | Order]:
-        return by_path([Artifact("A.mo", Role.MODEL, "t", Recipe(make, (number,)), "robot")])
-
-    assert stale(package(1), package(1)) == Stale(frozenset(), frozenset())
-    assert stale(package(1), package(2)) == Stale(frozenset({"A.mo"}), frozenset())
 
 
 RECORD, MODEL = Role.RECORD, Role.MODEL

@@ -59,3 +59,69 @@ def test_a_joint_that_moves_no_more_loses_its_flanges(project: Path, capsys: Cap
 def test_numbers_change_no_connector(project: Path, capsys: Capture) -> None:
     (project / "arm.urdf").write_text(urdfs.robot(urdfs.link("base", 2.0), LINKS[1], SWING))
     assert "connector-changed" not in said(capsys, "build")
+
+
+def configure(project: Path, lines: str) -> None:
+    """Build with other options; the robot stays as it is."""
+    (project / "urdfsync.toml").write_text(CONFIG + lines)
+
+
+def test_a_frame_that_is_asked_for_no_more_is_named_and_so_is_the_key_that_keeps_it(
+    project: Path, capsys: Capture
+) -> None:
+    configure(project, 'frames = ["base"]\n')
+    assert "connector-changed" not in said(capsys, "build"), "one more is no news for what is connected"
+    configure(project, "")
+    assert 'link base frame was baseFrame list "base" in `frames` to keep it' in said(capsys, "diff")
+    note = 'note: link base: its frame `baseFrame` is gone; list "base" in `frames` to keep it [connector-changed]'
+    assert note in said(capsys, "build", "--dry-run")
+    assert note in said(capsys, "build")
+    assert "connector-changed" not in said(capsys, "build")
+
+
+def test_a_joint_that_is_driven_no_more_is_named_with_what_run_loses(project: Path, capsys: Capture) -> None:
+    configure(project, "driven = []\n")
+    found = said(capsys, "build")
+    for variable in ("position in Run `swing_phi`", "effort in Run `swing_tau`"):
+        assert f'joint swing: its {variable} is gone; list "swing" in `driven`' in found
+    assert "swingAxis" not in found, "the robot keeps its connectors"
+
+
+def test_inputs_by_name_that_become_a_vector_are_named_and_back(project: Path, capsys: Capture) -> None:
+    configure(project, 'inputs = "vector"\n')
+    found = said(capsys, "build")
+    assert 'joint swing: its position in Run `swing_phi` is gone; set `inputs = "names"` to keep it' in found
+    assert "swing_tau" not in found
+    configure(project, "")
+    found = said(capsys, "build")
+    assert 'robot: its input of Run `positions` is gone; set `inputs = "vector"` to keep it' in found
+    assert "swing_phi" not in found
+
+
+def test_a_state_without_options_counts_as_built_with_those_of_now(project: Path, capsys: Capture) -> None:
+    """As it was recorded before; the next build records them."""
+    configure(project, 'frames = "all"\n')
+    assert cli.main(["build", "-q"]) == 0
+    recorded = project / ".urdfsync/robots/arm.toml"
+    with_options = recorded.read_text()
+    head, options, tail = with_options.partition("[options]\n")
+    assert options
+    recorded.write_text(head + tail[tail.index("[names") :])
+    before = {path: path.read_bytes() for path in (project / "modelica").rglob("*.*")}
+    assert cli.main(["build", "--check", "-q"]) == 0
+    assert "connector-changed" not in said(capsys, "build")
+    assert recorded.read_text() == with_options
+    assert {path: path.read_bytes() for path in (project / "modelica").rglob("*.*")} == before
+
+
+@pytest.mark.parametrize("line", ['frames = "none"', "frames = 3", 'roof = "red"'])
+def test_recorded_options_that_this_program_does_not_have_are_no_obstacle(
+    project: Path, capsys: Capture, line: str
+) -> None:
+    recorded = project / ".urdfsync/robots/arm.toml"
+    text = recorded.read_text()
+    assert 'frames = "leaves"\n' in text
+    recorded.write_text(text.replace('frames = "leaves"', line))
+    configure(project, "driven = []\n")
+    assert "connector-changed" not in said(capsys, "build")
+    assert 'frames = "leaves"\n' in recorded.read_text()

@@ -17,7 +17,7 @@ import trimesh
 import yourdfpy
 from numpy.typing import NDArray
 
-from urdfsync.urdf.source import read_robot
+from urdfsync.urdf.parse.source import read_robot
 
 Array = NDArray[np.float64]
 

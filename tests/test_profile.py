@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import builtins
 import json
 import time
 from pathlib import Path
 
 import pytest
+from support import answers
 
-from urdfsync import cli, profiling
+from urdfsync import cli, profiling, uptodate
 from urdfsync.profiling import OTHER, STAGES
-from urdfsync.stamping import making, stamp
 
 Capture = pytest.CaptureFixture[str]
 
@@ -28,30 +27,23 @@ def many(project: Path) -> Path:
 def test_each_moment_counts_for_the_innermost_stage(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter([0, 1, 11, 111, 1111, 1112])
     monkeypatch.setattr(time, "perf_counter_ns", lambda: next(clock))
-    with profiling.measured() as profile, profiling.stage("deciding"), profiling.stage("rendering"):
+
+    @profiling.stage("rendering")
+    def render() -> None:
         profiling.count("rendered", 2)
+
+    with profiling.measured() as profile, profiling.stage("deciding"):
+        render()
     assert profile.results() == ({OTHER: 2, "deciding": 10 + 1000, "rendering": 100}, {"rendered": 2})
 
 
-def test_a_function_may_be_a_stage() -> None:
-    @profiling.staged("reading")
-    def read(name: str) -> str:
-        return name.upper()
-
-    with profiling.measured() as profile:
-        assert read("arm") == "ARM"
-    assert profile.here["reading"] > 0
-
-
-def test_without_a_profile_nothing_is_measured_or_changed() -> None:
-    original = builtins.__import__
+def test_without_a_profile_nothing_is_measured() -> None:
     with profiling.stage("rendering"):
         profiling.count("rendered")
     assert profiling.current() is None
     with pytest.raises(ValueError, match="stopped"), profiling.measured():
         raise ValueError("stopped")
     assert profiling.current() is None
-    assert builtins.__import__ is original
 
 
 def test_a_build_says_where_the_time_went(project: Path, capsys: Capture) -> None:
@@ -67,7 +59,7 @@ def test_the_profile_of_programs_adds_up(project: Path, capsys: Capture) -> None
     cli.main(["build", "--profile", "--json"])
     found = json.loads(capsys.readouterr().out)["profile"]
     names = [stage["stage"] for stage in found["stages"]]
-    assert {"looking", "reading", "artifacts", "rendering", "deciding", "recording", "writing"} <= set(names)
+    assert {"imports", "looking", "reading", "artifacts", "rendering", "deciding", "recording", "writing"} <= set(names)
     assert names == [name for name in (*STAGES, OTHER) if name in names], "in the order of the flow"
     assert found["ms"] == pytest.approx(sum(stage["ms"] for stage in found["stages"]), abs=0.01)
     assert found["counts"]["rendered"] == 11
@@ -84,19 +76,16 @@ def test_a_profile_of_nothing_to_do_looks_all_the_same(project: Path, capsys: Ca
 def test_it_says_that_a_stamp_would_have_answered(
     project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(stamp, "answers", lambda arguments: arguments == ["build"])
+    monkeypatch.setattr(uptodate, "has_answer", lambda arguments: arguments == ["build"])
     cli.main(["build", "--profile"])
     assert "without --profile, the stamp answers" in capsys.readouterr().err
 
 
-def test_what_was_measured_is_not_said_again(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    kept: list[object] = []
-    monkeypatch.setattr(making, "keep", lambda *stamped: kept.append(stamped))
+def test_what_was_measured_is_not_said_again(project: Path) -> None:
     cli.main(["build"])
+    answers.save("build")
     cli.main(["build", "--profile"])
-    assert kept == []
-    cli.main(["build"])
-    assert len(kept) == 1
+    assert answers.saved("build", "--profile") is None
 
 
 def test_robots_that_other_processes_plan_count(many: Path, capsys: Capture) -> None:

@@ -228,21 +228,64 @@ def test_an_edited_bench_is_kept(project: Project) -> None:
 def test_where_the_generic_robot_can_not_read_the_record_there_is_no_bench(zoo: Project) -> None:
     result = zoo.build('["record"]')
     assert {"planar-not-generic", "floating-not-generic"} < {found.code for found in result.diagnostics}
-    assert zoo.files() == {"package.mo", "package.order", "TwigParameters.mo"}
+    assert {name for name in zoo.files() if "/" not in name} == {"package.mo", "package.order", "TwigParameters.mo"}
     assert zoo.models() == ("TwigParameters",)
     assert "jointTree" not in (zoo.package / "TwigParameters.mo").read_text()
 
 
+def meshes(package: Project) -> list[str]:
+    """The imported files, without what makes their names unique."""
+    return sorted(Path(name).stem.partition("_")[0] for name in package.files() if "Resources/" in name)
+
+
+def test_meshes_of_visuals_are_imported(zoo: Project) -> None:
+    zoo.build('["record"]')
+    assert meshes(zoo) == ["wedge", "wedge"], "at two scales"
+    text = (zoo.package / "TwigParameters.mo").read_text()
+    assert set(re.findall(r'uri = "modelica://Twig/(.+?)"', text)) == {
+        name for name in zoo.files() if "Resources/" in name
+    }
+
+
+def test_meshes_are_imported_once_for_both_approaches(zoo: Project) -> None:
+    zoo.build('["package", "record"]')
+    assert meshes(zoo) == ["wedge", "wedge"]
+
+
+def test_without_meshes_the_others_are_drawn(zoo: Project) -> None:
+    zoo.build('["record"]', meshes='"skip"')
+    assert meshes(zoo) == []
+    text = (zoo.package / "TwigParameters.mo").read_text()
+    assert "UrdfSync.Records.Mesh" not in text
+    assert "UrdfSync.Records.Box chassisVisual1(" in text
+
+
 @pytest.mark.parametrize(
-    ("options", "expected"),
-    [({}, set()), ({"base": '"floating"'}, {"wedge"}), ({"base": '"floating"', "collisions": "false"}, set())],
-    ids=["fixed", "floating", "without collisions"],
+    ("old", "new", "kind"),
+    [
+        ('<box size="0.6 0.4 0.1"/></geometry>\n', '<box size="0.7 0.4 0.1"/></geometry>\n', ChangeClass.PARAMETER),
+        ('<color rgba="0.5 0.5 0.55 1"/>', '<color rgba="0.5 0.25 0.55 1"/>', ChangeClass.PARAMETER),
+        ('<visual><geometry><sphere radius="0.05"/></geometry></visual>', "", ChangeClass.STRUCTURAL),
+    ],
+    ids=["size", "colour", "one less"],
 )
-def test_only_meshes_that_the_robot_stands_on_are_imported(
-    zoo: Project, options: dict[str, str], expected: set[str]
+def test_changes_of_visuals_rewrite_the_record_and_nothing_else(
+    zoo: Project, old: str, new: str, kind: ChangeClass
 ) -> None:
-    zoo.build('["record"]', **options)
-    assert {Path(name).stem.partition("_")[0] for name in zoo.files() if "Resources/" in name} == expected
+    zoo.build('["record"]')
+    zoo.change(old, new)
+    result = zoo.build('["record"]')
+    assert written(result) == {"TwigParameters.mo"}
+    assert result.changes is not None
+    assert max((found.change_class for found in result.changes.changes), key=lambda found: found.rank) is kind
+
+
+@pytest.mark.parametrize("base", ['"fixed"', '"floating"'])
+def test_meshes_of_collisions_are_imported_if_the_robot_stands_on_them(zoo: Project, base: str) -> None:
+    text = zoo.source.read_text()
+    zoo.source.write_text(re.sub(r"<visual[ >].*?</visual>", "", text, flags=re.DOTALL))
+    zoo.build('["record"]', base=base)
+    assert meshes(zoo) == (["wedge"] if base == '"floating"' else [])
 
 
 def test_a_mobile_robot_stands_as_high_in_both_approaches(zoo: Project) -> None:

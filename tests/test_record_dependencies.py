@@ -1,4 +1,4 @@
-"""Looks are taken down wherever a decision makes them: what the system is asked for is compared with what is noted."""
+"""All that a decision reads is recorded: the calls of the system are compared with the record."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 from urdfsync import cli, dependencies, registry
+from urdfsync.dependencies import LSTAT, LSTAT_TYPE, STAT, STAT_TYPE
 
 READS = ("open", "listdir", "scandir", "readlink")
 """Calls after which the content matters, not only what is there."""
@@ -56,7 +57,7 @@ def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pa
 
 
 @pytest.mark.parametrize("command", [["build"], ["build", "--check"], ["status"], ["build", "--config=urdfsync.toml"]])
-def test_all_that_a_command_without_work_asks_for_is_taken_down(
+def test_all_that_a_command_without_work_asks_for_is_recorded(
     folder: Path,
     command: list[str],
     asked: Callable[[Callable[[], object]], set[tuple[str, str]]],
@@ -65,11 +66,11 @@ def test_all_that_a_command_without_work_asks_for_is_taken_down(
     """Also where folders to be searched are missing, or may not be read."""
     monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join([str(folder / "later"), str(folder / "closed")]))
     (folder / "closed").mkdir(mode=0)
-    with dependencies.record_dependencies() as looks:
+    with dependencies.record_dependencies() as found:
         calls = asked(lambda: cli._main(command))
-    assert looks.complete
-    contents = set(_absolute(looks.stats[False]) | _absolute(looks.stats[True]))
-    known = contents | _absolute(looks.types[False]) | _absolute(looks.types[True])
+    assert found.complete
+    contents = _absolute(found.entries[LSTAT]) | _absolute(found.entries[STAT])
+    known = contents | _absolute(found.entries[LSTAT_TYPE]) | _absolute(found.entries[STAT_TYPE])
     calls = {(name, path) for name, path in calls if Path(path).is_relative_to(folder.parent)}
     assert len(calls) > 100, "the calls are seen at all"
     absent = {path for path in known - contents if not os.path.lexists(path)}  # there is nothing to read
@@ -84,67 +85,67 @@ def _absolute(paths: dict[str, Any]) -> set[str]:
     return {os.path.abspath(path) for path in paths}  # noqa: PTH100
 
 
-def test_what_is_read_and_rendered_is_not_taken_down_and_that_is_known(folder: Path) -> None:
-    with dependencies.record_dependencies() as looks:
+def test_a_build_that_renders_is_incomplete(folder: Path) -> None:
+    with dependencies.record_dependencies() as found:
         assert cli._main(["build", "--full", "--quiet"]) == 0
-    assert not looks.complete
+    assert not found.complete
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
-def test_neither_is_what_is_written(folder: Path, jobs: int) -> None:
+def test_so_is_one_that_writes(folder: Path, jobs: int) -> None:
     (folder / "modelica/Leg/Leg.mo").unlink()
-    with dependencies.record_dependencies() as looks:
+    with dependencies.record_dependencies() as found:
         assert cli._main(["build", "--quiet", "--jobs", str(jobs)]) == 0
-    assert not looks.complete
+    assert not found.complete
 
 
 def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_site: Path) -> None:
-    with dependencies.record_dependencies() as looks:
+    with dependencies.record_dependencies() as found:
         registry.domain("rcnetwork")
-    assert str(rc_site) in looks.stats[True]
+    assert str(rc_site) in found.entries[STAT]
 
 
 @pytest.fixture
-def looks() -> Iterator[dependencies.Dependencies]:
+def found() -> Iterator[dependencies.Dependencies]:
+    with dependencies.record_dependencies() as record:
+        yield record
+
+
+def test_nothing_is_recorded_outside_of_the_block(tmp_path: Path) -> None:
     with dependencies.record_dependencies() as found:
-        yield found
-
-
-def test_nothing_is_taken_down_without_need(tmp_path: Path) -> None:
-    with dependencies.record_dependencies() as looks:
         pass
     assert not dependencies.is_file(tmp_path / "a")
-    assert looks.types == ({}, {})
+    assert not any(found.entries.values())
 
 
-def test_a_file_that_changes_meanwhile(looks: dependencies.Dependencies, tmp_path: Path) -> None:
+def test_a_file_that_changes_meanwhile(found: dependencies.Dependencies, tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.write_text("a")
     assert dependencies.read_file(file) == b"a"
-    assert looks.complete
+    assert found.complete
     file.write_text("ab")
     assert dependencies.read_file(file) == b"ab"
-    assert not looks.complete
+    assert not found.complete
 
 
-def test_a_file_that_comes_meanwhile(looks: dependencies.Dependencies, tmp_path: Path) -> None:
+def test_a_file_that_comes_meanwhile(found: dependencies.Dependencies, tmp_path: Path) -> None:
     assert not dependencies.is_file(tmp_path / "file")
     (tmp_path / "file").write_text("a")
     assert dependencies.is_file(tmp_path / "file")
-    assert not looks.complete
+    assert not found.complete
 
 
-def test_a_link_and_its_target_are_both_recorded(looks: dependencies.Dependencies, tmp_path: Path) -> None:
+def test_a_link_and_its_target_are_both_recorded(found: dependencies.Dependencies, tmp_path: Path) -> None:
     target, link = tmp_path / "file", tmp_path / "link"
     target.write_text("a")
     link.symlink_to(target)
     assert dependencies.read_file(link) == b"a"
     assert dependencies.read_stat(link) is not None
-    assert looks.stats[True][str(link)] == dependencies.stat_of(target.stat())
-    assert looks.stats[False][str(link)] == dependencies.stat_of(link.lstat())
+    assert found.entries[STAT][str(link)] == dependencies.stat_of(target.stat())
+    assert found.entries[LSTAT][str(link)] == dependencies.stat_of(link.lstat())
 
 
-def test_what_can_not_be_told_is_in_doubt(looks: dependencies.Dependencies, tmp_path: Path) -> None:
+def test_an_error_makes_the_record_incomplete(found: dependencies.Dependencies, tmp_path: Path) -> None:
     with pytest.raises(OSError, match="too long"):
         dependencies.is_file(tmp_path / ("a" * 5000))
-    assert not looks.complete
+    assert not found.complete

@@ -7,7 +7,6 @@ from pathlib import Path
 import jinja2
 import pytest
 
-from urdfsync.domain import Piece, Recipe
 from urdfsync.render import Renderer
 
 
@@ -76,47 +75,7 @@ def test_a_template_is_looked_for_once(tmp_path: Path) -> None:
     assert Renderer([templates]).render("t.jinja", {}) == "new"
 
 
-def test_a_piece_is_rendered_once_by_each_macro(tmp_path: Path) -> None:
-    asked: list[str] = []
-
-    class Name:
-        @property
-        def name(self) -> str:
-            asked.append("name")
-            return "R1"
-
-    one = "<% import 'parts.jinja' as parts %><< [piece, piece] | once(parts.one) >>"
-    parts = "<% macro one(part) %>one << part.name >>;<% endmacro %><% macro other(part) %>other<% endmacro %>"
-    ours = folder(tmp_path / "ours", t=one, u=one.replace(".one", ".other"), parts=parts)
-    renderer, piece = Renderer([ours]), Piece(Name())
-    assert [renderer.render("t.jinja", {"piece": piece}) for _ in range(2)] == ["one R1;one R1;"] * 2
-    assert asked == ["name"]
-    assert renderer.render("u.jinja", {"piece": piece}) == "otherother"
-    theirs = folder(tmp_path / "theirs", parts=parts.replace("one <<", "their <<"))
-    assert Renderer([theirs, ours]).render("t.jinja", {"piece": piece}) == "their R1;their R1;"
-
-
-def test_a_recipe_is_followed_once(tmp_path: Path) -> None:
-    made: list[int] = []
-
-    def make(number: int) -> dict[str, int]:
-        made.append(number)
-        return {"n": number}
-
+def test_once_joins_what_a_macro_makes_of_values(tmp_path: Path) -> None:
     text = "<% import 'parts.jinja' as parts %><< pieces | once(parts.one) >>"
     renderer = Renderer([folder(tmp_path / "own", t=text, parts="<% macro one(part) %><< part.n >>;<% endmacro %>")])
-    pieces = [Piece(Recipe(make, (1,))), Recipe(make, (2,)), {"n": 3}]
-    assert [renderer.render("t.jinja", {"pieces": pieces}) for _ in range(2)] == ["1;2;3;"] * 2
-    assert made == [1, 2, 2]
-
-
-def test_pieces_are_equal_if_they_are_made_of_the_same(tmp_path: Path) -> None:
-    one, two = Piece({"x": 1}), Piece({"x": 1})
-    templates = folder(
-        tmp_path / "templates",
-        t="<% import 'm.jinja' as m %><< [p] | once(m.x) >>",
-        m="<% macro x(p) %>x<% endmacro %>",
-    )
-    assert Renderer([templates]).render("t.jinja", {"p": one}) == "x"
-    assert one == two
-    assert one != Piece({"x": 2})
+    assert renderer.render("t.jinja", {"pieces": [{"n": 1}, {"n": 2}]}) == "1;2;"

@@ -129,7 +129,7 @@ def test_the_streams_are_put_back(monkeypatch: pytest.MonkeyPatch) -> None:
     mine = io.StringIO()
     monkeypatch.setattr(sys, "stdout", mine)
     monkeypatch.setattr(sys, "stderr", None)
-    with streams.guarded() as output:
+    with streams.safe_streams() as output:
         sys.stdout.write("one")
         sys.stderr.write("nobody reads this")
         assert output.error is None

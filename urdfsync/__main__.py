@@ -2,33 +2,21 @@
 
 import sys
 
-from urdfsync import program
-
-TYPE_CHECKING = False  # that of `typing`, whose import takes longer than all that a command without work does
-if TYPE_CHECKING:
-    from typing import NoReturn
-
-
-def start() -> "NoReturn":
-    """Run the command line as the only thing in this process: what the console script does."""
-    program.end(main())
-
 
 def main() -> int:
     """Run the command line; returns the exit code."""
-    return program.carry_out(_run)
+    try:
+        from urdfsync import uptodate  # here, so that Ctrl-C during the import leaves no traceback
 
+        code = uptodate.print_answer(sys.argv[1:])
+        if code is None:
+            from urdfsync import cli  # 30 ms, which a command without work does not have
 
-def _run() -> int:
-    from urdfsync.stamping import stamp  # here, where an interruption leaves no traceback
-
-    code = stamp.repeat(sys.argv[1:])
-    if code is None:
-        from urdfsync.cli import main as run
-
-        code = run()
+            code = cli.main()
+    except KeyboardInterrupt:
+        return 130
     return code
 
 
 if __name__ == "__main__":
-    sys.exit(main())  # maybe on behalf of another module, such as `cProfile`, that goes on
+    sys.exit(main())

@@ -14,7 +14,7 @@ from urdfsync.spelling import nearest
 _SUFFIX = ".jinja"
 
 
-@profiling.staged("configuration")
+@profiling.stage("configuration")
 def warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagnostic, ...]:
     """Search paths that do not exist, and templates that replace none."""
     found = [*_search_paths(config, robots), *_templates(robots)]

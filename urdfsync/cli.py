@@ -6,13 +6,12 @@ import importlib
 import sys
 from collections.abc import Callable, Sequence
 
-from urdfsync import __version__, profiling, streams
+from urdfsync import __version__, profiling, streams, uptodate
 from urdfsync.commands import common
-from urdfsync.dependencies import mark_incomplete
+from urdfsync.dependencies import mark_incomplete, record_dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit
 from urdfsync.report import Report, unwritten
-from urdfsync.stamping import making, stamp
 
 _COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "record", "hook", "library")
 """In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
@@ -21,13 +20,23 @@ _COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "re
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; returns the exit code. Whatever a user can cause is one line, never a traceback."""
     given = sys.argv[1:] if arguments is None else list(arguments)
+    started = uptodate.PROGRAM_START if arguments is None else uptodate.read_clocks()
+    config_file = uptodate.find_config(given) if given and given[0] in uptodate.COMMANDS else None
+    if config_file is None or not (sys.stdout and sys.stderr):
+        return _run(given)
+    key, transcript = uptodate.answer_key(given, config_file), streams.Transcript()
+    with record_dependencies() as dependencies:
+        code = _run(given, transcript)
+    if code == 0:
+        answer = [text for entry in transcript if entry[1] for text in entry]
+        uptodate.save_answer(config_file, key, answer, dependencies, started)
+    return code
 
-    def run(said: streams.Said | None) -> int:
-        with streams.guarded(said) as output:
-            code = _main(given)
-            return unwritten(output) if output.trouble else code
 
-    return making.carry_out(given, run)
+def _run(arguments: list[str], transcript: streams.Transcript | None = None) -> int:
+    with streams.safe_streams(transcript) as output:
+        code = _main(arguments)
+        return unwritten(output) if output.trouble else code
 
 
 def _main(arguments: list[str]) -> int:
@@ -62,10 +71,10 @@ def _main(arguments: list[str]) -> int:
 def _profiled(arguments: Sequence[str], run: Callable[[], int]) -> int:
     """Run a command, and measure it; also how long a stamp takes that would have answered."""
     mark_incomplete()  # times can't be said again
-    with profiling.measured(since=stamp.BEGUN[0]) as profile:
+    with profiling.measured(since=uptodate.PROGRAM_START[0]) as profile:
         with profiling.stage("stamp"):
             plain = [argument for argument in arguments if argument != "--profile"]
-            profile.stamp = stamp.answers(plain) if plain[0] in stamp.COMMANDS else None
+            profile.stamp = uptodate.has_answer(plain) if plain[0] in uptodate.COMMANDS else None
         return run()
 
 

@@ -10,11 +10,10 @@ import contextlib
 import errno
 import os
 import stat
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextvars import ContextVar
-from typing import TypeAlias
 
-Stat: TypeAlias = tuple[int, int, int, int, int, int]
+Stat = tuple[int, int, int, int, int, int]
 """Mode, inode, device, size in bytes, and the times of change of content and of status in ns. Only ever compared."""
 NO_STAT: Stat = (0, 0, 0, 0, 0, 0)
 """Of a path at which nothing is."""
@@ -23,27 +22,24 @@ _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
 """Errors that say that nothing is at a path; the same as for pathlib."""
 
 
+LSTAT, STAT, LSTAT_TYPE, STAT_TYPE = CHECKS = "lstat", "stat", "lstat type", "stat type"
+"""How a path is checked: by all of its `Stat`, or by its file type alone (0 for nothing there); links themselves with
+`os.lstat`, what they lead to with `os.stat`."""
+
+
 class Dependencies:
-    """The paths that were read. In each pair, the second mapping has those of which links were followed."""
+    """The paths that were read."""
 
     def __init__(self) -> None:
-        self.stats: tuple[dict[str, Stat], dict[str, Stat]] = {}, {}
-        """Files whose content was read, and folders that were listed."""
-        self.types: tuple[dict[str, int], dict[str, int]] = {}, {}
-        """Paths of which only the file type (see `stat.S_IFMT`) was asked; 0 for nothing there."""
+        self.entries: dict[str, dict[str, tuple[int, ...]]] = {check: {} for check in CHECKS}
+        """For each of `CHECKS` the paths with what was found: a `Stat`, or a tuple of the file type."""
         self.complete = True
         """Whether the answer depends on nothing else, and no path changed or failed while it was read."""
 
-    def add_stat(self, path: str | os.PathLike[str], status: os.stat_result, *, follow: bool) -> None:
-        """Record that a file's content is about to be read, or a folder to be listed."""
-        found = stat_of(status)
-        if self.stats[follow].setdefault(os.fspath(path), found) != found:
+    def add(self, check: str, path: str | os.PathLike[str], found: tuple[int, ...]) -> None:
+        """Record what was found at a path, before its content is read."""
+        if self.entries[check].setdefault(os.fspath(path), found) != found:
             self.complete = False  # it changed between two reads
-
-    def add_type(self, path: str | os.PathLike[str], file_type: int, *, follow: bool) -> None:
-        """Record that the file type at a path was asked."""
-        if self.types[follow].setdefault(os.fspath(path), file_type) != file_type:
-            self.complete = False
 
 
 _current: ContextVar[Dependencies | None] = ContextVar("dependencies", default=None)
@@ -71,18 +67,33 @@ def stat_of(status: os.stat_result) -> Stat:
     return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
 
 
+def check_paths(check: str, paths: Iterable[str]) -> list[tuple[int, ...]]:
+    """What is at each path now, in the form of `Dependencies.entries`. Raises OSError."""
+    status = os.lstat if check in (LSTAT, LSTAT_TYPE) else os.stat
+    if check in (LSTAT, STAT):  # written out, since there are thousands of paths
+        return [(s.st_mode, s.st_ino, s.st_dev, s.st_size, s.st_mtime_ns, s.st_ctime_ns) for s in map(status, paths)]
+    return [(_file_type(path, follow=status is os.stat),) for path in paths]
+
+
 def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
     """The file type (see `stat.S_IFMT`) at a path; 0 for nothing there. Raises OSError if the system does not tell."""
     try:
-        found = stat.S_IFMT(os.stat(path, follow_symlinks=follow).st_mode)  # noqa: PTH116 - path may be a string
-    except OSError as error:
-        if error.errno not in _ABSENT:
-            mark_incomplete()
-            raise
-        found = 0
+        found = _file_type(path, follow=follow)
+    except OSError:
+        mark_incomplete()
+        raise
     if (dependencies := _current.get()) is not None:
-        dependencies.add_type(path, found, follow=follow)
+        dependencies.add(STAT_TYPE if follow else LSTAT_TYPE, path, (found,))
     return found
+
+
+def _file_type(path: str | os.PathLike[str], *, follow: bool) -> int:
+    try:
+        return stat.S_IFMT(os.stat(path, follow_symlinks=follow).st_mode)
+    except OSError as error:
+        if error.errno in _ABSENT:
+            return 0
+        raise
 
 
 def is_file(path: str | os.PathLike[str]) -> bool:
@@ -99,7 +110,7 @@ def read_file(path: str | os.PathLike[str]) -> bytes:
     """Read a file. Raises OSError."""
     if (dependencies := _current.get()) is not None:
         _add(dependencies, path)
-    with open(path, "rb", buffering=0) as file:  # noqa: PTH123 - path may be a string
+    with open(path, "rb", buffering=0) as file:
         return file.read()
 
 
@@ -110,13 +121,13 @@ def read_stat(path: str | os.PathLike[str]) -> os.stat_result | None:
         found = os.lstat(path)
     except (FileNotFoundError, NotADirectoryError):
         if dependencies is not None:
-            dependencies.add_type(path, 0, follow=False)
+            dependencies.add(LSTAT_TYPE, path, (0,))
         return None
     except OSError:
         mark_incomplete()
         raise
     if dependencies is not None:
-        dependencies.add_stat(path, found, follow=False)
+        dependencies.add(LSTAT, path, stat_of(found))
     return found
 
 
@@ -124,7 +135,7 @@ def list_folder(folder: str | os.PathLike[str]) -> list[str]:
     """The names in a folder, in no order. Raises OSError."""
     if (dependencies := _current.get()) is not None:
         _add(dependencies, folder)
-    return os.listdir(folder)  # noqa: PTH208 - names are enough
+    return os.listdir(folder)
 
 
 def depend_on(path: str | os.PathLike[str]) -> None:
@@ -146,7 +157,7 @@ def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
             found = file_type(path)
             if found == stat.S_IFREG:
                 yield path
-            elif found == stat.S_IFDIR and os.path.islink(path):  # noqa: PTH114 - it is a string
+            elif found == stat.S_IFDIR and os.path.islink(path):
                 depend_on(path)
             elif found == stat.S_IFDIR:
                 waiting.append(path)
@@ -154,9 +165,9 @@ def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
 
 def _add(dependencies: Dependencies, path: str | os.PathLike[str]) -> None:
     try:
-        dependencies.add_stat(path, os.stat(path), follow=True)  # noqa: PTH116
+        dependencies.add(STAT, path, stat_of(os.stat(path)))
     except (FileNotFoundError, NotADirectoryError):
-        dependencies.add_type(path, 0, follow=True)
+        dependencies.add(STAT_TYPE, path, (0,))
         raise
     except OSError:
         dependencies.complete = False

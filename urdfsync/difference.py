@@ -52,6 +52,8 @@ class Version(msgspec.Struct, frozen=True):
     """The files that the model refers to, if found; None if nobody looked, and then each counts as found."""
     generator: str = ""
     """Fingerprint of what turns it into files."""
+    options: Any = None
+    """The domain's options that it was built with; None if they are not known, or those of the other version."""
 
 
 class Difference(msgspec.Struct, frozen=True):

@@ -9,14 +9,14 @@ nothing in here does IO.
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.difference import Difference, Effect, ElementKey, Meaning, Version
+from urdfsync.difference import ChangeClass, Difference, Effect, ElementKey, Kind, Meaning, Version
 
 Snapshot: TypeAlias = Mapping[str, Any]
 """A model as plain data: mappings with string keys, lists, strings, numbers, booleans, None.
@@ -24,13 +24,6 @@ Snapshot: TypeAlias = Mapping[str, Any]
 It is what comes back from JSON with sorted keys, so that what is made of it now can be made of its record again. It is
 keyed by element name, does not depend on the order of elements in the source, and holds all that artifacts are made
 from. Nobody changes it: versions of a model may share what they have in common.
-"""
-
-Parts: TypeAlias = dict[Any, Any]
-"""What a domain keeps of one piece of work for the next of its kind, for a process that builds again and again.
-
-Empty at first, and of no interest to anybody else. It spares work and changes no result; it holds what the last
-model needs and nothing older.
 """
 
 
@@ -47,42 +40,16 @@ class Role(enum.StrEnum):
     """An imported file: bytes, not text; a domain describes it as a `Dependency`."""
 
 
-class Recipe(msgspec.Struct, frozen=True):
-    """How the data of a text is made: as `make(*made_of)`, a pure function. Two that are equal give the same data."""
-
-    make: Callable[..., Mapping[str, Any]]
-    made_of: tuple[Any, ...]
-
-
-class Piece(msgspec.Struct, eq=False):
-    """What a part of a text is made of, or its recipe. While it is kept, that part is rendered once: see `once`."""
-
-    of: Any
-    rendered: tuple[object, str] | None = None
-    """The macro that has rendered it, and the text."""
-
-    def __eq__(self, other: object) -> bool:
-        return self.of == other.of if isinstance(other, Piece) else NotImplemented
-
-    __hash__ = None  # type: ignore[assignment]
-
-
 class Artifact(msgspec.Struct, frozen=True):
     """One text file of the package: `path` (POSIX, below the package folder) is `template` rendered with `data`."""
 
     path: str
     role: Role
     template: str
-    source: Mapping[str, Any] | Recipe
-    """The data, or its recipe: of a large robot, all data takes as much memory as all texts."""
+    data: Mapping[str, Any]
+    """What the template is rendered with: plain data and structs, which JSON can hold."""
     owner: str
     """The element that it belongs to, in the domain's words: `link base_link`, `joint elbow`, `robot`."""
-
-    @property
-    def data(self) -> Mapping[str, Any]:
-        """What the template is rendered with; made anew each time that it is asked for, if there is a recipe."""
-        source = self.source
-        return source.make(*source.made_of) if isinstance(source, Recipe) else source
 
 
 class Templates(NamedTuple):
@@ -263,129 +230,177 @@ class Experiment(Protocol):
 
 
 class Domain(Protocol):
-    """A data format and the Modelica package that follows from it; registered as entry point `urdfsync.domains`."""
+    """A data format and the Modelica package that follows from it; registered as entry point `urdfsync.domains`.
+
+    A domain that inherits from this class defines `name`, `options`, `read`, `names` and `artifacts`, and whatever else
+    it does otherwise than the defaults here. docs/domains.md has an example.
+    """
 
     name: str
-    """As in the configuration; also the folder below `templates/`, unless `templates` says otherwise."""
-    templates: Path | None
+    """Name in the configuration; also the folder below `templates/`, unless `templates` names another."""
+    templates: Path | None = None
     """Folder with the domain's templates; None for the folder of its name in urdfsync's own."""
-    revision: int
+    revision: int = 1
     """Raised whenever the same snapshot, options and templates give other text."""
-    fits_since: int
-    """The oldest revision whose packages fit the library UrdfSync as it is now."""
-    converter: int
+    fits_since: int = 1
+    """The oldest revision whose packages fit the libraries that they use as they are now."""
+    converter: int = 1
     """Raised whenever `convert` gives other bytes for the same input."""
     options: type[Any]
-    """A frozen msgspec.Struct with the domain's options and their defaults; unknown keys are refused by the core."""
+    """A frozen msgspec.Struct with the domain's options and their defaults; the core refuses unknown keys."""
 
-    def uses(self, options: Any) -> Sequence[tuple[str, str]]:
-        """Return the libraries that a generated package needs, with their versions: what a top-level `uses` names."""
-        ...
+    def read(self, content: bytes, file: str, options: Any, *, thorough: bool = False) -> Reading:
+        """Read a source; `file` is its name in diagnostics. Pure, and raises nothing for bad input: see `Reading`.
 
-    def read(self, content: bytes, file: str, options: Any, parts: Parts | None = None) -> Reading:
-        """Read a source; `file` is how diagnostics name it. Raises nothing for bad input: see `Reading`.
-
-        `parts` were passed to the last reading with that name and these options, whatever came of it. Elements that
-        have not changed since may be the same objects in the snapshot.
+        With `thorough`, checks run too that take longer than a plain build should: the daemon and `check` ask for them.
         """
-        ...
-
-    def dependencies(
-        self, snapshot: Snapshot, lookup: Lookup, options: Any, lines: Mapping[str, int]
-    ) -> Sequence[Dependency]:
-        """The files that the model refers to, each once. Pure: nothing is looked for yet."""
-        ...
-
-    def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
-        """Bring a dependency found at `file` into the package's form. Raises SourceError if it can't be read."""
         ...
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
-        """Per kind of element: name in the source → identifier in Modelica."""
-        ...
-
-    def check_options(self, snapshot: Snapshot, options: Any) -> Iterable[tuple[str, Diagnostic]]:
-        """Which options do not suit the model, and what to know of others: the option, and a diagnostic without place.
-
-        An error stops the build of the robot. Pure: the core adds the line of the configuration.
-        """
+        """Return, per kind of element in the plural, name in the source → identifier in Modelica."""
         ...
 
     def artifacts(
+        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
+    ) -> Iterable[Artifact | Order]:
+        """Return every file of the package but the imported ones. Pure."""
+        ...
+
+    def uses(self, options: Any) -> Sequence[tuple[str, str]]:
+        """Return the libraries that a generated package needs, with their versions, for a top-level `uses`."""
+        return ()
+
+    # Files that a source refers to
+
+    def dependencies(
         self,
         snapshot: Snapshot,
-        imports: Mapping[str, Import],
-        target: Target,
+        lookup: Lookup,
         options: Any,
-        parts: Parts | None = None,
-    ) -> Sequence[Artifact | Order]:
-        """Every file of the package but the imported ones. Pure, but for `parts`, which are those of the last call.
+        lines: Mapping[str, int],
+    ) -> Sequence[Dependency]:
+        """Return the files that the model refers to, each once. Pure: nothing is looked for yet."""
+        return ()
 
-        Elements of the snapshot that are the same objects as in that call have not changed.
+    def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
+        """Bring a dependency found at `file` into the package's form. Raises SourceError if it can't be read."""
+        return Conversion(content, {})
+
+    # Options
+
+    def check_options(self, snapshot: Snapshot, options: Any) -> Iterable[tuple[str, Diagnostic]]:
+        """Return findings about options for this model: the option, and a diagnostic without place.
+
+        An error stops the build of the robot. Pure: the core adds the line of the configuration.
         """
-        ...
+        return ()
 
-    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-        """Elements that have another name and nothing else, in the same place: element of the old version → new name.
-
-        An ambiguous match is none.
-        """
-        ...
-
-    def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-        """The snapshot with those elements renamed wherever it mentions them, its parts in the order of a report.
-
-        What stands in lists without an order of its own may be keyed, so that the same things are compared.
-        """
-        ...
-
-    def describe(
-        self, differences: Sequence[Difference], old: Version, new: Version, options: Any
-    ) -> Sequence[Meaning | None]:
-        """The meaning of each difference of two comparable versions; None if another difference says the same."""
-        ...
-
-    def effects(self, old: Version, new: Version) -> Sequence[Effect]:
-        """What the differences do to the model as a whole; the versions are as read, not comparable ones."""
-        ...
-
-    def interface(
-        self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Any
-    ) -> Sequence[Effect]:
-        """What users may have connected to, and what is there by another name now, or no more; old is None for new."""
-        ...
+    def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
+        """Return option values that suit this model better than the defaults, for `init`."""
+        return ()
 
     def option_for(self, path: str, target: Target, options: Any) -> str:
         """Return the option that brings a file, as the configuration has it; empty unless `options` leave it out.
 
         `path` counts from the package's folder.
         """
-        ...
+        return ""
 
-    def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
-        """Option values that suit this model better than the defaults."""
-        ...
+    # Differences
 
-    def drawing(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> str | None:
-        """The main model's diagram as SVG text, or None if the domain draws none. Pure."""
-        ...
+    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
+        """Return elements that have another name and nothing else, in the same place: old element → new name.
+
+        An ambiguous match is none.
+        """
+        return {}
+
+    def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
+        """Return the snapshot with those elements renamed wherever it mentions them, in the order of a report.
+
+        Lists without an order of their own may be keyed, so that the same things are compared.
+        """
+        return snapshot
+
+    def describe(
+        self,
+        differences: Sequence[Difference],
+        old: Version,
+        new: Version,
+        options: Any,
+    ) -> Sequence[Meaning | None]:
+        """Return the meaning of each difference of two comparable versions; None if another difference says the same.
+
+        By default another value is a parameter, and all that comes or goes is structural; `("parts", "motor", "mass")`
+        reads `part motor / mass`.
+        """
+        meanings = []
+        for difference in differences:
+            kind, *path = map(str, difference.path)
+            words = (f"{kind.removesuffix('s')} {path[0]}", *path[1:]) if path else (kind,)
+            is_value = difference.kind is Kind.CHANGED
+            meanings.append(Meaning(words, ChangeClass.PARAMETER if is_value else ChangeClass.STRUCTURAL))
+        return meanings
+
+    def effects(self, old: Version, new: Version) -> Sequence[Effect]:
+        """Return what the differences do to the model as a whole; the versions are as read, not comparable ones."""
+        return ()
+
+    def interface(
+        self,
+        old: Version,
+        new: Version,
+        renames: Mapping[ElementKey, str],
+        target: Target,
+        options: Any,
+    ) -> Sequence[Effect]:
+        """Return what users may have connected to, and what has another name now, or is gone; old is None for new.
+
+        `options` are those of the new version, and of the old one unless it has its own.
+        """
+        return ()
+
+    # Commands beside `build`
+
+    def drawing(
+        self,
+        snapshot: Snapshot,
+        imports: Mapping[str, Import],
+        target: Target,
+        options: Any,
+    ) -> str | None:
+        """Return the main model's diagram as SVG text, or None if the domain draws none. Pure."""
+        return None
 
     def models(self, snapshot: Snapshot, target: Target, options: Any) -> Sequence[str]:
-        """The classes that have to compile by themselves, by their names below the package, the main one first."""
-        ...
+        """Return the classes that have to compile by themselves, by name below the package, the main one first."""
+        return (target.name,)
 
-    def record(self, reading: Reading, file: str, target: Target, options: Any) -> Standalone | None:
-        """The whole model as one record that needs nothing around it, or None if the domain has no such thing.
+    def record(
+        self,
+        reading: Reading,
+        file: str,
+        target: Target,
+        options: Any,
+    ) -> Standalone | None:
+        """Return the whole model as one record that needs nothing around it, or None if the domain has none.
 
-        `reading` has a snapshot, `file` is how diagnostics name its source. `target.name` is the record's class,
+        `reading` has a snapshot, `file` is the source's name in diagnostics. `target.name` is the record's class,
         `target.package` the package that it says it stands in, empty for none. Nothing is imported for it. Pure.
         """
-        ...
+        return None
 
-    def experiment(self, content: bytes, file: str, target: Target, options: Any, complete: bool) -> Experiment | None:
-        """A comparison of the package generated from a source with an independent reference; None if there is none.
+    def experiment(
+        self,
+        content: bytes,
+        file: str,
+        target: Target,
+        options: Any,
+        complete: bool,
+    ) -> Experiment | None:
+        """Return a comparison of the generated package with an independent reference; None if there is none.
 
-        `file` is how diagnostics name the source. With `complete`, what the source lacks for a telling comparison
+        `file` is the source's name in diagnostics. With `complete`, what the source lacks for a telling comparison
         (inertias, say) is made up. Raises SourceError if the reference can't be had or can't read the source.
         """
-        ...
+        return None

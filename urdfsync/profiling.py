@@ -1,26 +1,20 @@
-"""Where the time of a command goes, stage by stage, while somebody wants to know; else it costs next to nothing.
+"""Measure where the time of a command goes, stage by stage, for `--profile`.
 
 Stages may lie inside each other: each moment counts for the innermost, so their times add up to that of the command.
-What other processes do meanwhile is counted by them, and added apart.
+Other processes measure themselves, and their times are added apart, since they may work at the same time.
 """
 
 from __future__ import annotations
 
-import builtins
 import contextlib
-import functools
-import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextvars import ContextVar
-from typing import Any, ParamSpec, TypeAlias, TypeVar
+from typing import TypeAlias
 
-_Parameters = ParamSpec("_Parameters")
-_Returned = TypeVar("_Returned")
-
-Elsewhere: TypeAlias = tuple[dict[str, int], dict[str, int]]
-"""What another process measured: ns of each stage, and counts."""
+Measured: TypeAlias = tuple[dict[str, int], dict[str, int]]
+"""What one process measured: ns of each stage, and counts."""
 
 STAGES = (
     *("start", "imports", "stamp", "configuration", "looking", "reading", "cross-check", "meshes", "artifacts"),
@@ -31,91 +25,71 @@ OTHER = "other"
 
 
 class Profile:
-    """Measures until it is asked for its results; of one thread."""
+    """The times and counts of one thread, until `results` asks for them."""
 
     def __init__(self) -> None:
         self.here: Counter[str] = Counter()
         """Nanoseconds by stage."""
         self.elsewhere: Counter[str] = Counter()
-        """The same of other processes; they may work at the same time."""
+        """The same of other processes."""
         self.counts: Counter[str] = Counter()
         """Files that were `read` or `written`, texts that were `rendered`."""
         self.stamp: bool | None = None
-        """Whether a stamp would have answered; None if there is none for such a command."""
-        self._inside = [OTHER]
+        """Whether a saved answer would have done; None for a command that has none."""
+        self._stages = [OTHER]
         self._since = time.perf_counter_ns()
 
     def enter(self, stage: str) -> None:
         """Begin a stage."""
-        self._close()
-        self._inside.append(stage)
+        self._count_time()
+        self._stages.append(stage)
 
     def leave(self) -> None:
         """End the innermost stage."""
-        self._close()
-        self._inside.pop()
+        self._count_time()
+        self._stages.pop()
 
-    def add(self, found: Elsewhere) -> None:
-        """Take over what another process measured."""
-        self.elsewhere.update(found[0])
-        self.counts.update(found[1])
+    def add(self, measured: Measured) -> None:
+        """Add what another process measured."""
+        self.elsewhere.update(measured[0])
+        self.counts.update(measured[1])
 
-    def results(self) -> Elsewhere:
-        """What was measured so far."""
-        self._close()
+    def results(self) -> Measured:
+        """Return what was measured so far."""
+        self._count_time()
         return dict(self.here), dict(self.counts)
 
-    def _close(self) -> None:
+    def _count_time(self) -> None:
         now = time.perf_counter_ns()
-        self.here[self._inside[-1]] += now - self._since
+        self.here[self._stages[-1]] += now - self._since
         self._since = now
 
 
 _profile: ContextVar[Profile | None] = ContextVar("profile", default=None)
 
 
-class _Stage:
-    def __init__(self, profile: Profile, name: str) -> None:
-        self._profile, self._name = profile, name
-
-    def __enter__(self) -> None:
-        self._profile.enter(self._name)
-
-    def __exit__(self, *_: object) -> None:
-        self._profile.leave()
-
-
-_NOTHING = contextlib.nullcontext()
-
-
-def stage(name: str) -> contextlib.AbstractContextManager[None]:
-    """What happens inside belongs to this stage, one of `STAGES`."""
+@contextlib.contextmanager
+def stage(name: str) -> Iterator[None]:
+    """Let what happens inside count for one of `STAGES`; also a decorator, for a whole function."""
     profile = _profile.get()
-    return _NOTHING if profile is None else _Stage(profile, name)
-
-
-def staged(name: str) -> Callable[[Callable[_Parameters, _Returned]], Callable[_Parameters, _Returned]]:
-    """The same for a function as a whole."""
-
-    def decorate(function: Callable[_Parameters, _Returned]) -> Callable[_Parameters, _Returned]:
-        @functools.wraps(function)
-        def call(*arguments: _Parameters.args, **named: _Parameters.kwargs) -> _Returned:
-            with stage(name):
-                return function(*arguments, **named)
-
-        return call
-
-    return decorate
+    if profile is None:
+        yield
+        return
+    profile.enter(name)
+    try:
+        yield
+    finally:
+        profile.leave()
 
 
 def count(what: str, number: int = 1) -> None:
-    """So many more things were done."""
+    """Count so many things that were done."""
     if (profile := _profile.get()) is not None:
         profile.counts[what] += number
 
 
 def current() -> Profile | None:
-    """The profile that is being made; None if nobody wants one."""
+    """Return the profile that is being made; None if nobody asked for one."""
     return _profile.get()
 
 
@@ -125,17 +99,8 @@ def measured(since: int | None = None) -> Iterator[Profile]:
     profile = Profile()
     if since is not None:
         profile.here["start"] = time.monotonic_ns() - since
-    token, original = _profile.set(profile), builtins.__import__
-
-    def load(name: str, *arguments: Any, **named: Any) -> Any:
-        if name in sys.modules or profile is not _profile.get():
-            return original(name, *arguments, **named)
-        with stage("imports"):
-            return original(name, *arguments, **named)
-
-    builtins.__import__ = load
+    token = _profile.set(profile)
     try:
         yield profile
     finally:
-        builtins.__import__ = original
         _profile.reset(token)

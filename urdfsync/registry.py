@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import cast
 
+from urdfsync import profiling
 from urdfsync.dependencies import depend_on
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain
@@ -28,7 +29,8 @@ def domain(name: str) -> Domain:
         raise ConfigError(Diagnostic(Severity.ERROR, "unknown-domain", f"there is no domain `{name}`", hint=hint))
     module, _, attribute = place.partition(":")
     try:
-        return cast("Domain", getattr(importlib.import_module(module), attribute))
+        with profiling.stage("imports"):
+            return cast("Domain", getattr(importlib.import_module(module), attribute))
     except (ImportError, AttributeError) as problem:
         message = f"the domain `{name}` can't be loaded: {problem}"
         raise ConfigError(Diagnostic(Severity.ERROR, "broken-domain", message, hint="install it again")) from problem

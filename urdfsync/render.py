@@ -24,8 +24,7 @@ from jinja2.exceptions import SecurityError
 from jinja2.runtime import Context, Macro
 from jinja2.sandbox import MAX_RANGE, ImmutableSandboxedEnvironment
 
-from urdfsync import bytecode
-from urdfsync.domain import Piece, Recipe
+from urdfsync import template_cache
 from urdfsync.modelica import literals
 
 if sys.platform == "linux":
@@ -39,27 +38,10 @@ MAX_MEMORY = 2_000_000_000
 
 
 def once(pieces: Iterable[Any], macro: Callable[[Any], str]) -> str:
-    """What the macro makes of some pieces, one after the other, or of something that nobody keeps.
-
-    The macro must be one that is imported: the others are made anew for each text. Nothing but a macro is called,
-    since the call goes round the sandbox.
-    """
+    """Join what a macro makes of some values. Raises TypeError for all but macros: the call bypasses the sandbox."""
     if not isinstance(macro, Macro):
         raise TypeError("`once` takes a macro")
-    texts: list[str] = []
-    for piece in pieces:
-        known = piece.rendered if type(piece) is Piece else None
-        texts.append(known[1] if known and known[0] is macro else _text(piece, macro))
-    return "".join(texts)
-
-
-def _text(piece: Any, macro: Callable[[Any], str]) -> str:
-    """What the macro makes of a piece, which keeps it, or of something else; of a recipe by what it makes."""
-    of = piece.of if isinstance(piece, Piece) else piece
-    text = macro(of.make(*of.made_of) if isinstance(of, Recipe) else of)
-    if isinstance(piece, Piece):
-        piece.rendered = macro, text
-    return text
+    return "".join(map(macro, pieces))
 
 
 _FILTERS = (
@@ -83,8 +65,6 @@ MAX_BITS = 10_000
 
 _NOT_FOR_MODELS = ("lipsum", "random")
 """Names that Jinja offers and whose text is another one each time."""
-_HIDDEN = (Piece, Recipe)
-"""Data that only `once` may look into: it has functions."""
 
 
 class _CodeGenerator(CodeGenerator):
@@ -140,13 +120,9 @@ class _Environment(ImmutableSandboxedEnvironment):
         """
         if type(obj) is dict and attribute in obj:
             return obj[attribute]
-        if isinstance(obj, msgspec.Struct) and attribute in obj.__struct_fields__ and not isinstance(obj, _HIDDEN):
+        if isinstance(obj, msgspec.Struct) and attribute in obj.__struct_fields__:
             return getattr(obj, attribute)
         return super().getattr(obj, attribute)
-
-    def is_safe_attribute(self, obj: Any, attr: str, value: Any) -> bool:
-        """See Jinja; what a piece is made by is none of the template's business."""
-        return not isinstance(obj, _HIDDEN) and super().is_safe_attribute(obj, attr, value)
 
 
 def _with_small_numbers(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -199,7 +175,7 @@ class Renderer:
             lstrip_blocks=True,
             keep_trailing_newline=True,
             auto_reload=False,
-            bytecode_cache=bytecode.of_user(),
+            bytecode_cache=template_cache.find_cache(_Environment),
             autoescape=False,  # Modelica, not HTML; the filters above escape
         )
         self._environment.filters.update({function.__name__: function for function in _FILTERS})

@@ -70,14 +70,14 @@ class Report:
         if self._wants_bar:
             self._start_bar(what)
 
-    @profiling.staged("presentation")
+    @profiling.stage("presentation")
     def warnings(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Findings that concern the whole command and do not stop it."""
         self._warnings = diagnostics
         if not self._json:
             self._findings(diagnostics)
 
-    @profiling.staged("presentation")
+    @profiling.stage("presentation")
     def result(self, result: Result) -> None:
         """Show what was done with one robot."""
         self._stop_bar()
@@ -100,7 +100,7 @@ class Report:
             look = conflicts.Look(self._verbose, self._quiet, before, self._config)
             terminal.show(conflicts.lines(result, terminal.console(stream), look), stream)
 
-    @profiling.staged("presentation")
+    @profiling.stage("presentation")
     def status(self, found: RobotState) -> None:
         """Show how one robot stands."""
         self._stop_bar()
@@ -116,7 +116,7 @@ class Report:
         stream = sys.stderr if found.result.failed else sys.stdout
         terminal.show(statuses.lines(found, stream, self._verbose), stream)
 
-    @profiling.staged("presentation")
+    @profiling.stage("presentation")
     def comparison(self, found: Comparison) -> None:
         """Show what changed in one source."""
         self._stop_bar()
@@ -161,7 +161,7 @@ class Report:
         elif not self._quiet:
             sys.stdout.write(f"cache emptied, {wording.size(freed)} freed\n" if freed else "the cache was empty\n")
 
-    @profiling.staged("presentation")
+    @profiling.stage("presentation")
     def finish(self, command: str, code: Exit) -> None:
         """The end of a command on robots: the JSON document, if one is asked for."""
         self._stop_bar()
@@ -307,7 +307,10 @@ class Report:
         if self._bar is None:
             from rich.progress import Progress
 
-            console = terminal.console(streams.unrecorded(sys.stderr))
+            stream: Any = sys.stderr
+            if isinstance(stream, streams.Stream):
+                stream = stream.without_transcript()
+            console = terminal.console(stream)
             bar = Progress(console=console, transient=True, redirect_stdout=False, redirect_stderr=False)
             self._bar = bar, bar.add_task(what, total=None)
             bar.start()

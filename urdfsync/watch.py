@@ -288,7 +288,7 @@ class Daemon:
             guard.renew()
         if now >= self._next_hour:
             self._next_hour = now + _HOUR
-            self._robots.distrust()
+            self._robots.rehash_all()
         self._arm()
         self._look_at_settings()
         for watched in self._robots:

@@ -138,6 +138,6 @@ def _links(source: Path) -> int:
 
 def _is_built(source: Path) -> bool:
     """Whether a package can be made of it at all."""
-    from urdfsync.urdf.source import read_robot
+    from urdfsync.urdf.parse.source import read_robot
 
     return read_robot(source.read_bytes(), source.name, cross_check=False).robot is not None

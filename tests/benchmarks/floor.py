@@ -10,15 +10,12 @@ Files are written under another name, and get their own when all are on the disk
 
 from __future__ import annotations
 
-import gc
 import importlib
 import json
 import os
 import sys
 from collections.abc import Mapping
 from typing import Any
-
-from urdfsync import program
 
 
 def main(part: str, file: str) -> None:
@@ -79,6 +76,4 @@ def _write(folder: str, texts: Mapping[str, bytes]) -> None:
 
 
 if __name__ == "__main__":
-    gc.set_threshold(program.OBJECTS)
     main(*sys.argv[1:])
-    program.end(0)

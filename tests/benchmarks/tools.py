@@ -19,7 +19,7 @@ from support.corpus import REPOSITORY
 from benchmarks.measuring import Cost, measure, run, variables
 from benchmarks.published import Published
 
-_ENTRIES = {"empty": "benchmark:main", "urdfsync": "urdfsync.__main__:start", "urdfsync-hook": "urdfsync.hook:start"}
+_ENTRIES = {"empty": "benchmark:main", "urdfsync": "urdfsync.__main__:main", "urdfsync-hook": "urdfsync.hook:main"}
 
 NOTHING = "python -c pass"
 """Label of a Python that does nothing."""

@@ -11,7 +11,7 @@ from random import Random
 
 import pytest
 
-from urdfsync import config
+from urdfsync import config, uptodate
 from urdfsync.dependencies import NO_STAT
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine.actions import Kind
@@ -19,7 +19,6 @@ from urdfsync.engine.build import build
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.plan import Plan, plan_robot
-from urdfsync.stamping import stamp, trust
 
 EXAMPLES = Path(__file__).parents[1] / "rcnetwork/examples"
 SETTINGS = '[robots.ladder]\nsource = "ladder.json"\npackage = "Ladder"\ndomain = "rcnetwork"\n'
@@ -221,9 +220,10 @@ def test_nothing_is_remembered_where_nobody_knows_when_a_file_changed(
     assert _built(project, memory)
     time.sleep(AGE)
     if why == "on Windows":
-        monkeypatch.setattr(trust, "HAS_CHANGE_TIMES", False)
+        monkeypatch.setattr(uptodate, "HAS_CHANGE_TIMES", False)
     elif why == "a clock that can be set":
-        monkeypatch.setattr(trust.Clock, "of", lambda descriptor: trust.Clock(os.fstat(descriptor), is_sound=False))
+        clock = uptodate.Clock(project.stat(), is_reliable=False)
+        monkeypatch.setattr(uptodate, "read_clock", lambda folder: clock)
     else:
         (project / ".urdfsync/.clock.urdfsync-tmp").mkdir()
     _planned(project, memory)
@@ -239,7 +239,7 @@ def test_a_full_build_reads_every_file(project: Path) -> None:
         path: entry and entry._replace(sha256="wrong", text_sha256="wrong")
         for path, entry in memory.states("ladder").items()
     }
-    memory.note_states("ladder", seen, stamp.now(), lambda: trust.clock(project / ".urdfsync"))
+    memory.note_states("ladder", seen, uptodate.read_clocks(), lambda: uptodate.read_clock(project / ".urdfsync"))
     assert len(_trusted(memory)) > 5
     loaded = config.load(project / "urdfsync.toml")
     work = plan_robot(loaded, loaded.robots[0], BuildOptions(cache=memory, full=True, dry=True))

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 
-from urdfsync import changes, cli, registry
+from urdfsync import cli, registry
 from urdfsync.diagnostics import ConfigError, OutputError
-from urdfsync.domain import Artifact, Recipe, Role, Target, Templates
+from urdfsync.domain import Artifact, Role, Target, Templates
 from urdfsync.engine.generate import Package, check_paths, generate
 from urdfsync.files import templates_digest
 
@@ -76,30 +75,23 @@ def template_error(folder: Path) -> str:
     return str(found).replace("\\", "/")
 
 
-def test_data_that_has_a_recipe_is_made_when_the_text_is_rendered_and_once(tmp_path: Path) -> None:
+def test_a_text_is_rendered_when_it_is_asked_for(tmp_path: Path) -> None:
     (tmp_path / "t").write_text("<< number >>")
-    asked: list[int] = []
-
-    def data(number: int) -> Mapping[str, int]:
-        asked.append(number)
-        return {"number": number}
-
-    files = [Artifact(f"{n}.mo", Role.RECORD, "t", Recipe(data, (n,)), "part") for n in (1, 2)]
+    files = [Artifact(f"{n}.mo", Role.RECORD, "t", data, "part") for n, data in enumerate([{}, {"number": 2}])]
     package = Package(files, Templates((tmp_path,), ""))
-    assert asked == []
-    assert [package.content("2.mo") for _ in range(2)] == [b"2", b"2"]
-    assert asked == [2]
+    assert package.content("1.mo") == b"2"
+    with pytest.raises(ConfigError, match="number"):
+        package.content("0.mo")
 
 
-def test_a_text_counts_as_stale_once_its_data_is_forgotten(tmp_path: Path) -> None:
-    (tmp_path / "t").write_text("<< number >>")
-    one, two = (
-        Package([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), "")) for n in (1, 2)
+@pytest.mark.parametrize(("old", "new"), [(1, 2), (0.0, -0.0), (1, 1.0)])
+def test_a_text_changes_with_its_data(tmp_path: Path, old: float, new: float) -> None:
+    one, two, again = (
+        Package([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), ""))
+        for n in (old, new, old)
     )
-    for _ in range(2):
-        assert changes.stale(one.artifacts, two.artifacts).render == {"A.mo"}
-        assert (one.content("A.mo"), two.content("A.mo")) == (b"1", b"2")
-    assert {artifact.owner for artifact in one.artifacts.values()} == {"part"}
+    assert two.changed_since(one) == {"A.mo"}
+    assert again.changed_since(one) == set()
 
 
 @pytest.fixture

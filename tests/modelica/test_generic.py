@@ -20,7 +20,7 @@ from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
 from urdfsync.domain import Target
-from urdfsync.urdf.kinematics import start_positions
+from urdfsync.urdf.kinematics.poses import start_positions
 from urdfsync.urdf.physics import motion
 
 pytestmark = pytest.mark.slow

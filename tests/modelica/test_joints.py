@@ -19,11 +19,11 @@ from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
 from urdfsync.domain import Quantity, Target
 from urdfsync.modelica.literals import vector
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, Motion
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Reference
-from urdfsync.urdf.skeleton import MOTIONS, Motion
 
 pytestmark = pytest.mark.slow
 
@@ -176,11 +176,11 @@ def release_of_axes(name: str, urdf: str) -> Release:
     axes = motion.driven_axes(package.skeleton)
     courses = [motion.axis_course(joint) for joint in axes]
     modifiers = [
-        start(package.skeleton.joint(joint.name).component, MOTIONS[joint.type], course.position, course.speed)
+        start(package.skeleton.joint(joint.name).component, MOTION_KINDS[joint.type], course.position, course.speed)
         for joint, course in zip(axes, courses, strict=True)
     ]
     inner = {"rotational": "revolute", "translational": "prismatic"}
-    values = [f"robot.{package.skeleton.joint(j.name).component}.{inner[MOTIONS[j.type]]}.a" for j in axes]
+    values = [f"robot.{package.skeleton.joint(j.name).component}.{inner[MOTION_KINDS[j.type]]}.a" for j in axes]
     return release(package, ", ".join(modifiers), values, accelerations(urdf, [j.name for j in axes], courses))
 
 

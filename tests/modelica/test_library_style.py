@@ -41,6 +41,7 @@ FUNCTIONS = {
     "cos",
     "cross",
     "der",
+    "fill",
     "getInstanceName",
     "identity",
     "max",

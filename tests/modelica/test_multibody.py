@@ -16,9 +16,9 @@ from support import generic
 from support.modelica import URDFSYNC, Task, execute
 from support.urdfs import dynamics, joint, limit, link, robot
 
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS
 from urdfsync.urdf.model.tables import structure
 from urdfsync.urdf.physics import motion
-from urdfsync.urdf.skeleton import MOTIONS
 
 pytestmark = pytest.mark.slow
 
@@ -48,7 +48,7 @@ def tables(own: generic.Robot) -> Mapping[str, Table]:
     kinds = [kind for _, kind in found.joint_tree]
     return {
         "data.connectionMatrix": [[numbers[each.parent], numbers[each.child]] for each in skeleton.joints],
-        "data.moveableJoints": [[k, 1] for k, each in enumerate(skeleton.joints, 1) if each.type in MOTIONS],
+        "data.moveableJoints": [[k, 1] for k, each in enumerate(skeleton.joints, 1) if each.type in MOTION_KINDS],
         "data.linkBodies": [[body] for body in found.link_bodies],
         "data.turning": [[i] for i, kind in enumerate(kinds, 1) if kind == 1],
         "data.sliding": [[i] for i, kind in enumerate(kinds, 1) if kind == 2],

@@ -16,9 +16,9 @@ from support.corpus import REPOSITORY
 from support.marks import LONG
 
 from urdfsync.modelica.names import class_name
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import amended
-from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.source import read_robot
 
 CHOSEN = ("robotics-toolbox-al5d_robot", "random-schunk_pg70", "oems-turtlebot3_burger")
 """Axes that turn, that slide and follow, and that turn without end: the others are compared in the long run."""
@@ -53,7 +53,7 @@ def _notes(file: str) -> list[str]:
     content = (corpus.FOLDER / file).read_bytes()
     robot = read_robot(content, file, cross_check=False).robot
     assert robot is not None
-    made_up = amended.with_inertias(content, Skeleton.of(robot)).notes
+    made_up = amended.with_inertias(content, KinematicTree.of(robot)).notes
     return ["amended"] * len(amended.readable(content).notes) + ["made-up"] * len(made_up)
 
 

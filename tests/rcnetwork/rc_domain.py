@@ -25,7 +25,6 @@ from urdfsync.domain import (
     Import,
     Lookup,
     Order,
-    Parts,
     Proposal,
     Reading,
     Role,
@@ -76,7 +75,7 @@ class RcNetwork:
     def uses(self, options: Options) -> Sequence[tuple[str, str]]:
         return (("Modelica", "4.0.0"),)
 
-    def read(self, content: bytes, file: str, options: Options, parts: Parts | None = None) -> Reading:
+    def read(self, content: bytes, file: str, options: Options, *, thorough: bool = False) -> Reading:
         text = content.decode(errors="replace")
         try:
             network = msgspec.json.decode(content, type=Network)
@@ -127,7 +126,6 @@ class RcNetwork:
         imports: Mapping[str, Import],
         target: Target,
         options: Options,
-        parts: Parts | None = None,  # networks are small
     ) -> Sequence[Artifact | Order]:
         elements = [snapshot["elements"][name] for name in sorted(snapshot["elements"])]
         nodes = sorted({node for element in elements for node in element["between"]} - {GROUND})

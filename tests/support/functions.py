@@ -11,8 +11,8 @@ import numpy as np
 from support import generic
 from support.modelica import Array, Run, Series, Task, execute
 from urdfsync.modelica.literals import vector
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS
 from urdfsync.urdf.physics import motion
-from urdfsync.urdf.skeleton import MOTIONS
 
 _CONFIGURATIONS = 3
 _WEIGHING = {"mass", "inertias", "bias", "gravity"}
@@ -101,7 +101,7 @@ class Functions:
         self._model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         skeleton = self.robot.skeleton
         self.links = [link.name for link in skeleton.links]
-        self._joints = [joint.name for joint in skeleton.joints if joint.type in MOTIONS]
+        self._joints = [joint.name for joint in skeleton.joints if joint.type in MOTION_KINDS]
         n, chance = len(self._joints), np.random.default_rng(len(self.links))
         self._a, self._b = chance.uniform(0.5, 2, n), chance.uniform(0.5, 2, n)
         self._shapes: Mapping[str, Sequence[int]] = {
@@ -191,7 +191,7 @@ class Functions:
         joints = self.robot.skeleton.joints
         depths = {self.links[0]: 0}
         for joint in joints:
-            depths[joint.child] = depths[joint.parent] + (joint.type in MOTIONS)
+            depths[joint.child] = depths[joint.parent] + (joint.type in MOTION_KINDS)
         return max(k for k, link in enumerate(self.links, 1) if depths[link] == max(depths.values()))
 
     def _frame(self, link: str) -> int:

@@ -15,11 +15,11 @@ from support.modelica import Array, Run, Task
 from support.packages import Package, generate
 from urdfsync.domain import Target
 from urdfsync.modelica.literals import vector
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Reference, State
-from urdfsync.urdf.skeleton import Skeleton
 
 FORMS = ("GenericRobot", "ArticulatedRobot")
 """The two formulations."""
@@ -51,7 +51,7 @@ class Robot:
     reference: Reference
 
     @property
-    def skeleton(self) -> Skeleton:
+    def skeleton(self) -> KinematicTree:
         """Its links and joints in order."""
         return self.package.skeleton
 

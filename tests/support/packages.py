@@ -12,9 +12,9 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Import, Lookup, Order, Reading, Role, Snapshot, Target
 from urdfsync.render import Renderer
 from urdfsync.urdf.domain import DOMAIN
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.skeleton import Skeleton
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
 RENDERER = Renderer([REPOSITORY / "templates" / "urdf"])
@@ -27,7 +27,7 @@ class Package:
     target: Target
     options: Options
     robot: Robot
-    skeleton: Skeleton
+    skeleton: KinematicTree
     texts: Mapping[str, str]
     roles: Mapping[str, Role]
     imports: Mapping[str, bytes]
@@ -109,7 +109,7 @@ def _render(
             texts[artifact.path] = RENDERER.render(artifact.template, artifact.data)
             roles[artifact.path] = artifact.role
     robot = from_snapshot(snapshot)
-    return Package(target, options, robot, Skeleton.of(robot, (target.name,)), texts, roles, contents)
+    return Package(target, options, robot, KinematicTree.of(robot, (target.name,)), texts, roles, contents)
 
 
 def _imports(reading: Reading, path: Path, options: Options) -> tuple[dict[str, Import], dict[str, bytes]]:

@@ -12,12 +12,12 @@ from support.packages import Package, generate
 from urdfsync.checking.verdict import Comparison
 from urdfsync.domain import Experiment, Target
 from urdfsync.urdf.domain import DOMAIN
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import motion, probe, variables
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Instant, Reference
-from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.source import read_robot
 
 
 @dataclasses.dataclass(frozen=True)
@@ -75,7 +75,7 @@ def pinocchio_series(urdf: str) -> dict[str, list[float]]:
     """What a simulation of the probe would give if it were Pinocchio's; free joints stay as they begin."""
     found = read_robot(urdf.encode(), "robot.urdf", cross_check=False).robot
     assert found is not None
-    skeleton = Skeleton.of(found)
+    skeleton = KinematicTree.of(found)
     axes, free = motion.driven_axes(skeleton), motion.free_joints(skeleton)
     names = [[joint.name for joint in joints] for joints in (axes, free)]
     reference = Reference(read(urdf.encode(), "robot.urdf"), *names)
@@ -89,7 +89,7 @@ def pinocchio_series(urdf: str) -> dict[str, list[float]]:
     return series
 
 
-def _values(skeleton: Skeleton, instant: Instant) -> dict[str, float]:
+def _values(skeleton: KinematicTree, instant: Instant) -> dict[str, float]:
     """What Pinocchio says, by the names of the probe's values."""
     mass, centre = instant.mass_and_centre()
     called = variables.variables(skeleton, Target("Bot", "Bot"), Options())

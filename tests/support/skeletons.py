@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import Joint, Limit, Link, Mimic, Robot
-from urdfsync.urdf.skeleton import Skeleton
 
 
-def skeleton(*joints: Joint, links: tuple[Link, ...] = ()) -> Skeleton:
+def skeleton(*joints: Joint, links: tuple[Link, ...] = ()) -> KinematicTree:
     """Joints and their links; those of `links` are more than a name."""
     names = {joint.parent: None for joint in joints} | {joint.child: None for joint in joints}
     known = {link.name: link for link in links}
     every = tuple(known.get(name, Link(name)) for name in names) or links
-    return Skeleton.of(Robot("r", every, joints))
+    return KinematicTree.of(Robot("r", every, joints))
 
 
 GRIPPER = skeleton(

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from support.corpus import label, robots
 
 from urdfsync.urdf.drives import driven_joints, passive_joints
+from urdfsync.urdf.kinematics.tree import strip_numbers
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import Joint, Limit, Mimic
-from urdfsync.urdf.skeleton import bare
-from urdfsync.urdf.source import read_robot
 
 PLAIN = Options()
 MIR = {f"{corner}_caster_{part}_joint" for corner in ("fl", "fr", "bl", "br") for part in ("rotation", "wheel")}
@@ -93,7 +93,7 @@ def test_the_option_says_exactly_which_are_driven(names: Sequence[str], driven: 
 def test_no_number_and_no_order_counts(joints: list[Joint], names: tuple[str, ...] | None) -> None:
     options = Options(driven=names)
     driven = driven_joints(joints, options)
-    assert driven_joints([*map(bare, reversed(joints))], options) == driven
+    assert driven_joints([*map(strip_numbers, reversed(joints))], options) == driven
     assert driven <= {one.name for one in joints if one.type not in ("fixed", "planar", "floating") and not one.mimic}
 
 

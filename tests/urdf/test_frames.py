@@ -9,9 +9,9 @@ from hypothesis import given
 from support.trees import robots
 
 from urdfsync.urdf.frames import frame_links
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, Link, Robot
-from urdfsync.urdf.skeleton import Skeleton
 
 HAND = Robot(
     "hand",
@@ -38,12 +38,12 @@ HAND = Robot(
 def test_leaves_and_those_that_are_asked_for_in_canonical_order(
     frames: Literal["leaves", "all"] | tuple[str, ...], names: list[str]
 ) -> None:
-    assert [link.name for link in frame_links(Skeleton.of(HAND), Options(frames=frames))] == names
+    assert [link.name for link in frame_links(KinematicTree.of(HAND), Options(frames=frames))] == names
 
 
 @given(robots())
 def test_leaves_and_all_of_any_robot(robot: Robot) -> None:
-    skeleton = Skeleton.of(robot)
+    skeleton = KinematicTree.of(robot)
     assert frame_links(skeleton, Options()) == skeleton.leaves()
     assert frame_links(skeleton, Options(frames="all")) == skeleton.links
     assert frame_links(skeleton, Options(frames=tuple(link.name for link in skeleton.links))) == skeleton.links

@@ -44,7 +44,25 @@ def found(urdf: str = CART, **options: Any) -> list[tuple[str, Severity, str]]:
 )
 def test_a_frame_of_no_link(name: str, words: str) -> None:
     problem = ("frames", Severity.ERROR, f"`frames` names `{name}`, {words}")
-    assert found(frames=("base", name, "mast", name)) == [problem]
+    assert found(frames=("base", name, "mast")) == [problem]
+
+
+@pytest.mark.parametrize("option", ["frames", "driven"])
+def test_a_name_that_stands_there_twice(option: str) -> None:
+    """The package is right all the same; a name that is wrong as well is told so once."""
+    once, twice = ("tyre", "mast") if option == "frames" else ("caster", "wheel")
+    words = "take one out, or correct its name [name-repeated]"
+    two = (option, Severity.WARNING, f"`{option}` names `{twice}` twice; {words}")
+    three = (option, Severity.WARNING, f"`{option}` names `{once}` 3 times; {words}")
+
+    def of(*names: str) -> list[tuple[str, Severity, str]]:
+        options: dict[str, Any] = {option: names}
+        return found(CART, **options)
+
+    assert of(twice, once, twice) == [two]
+    assert of(once, twice, once, twice, once) == [three, two]
+    wrong = of("gone", "gone")
+    assert [severity for _, severity, _ in wrong] == [Severity.WARNING, Severity.ERROR]
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import (
     Box,
     Calibration,
@@ -34,7 +35,6 @@ from urdfsync.urdf.robot import (
     Visual,
 )
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
-from urdfsync.urdf.source import read_robot
 
 NAMES = st.text(max_size=6)
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)

@@ -154,7 +154,7 @@ def test_files_are_read_once_until_they_change(bench: Bench, read: list[str]) ->
     (bench.project / MODEL).touch()
     assert not bench.has_news(MODEL)
     assert read == [str(bench.project / MODEL)]
-    bench.robots.distrust()
+    bench.robots.rehash_all()
     assert bench.finds_changes() is None
     assert len(read) > 10
 

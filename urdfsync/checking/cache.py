@@ -79,7 +79,7 @@ class Cache:
     def prepare(self) -> None:
         """Make the folder; raises CacheError if that can't be."""
         with writing(self.folder):
-            self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # `bytecode` takes no other
+            self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # `template_cache` takes no other
             tag = self.folder / "CACHEDIR.TAG"  # backup programs leave such a folder out
             if not tag.is_file():
                 tag.write_text(_TAG, encoding="utf-8")
@@ -101,7 +101,7 @@ class Cache:
 
     @property
     def templates(self) -> Path:
-        """Compiled templates, see `bytecode`."""
+        """Compiled templates, see `template_cache`."""
         return self.folder / "templates"
 
     def workspace(self, name: str) -> Path:

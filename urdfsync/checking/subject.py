@@ -98,5 +98,9 @@ class Subject:
 
     @property
     def findings(self) -> list[Diagnostic]:
-        """Errors that a build would report."""
-        return [one for one in self.result.diagnostics if one.severity is Severity.ERROR]
+        """Errors that a build would report, and what a thorough reading of the source says beyond warnings."""
+        robot = self.robot
+        reading = self.domain.read(self.rendering.content, shown(robot.source), robot.options, thorough=True)
+        errors = [one for one in self.result.diagnostics if one.severity is Severity.ERROR]
+        said = [one for one in reading.diagnostics if one.severity is not Severity.WARNING]
+        return list(dict.fromkeys([*errors, *said]))

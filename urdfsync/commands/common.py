@@ -81,7 +81,7 @@ def _positive(text: str) -> int:
     return int(text)
 
 
-@profiling.staged("configuration")
+@profiling.stage("configuration")
 def configuration(options: argparse.Namespace) -> config.Config:
     """The configuration that the options name, or the nearest one. Raises ConfigError."""
     return config.load(options.config or config.find(config.working_folder()))

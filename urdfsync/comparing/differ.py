@@ -67,7 +67,7 @@ def _with_last_build(subject: Subject, robot: RobotConfig, config: Config, reque
     missing = "" if last else "what was built last is not known any more" if situation.recorded else "never built"
     edited = frozenset(action.path for action in result.actions.decided if action.kind in _MINE)
     comparison = msgspec.structs.replace(comparison, missing=missing, edited=edited)
-    if last is None or found is None or not found.changes:
+    if last is None or found is None or not (found.changes or found.generator):
         return comparison
     name = shown(subject.source)
     new = Version(source.read(situation.domain, subject.options, situation.content, name)[0])

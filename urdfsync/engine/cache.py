@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Hashable
 from typing import Any, TypeVar
 
+from urdfsync import uptodate
 from urdfsync.dependencies import NO_STAT
 from urdfsync.engine.package_files import FileState, FileStates
-from urdfsync.stamping import stamp, trust
 
 _FEW = 4
 """Hashing so few files again is quicker than reading the file system's clock."""
@@ -51,15 +51,15 @@ class Cache:
         return robot in self._current
 
     def note_states(
-        self, robot: str, states: FileStates, begin: tuple[int, int], read_clock: Callable[[], trust.Clock | None]
+        self, robot: str, states: FileStates, begin: tuple[int, int], read_clock: Callable[[], uptodate.Clock | None]
     ) -> None:
         """Keep what a plan that began at `begin` saw. Files that changed shortly before are hashed again next time."""
         before = self.states(robot)
         new = {path: state for path, state in states.items() if state and before.get(path) is not state}
         racy = {path: state for path, state in new.items() if state.stat != NO_STAT}
         if len(racy) > _FEW and (clock := read_clock()):
-            passed = stamp.passed(begin)
-            racy = {path: state for path, state in racy.items() if not clock.trusts(state.stat, passed)}
+            elapsed = uptodate.elapsed_since(begin)
+            racy = {path: state for path, state in racy.items() if uptodate.is_racy(state.stat, clock, elapsed)}
         self._states[robot] = {**states, **{path: _without_stat(state) for path, state in racy.items()}}
         self._current.add(robot)
 

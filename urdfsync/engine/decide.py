@@ -86,7 +86,7 @@ class Decision(msgspec.Struct, frozen=True):
         return any(action.writes or action.kind in CONFLICTS for action in self.actions)
 
 
-@profiling.staged("deciding")
+@profiling.stage("deciding")
 def decide_package(
     inputs: Inputs, manifest: Manifest | None, desired: DesiredPackage, generation: Generation | None
 ) -> Decision:

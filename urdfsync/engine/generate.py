@@ -67,7 +67,7 @@ def generate(
 ) -> Package:
     """Return the package of a model. Raises OutputError for paths that can't be written."""
     with profiling.stage("artifacts"):
-        found = domain.artifacts(snapshot, imports, target, options)
+        found = tuple(domain.artifacts(snapshot, imports, target, options))
         check_paths([*(artifact.path for artifact in found), *(entry.target for entry in imports.values())])
     return Package(found, templates)
 
@@ -75,7 +75,8 @@ def generate(
 @functools.lru_cache(maxsize=4)
 def _renderer(templates: Templates) -> Renderer:
     """Return one renderer for all robots with the same templates, so that each template is compiled once."""
-    from urdfsync.render import Renderer  # Jinja takes 10 ms to import: most builds have nothing to render
+    with profiling.stage("imports"):  # Jinja takes 10 ms to import: most builds have nothing to render
+        from urdfsync.render import Renderer
 
     return Renderer(templates.folders)
 
@@ -122,7 +123,7 @@ def _problem(code: str, message: str) -> Diagnostic:
     return Diagnostic(Severity.ERROR, code, message, hint="rename the element, the package or the class")
 
 
-@profiling.staged("rendering")
+@profiling.stage("rendering")
 def _render(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> bytes:
     """One rendered file; whatever a template of the user's can do wrong is a ConfigError at its line."""
     import jinja2

@@ -130,7 +130,7 @@ class Generation:
         complete = self.inputs.last_complete
         return self.changes if complete is self.inputs.last else self._changes_since(complete)
 
-    @profiling.staged("comparing")
+    @profiling.stage("comparing")
     def _changes_since(self, version: Version | None) -> Changes | None:
         if version is None:
             return None
@@ -274,7 +274,7 @@ def generate_robot(inputs: Inputs) -> Generation:
     )
 
 
-@profiling.staged("meshes")
+@profiling.stage("meshes")
 def _import(inputs: Inputs, snapshot: Snapshot, lines: Mapping[str, int]) -> Imported:
     state, name = inputs.state, inputs.robot.name
     files = state.manifest.files if state else {}

@@ -7,6 +7,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import msgspec
 
@@ -106,7 +107,7 @@ class Inputs:
         model = self.state.model if self.state else None
         if self.last is None or model is None or model.since is None:
             return self.last
-        return Version(model.since, None, self.last.generator)
+        return Version(model.since, None, self.last.generator, self.last.options)
 
     @property
     def complete_revision(self) -> int | None:
@@ -124,7 +125,19 @@ class Inputs:
             for key, facts in model.imports.items()
             if (record := dependencies.get(key)) is not None
         }
-        return Version(model.snapshot, imported, self.recorded.generator.fingerprint if self.recorded else "")
+        generator = self.recorded.generator.fingerprint if self.recorded else ""
+        return Version(model.snapshot, imported, generator, self._recorded_options)
+
+    @property
+    def _recorded_options(self) -> Any:
+        """The options of the last build; None if they are not recorded, or not as this program has them."""
+        recorded = self.recorded
+        if recorded is None or recorded.options is None or recorded.generator.domain != self.robot.domain:
+            return None
+        try:
+            return msgspec.convert(recorded.options, self.domain.options)
+        except msgspec.ValidationError:
+            return None
 
     def heading(self, model_hash: str) -> Manifest:
         """Return the manifest of this build without its lists; `model_hash` is the text hash of the recorded model."""
@@ -135,6 +148,7 @@ class Inputs:
             folder=self.folder,
             source=msgspec.structs.replace(self.source, snapshot=model_hash),
             generator=self.generator,
+            options=manifest.option_values(self.robot.options),
         )
 
     def dependencies(self, snapshot: Snapshot, lines: Mapping[str, int]) -> Sequence[Dependency]:

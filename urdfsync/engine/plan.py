@@ -10,7 +10,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import dependencies, profiling
+from urdfsync import dependencies, profiling, uptodate
 from urdfsync.changes import Changes
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -25,7 +25,6 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import FileState
 from urdfsync.engine.rules import DesiredFile
 from urdfsync.engine.stage import draw, stage, stage_bases
-from urdfsync.stamping import stamp, trust
 from urdfsync.state import manifest, repair
 from urdfsync.state.record import RecordState
 from urdfsync.state.store import Witness
@@ -60,7 +59,7 @@ class Plan(msgspec.Struct, frozen=True):
 
 def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan:
     """Decide which files one build of a robot writes. Raises UrdfsyncError for whatever is wrong."""
-    begin = stamp.now()
+    begin = uptodate.read_clocks()
     with profiling.stage("looking"):
         inputs = inspect(config, robot, options)
         plan = _plan_if_current(inputs)
@@ -71,10 +70,10 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
     return plan
 
 
-@profiling.staged("looking")
+@profiling.stage("looking")
 def plan_if_current(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan | None:
     """Return the plan if nothing is to be generated or written, without parsing the source; None otherwise."""
-    begin = stamp.now()
+    begin = uptodate.read_clocks()
     inputs = inspect(config, robot, options)
     plan = _plan_if_current(inputs)
     if plan is not None:
@@ -191,7 +190,7 @@ def _uses_of_lost_names(inputs: Inputs, generation: Generation, decision: Decisi
 def _lost_connectors(inputs: Inputs, generation: Generation) -> list[Diagnostic]:
     """Return notes on what users may have connected to, and what has another name now, or none."""
     complete, changes, robot = inputs.last_complete, generation.changes_since_complete, inputs.robot
-    if complete is None or changes is None or not changes.is_structural:
+    if complete is None or changes is None or not (changes.is_structural or changes.generator):
         return []
     notes = []
     for one in inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options):
@@ -212,4 +211,4 @@ def _note_states(inputs: Inputs, plan: Plan, begin: tuple[int, int]) -> None:
     states = dict(inputs.files.states)
     for path, sha256 in plan.witness.items():  # of the recorded state, the bytes alone count
         states[str(path)] = None if sha256 is None else FileState(dependencies.NO_STAT, sha256, sha256)
-    cache.note_states(inputs.robot.name, states, begin, lambda: trust.clock(inputs.store.folder))
+    cache.note_states(inputs.robot.name, states, begin, lambda: uptodate.read_clock(inputs.store.folder))

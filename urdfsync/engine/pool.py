@@ -39,7 +39,7 @@ _PATIENCE = 10
 _PAUSE = 0.1
 """Seconds between two reports of progress."""
 
-_Answer: TypeAlias = tuple[Plan | None, type[UrdfsyncError], tuple[Diagnostic, ...], "profiling.Elsewhere | None"]
+_Answer: TypeAlias = tuple[Plan | None, type[UrdfsyncError], tuple[Diagnostic, ...], "profiling.Measured | None"]
 """A plan, or class and findings of the error that prevented it; and what was measured, if it was."""
 
 
@@ -115,7 +115,7 @@ class Pool:
                     _plan, str(Path.cwd()), self._config, robot, options, profiling.current() is not None
                 )
 
-    @profiling.staged("waiting")
+    @profiling.stage("waiting")
     def _result(self, robot: RobotConfig) -> Plan:
         future = self._futures.pop(robot.name, None)
         if future is None:  # its place in the queue was lost with a worker

@@ -85,7 +85,7 @@ def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: 
     return found
 
 
-@profiling.staged("reading")
+@profiling.stage("reading")
 def read(
     domain: Domain, options: Any, content: bytes, name: str, cache: Cache | None = None
 ) -> tuple[Snapshot, Reading]:
@@ -100,7 +100,14 @@ def read(
 
 
 def read_cached(domain: Domain, options: Any, content: bytes, name: str, cache: Cache | None) -> Reading:
-    """Return what the domain reads in a source. The daemon judges a source, then builds it, and parses it once."""
+    """Return what the domain reads in a source. The daemon judges a source, then builds it, and parses it once.
+
+    Only the daemon has a cache, and it has the time to read thoroughly.
+    """
     if cache is None:
         return domain.read(content, name, options)
-    return cache.get("source", (domain, options, content, name), lambda: domain.read(content, name, options))
+
+    def read() -> Reading:
+        return domain.read(content, name, options, thorough=True)
+
+    return cache.get("source", (domain, options, content, name), read)

@@ -27,7 +27,7 @@ _OLDER_BASE = (RecordState.CONFLICT, RecordState.WAITING, RecordState.ORPHAN)
 """States of files whose base is older than the recorded model, which can't give it back."""
 
 
-@profiling.staged("recording")
+@profiling.stage("recording")
 def stage(inputs: Inputs, generation: Generation, decision: Decision) -> tuple[list[Change], list[Path]]:
     """Return the writes, the manifest last, and the folders that are empty then, innermost first."""
     store, name, former = inputs.store, inputs.robot.name, inputs.former_name

@@ -138,7 +138,7 @@ def remove(path: Path) -> None:
         path.unlink()
 
 
-@profiling.staged("syncing")
+@profiling.stage("syncing")
 def sync(paths: Sequence[Path]) -> None:
     """Bring files and folders to the disk, so that they outlive a power failure."""
     if len(paths) > _FEW and hasattr(os, "sync"):

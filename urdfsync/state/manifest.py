@@ -85,6 +85,8 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True):
     folder: str
     source: Source
     generator: Generator
+    options: Mapping[str, Any] | None = None
+    """The domain's options of the build as TOML has them, without those that are None; None in older states."""
     names: Mapping[str, Mapping[str, str]] = {}
     dependencies: Mapping[str, DependencyRecord] = {}
     orders: Mapping[str, tuple[str, ...]] = {}
@@ -122,7 +124,9 @@ def dumps(manifest: Manifest) -> str:
     for record in document["files"].values():
         if "origin" in record:
             record["origin"] = record["origin"][below:]
-    return _HEADER + tomli_w.dumps({key: value for key, value in document.items() if value != {}})
+    left_out = {key for key in ("names", "dependencies", "orders", "files") if not document[key]}
+    left_out |= {"options"} if manifest.options is None else set()
+    return _HEADER + tomli_w.dumps({key: value for key, value in document.items() if key not in left_out})
 
 
 def with_overtaken(planned: bytes, before: Iterable[bytes], keys: Iterable[str]) -> bytes:
@@ -175,6 +179,12 @@ def loads(text: str, file: str) -> Manifest:
     }
     orders = {above if path == _PARENT else f"{folder}/{path}": names for path, names in manifest.orders.items()}
     return msgspec.structs.replace(manifest, files=files, orders=dict(sorted(orders.items())))
+
+
+def option_values(options: msgspec.Struct) -> dict[str, Any]:
+    """A domain's options as the manifest has them: TOML has lists in the place of tuples, and no None."""
+    values = msgspec.json.decode(msgspec.json.encode(options))
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def text_hash(text: str) -> str:

@@ -84,7 +84,7 @@ class Transactions:
         """Whether a transaction is under way, or was when its process ended. Needs no lock."""
         return is_pending(self._folder)
 
-    @profiling.staged("writing")
+    @profiling.stage("writing")
     def apply(self, robot: str, changes: Sequence[Change], emptied: Iterable[Path] = ()) -> Applied:
         """Make all changes; the manifest is the last one. `emptied` are folders to remove if they are empty then.
 

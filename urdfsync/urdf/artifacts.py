@@ -3,50 +3,44 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain
 from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Artifact, Import, Order, Parts, Piece, Recipe, Role, Target
-from urdfsync.urdf.kept import Kept
+from urdfsync.domain import Artifact, Import, Order, Role, Target
+from urdfsync.urdf.kinematics.tree import KinematicTree, strip_numbers
 from urdfsync.urdf.model import bench, notes, records, shapes, stance
-from urdfsync.urdf.model.records import RecordJoint, RecordLink
+from urdfsync.urdf.model.records import RecordJoint
 from urdfsync.urdf.model.robot import robot_data
 from urdfsync.urdf.model.shapes import Look
 from urdfsync.urdf.model.tables import has_tables
-from urdfsync.urdf.naming import Identifier, Key
+from urdfsync.urdf.names import Identifier, Key
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Inertial, Joint, JointType, Link, Robot
-from urdfsync.urdf.skeleton import Skeleton, bare
+from urdfsync.urdf.robot import Joint, JointType, Link, Robot
 
 LINK_MODEL = "link/model.mo.jinja"
 LINK_RECORD = "link/record.mo.jinja"
 ROBOT_RECORD = "robot/record.mo.jinja"
 _PARAMETERS = "Parameters"
-_UNLIMITED = {"lower": None, "upper": None, "velocity": None, "effort": None}
 
 
-def artifacts(
-    robot: Robot, imports: Mapping[str, Import], target: Target, options: Options, parts: Parts | None = None
-) -> list[Artifact | Order]:
-    """Every file of the robot's package but the imported meshes; see `Domain.artifacts` for `parts`.
+def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
+    """Every file of the robot's package but the imported meshes.
 
     Raises KeyError or ValueError for what is no robot that passed all checks, or has meshes without their facts.
     """
-    kept = Kept(parts, "files")
-    context = _context(robot, imports, target, options, kept)
-    structure, target, options = context.structure, context.target, context.options
-    files: list[Artifact | Order] = [*kept.get("structure files", _of_structure, structure, target, options)]
+    context = _context(robot, imports, target, options)
+    files: list[Artifact | Order] = [*_of_structure(context.structure, target, options)]
     if "package" in options.approach:
-        common = structure.names, target.package
-        links = kept.each("link files", _link, context.links, *common, context.imports, options)
-        files += chain.from_iterable(links.values())
-        files += chain.from_iterable(kept.each("joint files", _joint, context.joints, *common).values())
+        common = context.structure.names, target.package
+        for name, link in context.links.items():
+            files += _link(name, link, *common, imports, options)
+        for name, joint in context.joints.items():
+            files += _joint(name, joint, *common)
         if options.base == "floating":
             files.append(_stance(context))
     if "record" in options.approach:
-        files.append(_record(context, robot.name, kept))
+        files.append(_record(context, robot.name))
     return files
 
 
@@ -56,10 +50,9 @@ def record(robot: Robot, target: Target, options: Options) -> Artifact:
     It says what the record in a package says, if that is called like this one, and if no mesh has a part in it.
     """
     name = target.name.removesuffix(_PARAMETERS) or target.name
-    kept = Kept(None, "files")
-    artifact = _record(_context(robot, {}, Target(target.package, name), options, kept), robot.name, kept)
+    artifact = _record(_context(robot, {}, Target(target.package, name), options), robot.name)
     data = {**artifact.data, "record": target.name}
-    return msgspec.structs.replace(artifact, path=f"{target.name}.mo", source=data)
+    return msgspec.structs.replace(artifact, path=f"{target.name}.mo", data=data)
 
 
 def models(joints: Sequence[Joint], target: Target, options: Options) -> tuple[str, ...]:
@@ -78,37 +71,35 @@ def has_bench(joints: Sequence[Joint], options: Options) -> bool:
 class _Context(msgspec.Struct, frozen=True):
     links: Mapping[str, Link]
     joints: Mapping[str, Joint]
-    structure: Skeleton
+    structure: KinematicTree
     """The skeleton of the robot without numbers: all that models of the whole robot depend on."""
     imports: Mapping[str, Import]
     target: Target
     options: Options
 
 
-def _context(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options, kept: Kept) -> _Context:
+def _context(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> _Context:
     for found in imports.values():
         _ = found.facts["bounds"], found.facts["hull"]  # here, and not when a text is rendered
     links, joints = {link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}
-    imports, target, options = kept.same("imports", imports), kept.same("target", target), kept.same("options", options)
-    names = kept.same("names", tuple(links))
-    moves = kept.same("joints", tuple(kept.each("bare", lambda _, joint: bare(joint), joints).values()))
-    return _Context(links, joints, kept.get("structure", _structure, names, moves, target), imports, target, options)
+    structure = _structure(links, tuple(map(strip_numbers, robot.joints)), target)
+    return _Context(links, joints, structure, imports, target, options)
 
 
-def _structure(links: Iterable[str], joints: tuple[Joint, ...], target: Target) -> Skeleton:
-    structure = Skeleton.of(Robot("", tuple(map(Link, links)), joints), taken=(target.name,))
+def _structure(links: Iterable[str], joints: tuple[Joint, ...], target: Target) -> KinematicTree:
+    structure = KinematicTree.of(Robot("", tuple(map(Link, links)), joints), taken=(target.name,))
     if len(structure.leaders_first()) < len(structure.joints):
         raise ValueError("a joint follows one that is not there, or itself")
     return structure
 
 
-def _numbers(structure: Skeleton) -> tuple[Mapping[str, int], Mapping[str, int]]:
+def _numbers(structure: KinematicTree) -> tuple[Mapping[str, int], Mapping[str, int]]:
     """The numbers of links, and of joints, in canonical order, from 1."""
     links = {link.name: number for number, link in enumerate(structure.links, 1)}
     return links, {joint.name: number for number, joint in enumerate(structure.joints, 1)}
 
 
-def _of_structure(structure: Skeleton, target: Target, options: Options) -> list[Artifact | Order]:
+def _of_structure(structure: KinematicTree, target: Target, options: Options) -> list[Artifact | Order]:
     """The files that no number of the URDF has a part in."""
     files = [*_package(structure, target, options)]
     if "package" in options.approach:
@@ -117,12 +108,12 @@ def _of_structure(structure: Skeleton, target: Target, options: Options) -> list
         files += _subpackage("Joints", target, [structure.joint(joint.name) for joint in joints]) if joints else ()
         files += _robot(structure, target, options)
     if has_bench(structure.joints, options):
-        bench = Recipe(records.generic_data, (structure, target, options))
+        bench = records.generic_data(structure, target, options)
         files.append(Artifact(f"{target.name}Generic.mo", Role.MODEL, "robot/generic.mo.jinja", bench, "robot"))
     return files
 
 
-def _package(structure: Skeleton, target: Target, options: Options) -> Iterator[Artifact | Order]:
+def _package(structure: KinematicTree, target: Target, options: Options) -> Iterator[Artifact | Order]:
     name, joints = target.name, structure.joints
     parent, _, last = target.package.rpartition(".")
     whole, record = "package" in options.approach, "record" in options.approach
@@ -167,8 +158,8 @@ def _link(
     """What the package approach has of a link."""
     name, meshes = names["link", key], shapes.meshes((*link.visuals, *link.collisions), imports)
     owner, looks = f"link {key}", shapes.looks(link, meshes, options)
-    record = Recipe(_link_record, (name, package, link, meshes, options))
-    model = Recipe(_link_model, (name, package, key, looks, options))
+    record = _link_record(name, package, link, meshes, options)
+    model = _link_model(name, package, key, looks, options)
     return (
         Artifact(f"Links/{name.record}.mo", Role.RECORD, LINK_RECORD, record, owner),
         Artifact(f"Links/{name.type}.mo", Role.MODEL, LINK_MODEL, model, owner),
@@ -212,8 +203,8 @@ def _joint(key: str, joint: Joint, names: Mapping[Key, Identifier], package: str
     """What the package approach has of a joint."""
     name, owner, loses = names["joint", key], f"joint {key}", joint.dynamics is not None
     own = Joint(key, joint.type, joint.parent, joint.child)
-    record = Recipe(_joint_record, (name, package, joint))
-    model = Recipe(_joint_model, (name, package, own, loses))
+    record = _joint_record(name, package, joint)
+    model = _joint_model(name, package, own, loses)
     return (
         Artifact(f"Joints/{name.record}.mo", Role.RECORD, joint_record_template(joint.type), record, owner),
         Artifact(f"Joints/{name.type}.mo", Role.MODEL, joint_template(joint.type), model, owner),
@@ -230,7 +221,7 @@ def _joint_names(name: Identifier, package: str, joint: Joint) -> dict[str, Any]
 
 
 def _joint_record(name: Identifier, package: str, joint: Joint) -> dict[str, Any]:
-    return _joint_names(name, package, joint) | {"joint": joint, "limits": joint.limit or _UNLIMITED}
+    return _joint_names(name, package, joint) | {"joint": joint, "limits": joint.limit or records.UNLIMITED}
 
 
 def _joint_model(name: Identifier, package: str, joint: Joint, loses: bool) -> dict[str, Any]:
@@ -253,9 +244,9 @@ def joint_record_template(kind: JointType) -> str:
     return f"joint/{kind}_parameters.mo.jinja"
 
 
-def _robot(structure: Skeleton, target: Target, options: Options) -> Iterator[Artifact]:
+def _robot(structure: KinematicTree, target: Target, options: Options) -> Iterator[Artifact]:
     name, made_of = target.name, (structure, target, options)
-    robot, benches = Recipe(robot_data, made_of), Recipe(bench.bench_data, made_of)
+    robot, benches = robot_data(*made_of), bench.bench_data(*made_of)
     yield Artifact(f"{name}.mo", Role.MODEL, "robot/robot.mo.jinja", robot, "robot")
     yield Artifact(f"{name}Run.mo", Role.MODEL, "robot/run.mo.jinja", benches, "robot")
     yield Artifact(f"{name}Test.mo", Role.MODEL, "robot/test.mo.jinja", benches, "robot")
@@ -263,35 +254,39 @@ def _robot(structure: Skeleton, target: Target, options: Options) -> Iterator[Ar
 
 def _stance(context: _Context) -> Artifact:
     made_of = (_touching(context), context.imports, context.target)
-    record = Recipe(stance.stance_data, made_of)
+    record = stance.stance_data(*made_of)
     return Artifact(f"{context.target.name}Stance.mo", Role.RECORD, "robot/stance.mo.jinja", record, "robot")
 
 
-def _record(context: _Context, urdf_name: str, kept: Kept) -> Artifact:
-    structure, stands = context.structure, context.options.base == "floating"
-    order = kept.get("numbers", _numbers, structure)
-    generic = kept.get("generic", has_tables, structure.joints)
+def _record(context: _Context, urdf_name: str) -> Artifact:
+    structure, imports, target, options = context.structure, context.imports, context.target, context.options
+    link_numbers, joint_numbers = _numbers(structure)
+    looks = {name: found for name in link_numbers if (found := shapes.looks(context.links[name], imports, options)[0])}
+    visuals = records.record_visuals(structure, looks)
+    links = [
+        records.record_link(
+            number,
+            structure.link(name).component,
+            context.links[name],
+            visuals.get(name, ()),
+            imports,
+            target.package,
+            options,
+        )
+        for name, number in link_numbers.items()
+    ]
+    joints = [
+        RecordJoint(number, structure.joint(name).component, context.joints[name])
+        for name, number in joint_numbers.items()
+    ]
+    ground = (_touching(context), imports) if options.base == "floating" else None
+    tables = records.structure_data(structure, looks)
+    data = records.record_data(tables, links, joints, ground, target, urdf_name, has_tables(structure.joints))
+    return Artifact(f"{target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, data, "robot")
 
-    def link(name: str, inertial: Inertial | None, structure: Skeleton) -> RecordLink | Piece:
-        return kept.piece(RecordLink(order[0][name], structure.link(name).component, name, inertial))
 
-    def joint(name: str, joint: Joint, structure: Skeleton) -> RecordJoint | Piece:
-        return kept.piece(RecordJoint(order[1][name], structure.joint(name).component, joint))
-
-    inertials = {name: context.links[name].inertial for name in order[0]}
-    joints = {name: context.joints[name] for name in order[1]}
-    pieces = (
-        kept.get("tables", lambda structure: kept.piece(Recipe(records.structure_data, (structure,))), structure),
-        list(kept.each("record links", link, inertials, structure).values()),
-        list(kept.each("record joints", joint, joints, structure).values()),
-    )
-    ground = (_touching(context), context.imports) if stands else None
-    recipe = Recipe(records.record_data, (*pieces, ground, context.target, urdf_name, generic))
-    return Artifact(f"{context.target.name}{_PARAMETERS}.mo", Role.RECORD, ROBOT_RECORD, recipe, "robot")
-
-
-def _touching(context: _Context) -> Skeleton:
+def _touching(context: _Context) -> KinematicTree:
     """The robot with what may touch the ground, and no other numbers of its links."""
     structure = context.structure
     links = tuple([Link(link.name, collisions=context.links[link.name].collisions) for link in structure.links])
-    return Skeleton(links, tuple([context.joints[joint.name] for joint in structure.joints]), structure.names)
+    return KinematicTree(links, tuple([context.joints[joint.name] for joint in structure.joints]), structure.names)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import compress
 from pathlib import Path
 from typing import Any
 
@@ -17,15 +16,13 @@ from urdfsync.domain import (
     Import,
     Lookup,
     Order,
-    Parts,
     Proposal,
     Reading,
     Snapshot,
     Standalone,
     Target,
 )
-from urdfsync.urdf import naming
-from urdfsync.urdf.kept import Kept
+from urdfsync.urdf import names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
@@ -36,25 +33,21 @@ class UrdfDomain:
 
     name = "urdf"
     templates: Path | None = None
-    revision = 5
+    revision = 6
     fits_since = 5
     converter = 1
     options = Options
-
-    def __init__(self) -> None:
-        self._meshes: Parts | None = None
-        """Which links have meshes, where readings are kept: several stages of a build ask for them."""
 
     def uses(self, options: Options) -> Sequence[tuple[str, str]]:
         """See `urdfsync.domain.Domain`."""
         return options.uses
 
-    def read(self, content: bytes, file: str, options: Options, parts: Parts | None = None) -> Reading:
+    def read(self, content: bytes, file: str, options: Options, *, thorough: bool = False) -> Reading:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf.source import read_robot
+        from urdfsync.urdf.parse.source import read_robot
 
-        kept: Parts = {} if parts is None else parts
-        reading = read_robot(content, file, cross_check=options.cross_check, parts=parts)
+        cross_check = thorough if options.cross_check is None else options.cross_check
+        reading = read_robot(content, file, cross_check=cross_check)
         if reading.robot is None:
             return Reading(None, reading.diagnostics, reading.lines)
         said = reading.diagnostics
@@ -62,10 +55,11 @@ class UrdfDomain:
             from urdfsync.urdf.record_scope import out_of_scope
 
             said += tuple(out_of_scope(reading.robot, file, reading.lines))
-        snapshot = to_snapshot(reading.robot, kept.get("snapshot"))
-        kept["snapshot"] = reading.robot, snapshot
-        self._meshes = None if parts is None else parts.setdefault("meshes", {})
-        return Reading(snapshot, said, reading.lines)
+        if "package" in options.approach:
+            from urdfsync.urdf.passive import massless_passive_joints
+
+            said += tuple(massless_passive_joints(reading.robot, options, file, reading.lines))
+        return Reading(to_snapshot(reading.robot), said, reading.lines)
 
     def dependencies(
         self, snapshot: Snapshot, lookup: Lookup, options: Options, lines: Mapping[str, int]
@@ -75,8 +69,7 @@ class UrdfDomain:
 
         if options.meshes != "import":
             return ()
-        meshes = Kept(self._meshes, "links").each("meshes", lambda _, link: _has_mesh(link), snapshot["links"])
-        return dependencies(_shown(snapshot, compress(meshes, meshes.values()), options), lookup, lines)
+        return dependencies(_with_meshes(snapshot, options), lookup, lines)
 
     def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
         """See `urdfsync.domain.Domain`."""
@@ -86,7 +79,7 @@ class UrdfDomain:
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """See `urdfsync.domain.Domain`."""
-        return naming.components(tuple(snapshot["links"]), tuple(snapshot["joints"]), target.name)
+        return names.components(snapshot["links"], snapshot["joints"], target.name)
 
     def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
         """See `urdfsync.domain.Domain`."""
@@ -100,12 +93,11 @@ class UrdfDomain:
         imports: Mapping[str, Import],
         target: Target,
         options: Options,
-        parts: Parts | None = None,
     ) -> Sequence[Artifact | Order]:
         """See `urdfsync.domain.Domain`."""
         from urdfsync.urdf.artifacts import artifacts
 
-        return artifacts(from_snapshot(snapshot, parts), imports, target, options, parts)
+        return artifacts(from_snapshot(snapshot), imports, target, options)
 
     def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
         """See `urdfsync.domain.Domain`."""
@@ -148,9 +140,9 @@ class UrdfDomain:
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf.proposal import propose_base
+        from urdfsync.urdf.kinematics.base_guess import guess_base
 
-        return (propose_base(from_snapshot(snapshot)),)
+        return (guess_base(from_snapshot(snapshot)),)
 
     def drawing(
         self,
@@ -189,14 +181,12 @@ class UrdfDomain:
         return experiment(content, file, target, options, complete)
 
 
-def _shown(snapshot: Snapshot, links: Iterable[str], options: Options) -> Robot:
-    """These links, without the shapes that nothing is made of: the record knows how high collisions stand."""
+def _with_meshes(snapshot: Snapshot, options: Options) -> Robot:
+    """The links with meshes, without the shapes that nothing is made of: the record knows how high collisions stand."""
     absent: dict[str, list[Any]] = {}
     if not options.collisions or ("package" not in options.approach and options.base == "fixed"):
         absent["collisions"] = []
-    if "package" not in options.approach:
-        absent["visuals"] = []
-    shown = {name: {**snapshot["links"][name], **absent} for name in links}
+    shown = {name: {**link, **absent} for name, link in snapshot["links"].items() if _has_mesh(link)}
     return from_snapshot({**snapshot, "links": shown, "joints": {}, "extensions": {}})
 
 

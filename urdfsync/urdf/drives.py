@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint
-from urdfsync.urdf.skeleton import MOTIONS
 
 
 def driven_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
@@ -36,7 +36,7 @@ def passive_joints(joints: Iterable[Joint]) -> frozenset[str]:
 
 def can_be_driven(joint: Joint) -> bool:
     """Whether a joint has one axis and follows no other joint."""
-    return joint.type in MOTIONS and joint.mimic is None
+    return joint.type in MOTION_KINDS and joint.mimic is None
 
 
 def _turns_freely(joint: Joint) -> bool:

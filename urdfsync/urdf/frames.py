@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Link
-from urdfsync.urdf.skeleton import Skeleton
 
 
-def frame_links(skeleton: Skeleton, options: Options) -> tuple[Link, ...]:
+def frame_links(skeleton: KinematicTree, options: Options) -> tuple[Link, ...]:
     """The leaves and the links that the option `frames` names, each once, in canonical order.
 
     Names that are no link are left out: `check_options` reports them.

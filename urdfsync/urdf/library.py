@@ -7,6 +7,7 @@ from typing import Any
 
 from urdfsync.domain import Artifact, Import, Order, Role
 from urdfsync.urdf.artifacts import LINK_MODEL, LINK_RECORD, joint_model, joint_template, link_model, link_record
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS
 from urdfsync.urdf.meshes.lookup import key
 from urdfsync.urdf.model.shapes import looks
 from urdfsync.urdf.options import Options
@@ -22,7 +23,6 @@ from urdfsync.urdf.robot import (
     Sphere,
     Visual,
 )
-from urdfsync.urdf.skeleton import MOTIONS
 
 _MESH = Mesh("robots/six_axis_arm/meshes/base_casting.stl")
 _IMPORTS = {
@@ -77,7 +77,7 @@ def _link(name: str, record: str, link: Link, note: str) -> Artifact:
 
 def _joint(kind: JointType, note: str) -> Artifact:
     name = kind.capitalize()
-    moving = kind in MOTIONS or kind == "planar"
+    moving = kind in MOTION_KINDS or kind == "planar"
     data = joint_model(loses=moving) | _names("Joints", name, f"UrdfSync.Records.{name}Joint")
     data |= {"replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
     return Artifact(f"Joints/{name}.mo", Role.MODEL, joint_template(kind), data, name)

@@ -1,17 +1,19 @@
 """Names in the options of a robot, held against the robot: each has to be what the option asks for.
 
 A joint in `driven` or a link in `frames` that is not there leaves the robot without a drive or a connector that the
-user counts on. No package is right then, so these are errors.
+user counts on. No package is right then, so these are errors. A name that stands there twice is a warning: the second
+one may have been meant to be another.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
 from urdfsync.urdf.drives import can_be_driven, passive_joints
-from urdfsync.urdf.naming import natural_key
+from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint
 
@@ -30,6 +32,7 @@ def check_options(
         return
     by_name = {joint.name: joint for joint in joints}
     if isinstance(options.frames, tuple):
+        yield from _repeated("frames", options.frames)
         for name in dict.fromkeys(options.frames):
             if name not in links:
                 yield "frames", _no_link(name, links, by_name)
@@ -37,9 +40,18 @@ def check_options(
         if passive := passive_joints(joints):
             yield "driven", _passive(passive)
         return
+    yield from _repeated("driven", options.driven)
     for name in dict.fromkeys(options.driven):
         if name not in by_name or not can_be_driven(by_name[name]):
             yield "driven", _no_drive(name, links, by_name)
+
+
+def _repeated(option: str, names: Sequence[str]) -> Iterator[tuple[str, Diagnostic]]:
+    for name, count in Counter(names).items():
+        if count > 1:
+            times = "twice" if count == 2 else f"{count} times"
+            message, hint = f"`{option}` names `{name}` {times}", "take one out, or correct its name"
+            yield option, Diagnostic(Severity.WARNING, "name-repeated", message, hint=hint)
 
 
 def _no_link(name: str, links: Collection[str], joints: Mapping[str, Joint]) -> Diagnostic:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.urdf.kinematics.massless import Massless, find_massless_joints, has_mass
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import obstacles
-from urdfsync.urdf.resistance import resistances, yielding
-from urdfsync.urdf.resisted import clearly_resisted
-from urdfsync.urdf.robot import Joint, Link, Robot
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
+from urdfsync.urdf.robot import Joint, Robot
 
 _BY_PACKAGE = "or use the package approach"
 _PLANAR = f"write it as two prismatic joints and a continuous one, {_BY_PACKAGE}"
@@ -17,6 +16,18 @@ _FLOATING_BASE = (
     f'leave it out with its parent link and let the base float (`base = "floating"` in a project), {_BY_PACKAGE}'
 )
 _FLOATING = f"write it as three prismatic joints and three continuous ones, {_BY_PACKAGE}"
+_MASSLESS = {
+    Massless.NOTHING_BEHIND: ("moves no mass", "give a link behind it an <inertial>, or make it a fixed joint"),
+    Massless.ON_AXIS: (
+        "turns nothing that has an inertia about its axis",
+        "give a link behind it such an inertia, or make it a fixed joint",
+    ),
+    Massless.UNDONE: (
+        "moves no mass where it starts if joints behind it undo its motion, as one about the same axis can",
+        "give the link right behind it an <inertial>, or make it a fixed joint",
+    ),
+}
+"""What is wrong with a joint that moves no mass, and what to do about it."""
 
 
 def out_of_scope(robot: Robot, file: str, lines: Mapping[str, int]) -> Iterator[Diagnostic]:
@@ -29,64 +40,24 @@ def out_of_scope(robot: Robot, file: str, lines: Mapping[str, int]) -> Iterator[
         message = f"the generic robot has no {joint.type} joints, so there are no tables for it: joint '{joint.name}'"
         yield _warning(f"{joint.type}-not-generic", message, _hint(joint, robot), file, lines, f"joint {joint.name}")
     if not unfit:
-        yield from _massless(Skeleton.of(robot), file, lines)
+        yield from _massless(KinematicTree.of(robot), file, lines)
 
 
-def _massless(skeleton: Skeleton, file: str, lines: Mapping[str, int]) -> Iterator[Diagnostic]:
-    if clearly_resisted(skeleton):
-        return
-    resisted = resistances(skeleton)
-    idle = {j.name for j in skeleton.joints if j.type in MOTIONS and j.mimic is None and not resisted[j.name]}
-    heavy = _heavy(skeleton)
-    if idle and not heavy:
+def _massless(tree: KinematicTree, file: str, lines: Mapping[str, int]) -> Iterator[Diagnostic]:
+    found = find_massless_joints(tree)
+    if found and not any(map(has_mass, tree.links)):
         message = "no link has a mass, so the joints of the generic robot can be moved by position only"
         yield _warning("moves-no-mass", message, "give the links an <inertial>", file, lines, "robot")
         return
-    giving = yielding(skeleton) - idle
-    behind = set[str]()
-    for joint in skeleton.joints:
-        if joint.name in giving:
-            yield _given_way(joint, file, lines)
-        if joint.name in idle and joint.parent not in behind:
-            yield _unresisted(joint, joint.child in heavy, file, lines)
-        if joint.parent in behind or (joint.name in idle and joint.child not in heavy):
-            behind.add(joint.child)  # there is nothing there either
-
-
-def _unresisted(joint: Joint, carries: bool, file: str, lines: Mapping[str, int]) -> Diagnostic:
-    """The warning of a joint with nothing to move, or with a mass that is all on its axis."""
-    what, wanted = "moves no mass", "an <inertial>"
-    if carries and MOTIONS[joint.type] == "rotational":
-        what, wanted = "turns nothing that has an inertia about its axis", "such an inertia"
-    message = f"joint '{joint.name}' {what}, so the generic robot can move it by position only"
-    hint = f"give a link behind it {wanted}, or make it a fixed joint"
-    return _warning("moves-no-mass", message, hint, file, lines, f"joint {joint.name}")
-
-
-def _given_way(joint: Joint, file: str, lines: Mapping[str, int]) -> Diagnostic:
-    """The warning of a joint that has a mass behind it, and other joints between."""
-    message = (
-        f"joint '{joint.name}' moves no mass where it starts if joints behind it undo its motion, as one about the "
-        "same axis can, so the generic robot can move it by position only"
-    )
-    hint = "give the link right behind it an <inertial>, or make it a fixed joint"
-    return _warning("moves-no-mass", message, hint, file, lines, f"joint {joint.name}")
-
-
-def _heavy(skeleton: Skeleton) -> set[str]:
-    """The links that have a mass or an inertia, or carry one that has."""
-    heavy = {link.name for link in skeleton.links if _weighs(link)}
-    for joint in reversed(skeleton.joints):
-        if joint.child in heavy:
-            heavy.add(joint.parent)
-    return heavy
-
-
-def _weighs(link: Link) -> bool:
-    inertial = link.inertial
-    return inertial is not None and any(
-        (inertial.mass, inertial.inertia.ixx, inertial.inertia.iyy, inertial.inertia.izz)
-    )
+    empty = set[str]()  # links with nothing behind them, in front of which a joint was named
+    for joint in tree.joints:
+        why = found.get(joint.name)
+        if why and (joint.parent not in empty or why is Massless.UNDONE):
+            problem, hint = _MASSLESS[why]
+            message = f"joint '{joint.name}' {problem}, so the generic robot can move it by position only"
+            yield _warning("moves-no-mass", message, hint, file, lines, f"joint {joint.name}")
+        if joint.parent in empty or why is Massless.NOTHING_BEHIND:
+            empty.add(joint.child)
 
 
 def _warning(code: str, message: str, hint: str, file: str, lines: Mapping[str, int], element: str) -> Diagnostic:

@@ -12,41 +12,31 @@ one block of a diff; every number is there, defaults too, so that a change of a 
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Iterable, Mapping
-from itertools import compress
-from typing import Any, TypeAlias
+from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Parts, Snapshot
-from urdfsync.urdf.kept import Kept
+from urdfsync.domain import Snapshot
 from urdfsync.urdf.robot import Extension, Joint, Link, Robot
 
 _ENCODER = msgspec.json.Encoder(order="sorted")
-_NULL = b"null"
-_Element: TypeAlias = Link | Joint
 
 
-def to_snapshot(robot: Robot, before: tuple[Robot, Snapshot] | None = None) -> Snapshot:
-    """The robot as plain data, as it would come back from JSON; names of links, and of joints, must be unique.
-
-    `before` is another robot with its snapshot: of links and joints that are the same objects, the data are so, too.
-    """
-    old, known = before or (Robot(""), {"extensions": {}, "joints": {}, "links": {}})
+def to_snapshot(robot: Robot) -> Snapshot:
+    """Return the robot as plain data, as it would come back from JSON; names of links, and of joints, are unique."""
     return {
-        "extensions": known["extensions"] if robot.extensions == old.extensions else _extensions(robot.extensions),
-        "joints": _by_name(robot.joints, old.joints, known["joints"]),
-        "links": _by_name(robot.links, old.links, known["links"]),
+        "extensions": _extensions(robot.extensions),
+        "joints": _by_name(robot.joints),
+        "links": _by_name(robot.links),
         "name": robot.name,
     }
 
 
-def from_snapshot(snapshot: Snapshot, parts: Parts | None = None) -> Robot:
-    """The robot of a snapshot, its elements sorted by name: the inverse of `to_snapshot`.
+def from_snapshot(snapshot: Snapshot) -> Robot:
+    """Return the robot of a snapshot, its elements sorted by name: the inverse of `to_snapshot`.
 
-    With `parts` of the last call, elements that are the same objects as then give the same links and joints. Raises
-    ValueError (msgspec.ValidationError) or KeyError for data that is no snapshot of a robot.
+    Raises ValueError (msgspec.ValidationError) or KeyError for data that is no snapshot of a robot.
     """
     extensions = [
         {"owner": owner, "tag": tag, "text": text}
@@ -55,64 +45,39 @@ def from_snapshot(snapshot: Snapshot, parts: Parts | None = None) -> Robot:
         for text in texts
     ]
     robot = msgspec.convert({"name": snapshot["name"], "extensions": extensions}, Robot)
-    kept = Kept(parts, "elements")
-    links, joints = kept.each("links", _link, snapshot["links"]), kept.each("joints", _joint, snapshot["joints"])
-    return msgspec.structs.replace(robot, links=tuple(links.values()), joints=tuple(joints.values()))
+    links = msgspec.convert([{"name": name, **link} for name, link in snapshot["links"].items()], tuple[Link, ...])
+    return msgspec.structs.replace(robot, links=links, joints=joints_of(snapshot["joints"]))
 
 
 def joints_of(joints: Mapping[str, Any]) -> tuple[Joint, ...]:
-    """The joints of a snapshot, in its order, given its entry `joints`. Raises ValueError for other data."""
-    return tuple([_joint(name, joint) for name, joint in joints.items()])
-
-
-def _link(name: str, link: Mapping[str, Any]) -> Link:
-    return msgspec.convert({"name": name, **link}, Link)
-
-
-def _joint(name: str, joint: Mapping[str, Any]) -> Joint:
-    return msgspec.convert({"name": name, **joint}, Joint)
+    """Return the joints of a snapshot, in its order, given its entry `joints`. Raises ValueError for other data."""
+    return msgspec.convert([{"name": name, **joint} for name, joint in joints.items()], tuple[Joint, ...])
 
 
 def _extensions(extensions: Iterable[Extension]) -> dict[str, dict[str, list[str]]]:
-    """The texts of extensions by owner and tag, all sorted."""
+    """Return the texts of extensions by owner and tag, all sorted."""
     found: dict[str, dict[str, list[str]]] = {}
     for extension in sorted(extensions, key=msgspec.structs.astuple):
         found.setdefault(extension.owner, {}).setdefault(extension.tag, []).append(extension.text)
     return found
 
 
-def _by_name(elements: tuple[_Element, ...], old: tuple[_Element, ...], known: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The data of the elements by their names, sorted; `known` are those of the old ones."""
-    others = list(map(operator.is_not, elements, old))
-    new, gone = list(compress(elements, others)), compress(old, others)
-    if len(elements) == len(old) and [element.name for element in new] == [element.name for element in gone]:
-        return {**known, **{element.name: _plain(element) for element in new}} if new else known
-    objects = {element.name: element for element in old}
-    return {
-        element.name: known[element.name] if objects.get(element.name) is element else _plain(element)
-        for element in sorted(elements, key=lambda element: element.name)
-    }
+def _by_name(elements: Iterable[Link | Joint]) -> dict[str, Any]:
+    """Return the data of the elements by their names, sorted."""
+    found = {}
+    for element in sorted(elements, key=lambda element: element.name):
+        plain = msgspec.json.decode(_ENCODER.encode(element))
+        del plain["name"]
+        if plain.get("actuated") is False:
+            del plain["actuated"]
+        found[element.name] = _without_absent(plain)
+    return found
 
 
-def _plain(element: _Element) -> dict[str, Any]:
-    """The data of one element, without its name and without what it does not have."""
-    text = _ENCODER.encode(element)
-    plain: dict[str, Any] = msgspec.json.decode(text)
-    del plain["name"]
-    if plain.get("actuated") is False:
-        del plain["actuated"]
-    if _NULL in text:
-        _drop_absent(plain)
-    return plain
-
-
-def _drop_absent(plain: dict[str, Any]) -> None:
-    """Take out what is None, at every level."""
-    for key in [key for key, value in plain.items() if value is None]:
-        del plain[key]
-    for value in plain.values():
-        if type(value) is dict:
-            _drop_absent(value)
-        elif type(value) is list and value and type(value[0]) is dict:
-            for below in value:
-                _drop_absent(below)
+def _without_absent(value: Any) -> Any:
+    """Return plain data without None, at every level."""
+    if isinstance(value, dict):
+        return {key: _without_absent(item) for key, item in value.items() if item is not None}
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        return [_without_absent(item) for item in value]
+    return value

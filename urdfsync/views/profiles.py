@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 _WORDS = {
     "start": "start-up",
-    "imports": "imports of modules",
+    "imports": "imports of domain and templates",
     "stamp": "asking the stamp",
     "looking": "looking at files",
     "reading": "reading the source",

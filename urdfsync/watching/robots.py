@@ -9,12 +9,12 @@ from pathlib import Path
 
 import msgspec
 
+from urdfsync import uptodate
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.dependencies import NO_STAT, stat_of
 from urdfsync.diagnostics import Diagnostic, OutputError
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.package_files import FileState, FileStates, PackageFiles
-from urdfsync.stamping import stamp, trust
 from urdfsync.watching.samples import Sample, Sampler, alike
 from urdfsync.watching.scope import Scope, scope
 from urdfsync.watching.settling import Settler, Times
@@ -139,7 +139,7 @@ class Robots:
         """
         if watched.built is None or not alike(watched.built, now):
             return False
-        begin, seen = stamp.now(), self._memory.states(watched.name)
+        begin, seen = uptodate.read_clocks(), self._memory.states(watched.name)
         outputs = self.outputs(watched, seen)
         if outputs != seen:  # else nothing had to be hashed
             if changed := self._changed(watched, outputs):
@@ -155,7 +155,7 @@ class Robots:
 
     def take_stock(self, watched: Watched) -> None:
         """Let the outputs be known as they are now, since a build has failed, however far it came."""
-        begin = stamp.now()
+        begin = uptodate.read_clocks()
         outputs = self.outputs(watched, watched.scope.outputs)
         self._memory.note_states(watched.name, outputs, begin, self._clock)
 
@@ -163,7 +163,7 @@ class Robots:
         """Forget the samples of files that do not matter any more, but for `others`."""
         self._sampler.keep([*others, *(path for watched in self for path in watched.scope.ingredients())])
 
-    def distrust(self) -> None:
+    def rehash_all(self) -> None:
         """Hash everything again, whatever the system says of it."""
         self._sampler.forget()
         self._memory.rehash_all()
@@ -173,8 +173,8 @@ class Robots:
         seen = self._memory.states(watched.name)
         return {path for path, entry in now.items() if _content(seen.get(path, _IN_THE_WAY)) != _content(entry)}
 
-    def _clock(self) -> trust.Clock | None:
-        return trust.clock(self._config.root / STATE_FOLDER)
+    def _clock(self) -> uptodate.Clock | None:
+        return uptodate.read_clock(self._config.root / STATE_FOLDER)
 
     def _scope(self, robot: RobotConfig) -> Scope:
         return scope(self._config, robot, self._package_paths)

@@ -1,6 +1,6 @@
 """What files are at one moment: what the system says of them, and their hashes.
 
-Hashed is only what differs from the last sample, and what is too young to be trusted, see `stamping/trust`.
+Hashed is only what differs from the last sample, and what is too young to be trusted, see `_is_racy`.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeAlias
 
 from urdfsync.dependencies import NO_STAT, Stat, stat_of
-from urdfsync.stamping import trust
 
 
 class Entry(NamedTuple):
@@ -31,6 +30,8 @@ class Entry(NamedTuple):
 Sample: TypeAlias = Mapping[str, Entry]
 """Paths at one moment."""
 
+_COARSE_TICK = 2_000_000_000
+"""No clock of a file system is coarser (ns): that of FAT."""
 MISSING = Entry(NO_STAT, "", "missing")
 
 
@@ -76,7 +77,7 @@ class Sampler:
             entry = _error(error)
         if entry == old:
             entry = old  # one value for all samples
-        self._seen[path] = entry, trust.is_young(found[0], now)
+        self._seen[path] = entry, _is_racy(found[0], now)
         return entry
 
 
@@ -97,6 +98,14 @@ def all_files_below(folder: str) -> Iterator[str]:
     """
     for current, _, names in os.walk(folder):
         yield from (os.path.join(current, name) for name in names)  # noqa: PTH118 - many, and often
+
+
+def _is_racy(found: Stat, now: int) -> bool:
+    """Whether a file may change again and show the same stat values, since it changed just before `now` (ns).
+
+    By the clock of this machine: sources are on any file systems, and the daemon makes no files there to read theirs.
+    """
+    return max(found[-2:]) > now - _COARSE_TICK
 
 
 def _facts(path: str) -> tuple[Stat, str] | Entry:

@@ -35,6 +35,10 @@ record Robot "Numbers of a whole robot: what all robots have"
     "Number of driven axes that slide"
     annotation (Evaluate=true);
 
+  parameter Integer drawnShapes(min = 0) = 0
+    "Number of shapes that are drawn"
+    annotation (Evaluate=true);
+
   parameter Integer jointTree[:, 2] = fill(0, 0, 2)
     "One row per moving joint: {number of the body that carries it, 1 if it turns or 2 if it slides}"
     annotation (Evaluate=true);
@@ -117,6 +121,9 @@ record Robot "Numbers of a whole robot: what all robots have"
   Modelica.Units.SI.MomentOfInertia linkInertias[:, 6](each min = -Modelica.Constants.inf) = fill(0, 1, 6)
     "Per link: elements {xx, yy, zz, xy, xz, yz} about the centre of mass, in the inertial frame";
 
+  Visuals visuals
+    "Shapes that are drawn";
+
   // rumoca does not find the sizes of arrays that a function gives where they are modifiers of a record: so they are components here.
   final Real linkRotations[size(linkBodies, 1), 3, 3](each unit = "1") =
     UrdfSync.Dynamics.linkRotations(connectionMatrix, linkBodies, jointAngles)
@@ -176,7 +183,7 @@ record Robot "Numbers of a whole robot: what all robots have"
 
   annotation (Documentation(info="<html>
 <p>
-The record of a generated robot adds one component per link and per joint, and one constant <code>&lt;joint&gt;Axis</code> per driven axis: its
+The record of a generated robot adds one component per link, per visual and per joint, and one constant <code>&lt;joint&gt;Axis</code> per driven axis: its
 number. Links and joints are numbered depth-first from the root, siblings in natural order of their names: joint <code>k</code> leads to link
 <code>k + 1</code>.
 </p>

@@ -109,7 +109,7 @@ It is the way to the parts of the Modelica Standard Library: sensors, bodies and
 </p>
 <p>
 OpenModelica (sources of August 2026) translated it for a six-axis arm with mimic joints and simulated a free fall of 0.5 s, which agrees with
-<a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a> to 1e-7; that was before it had <code>frame_b</code>. By what its authors report, Dymola translates the
+<a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a> to 1e-7; that was before it had <code>frame_b</code> and shapes. By what its authors report, Dymola translates the
 formulation. rumoca, the compiler behind <code>urdfsync check</code>, does not: it loses the subscripts of components in <code>connect</code>. So the tests of this library write arrays and loops
 out for one robot of three moving joints, whose free motion agrees with the reference. Where it can't be translated,
 <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a> does the same.

@@ -4,9 +4,6 @@ partial model PartialGenericRobot "Kinematics of a robot that is read from its r
   extends UrdfSync.Robots.PartialRecordRobot;
 
 protected
-  outer Modelica.Mechanics.MultiBody.World world
-    "Gravity";
-
   parameter Real e_t[n, 3](each unit = "1") = data.turnAxes
     "Turns of the bodies per motion of their joints";
 

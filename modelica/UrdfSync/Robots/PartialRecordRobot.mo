@@ -11,6 +11,10 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
     "Number of the link whose frame is frame_b; as it is, the one at the end of the longest chain of moving joints"
     annotation (Evaluate=true);
 
+  parameter Boolean animation = true
+    "= true, if visuals are drawn"
+    annotation (Dialog(tab="Animation"));
+
   parameter Boolean checkLimits = true
     "= true, if a joint that passes one of its limits is reported by a warning";
 
@@ -149,6 +153,9 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
     "Efforts of the drives; zero for joints that follow";
 
 protected
+  outer Modelica.Mechanics.MultiBody.World world
+    "Gravity, and whether there is an animation";
+
   constant Modelica.Units.SI.Length unitLength = UrdfSync.Dynamics.unitLength
     "Makes numbers without unit of the positions of joints that slide: they share vectors with those that turn";
 
@@ -222,6 +229,37 @@ protected
 
   parameter Modelica.Units.SI.MomentOfInertia axisInertias[n] = UrdfSync.Dynamics.axisInertias(jointInertias, data.followers, data.followerMultipliers)
     "The same, joints that follow them included";
+
+  // rumoca does not find a table of strings where it is a modifier of an array of components.
+  parameter String kinds[data.drawnShapes] = data.visuals.kinds
+    "Shape types";
+
+  parameter Real e_length[data.drawnShapes, 3](each unit = "1") =
+    UrdfSync.Functions.shapeAxes(data.visuals.angles, data.visuals.lengthAxes)
+    "Directions of the lengths of the shapes, resolved in the link frames";
+
+  parameter Real e_width[data.drawnShapes, 3](each unit = "1") =
+    UrdfSync.Functions.shapeAxes(data.visuals.angles, fill(2, data.drawnShapes))
+    "Directions of their widths, likewise";
+
+  parameter Modelica.Units.SI.Position r_shape[data.drawnShapes, 3] =
+    UrdfSync.Functions.shapeOrigins(data.visuals.positions, data.visuals.starts, e_length)
+    "Points at which the shapes begin, likewise";
+
+  Modelica.Mechanics.MultiBody.Visualizers.Advanced.Shape shape[data.drawnShapes](
+    shapeType = kinds,
+    length = data.visuals.sizes[:, 1],
+    width = data.visuals.sizes[:, 2],
+    height = data.visuals.sizes[:, 3],
+    lengthDirection = e_length,
+    widthDirection = e_width,
+    r_shape = r_shape,
+    color = data.visuals.colors,
+    r = {r_0[data.visuals.links[k], :] for k in 1:data.drawnShapes},
+    R = {Modelica.Mechanics.MultiBody.Frames.Orientation(
+      T = transpose(R_0[data.visuals.links[k], :, :]),
+      w = zeros(3)) for k in 1:data.drawnShapes}) if world.enableAnimation and animation
+    "Visuals of the links";
 
   UrdfSync.Types.JointEffort loss[n]
     "Efforts that damping and dry friction take";
@@ -302,6 +340,10 @@ simulations, integers and axes of joints cannot.
 <a href=\"modelica://UrdfSync.Robots.FreeBase\">FreeBase</a>. Driven axes have flanges as the robot model of the package approach has them, in the same
 order; where nothing is connected the axis moves freely. <code>frame_b</code> is the frame of the link <code>tool</code>: a body, a sensor or a contact that is connected to it is part of the
 motion. The constants <code>data.&lt;joint&gt;Axis</code> are their numbers.
+</p>
+<p>
+<i>Shapes.</i> The visuals of the links are drawn where the links are, with the animation of the Modelica Standard Library. A tool that does not find a file must not
+stop for it: leave all shapes out by <code>animation = false</code>. Their numbers are those of <code>data.visuals</code>.
 </p>
 <p>
 <i>Losses and mimic joints.</i> The equations of motion give <code>effort</code>, torque in N.m or force in N, of each joint. The drives have to give more:

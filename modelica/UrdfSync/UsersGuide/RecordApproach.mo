@@ -7,7 +7,7 @@ class RecordApproach "The whole robot as one record"
     preferredView="info",
     Documentation(info="<html>
 <p>
-<code>&lt;Robot&gt;Parameters.mo</code> holds all numbers of the robot in one record: name, tables, and one component per link and per
+<code>&lt;Robot&gt;Parameters.mo</code> holds all numbers of the robot in one record: name, tables, and one component per link, per visual and per
 joint. It extends <a href=\"modelica://UrdfSync.Records.Robot\">Records.Robot</a>. Pign&egrave;de and Oldemeyer call this the model structure
 defining record: one generic model can read the structure of any robot from it.
 </p>
@@ -42,6 +42,13 @@ limits and losses are tables of their own for either kind. <a href=\"modelica://
 In a package that has models of links and joints as well, <code>approach = [\"package\", \"record\"]</code>, those models read the records of their elements. The record of the whole robot is
 a copy of these numbers then: an edit in it changes no such model.
 </p>
+<h4>Shapes</h4>
+<p>
+The record has a component per visual, <code>forearmVisual1</code> for the first one of link <code>forearm</code>, of the classes that the
+package approach has for it. The table <code>visuals</code> refers to them, and the models draw its entries with the shapes of the Modelica Standard Library;
+<code>animation = false</code> leaves them out. Meshes are in <code>Resources/</code> of the package; a mesh that is not found is left out, and
+<code>urdfsync record</code>, which writes no package, leaves out all of them. Collisions are not drawn, and there is no contact with the ground.
+</p>
 <h4>Models</h4>
 <dl>
 <dt><a href=\"modelica://UrdfSync.Robots.GenericRobot\">Robots.GenericRobot</a></dt>
@@ -49,11 +56,13 @@ a copy of these numbers then: an edit in it changes no such model.
 <dt><a href=\"modelica://UrdfSync.Robots.ArticulatedRobot\">Robots.ArticulatedRobot</a></dt>
 <dd>Articulated-body equations: explicit in the accelerations, for tools that do not solve the equations of motion as one system of the size of the number of axes.</dd>
 <dt><a href=\"modelica://UrdfSync.Robots.MultiBodyGenericRobot\">Robots.MultiBodyGenericRobot</a></dt>
-<dd>The published formulation, arrays of multibody components. OpenModelica (sources of August 2026) translated and simulated it, before it had <code>frame_b</code>; rumoca does not translate it.</dd>
+<dd>The published formulation, arrays of multibody components. OpenModelica (sources of August 2026) translated and simulated it, before it had <code>frame_b</code> and shapes; rumoca does not translate it.</dd>
 <dt><a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a></dt>
 <dd>Functions that take <code>data.tree</code>, which follows from the tables: mass matrix, inverse dynamics, Coriolis and gravity forces, the Jacobian of any link, poses. They can be used
 without the models; <a href=\"modelica://UrdfSync.Examples.ComputedTorque\">Examples.ComputedTorque</a> and
-<a href=\"modelica://UrdfSync.Examples.ToolPath\">Examples.ToolPath</a> control a robot with them. For 40 robots with 2 to 30 moving joints they agree with Pinocchio to 2e-15, relative to the greatest element of a result
+<a href=\"modelica://UrdfSync.Examples.ToolPath\">Examples.ToolPath</a> control a robot with them, and
+<a href=\"modelica://UrdfSync.Examples.ComputedTorquePackage\">ComputedTorquePackage</a> and <a href=\"modelica://UrdfSync.Examples.ToolPathPackage\">ToolPathPackage</a>
+a robot of the package approach. For 40 robots with 2 to 30 moving joints they agree with Pinocchio to 2e-15, relative to the greatest element of a result
 or of the mass matrix, as far as rumoca computes them.</dd>
 </dl>
 <p>
@@ -63,10 +72,10 @@ All of them have flanges for the driven axes, damping and dry friction, mimic jo
 <h4>Both approaches</h4>
 <table border=\"1\" cellspacing=\"0\" cellpadding=\"4\">
 <tr><th align=\"left\"></th><th align=\"left\">package</th><th align=\"left\">record</th></tr>
-<tr><td>text files of the six-axis arm (9 moving joints, 13 links)</td><td>60</td><td>4</td></tr>
-<tr><td>their lines</td><td>4,623</td><td>646</td></tr>
-<tr><td>text files of a humanoid (30 moving joints, 60 links)</td><td>248</td><td>4</td></tr>
-<tr><td>their lines</td><td>14,745</td><td>2,329</td></tr>
+<tr><td>text files of the six-axis arm (9 moving joints, 13 links)</td><td>59</td><td>4</td></tr>
+<tr><td>their lines</td><td>3,721</td><td>1,437</td></tr>
+<tr><td>text files of a humanoid (30 moving joints, 60 links)</td><td>247</td><td>4</td></tr>
+<tr><td>their lines</td><td>11,569</td><td>2,807</td></tr>
 <tr><td>compiled and simulated, 6 moving joints, driven</td><td>2.4 + 2.2 s</td><td>1.5 + 1.2 s (59 %)</td></tr>
 <tr><td>6 moving joints, free</td><td>2.9 + 4.0 s</td><td>2.0 + 1.1 s (45 %)</td></tr>
 <tr><td>12 moving joints, 6 of them mimic joints, driven</td><td>4.0 + 6.4 s</td><td>2.5 + 3.3 s (56 %)</td></tr>
@@ -76,7 +85,8 @@ All of them have flanges for the driven axes, damping and dry friction, mimic jo
 <tr><td>30 moving joints, driven</td><td>17.1 + 54.4 s</td><td>2.9 + 34.7 s (53 %)</td></tr>
 <tr><td>30 moving joints, free</td><td>16.4 + 81.6 s</td><td>3.0 + 4.2 s (7 %)</td></tr>
 <tr><td>joint types</td><td>all six</td><td>revolute, continuous, prismatic, fixed</td></tr>
-<tr><td>shapes, contact with the ground</td><td>yes</td><td>no</td></tr>
+<tr><td>visuals</td><td>drawn</td><td>drawn</td></tr>
+<tr><td>collisions drawn, contact with the ground</td><td>yes</td><td>no</td></tr>
 <tr><td>frames to connect parts to</td><td>of all links, by editing</td><td>of the root link and of one that the parameter <code>tool</code> names</td></tr>
 <tr><td>what can be edited by hand</td><td>every link, every joint and their connections</td><td>numbers; the bench around the robot</td></tr>
 <tr><td>the structure changes</td><td>models are generated again, edits are kept or merged</td><td>the record is generated again</td></tr>
@@ -85,7 +95,8 @@ All of them have flanges for the driven axes, damping and dry friction, mimic jo
 </table>
 <p>
 Times are seconds of CPU in rumoca 0.10.2 to compile and to simulate 0.01 s, libraries loaded before, package and record (GenericRobot) in the same run;
-in brackets the record's sum in percent of the package's. Driven axes move as prescribed. ArticulatedRobot takes 1.1 to 2.2 times as long as
+in brackets the record's sum in percent of the package's. No shapes are drawn there: the 44 shapes of the six-axis arm take rumoca about 2 s more to compile, and
+1 s where <code>animation = false</code>. The meshes of the humanoid were not at hand. Driven axes move as prescribed. ArticulatedRobot takes 1.1 to 2.2 times as long as
 GenericRobot there, since rumoca solves the system of equations well. Where all axes are driven by
 position, most of the time goes into the differentiation of each of these constraints. Other tools were not measured.
 </p>

@@ -7,7 +7,8 @@ class Visualization "Shapes, meshes, colours"
     preferredView="info",
     Documentation(info="<html>
 <p>
-The option <code>visualizer</code> in <code>urdfsync.toml</code> says which library draws the shapes of links.
+The option <code>visualizer</code> in <code>urdfsync.toml</code> says which library draws the shapes of links in the package approach. The
+<a href=\"modelica://UrdfSync.UsersGuide.RecordApproach\">generic robots</a> draw visuals with the Modelica Standard Library.
 </p>
 <dl>
 <dt><code>\"standard\"</code></dt>

@@ -22,7 +22,7 @@ from urdfsync.urdf import changes as urdf
 from urdfsync.urdf.changes import renames
 from urdfsync.urdf.differences import renames as module
 from urdfsync.urdf.domain import DOMAIN
-from urdfsync.urdf.naming import identify
+from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Inertial, Joint, Link, Material, Mimic, Origin, Robot, Sphere, Visual
 from urdfsync.urdf.snapshot import to_snapshot

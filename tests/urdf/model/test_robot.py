@@ -10,16 +10,16 @@ from support.skeletons import GRIPPER, skeleton
 from support.trees import robots
 
 from urdfsync.domain import Target
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
 from urdfsync.urdf.model.connectors import connectors
 from urdfsync.urdf.model.robot import connector_names, couplings, robot_data, tree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Inertial, Joint, JointType, Limit, Link, Mimic, Origin, Robot
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 TARGET = Target("Plant.Arm", "Arm")
 
 
-def data(robot: Skeleton) -> dict[str, Any]:
+def data(robot: KinematicTree) -> dict[str, Any]:
     return robot_data(robot, TARGET, Options())
 
 
@@ -60,7 +60,7 @@ def test_a_connector_never_has_a_name_that_all_robots_have() -> None:
 
 @given(robots())
 def test_no_two_components_have_one_name(robot: Robot) -> None:
-    found = Skeleton.of(robot)
+    found = KinematicTree.of(robot)
     names = connectors(found, [link.name for link in found.links])
     beside = [*names.frames.values(), *names.axes.values(), *names.supports.values(), *names.couplings.values()]
     every = [name.lower() for name in (*beside, *(identifier.component for identifier in found.names.values()))]
@@ -102,10 +102,10 @@ def test_joints_without_an_axis_have_no_flanges(kind: JointType) -> None:
 
 @given(robots())
 def test_the_robot_model_has_every_element_once_and_a_place_for_each(robot: Robot) -> None:
-    found = data(Skeleton.of(robot))
+    found = data(KinematicTree.of(robot))
     names = [entry.component for kind in ("links", "joints", "couplings") for entry in found[kind]]
     assert len(set(names)) == len(robot.links) + len(robot.joints) + sum(
-        joint.mimic is not None and joint.type in MOTIONS for joint in robot.joints
+        joint.mimic is not None and joint.type in MOTION_KINDS for joint in robot.joints
     )
     flanges = [name for drive in found["drives"] for name in (drive.axis, drive.support)]
     frames = [frame.connector for frame in found["frames"]]
@@ -115,7 +115,7 @@ def test_the_robot_model_has_every_element_once_and_a_place_for_each(robot: Robo
 
 @given(robots())
 def test_rows_on_the_icon_stand_over_the_picture_and_below_its_top(robot: Robot) -> None:
-    found = data(Skeleton.of(robot))
+    found = data(KinematicTree.of(robot))
     for row in (*found["drives"], *found["frames"]):
         assert 100 < row.y - 10 < row.y < found["top"]
 

@@ -11,12 +11,12 @@ from types import SimpleNamespace
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.records import record_components, record_tables
 from support.trees import SCALAR, robots
 
-from urdfsync.urdf.model.numbers import joint_numbers
-from urdfsync.urdf.model.tables import Structure, has_tables, obstacles, record_tables, structure
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
+from urdfsync.urdf.model.tables import Structure, has_tables, obstacles, structure
 from urdfsync.urdf.robot import Joint, Link, Mimic, Robot
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: has_tables(robot.joints))
 few = settings(max_examples=30)  # trees are small, and take their time to be drawn
@@ -35,12 +35,12 @@ GRIPPER = (
 """In canonical order: turn, mount, lock, other, slide, pinion."""
 
 
-def skeleton(*joints: Joint) -> Skeleton:
+def skeleton(*joints: Joint) -> KinematicTree:
     names = {joint.parent: None for joint in joints} | {joint.child: None for joint in joints}
-    return Skeleton.of(Robot("r", tuple(map(Link, names)), joints))
+    return KinematicTree.of(Robot("r", tuple(map(Link, names)), joints))
 
 
-def tables(of: Skeleton) -> Mapping[str, str]:
+def tables(of: KinematicTree) -> Mapping[str, str]:
     """The modifiers by their names, on one line each; those of arrays of records by `name.field`."""
     found: dict[str, str] = {}
     for modifier in record_tables(of):
@@ -58,8 +58,8 @@ def entries(value: str) -> list[str]:
     return [entry.strip() for entry in value.strip("{} ").split(",")] if value else []
 
 
-def moving(of: Skeleton) -> list[Joint]:
-    return [joint for joint in of.joints if joint.type in MOTIONS]
+def moving(of: KinematicTree) -> list[Joint]:
+    return [joint for joint in of.joints if joint.type in MOTION_KINDS]
 
 
 def carried(found: Structure, body: int) -> Iterator[int]:
@@ -156,7 +156,7 @@ def test_a_robot_that_does_not_move_is_one_body() -> None:
 @few
 @given(TREES)
 def test_every_link_is_part_of_one_body_and_every_body_has_links(robot: Robot) -> None:
-    of = Skeleton.of(robot)
+    of = KinematicTree.of(robot)
     found = structure(of)
     bodies = dict(zip((link.name for link in of.links), found.link_bodies, strict=True))
     numbers = {joint.name: number for number, joint in enumerate(moving(of), 1)}
@@ -167,14 +167,14 @@ def test_every_link_is_part_of_one_body_and_every_body_has_links(robot: Robot) -
         else:
             number = numbers[joint.name]
             assert bodies[joint.child] == number + 1
-            turns = 1 if MOTIONS[joint.type] == "rotational" else 2
+            turns = 1 if MOTION_KINDS[joint.type] == "rotational" else 2
             assert found.joint_tree[number - 1] == (bodies[joint.parent], turns)
 
 
 @few
 @given(TREES)
 def test_what_carries_a_joint_comes_before_what_it_moves(robot: Robot) -> None:
-    found = structure(Skeleton.of(robot))
+    found = structure(KinematicTree.of(robot))
     assert all(body <= number for number, (body, _) in enumerate(found.joint_tree, 1))
     for body in range(1, len(found.joint_tree) + 2):
         assert list(carried(found, body)) == [
@@ -185,7 +185,7 @@ def test_what_carries_a_joint_comes_before_what_it_moves(robot: Robot) -> None:
 @few
 @given(TREES)
 def test_sums_over_bodies_are_sums_over_links(robot: Robot) -> None:
-    of = Skeleton.of(robot)
+    of = KinematicTree.of(robot)
     found = structure(of)
     mass = {link.name: 2.0**k for k, link in enumerate(of.links)}  # sums of these are exact, and no two are equal
     bodies = [0.0] * (len(found.joint_tree) + 1)
@@ -204,7 +204,7 @@ def test_sums_over_bodies_are_sums_over_links(robot: Robot) -> None:
 @few
 @given(TREES, st.lists(st.floats(-2, 2), min_size=7, max_size=7))
 def test_followers_are_where_the_whole_chain_puts_them(robot: Robot, positions: list[float]) -> None:
-    of = Skeleton.of(robot)
+    of = KinematicTree.of(robot)
     found, names = structure(of), [joint.name for joint in moving(of)]
     driven = {number for axes in found.axes.values() for number in axes}
     place = {joint.name: at for joint, at in zip(of.joints, positions, strict=False) if joint.type != "fixed"}
@@ -236,19 +236,18 @@ def test_the_order_of_elements_makes_no_difference(robot: Robot, chance: random.
     chance.shuffle(links)
     chance.shuffle(joints)
     shuffled = Robot(robot.name, tuple(links), tuple(joints))
-    assert record_tables(Skeleton.of(shuffled)) == record_tables(Skeleton.of(robot))
+    assert record_tables(KinematicTree.of(shuffled)) == record_tables(KinematicTree.of(robot))
 
 
 @few
 @given(TREES)
 def test_references_are_to_what_the_record_has_and_no_number_is_written(robot: Robot) -> None:
-    of = Skeleton.of(robot)
+    of = KinematicTree.of(robot)
     fields = {of.link(link.name).component: {"inertial"} for link in of.links}
     for joint in of.joints:
-        numbers = joint_numbers(joint)
-        groups = {"limits", "dynamics", "mimic"} if joint.type != "fixed" else set()
-        groups |= {"axis"} if numbers.axis else set()
+        groups = {"axis", "limits", "dynamics", "mimic"} if joint.type != "fixed" else set()
         fields[of.joint(joint.name).component] = {"name", "origin", *groups}
+    assert fields.keys() == record_components(of).keys()
     text = " ".join(record_tables(of)).replace("Modelica.Constants.inf", "")
     for reference in REFERENCE.findall(text):
         component, field, *_ = reference.split(".")
@@ -259,7 +258,7 @@ def test_references_are_to_what_the_record_has_and_no_number_is_written(robot: R
 @few
 @given(TREES)
 def test_rows_are_as_many_as_there_are_elements(robot: Robot) -> None:
-    of = Skeleton.of(robot)
+    of = KinematicTree.of(robot)
     found = tables(of)
 
     def rows(name: str) -> int:
@@ -275,7 +274,7 @@ def test_rows_are_as_many_as_there_are_elements(robot: Robot) -> None:
         assert rows(name) == int(found.get("movingJoints", "0")) == len(moving(of))
     assert rows("firstJoints") == len(moving(of)) + 1
     for kind, motion in (("turning", "rotational"), ("sliding", "translational")):
-        count = sum(MOTIONS[joint.type] == motion for joint in moving(of))
+        count = sum(MOTION_KINDS[joint.type] == motion for joint in moving(of))
         assert int(found.get(f"{kind}Joints", "0")) == rows(kind) == count
         for field in ("Limits.lower", "Limits.upper", "Limits.velocity", "Limits.effort"):
             assert rows(f"{kind}{field}") == count

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics.amended import readable, with_inertias
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.source import read_robot
 
 ENDS = '<parent link="base"/><child link="arm"/>'
 
@@ -67,7 +67,7 @@ def test_another_encoding_becomes_utf_8() -> None:
 
 def test_all_links_of_a_robot_without_mass_get_some() -> None:
     urdf = robot(link("base"), link("arm"), joint("elbow", "continuous", "base", "arm")).encode()
-    content, notes = with_inertias(urdf, Skeleton.of(robot_of(urdf)))
+    content, notes = with_inertias(urdf, KinematicTree.of(robot_of(urdf)))
     assert notes == (
         "inertias were made up for 2 links of the generated package only, because the file gives no mass at all",
     )
@@ -91,7 +91,7 @@ TREE = robot(
 
 def test_massless_links_that_weigh_on_no_joint_stay_massless() -> None:
     """The sensor does not move against the base, the carrier moves the load."""
-    content, notes = with_inertias(TREE, Skeleton.of(robot_of(TREE)))
+    content, notes = with_inertias(TREE, KinematicTree.of(robot_of(TREE)))
     assert notes == (
         "inertias were made up for 2 links of the generated package only, because joints move them without any mass",
     )
@@ -101,14 +101,14 @@ def test_massless_links_that_weigh_on_no_joint_stay_massless() -> None:
 
 def test_a_robot_with_mass_in_all_that_moves_stays_as_it_is() -> None:
     urdf = robot(link("base"), link("arm", 1.0), joint("elbow", "continuous", "base", "arm", inside=[dynamics(1, 1)]))
-    assert with_inertias(urdf.encode(), Skeleton.of(robot_of(urdf.encode()))) == (urdf.encode(), ())
+    assert with_inertias(urdf.encode(), KinematicTree.of(robot_of(urdf.encode()))) == (urdf.encode(), ())
 
 
 def test_made_up_inertias_are_possible_skew_and_always_the_same() -> None:
     names = [f"link_{number}" for number in range(40)]
     joints = [joint(f"to_{name}", "continuous", "base", name) for name in names]
     urdf = robot(link("base"), *map(link, names), *joints).encode()
-    content, _ = with_inertias(urdf, Skeleton.of(robot_of(urdf)))
+    content, _ = with_inertias(urdf, KinematicTree.of(robot_of(urdf)))
     reading = read_robot(content, "robot.urdf", cross_check=False)
     assert reading.diagnostics == (), "the checks of the reader know what a tensor must be"
     assert reading.robot is not None

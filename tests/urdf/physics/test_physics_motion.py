@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.physics.motion import (
     DURATION,
     INSTANT,
@@ -20,7 +21,6 @@ from urdfsync.urdf.physics.motion import (
     free_start,
 )
 from urdfsync.urdf.robot import Joint, JointType, Limit, Link, Robot
-from urdfsync.urdf.skeleton import Skeleton
 
 NAMES = st.text(min_size=1, max_size=20)
 
@@ -86,4 +86,4 @@ def test_the_base_turns_about_a_unit_vector_that_is_no_axis() -> None:
 @pytest.mark.parametrize(("kind", "end"), [("revolute", DURATION), ("planar", DURATION), ("floating", INSTANT)])
 def test_floating_joints_are_looked_at_for_an_instant_only(kind: JointType, end: float) -> None:
     robot = Robot("", (Link("upper"), Link("fore")), (joint(kind),))
-    assert duration(Skeleton.of(robot)) == end
+    assert duration(KinematicTree.of(robot)) == end

@@ -8,10 +8,10 @@ import pytest
 from support.urdfs import joint, limit, link, mimic, robot
 
 from urdfsync.domain import Target
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics.probe import probe
-from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.source import read_robot
 
 URDF = robot(
     link("base", 4.0),
@@ -25,10 +25,10 @@ URDF = robot(
 ARM = Target("Plant.Robots.Arm", "Arm")
 
 
-def skeleton(urdf: str = URDF) -> Skeleton:
+def skeleton(urdf: str = URDF) -> KinematicTree:
     found = read_robot(urdf.encode(), "robot.urdf", cross_check=False).robot
     assert found is not None
-    return Skeleton.of(found, ("Arm",))
+    return KinematicTree.of(found, ("Arm",))
 
 
 def test_it_relies_on_little_of_a_package_so_that_it_may_be_edited() -> None:

@@ -10,12 +10,12 @@ import pytest
 from numpy.typing import NDArray
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Frame, Instant, Reference, Relative, State
 from urdfsync.urdf.robot import Joint
-from urdfsync.urdf.skeleton import Skeleton
-from urdfsync.urdf.source import read_robot
 
 Array = NDArray[np.float64]
 
@@ -48,7 +48,7 @@ class Bot:
     def __init__(self, urdf: str) -> None:
         found = read_robot(urdf.encode(), "robot.urdf", cross_check=False).robot
         assert found is not None
-        skeleton = Skeleton.of(found)
+        skeleton = KinematicTree.of(found)
         self.axes, self.free = motion.driven_axes(skeleton), motion.free_joints(skeleton)
         self.reference = Reference(read(urdf.encode(), "robot.urdf"), names(self.axes), names(self.free))
         self.starts = {j.name: self.reference.start(j.name, motion.free_start(j)) for j in self.free}

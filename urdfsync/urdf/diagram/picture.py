@@ -5,15 +5,15 @@ from __future__ import annotations
 from urdfsync.domain import Target
 from urdfsync.urdf.diagram.drawing import Label, svg
 from urdfsync.urdf.diagram.layout import layout
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
 from urdfsync.urdf.model.robot import connector_names, couplings, tree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 
 def draw(robot: Robot, target: Target, options: Options) -> str:
     """The robot model's diagram as SVG, with the very layout that the model has; masses and ratios are shown."""
-    skeleton = Skeleton.of(robot, taken=(target.name,))
+    skeleton = KinematicTree.of(robot, taken=(target.name,))
     names = connector_names(skeleton, options)
     labels = {}
     for link in skeleton.links:
@@ -22,7 +22,7 @@ def draw(robot: Robot, target: Target, options: Options) -> str:
     ratios: dict[str, str] = {}
     for joint in skeleton.joints:
         component = skeleton.joint(joint.name).component
-        kind = MOTIONS.get(joint.type) or ("fixed" if joint.type == "fixed" else "free")
+        kind = MOTION_KINDS.get(joint.type) or ("fixed" if joint.type == "fixed" else "free")
         labels[component] = Label(kind, component)
         if joint.mimic:
             ratios[component] = f"{joint.mimic.multiplier:.3g}"

@@ -6,9 +6,9 @@ import math
 from collections.abc import Sequence
 
 from urdfsync.difference import Effect, Version
-from urdfsync.urdf.kinematics import compose, link_poses, pose
+from urdfsync.urdf.kinematics.poses import compose, link_poses, pose
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import Vector
-from urdfsync.urdf.skeleton import Skeleton
 from urdfsync.urdf.snapshot import from_snapshot
 
 
@@ -18,7 +18,7 @@ def effects(old: Version, new: Version) -> Sequence[Effect]:
     The centre of mass is in metres, in the frame of the root link, with all joints at zero; it is None for a robot
     without mass.
     """
-    before, after = (Skeleton.of(from_snapshot(snapshot)) for snapshot in (old.snapshot, new.snapshot))
+    before, after = (KinematicTree.of(from_snapshot(snapshot)) for snapshot in (old.snapshot, new.snapshot))
     (old_mass, old_centre), (new_mass, new_centre) = _mass(before), _mass(after)
     return [
         Effect(("robot", "mass"), old_mass, new_mass, "kg"),
@@ -26,7 +26,7 @@ def effects(old: Version, new: Version) -> Sequence[Effect]:
     ]
 
 
-def _mass(skeleton: Skeleton) -> tuple[float, Vector | None]:
+def _mass(skeleton: KinematicTree) -> tuple[float, Vector | None]:
     """Total mass, and centre of mass; summed exactly, so that names and order make no difference."""
     poses = link_poses(skeleton, {})
     masses, moments = [], []

@@ -14,12 +14,12 @@ import msgspec
 from urdfsync.difference import ChangeClass, Difference, Kind, Meaning, Version
 from urdfsync.urdf.differences.shapes import GROUPS, Group, Looks, mesh_of
 from urdfsync.urdf.differences.units import joint_unit, link_unit
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Mesh
-from urdfsync.urdf.skeleton import MOTIONS
 
-_SCALAR = frozenset(MOTIONS)
+_SCALAR = frozenset(MOTION_KINDS)
 _MODELLED = {
     "axis": _SCALAR | {"planar"},
     "limit": _SCALAR,

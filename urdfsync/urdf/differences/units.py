@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from urdfsync.urdf.skeleton import MOTIONS, Motion
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, Motion
 
 _EVERYWHERE = {
     "xyz": "m",
@@ -51,10 +51,10 @@ def joint_unit(joint: Mapping[str, Any], joints: Mapping[str, Any], field: str) 
 
     Losses of a planar joint have none: one number stands for sliding and turning.
     """
-    motion = MOTIONS.get(joint["type"])
+    motion = MOTION_KINDS.get(joint["type"])
     if field != "multiplier":
         return _EVERYWHERE.get(field, "") or (_ALONG[motion].get(field, "") if motion else "")
-    leader = MOTIONS.get(joints[joint["mimic"]["joint"]]["type"])
+    leader = MOTION_KINDS.get(joints[joint["mimic"]["joint"]]["type"])
     if motion is None or leader is None or motion == leader:
         return ""
     return f"{_ALONG[motion]['lower']}/{_ALONG[leader]['lower']}"

@@ -12,11 +12,10 @@ from urdfsync.domain import Conversion, Dependency
 from urdfsync.urdf.meshes import lookup as mesh_lookup
 from urdfsync.urdf.meshes.errors import MeshError
 from urdfsync.urdf.meshes.geometry import Array, bounds, placed, support_points
-from urdfsync.urdf.meshes.reading import read_mesh
+from urdfsync.urdf.meshes.reading import FACET, read_mesh
 from urdfsync.urdf.robot import Vector
 
 _HEADER = b"binary STL, written by urdfsync".ljust(80)
-_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 def convert(dependency: Dependency, file: Path, content: bytes) -> Conversion:
@@ -51,7 +50,7 @@ def _scaled(corners: Array, scale: Vector) -> Array:
 
 def _binary_stl(corners: Array) -> bytes:
     """Triangles (n × 3 × 3) as binary STL; the normal of a triangle without area is zero."""
-    facets = np.zeros(len(corners), dtype=_FACET)
+    facets = np.zeros(len(corners), dtype=FACET)
     facets["corners"] = corners
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.sqrt(normals[:, 0] ** 2 + normals[:, 1] ** 2 + normals[:, 2] ** 2)[:, np.newaxis]

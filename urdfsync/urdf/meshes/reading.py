@@ -1,8 +1,9 @@
 """The triangles of a mesh file, in any format that is imported, and strictly: a part of a mesh is no mesh.
 
-trimesh reads STL, PLY, OFF and glTF, pycollada COLLADA (see `mesh_collada`). OBJ is read here: of
-trimesh's readings, a relative index counts from the end of the file and not from its own line, index 0
-is the last vertex, and a comment after a number is an error.
+STL and OBJ are read here: Modelica tools draw them, so most packages have no others, and trimesh takes most of a
+second to load. Of trimesh's readings of OBJ, a relative index counts from the end of the file and not from its own
+line, index 0 is the last vertex, and a comment after a number is an error. pycollada reads COLLADA (see `collada`),
+trimesh all else.
 """
 
 from __future__ import annotations
@@ -22,18 +23,22 @@ from urdfsync.urdf.meshes.geometry import Array, placed
 
 Indices: TypeAlias = npt.NDArray[np.int64]
 
+FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+"""A triangle of a binary STL file."""
+
 _AXES = 3
 _TRIANGLE = 3
 _COMPRESSIONS = (b"KHR_draco_mesh_compression", b"EXT_meshopt_compression")
 _STL_COUNT = slice(80, 84)
-_STL_FACET = 50  # bytes
+_SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)  # the name may be any words
+_STL_VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 _POINTER = b"version https://git-lfs"
 
 
 def read_mesh(suffix: str, content: bytes) -> Array:
-    """Corners of all triangles (n × 3 × 3, in metres for COLLADA, else in the file's unit), at least one, all finite.
+    """Return the corners of all triangles (n × 3 × 3), at least one, all finite; in metres, or the file's unit.
 
-    `suffix` is the format, in lower case with the dot. Raises MeshError.
+    Only COLLADA has a unit. `suffix` is the format, in lower case with the dot. Raises MeshError.
     """
     if content.startswith(_POINTER):
         raise MeshError("it is a Git LFS pointer, and `git lfs pull` brings the file itself")
@@ -49,12 +54,30 @@ def read_mesh(suffix: str, content: bytes) -> Array:
 
 
 def _read_stl(content: bytes) -> Array:
-    if content.lstrip()[:5].lower() == b"solid":  # ASCII; some binary files say so too
-        return _complete(_read_trimesh("stl", content), content.lower().count(b"endfacet"))
     announced = int.from_bytes(content[_STL_COUNT], "little")
-    if announced and len(content) != _STL_COUNT.stop + announced * _STL_FACET:
-        raise MeshError(f"its length doesn't fit the {announced} triangles that it announces")
-    return _read_trimesh("stl", content)
+    if len(content) == _STL_COUNT.stop + announced * FACET.itemsize:  # some of these begin with `solid`, too
+        facets = np.frombuffer(content, FACET, offset=_STL_COUNT.stop)
+        return np.asarray(facets["corners"], dtype=np.float64)
+    if content.lstrip()[:5].lower() == b"solid":
+        return _read_ascii_stl(content)
+    if not announced:
+        raise MeshError("it has no triangles")
+    raise MeshError(f"its length doesn't fit the {announced} triangles that it announces")
+
+
+def _read_ascii_stl(content: bytes) -> Array:
+    facets = _SOLID_LINE.sub(b"", content)
+    vertices = _STL_VERTEX.findall(facets)
+    words = facets.lower().split()
+    complete = _TRIANGLE * words.count(b"endfacet") == len(vertices) == words.count(b"vertex")
+    if not complete or words.count(b"facet") != words.count(b"endfacet") or not _ends_solid(content):
+        raise MeshError("its end is missing")
+    with guarded():
+        return np.array(vertices, dtype=np.float64).reshape(-1, _TRIANGLE, _AXES)
+
+
+def _ends_solid(content: bytes) -> bool:
+    return content.rstrip().rpartition(b"\n")[2].lstrip().lower().startswith(b"endsolid")
 
 
 def _read_ply(content: bytes) -> Array:

@@ -8,10 +8,10 @@ import msgspec
 
 from urdfsync.domain import Target
 from urdfsync.urdf.drives import driven_joints
+from urdfsync.urdf.kinematics.tree import KinematicTree, Motion
 from urdfsync.urdf.model import notes
 from urdfsync.urdf.model.robot import connector_names, drive_rows, icon_top
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.skeleton import Motion, Skeleton
 
 _FRAME_Y = -50  # where the benches of the library have the frame that the robot is connected to
 
@@ -28,7 +28,7 @@ class BenchDrive(msgspec.Struct, frozen=True):
     icon_y: int
 
 
-def bench_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str, Any]:
+def bench_data(skeleton: KinematicTree, target: Target, options: Options) -> dict[str, Any]:
     """Data of Run and Test. They depend on the structure of the robot alone, on no number of the URDF.
 
     The robot's icon has one and a half times its size in the diagram, so that its rows are 30 apart, and a drive of

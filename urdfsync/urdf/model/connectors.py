@@ -1,4 +1,4 @@
-"""Names of what a robot model has beside its links and joints: its connectors and its couplings.
+"""Names of what a robot has beside its links and joints: connectors and couplings in the model, visuals in the record.
 
 Such a name is made from the name of its element. Where an element has that name already, the connector gives way,
 with a number; so a new connector never renames an element, whose name is that of a file.
@@ -6,13 +6,13 @@ with a number; so a new connector never renames an element, whose name is that o
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import msgspec
 
 from urdfsync.urdf.drives import can_be_driven
-from urdfsync.urdf.naming import GENERATED, Identifier
-from urdfsync.urdf.skeleton import Skeleton
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.names import GENERATED, Identifier
 
 
 class Connectors(msgspec.Struct, frozen=True):
@@ -28,9 +28,9 @@ class Connectors(msgspec.Struct, frozen=True):
     """Of joints that follow another one."""
 
 
-def connectors(skeleton: Skeleton, frames: Iterable[str]) -> Connectors:
+def connectors(skeleton: KinematicTree, frames: Iterable[str]) -> Connectors:
     """The names for a robot; `frames` are the links that get a frame of their own."""
-    taken = GENERATED | {identifier.component.lower() for identifier in skeleton.names.values()}
+    taken = _taken(skeleton)
     driven = [joint.name for joint in skeleton.joints if can_be_driven(joint)]
     return Connectors(
         {name: _free(skeleton.link(name), "Frame", taken) for name in frames},
@@ -38,6 +38,20 @@ def connectors(skeleton: Skeleton, frames: Iterable[str]) -> Connectors:
         {name: _free(skeleton.joint(name), "Support", taken) for name in driven},
         {joint.name: _free(skeleton.joint(joint.name), "Mimic", taken) for joint, _ in skeleton.followers()},
     )
+
+
+def visual_names(skeleton: KinematicTree, visuals: Mapping[str, Iterable[str]]) -> dict[str, tuple[str, ...]]:
+    """Components of the whole-robot record for visuals, by link; `visuals` are `visual1`, `visual2`, … of each link."""
+    taken = _taken(skeleton)
+    return {
+        link: tuple([_free(skeleton.link(link), word[0].upper() + word[1:], taken) for word in words])
+        for link, words in visuals.items()
+    }
+
+
+def _taken(skeleton: KinematicTree) -> frozenset[str]:
+    """Names that are not to be had, in lower case."""
+    return GENERATED | {identifier.component.lower() for identifier in skeleton.names.values()}
 
 
 def _free(identifier: Identifier, suffix: str, taken: frozenset[str]) -> str:

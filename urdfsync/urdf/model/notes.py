@@ -76,7 +76,7 @@ def generic_note(name: str, base: str) -> str:
     text = f"Robot {name} as {_GENERIC} reads it from its record. It simulates without inputs: every axis moves inside "
     text += "its limits and comes back. "
     if base == "floating":
-        text += "The generic robot has no shapes, so nothing holds it: it falls. "
+        text += "The generic robot touches nothing, so nothing holds it: it falls. "
     return text + _EDIT
 
 

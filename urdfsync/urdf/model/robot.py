@@ -10,11 +10,11 @@ import msgspec
 from urdfsync.domain import Target
 from urdfsync.urdf.diagram import layout
 from urdfsync.urdf.frames import frame_links
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
 from urdfsync.urdf.model import notes
 from urdfsync.urdf.model.connectors import Connectors, connectors
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, JointType
-from urdfsync.urdf.skeleton import MOTIONS, Motion, Skeleton
 
 ROW = 20
 """Height of a row of connectors on the icon: an axis, and its support 10 below."""
@@ -90,7 +90,7 @@ class Line(msgspec.Struct, frozen=True):
     points: str
 
 
-def robot_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str, Any]:
+def robot_data(skeleton: KinematicTree, target: Target, options: Options) -> dict[str, Any]:
     """Data of the robot model. It depends on the structure of the robot alone, on no number of the URDF."""
     names = connector_names(skeleton, options)
     frames, drives = _frames(skeleton, names), drive_rows(skeleton, names)
@@ -119,12 +119,12 @@ def robot_data(skeleton: Skeleton, target: Target, options: Options) -> dict[str
     }
 
 
-def connector_names(skeleton: Skeleton, options: Options) -> Connectors:
+def connector_names(skeleton: KinematicTree, options: Options) -> Connectors:
     """The names of a robot's connectors."""
     return connectors(skeleton, (link.name for link in frame_links(skeleton, options)))
 
 
-def drive_rows(skeleton: Skeleton, names: Connectors) -> list[Drive]:
+def drive_rows(skeleton: KinematicTree, names: Connectors) -> list[Drive]:
     """The joints that can be driven, from top to bottom of the icon."""
     joints = [joint for joint in skeleton.joints if joint.name in names.axes]
     top = icon_top(names)
@@ -132,7 +132,7 @@ def drive_rows(skeleton: Skeleton, names: Connectors) -> list[Drive]:
         Drive(
             skeleton.joint(joint.name).component,
             joint.name,
-            MOTIONS[joint.type],
+            MOTION_KINDS[joint.type],
             names.axes[joint.name],
             names.supports[joint.name],
             top - 10 - ROW * row,
@@ -147,27 +147,27 @@ def icon_top(names: Connectors) -> int:
     return _PICTURE + ROW * rows + 10 if rows else _PICTURE
 
 
-def couplings(skeleton: Skeleton, names: Connectors) -> list[Coupling]:
+def couplings(skeleton: KinematicTree, names: Connectors) -> list[Coupling]:
     """One entry per joint that follows another one."""
     types = {joint.name: joint.type for joint in skeleton.joints}
     result = []
     for joint, mimic in skeleton.followers():
-        motion = MOTIONS.get(types[mimic.joint])
+        motion = MOTION_KINDS.get(types[mimic.joint])
         leader = skeleton.joint(mimic.joint).component if motion else None
         follower = skeleton.joint(joint.name).component
         coupling = names.couplings[joint.name]
-        result.append(Coupling(coupling, leader, motion, follower, MOTIONS[joint.type], joint.name, mimic.joint))
+        result.append(Coupling(coupling, leader, motion, follower, MOTION_KINDS[joint.type], joint.name, mimic.joint))
     return result
 
 
-def tree(skeleton: Skeleton, names: Connectors) -> layout.Tree:
+def tree(skeleton: KinematicTree, names: Connectors) -> layout.Tree:
     """What the robot's diagram shows."""
     children = {
         skeleton.link(link).component: [
             layout.TreeJoint(
                 skeleton.joint(joint.name).component,
                 skeleton.link(joint.child).component,
-                MOTIONS.get(joint.type) or ("fixed" if joint.type == "fixed" else "free"),
+                MOTION_KINDS.get(joint.type) or ("fixed" if joint.type == "fixed" else "free"),
                 names.axes.get(joint.name),
                 names.supports.get(joint.name),
             )
@@ -183,7 +183,7 @@ def tree(skeleton: Skeleton, names: Connectors) -> layout.Tree:
     )
 
 
-def _frames(skeleton: Skeleton, names: Connectors) -> list[Frame]:
+def _frames(skeleton: KinematicTree, names: Connectors) -> list[Frame]:
     top = icon_top(names)
     return [
         Frame(connector, skeleton.link(name).component, name, top - 10 - ROW * row)
@@ -191,7 +191,7 @@ def _frames(skeleton: Skeleton, names: Connectors) -> list[Frame]:
     ]
 
 
-def _joints(skeleton: Skeleton, names: Connectors) -> list[JointPart]:
+def _joints(skeleton: KinematicTree, names: Connectors) -> list[JointPart]:
     followers = skeleton.followers_by_leader()
     types = {joint.name: joint.type for joint in skeleton.joints}
     return [
@@ -203,17 +203,21 @@ def _joints(skeleton: Skeleton, names: Connectors) -> list[JointPart]:
             names.axes.get(joint.name),
             _following(skeleton, joint, types, names),
             tuple(
-                names.couplings[follower.name] for follower, _ in followers.get(joint.name, ()) if joint.type in MOTIONS
+                names.couplings[follower.name]
+                for follower, _ in followers.get(joint.name, ())
+                if joint.type in MOTION_KINDS
             ),
         )
         for joint in skeleton.joints
     ]
 
 
-def _following(skeleton: Skeleton, joint: Joint, types: Mapping[str, JointType], names: Connectors) -> Following | None:
-    if joint.mimic is None or joint.type not in MOTIONS:
+def _following(
+    skeleton: KinematicTree, joint: Joint, types: Mapping[str, JointType], names: Connectors
+) -> Following | None:
+    if joint.mimic is None or joint.type not in MOTION_KINDS:
         return None
-    motion = MOTIONS.get(types[joint.mimic.joint])
+    motion = MOTION_KINDS.get(types[joint.mimic.joint])
     leader = skeleton.joint(joint.mimic.joint).component if motion else None
     return Following(names.couplings[joint.name], leader, motion)
 

@@ -7,12 +7,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from urdfsync.domain import Import, Target
-from urdfsync.urdf.kinematics import compose, link_poses, lowest_point, pose, start_positions
+from urdfsync.urdf.kinematics.poses import compose, link_poses, lowest_point, pose, start_positions
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.shapes import hull
-from urdfsync.urdf.skeleton import Skeleton
 
 
-def stance_data(ground: Skeleton, imports: Mapping[str, Import], target: Target) -> dict[str, Any]:
+def stance_data(ground: KinematicTree, imports: Mapping[str, Import], target: Target) -> dict[str, Any]:
     """Data of the record; `ground` has the joints, and what may touch the ground."""
     return {
         "within": target.package,
@@ -22,7 +22,7 @@ def stance_data(ground: Skeleton, imports: Mapping[str, Import], target: Target)
     }
 
 
-def standing_height(skeleton: Skeleton, imports: Mapping[str, Import]) -> float | None:
+def standing_height(skeleton: KinematicTree, imports: Mapping[str, Import]) -> float | None:
     """Height of the root frame when the lowest collision shape just touches the ground; None without any shape."""
     poses = link_poses(skeleton, start_positions(skeleton))
     heights = [

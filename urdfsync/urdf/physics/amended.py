@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 from lxml import etree
 
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.physics.elements import Element, child, children, parse
 from urdfsync.urdf.robot import Link
-from urdfsync.urdf.skeleton import Skeleton
 
 _COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _POINTS = 4
@@ -41,7 +41,7 @@ def readable(content: bytes) -> Amended:
     return Amended(_bytes(root), tuple(notes))
 
 
-def with_inertias(content: bytes, skeleton: Skeleton) -> Amended:
+def with_inertias(content: bytes, skeleton: KinematicTree) -> Amended:
     """The URDF with made-up inertias in all links that hang on a moving joint which carries no mass.
 
     The root link counts as moving: a robot without any mass gets it in all its links.
@@ -93,7 +93,7 @@ def _filled(parent: Element, tag: str, names: Collection[str], value: str) -> It
             yield tag
 
 
-def _bare_links(skeleton: Skeleton) -> frozenset[str]:
+def _bare_links(skeleton: KinematicTree) -> frozenset[str]:
     """Links below moving joints that carry no mass, those joints' own links included."""
     massive: set[str] = {link.name for link in skeleton.links if _mass(link) > 0}
     for joint in reversed(skeleton.joints):  # from the leaves to the root

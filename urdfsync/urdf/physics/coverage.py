@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 _BENCHES = {
     ("package",): "Run and Test (they are only compiled)",
@@ -15,7 +15,7 @@ _BENCHES = {
 """Per approach, what is around that which is compared."""
 
 
-def unchecked(skeleton: Skeleton, options: Options) -> Iterator[str]:
+def unchecked(skeleton: KinematicTree, options: Options) -> Iterator[str]:
     """One sentence each, without a full stop."""
     joints, links = skeleton.joints, skeleton.links
     if all(joint.type == "fixed" for joint in joints):
@@ -26,11 +26,11 @@ def unchecked(skeleton: Skeleton, options: Options) -> Iterator[str]:
     yield f"{_listed([*_idle(skeleton, options), _BENCHES[approach]])} are not compared"
 
 
-def _idle(skeleton: Skeleton, options: Options) -> Iterator[str]:
+def _idle(skeleton: KinematicTree, options: Options) -> Iterator[str]:
     """What the robot has and the motion does not show, and why."""
     joints, links = skeleton.joints, skeleton.links
     idle = {
-        "limits": any(joint.limit for joint in joints if joint.type in MOTIONS),
+        "limits": any(joint.limit for joint in joints if joint.type in MOTION_KINDS),
         "calibrations": any(joint.calibration for joint in joints),
         "safety controllers": any(joint.safety_controller for joint in joints),
         "shapes": any(link.visuals or link.collisions for link in links),

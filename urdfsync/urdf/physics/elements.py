@@ -6,14 +6,14 @@ from collections.abc import Iterator
 
 from lxml import etree
 
-from urdfsync.urdf.reader import xml
+from urdfsync.urdf.parse import xml
 
 Element = etree._Element
 
 
 def parse(content: bytes) -> Element:
     """The root element of a URDF that has been read without errors."""
-    return xml.tree(content)
+    return xml.parse_tree(content)
 
 
 def children(element: Element, tag: str) -> Iterator[Element]:

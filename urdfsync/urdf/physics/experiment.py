@@ -11,8 +11,10 @@ import numpy as np
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Deviation, Quantity, Target
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import amended, motion, probe
 from urdfsync.urdf.physics.coverage import unchecked
 from urdfsync.urdf.physics.measured import Measured
@@ -20,8 +22,6 @@ from urdfsync.urdf.physics.reading import Array, pinocchio, read
 from urdfsync.urdf.physics.reference import Frame, Reference, State
 from urdfsync.urdf.physics.variables import variables
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
-from urdfsync.urdf.source import read_robot
 
 _FIRST, _LAST = 0, -1
 _SOLVER = 1e-6
@@ -102,10 +102,10 @@ class PinocchioExperiment:
         robot = _robot(content, file)
         self.content, self.notes = amended.readable(content)
         if complete:
-            self.content, made_up = amended.with_inertias(self.content, Skeleton.of(robot))
+            self.content, made_up = amended.with_inertias(self.content, KinematicTree.of(robot))
             self.notes += made_up
         robot = _robot(self.content, file)
-        self._skeleton = Skeleton.of(robot, (target.name,))
+        self._skeleton = KinematicTree.of(robot, (target.name,))
         self._names = variables(self._skeleton, target, options)
         self._axes, self._free = motion.driven_axes(self._skeleton), motion.free_joints(self._skeleton)
         self._courses = [motion.axis_course(joint) for joint in self._axes]
@@ -155,7 +155,7 @@ class PinocchioExperiment:
         efforts = dict(zip((joint.name for joint in self._axes), side.efforts, strict=True))
         for joint in self._skeleton.joints:
             if joint.name in efforts:
-                unit = "N·m" if MOTIONS[joint.type] == "rotational" else "N"
+                unit = "N·m" if MOTION_KINDS[joint.type] == "rotational" else "N"
                 yield _Value(_Key(Quantity.EFFORT, f"joint {joint.name}", unit), efforts[joint.name])
         root = f"link {self._skeleton.links[0].name}"
         yield _Value(_Key(Quantity.REACTION, root, "N"), side.force)

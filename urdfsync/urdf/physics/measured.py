@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.physics import probe, variables
 from urdfsync.urdf.physics.reading import Array
 from urdfsync.urdf.physics.reference import Frame
 from urdfsync.urdf.physics.variables import Variables
-from urdfsync.urdf.skeleton import Skeleton
 
 
 class Measured:
@@ -21,7 +21,7 @@ class Measured:
     """
 
     def __init__(
-        self, series: Mapping[str, Sequence[float]], skeleton: Skeleton, names: Variables, instant: int
+        self, series: Mapping[str, Sequence[float]], skeleton: KinematicTree, names: Variables, instant: int
     ) -> None:
         self._series, self._skeleton, self._names, self._instant = series, skeleton, names, instant
 

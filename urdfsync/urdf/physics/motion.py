@@ -10,9 +10,9 @@ import math
 import random
 from typing import NamedTuple, TypeAlias
 
-from urdfsync.urdf.kinematics import own_range
+from urdfsync.urdf.kinematics.poses import own_range
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import Joint, Vector
-from urdfsync.urdf.skeleton import Skeleton
 
 DURATION = 0.01
 """End of the motion, in s: prescribed motion is exact all the time."""
@@ -93,17 +93,17 @@ def free_start(joint: Joint) -> Start:
     return Floating(*((_signed(draw, 0.1, 0.6), _signed(draw, 0.1, 0.6), _signed(draw, 0.1, 0.6)) for _ in range(4)))
 
 
-def driven_axes(skeleton: Skeleton) -> tuple[Joint, ...]:
+def driven_axes(skeleton: KinematicTree) -> tuple[Joint, ...]:
     """Joints with a drive, first those that turn, then those that slide."""
     return (*skeleton.axes("rotational"), *skeleton.axes("translational"))
 
 
-def free_joints(skeleton: Skeleton) -> tuple[Joint, ...]:
+def free_joints(skeleton: KinematicTree) -> tuple[Joint, ...]:
     """Joints without a drive, each after those that carry it."""
     return tuple(joint for joint in skeleton.joints if joint.type in ("planar", "floating"))
 
 
-def duration(skeleton: Skeleton) -> float:
+def duration(skeleton: KinematicTree) -> float:
     """End of the motion, in s."""
     return INSTANT if any(joint.type == "floating" for joint in skeleton.joints) else DURATION
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 from urdfsync.domain import Probe, Target
 from urdfsync.modelica.literals import vector
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
@@ -22,7 +23,6 @@ from urdfsync.urdf.physics.variables import (
     Variables,
     variables,
 )
-from urdfsync.urdf.skeleton import MOTIONS, Skeleton
 
 _DEPTH = 1e9
 """How far down the ground is, in m: the contacts of a mobile robot are there, and nothing touches."""
@@ -61,7 +61,7 @@ MOMENT = tuple(f"moment[{i}]" for i in (1, 2, 3))
 """The sum of mass times place over all bodies, in kg·m."""
 
 
-def probe(skeleton: Skeleton, target: Target, options: Options, ballast: bool = False) -> Probe:
+def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bool = False) -> Probe:
     """A model in which every axis of the robot moves, and the values to compare.
 
     With `ballast`, a body hangs on each link without children.
@@ -99,15 +99,15 @@ def probe(skeleton: Skeleton, target: Target, options: Options, ballast: bool = 
     return Probe("\n".join(lines), "Probe_.Probe", stop, stop / 4, tuple(_values(skeleton, names)))
 
 
-def effort_names(skeleton: Skeleton, names: Variables) -> tuple[str, ...]:
+def effort_names(skeleton: KinematicTree, names: Variables) -> tuple[str, ...]:
     """What drives each axis, in the order of `motion.driven_axes`."""
     return tuple(
-        f"{names.flange(joint.name)}.{'tau' if MOTIONS[joint.type] == 'rotational' else 'f'}"
+        f"{names.flange(joint.name)}.{'tau' if MOTION_KINDS[joint.type] == 'rotational' else 'f'}"
         for joint in motion.driven_axes(skeleton)
     )
 
 
-def _values(skeleton: Skeleton, names: Variables) -> Iterator[str]:
+def _values(skeleton: KinematicTree, names: Variables) -> Iterator[str]:
     for link in skeleton.links:
         yield from names.vector(link.name, PLACE)
         yield from names.axes(link.name)
@@ -130,7 +130,7 @@ def _surroundings(options: Options) -> Iterator[str]:
         yield f"inner UrdfSync.Contacts.Ground ground(height = {-_DEPTH!r})"
 
 
-def _starts(skeleton: Skeleton) -> Iterator[str]:
+def _starts(skeleton: KinematicTree) -> Iterator[str]:
     """Modifiers with the start values of planar and floating joints."""
     for joint in motion.free_joints(skeleton):
         start = motion.free_start(joint)._asdict()
@@ -138,11 +138,11 @@ def _starts(skeleton: Skeleton) -> Iterator[str]:
         yield f"{skeleton.joint(joint.name).component}(fixedStart = true, {', '.join(values)})"
 
 
-def _drives(skeleton: Skeleton) -> Iterator[str]:
+def _drives(skeleton: KinematicTree) -> Iterator[str]:
     for k, joint in enumerate(motion.driven_axes(skeleton), 1):
         course = motion.axis_course(joint)
         values = ", ".join(f"a{power} = {value!r}" for power, value in enumerate(course))
-        yield f"{MOTIONS[joint.type].capitalize()}Drive drive{k}({values})"
+        yield f"{MOTION_KINDS[joint.type].capitalize()}Drive drive{k}({values})"
 
 
 def _ballast(number: int) -> str:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Protocol
 
 from urdfsync.domain import Target
+from urdfsync.urdf.kinematics.tree import KinematicTree, Motion
 from urdfsync.urdf.model.connectors import Connectors
 from urdfsync.urdf.model.robot import connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.skeleton import Motion, Skeleton
 
 PLACE = "frame_a.r_0"
 """Where the frame of a link is, in the world."""
@@ -47,7 +47,7 @@ class Variables(Protocol):
         ...
 
 
-def variables(skeleton: Skeleton, target: Target, options: Options) -> Variables:
+def variables(skeleton: KinematicTree, target: Target, options: Options) -> Variables:
     """The names for the approach that is compared: that of the package, if there is a choice."""
     if "package" in options.approach:
         return PackageVariables(skeleton, target, connector_names(skeleton, options))
@@ -57,7 +57,7 @@ def variables(skeleton: Skeleton, target: Target, options: Options) -> Variables
 class PackageVariables:
     """A generated robot model; it relies on the components of links with their `frame_a` and `body`."""
 
-    def __init__(self, skeleton: Skeleton, target: Target, names: Connectors) -> None:
+    def __init__(self, skeleton: KinematicTree, target: Target, names: Connectors) -> None:
         self._skeleton, self._names = skeleton, names
         self.model = f"{target.package}.{target.name} robot(animation = false, "
         self.moment = " + ".join(self._moment(link.name) for link in skeleton.links)
@@ -90,7 +90,7 @@ class PackageVariables:
 class RecordVariables:
     """The generic robot with a generated record; links have numbers there, and of their motion only the pose."""
 
-    def __init__(self, skeleton: Skeleton, target: Target) -> None:
+    def __init__(self, skeleton: KinematicTree, target: Target) -> None:
         self._numbers = {link.name: number for number, link in enumerate(skeleton.links, 1)}
         self._frames = {link.name: number for number, link in enumerate(skeleton.leaves(), 1)}
         motions: tuple[Motion, ...] = ("rotational", "translational")

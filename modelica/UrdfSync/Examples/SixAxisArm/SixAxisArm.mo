@@ -3,21 +3,25 @@ within UrdfSync.Examples.SixAxisArm;
 model SixAxisArm "Robot SixAxisArm"
   extends UrdfSync.Robots.PartialStationaryRobot;
 
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b tool0Frame
+    "Frame of link \"tool0\""
+    annotation (Placement(transformation(extent={{268, -54}, {280, -42}}), iconTransformation(extent={{92, 232}, {108, 248}})));
+
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b finger_rightFrame
     "Frame of link \"finger_right\""
-    annotation (Placement(transformation(extent={{400, -10}, {420, 10}}), iconTransformation(extent={{92, 232}, {108, 248}})));
+    annotation (Placement(transformation(extent={{400, -10}, {420, 10}}), iconTransformation(extent={{92, 212}, {108, 228}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b grasp_pointFrame
     "Frame of link \"grasp_point\""
-    annotation (Placement(transformation(extent={{400, -72}, {420, -52}}), iconTransformation(extent={{92, 212}, {108, 228}})));
+    annotation (Placement(transformation(extent={{400, -88}, {420, -68}}), iconTransformation(extent={{92, 192}, {108, 208}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b finger_leftFrame
     "Frame of link \"finger_left\""
-    annotation (Placement(transformation(extent={{400, -154}, {420, -134}}), iconTransformation(extent={{92, 192}, {108, 208}})));
+    annotation (Placement(transformation(extent={{400, -170}, {420, -150}}), iconTransformation(extent={{92, 172}, {108, 188}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b drive_pinionFrame
     "Frame of link \"drive_pinion\""
-    annotation (Placement(transformation(extent={{400, -244}, {420, -224}}), iconTransformation(extent={{92, 172}, {108, 188}})));
+    annotation (Placement(transformation(extent={{400, -260}, {420, -240}}), iconTransformation(extent={{92, 152}, {108, 168}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a turretAxis
     "Axis of joint \"turret\""
@@ -69,11 +73,11 @@ model SixAxisArm "Robot SixAxisArm"
 
   Modelica.Mechanics.Translational.Interfaces.Flange_a gripper_strokeAxis
     "Axis of joint \"gripper_stroke\""
-    annotation (Placement(transformation(extent={{332, -130}, {344, -118}}), iconTransformation(extent={{-104, 116}, {-96, 124}})));
+    annotation (Placement(transformation(extent={{332, -146}, {344, -134}}), iconTransformation(extent={{-104, 116}, {-96, 124}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_b gripper_strokeSupport
     "Housing of the drive of joint \"gripper_stroke\""
-    annotation (Placement(transformation(extent={{318, -130}, {330, -118}}), iconTransformation(extent={{-104, 106}, {-96, 114}})));
+    annotation (Placement(transformation(extent={{318, -146}, {330, -134}}), iconTransformation(extent={{-104, 106}, {-96, 114}})));
 
   final parameter Modelica.Units.SI.Mass m =
     base_link.m +
@@ -188,7 +192,7 @@ model SixAxisArm "Robot SixAxisArm"
       animation = animation,
       showCollisions = showCollisions)
     "Link \"grasp_point\""
-    annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -98}, {380, -78}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -114}, {380, -94}})));
 
   replaceable Links.Finger_left finger_left(
     animation = animation,
@@ -197,7 +201,7 @@ model SixAxisArm "Robot SixAxisArm"
       animation = animation,
       showCollisions = showCollisions)
     "Link \"finger_left\""
-    annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -180}, {380, -160}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -196}, {380, -176}})));
 
   replaceable Links.Drive_pinion drive_pinion(
     animation = animation,
@@ -206,7 +210,7 @@ model SixAxisArm "Robot SixAxisArm"
       animation = animation,
       showCollisions = showCollisions)
     "Link \"drive_pinion\""
-    annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -270}, {380, -250}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{360, -286}, {380, -266}})));
 
   replaceable Joints.Turret turret(
     fixedStart = fixedStart,
@@ -287,7 +291,7 @@ model SixAxisArm "Robot SixAxisArm"
 
   replaceable Joints.Grasp_frame grasp_frame constrainedby UrdfSync.Interfaces.PartialFixedJoint
     "Fixed joint \"grasp_frame\" from link \"gripper_body\" to link \"grasp_point\""
-    annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -72}, {348, -52}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -88}, {348, -68}})));
 
   replaceable Joints.Gripper_stroke gripper_stroke(
     s_min = max({gripper_stroke.parameters.limits.lower, finger_couplingMimic.leader_min, pinion_couplingMimic.leader_min}),
@@ -304,7 +308,7 @@ model SixAxisArm "Robot SixAxisArm"
       checkEffort = false,
       checkLimits = checkLimits)
     "Prismatic joint \"gripper_stroke\" from link \"gripper_body\" to link \"finger_left\""
-    annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -154}, {348, -134}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -170}, {348, -150}})));
 
   replaceable Joints.Pinion_coupling pinion_coupling(
     phi_start = pinion_coupling.parameters.mimic.multiplier*gripper_stroke.s_start + pinion_coupling.parameters.mimic.offset,
@@ -319,7 +323,7 @@ model SixAxisArm "Robot SixAxisArm"
       checkEffort = false,
       checkLimits = checkLimits)
     "Revolute joint \"pinion_coupling\" from link \"gripper_body\" to link \"drive_pinion\""
-    annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -244}, {348, -224}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{328, -260}, {348, -240}})));
 
   UrdfSync.Couplings.TranslationalToTranslational finger_couplingMimic(
     s_min = finger_coupling.s_min,
@@ -335,7 +339,7 @@ model SixAxisArm "Robot SixAxisArm"
     w_max = pinion_coupling.w_max,
     parameters = pinion_coupling.parameters.mimic)
     "Joint \"pinion_coupling\" follows joint \"gripper_stroke\""
-    annotation (Placement(transformation(extent={{312, -216}, {332, -196}})));
+    annotation (Placement(transformation(extent={{312, -232}, {332, -212}})));
 
 equation
   assert(not checkLimits or 0.999999*abs(gripper_strokeAxis.f) <= gripper_stroke.parameters.limits.effort + 1e-6,
@@ -370,6 +374,8 @@ equation
     annotation (Line(points={{216, -26}, {212, -26}, {212, 0}, {232, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(flange_to_tool.frame_b, tool0.frame_a)
     annotation (Line(points={{252, 0}, {260, 0}, {260, -26}, {264, -26}}, color={95, 95, 95}, thickness=0.5));
+  connect(tool0.frame_a, tool0Frame)
+    annotation (Line(points={{264, -26}, {260, -26}, {260, -48}, {274, -48}}, color={95, 95, 95}, thickness=0.5));
   connect(tool0.frame_a, gripper_mount.frame_a)
     annotation (Line(points={{264, -26}, {260, -26}, {260, 0}, {280, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(gripper_mount.frame_b, gripper_body.frame_a)
@@ -379,25 +385,25 @@ equation
   connect(finger_coupling.frame_b, finger_right.frame_a)
     annotation (Line(points={{348, 0}, {356, 0}, {356, -26}, {360, -26}}, color={95, 95, 95}, thickness=0.5));
   connect(gripper_body.frame_a, grasp_frame.frame_a)
-    annotation (Line(points={{312, -26}, {308, -26}, {308, -62}, {328, -62}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{312, -26}, {308, -26}, {308, -78}, {328, -78}}, color={95, 95, 95}, thickness=0.5));
   connect(grasp_frame.frame_b, grasp_point.frame_a)
-    annotation (Line(points={{348, -62}, {356, -62}, {356, -88}, {360, -88}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{348, -78}, {356, -78}, {356, -104}, {360, -104}}, color={95, 95, 95}, thickness=0.5));
   connect(gripper_body.frame_a, gripper_stroke.frame_a)
-    annotation (Line(points={{312, -26}, {308, -26}, {308, -144}, {328, -144}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{312, -26}, {308, -26}, {308, -160}, {328, -160}}, color={95, 95, 95}, thickness=0.5));
   connect(gripper_stroke.frame_b, finger_left.frame_a)
-    annotation (Line(points={{348, -144}, {356, -144}, {356, -170}, {360, -170}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{348, -160}, {356, -160}, {356, -186}, {360, -186}}, color={95, 95, 95}, thickness=0.5));
   connect(gripper_body.frame_a, pinion_coupling.frame_a)
-    annotation (Line(points={{312, -26}, {308, -26}, {308, -234}, {328, -234}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{312, -26}, {308, -26}, {308, -250}, {328, -250}}, color={95, 95, 95}, thickness=0.5));
   connect(pinion_coupling.frame_b, drive_pinion.frame_a)
-    annotation (Line(points={{348, -234}, {356, -234}, {356, -260}, {360, -260}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{348, -250}, {356, -250}, {356, -276}, {360, -276}}, color={95, 95, 95}, thickness=0.5));
   connect(finger_right.frame_a, finger_rightFrame)
     annotation (Line(points={{360, -26}, {356, -26}, {356, 0}, {410, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(grasp_point.frame_a, grasp_pointFrame)
-    annotation (Line(points={{360, -88}, {356, -88}, {356, -62}, {410, -62}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{360, -104}, {356, -104}, {356, -78}, {410, -78}}, color={95, 95, 95}, thickness=0.5));
   connect(finger_left.frame_a, finger_leftFrame)
-    annotation (Line(points={{360, -170}, {356, -170}, {356, -144}, {410, -144}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{360, -186}, {356, -186}, {356, -160}, {410, -160}}, color={95, 95, 95}, thickness=0.5));
   connect(drive_pinion.frame_a, drive_pinionFrame)
-    annotation (Line(points={{360, -260}, {356, -260}, {356, -234}, {410, -234}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{360, -276}, {356, -276}, {356, -250}, {410, -250}}, color={95, 95, 95}, thickness=0.5));
   connect(turret.axis, turretAxis)
     annotation (Line(points={{-46, 10}, {-46, 20}}, color={0, 0, 0}));
   connect(turret.support, turretSupport)
@@ -423,17 +429,17 @@ equation
   connect(flange_roll.support, flange_rollSupport)
     annotation (Line(points={{188, 10}, {188, 12}, {180, 12}, {180, 20}}, color={0, 0, 0}));
   connect(gripper_stroke.axis, gripper_strokeAxis)
-    annotation (Line(points={{338, -134}, {338, -124}}, color={0, 127, 0}));
+    annotation (Line(points={{338, -150}, {338, -140}}, color={0, 127, 0}));
   connect(gripper_stroke.support, gripper_strokeSupport)
-    annotation (Line(points={{332, -134}, {332, -132}, {324, -132}, {324, -124}}, color={0, 127, 0}));
+    annotation (Line(points={{332, -150}, {332, -148}, {324, -148}, {324, -140}}, color={0, 127, 0}));
   connect(finger_couplingMimic.follower, finger_coupling.axis)
     annotation (Line(points={{332, 44}, {338, 44}, {338, 10}}, color={0, 127, 0}));
   connect(finger_couplingMimic.leader, gripper_stroke.axis)
-    annotation (Line(points={{312, 44}, {304, 44}, {304, -110}, {346, -110}, {346, -132}, {338, -132}, {338, -134}}, color={0, 127, 0}));
+    annotation (Line(points={{312, 44}, {304, 44}, {304, -126}, {346, -126}, {346, -148}, {338, -148}, {338, -150}}, color={0, 127, 0}));
   connect(pinion_couplingMimic.follower, pinion_coupling.axis)
-    annotation (Line(points={{332, -206}, {338, -206}, {338, -224}}, color={0, 0, 0}));
+    annotation (Line(points={{332, -222}, {338, -222}, {338, -240}}, color={0, 0, 0}));
   connect(pinion_couplingMimic.leader, gripper_stroke.axis)
-    annotation (Line(points={{312, -206}, {304, -206}, {304, -110}, {346, -110}, {346, -132}, {338, -132}, {338, -134}}, color={0, 127, 0}));
+    annotation (Line(points={{312, -222}, {304, -222}, {304, -126}, {346, -126}, {346, -148}, {338, -148}, {338, -150}}, color={0, 127, 0}));
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 250}}), graphics={
@@ -445,11 +451,12 @@ equation
       Text(extent={{-90, 146}, {0, 164}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="wrist_pitch"),
       Text(extent={{-90, 126}, {0, 144}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="flange_roll"),
       Text(extent={{-90, 106}, {0, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="gripper_stroke"),
-      Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_right"),
-      Text(extent={{0, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="grasp_point"),
-      Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_left"),
-      Text(extent={{0, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="drive_pinion")}),
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -278}, {420, 62}})),
+      Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="tool0"),
+      Text(extent={{0, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_right"),
+      Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="grasp_point"),
+      Text(extent={{0, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="finger_left"),
+      Text(extent={{0, 153}, {88, 167}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="drive_pinion")}),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -294}, {420, 62}})),
     Documentation(info="<html>
 <p>
 Links and joints of robot SixAxisArm, connected. Each can be exchanged in a model that extends this one. A drive of joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

@@ -226,7 +226,291 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
         gripper_stroke.dynamics.friction},
       steepness = {
         finger_coupling.dynamics.steepness,
-        gripper_stroke.dynamics.steepness}));
+        gripper_stroke.dynamics.steepness}),
+    drawnShapes = 44,
+    visuals(
+      links = {
+        1, 1, 1, 1, 1, 1, 1, 2, 2, 2,
+        3, 3, 3, 3, 3, 4, 4, 4, 4, 4,
+        5, 5, 5, 5, 5, 5, 6, 6, 7, 7,
+        9, 9, 9, 9, 10, 10, 10, 10, 12, 12,
+        12, 12, 13, 13},
+      kinds = {
+        "box",
+        base_linkVisual2.uri,
+        "box",
+        "cylinder",
+        "cylinder",
+        "cylinder",
+        "cylinder",
+        "cylinder",
+        carouselVisual2.uri,
+        "cylinder",
+        upper_armVisual1.uri,
+        upper_armVisual2.uri,
+        "box",
+        "cylinder",
+        "cylinder",
+        elbow_housingVisual1.uri,
+        "cylinder",
+        "cylinder",
+        "cylinder",
+        "box",
+        forearmVisual1.uri,
+        "box",
+        "box",
+        "box",
+        "cylinder",
+        "cylinder",
+        "cylinder",
+        "cylinder",
+        "cylinder",
+        "box",
+        "cylinder",
+        "box",
+        "box",
+        "box",
+        "box",
+        "box",
+        finger_rightVisual3.uri,
+        "box",
+        "box",
+        "box",
+        finger_leftVisual3.uri,
+        "box",
+        drive_pinionVisual1.uri,
+        "cylinder"},
+      lengthAxes = {
+        1, 1, 1, 3, 3, 3, 3, 3, 1, 3,
+        1, 1, 1, 3, 3, 1, 3, 3, 3, 1,
+        1, 1, 1, 1, 3, 3, 3, 3, 3, 1,
+        3, 1, 1, 1, 1, 1, 1, 1, 1, 1,
+        1, 1, 1, 3},
+      positions = {
+        base_linkVisual1.origin.xyz,
+        base_linkVisual2.origin.xyz,
+        base_linkVisual3.origin.xyz,
+        base_linkVisual4.origin.xyz,
+        base_linkVisual5.origin.xyz,
+        base_linkVisual6.origin.xyz,
+        base_linkVisual7.origin.xyz,
+        carouselVisual1.origin.xyz,
+        carouselVisual2.origin.xyz,
+        carouselVisual3.origin.xyz,
+        upper_armVisual1.origin.xyz,
+        upper_armVisual2.origin.xyz,
+        upper_armVisual3.origin.xyz,
+        upper_armVisual4.origin.xyz,
+        upper_armVisual5.origin.xyz,
+        elbow_housingVisual1.origin.xyz,
+        elbow_housingVisual2.origin.xyz,
+        elbow_housingVisual3.origin.xyz,
+        elbow_housingVisual4.origin.xyz,
+        elbow_housingVisual5.origin.xyz,
+        forearmVisual1.origin.xyz,
+        forearmVisual2.origin.xyz,
+        forearmVisual3.origin.xyz,
+        forearmVisual4.origin.xyz,
+        forearmVisual5.origin.xyz,
+        forearmVisual6.origin.xyz,
+        wristVisual1.origin.xyz,
+        wristVisual2.origin.xyz,
+        mounting_flangeVisual1.origin.xyz,
+        mounting_flangeVisual2.origin.xyz,
+        gripper_bodyVisual1.origin.xyz,
+        gripper_bodyVisual2.origin.xyz,
+        gripper_bodyVisual3.origin.xyz,
+        gripper_bodyVisual4.origin.xyz,
+        finger_rightVisual1.origin.xyz,
+        finger_rightVisual2.origin.xyz,
+        finger_rightVisual3.origin.xyz,
+        finger_rightVisual4.origin.xyz,
+        finger_leftVisual1.origin.xyz,
+        finger_leftVisual2.origin.xyz,
+        finger_leftVisual3.origin.xyz,
+        finger_leftVisual4.origin.xyz,
+        drive_pinionVisual1.origin.xyz,
+        drive_pinionVisual2.origin.xyz},
+      angles = {
+        base_linkVisual1.origin.rpy,
+        base_linkVisual2.origin.rpy,
+        base_linkVisual3.origin.rpy,
+        base_linkVisual4.origin.rpy,
+        base_linkVisual5.origin.rpy,
+        base_linkVisual6.origin.rpy,
+        base_linkVisual7.origin.rpy,
+        carouselVisual1.origin.rpy,
+        carouselVisual2.origin.rpy,
+        carouselVisual3.origin.rpy,
+        upper_armVisual1.origin.rpy,
+        upper_armVisual2.origin.rpy,
+        upper_armVisual3.origin.rpy,
+        upper_armVisual4.origin.rpy,
+        upper_armVisual5.origin.rpy,
+        elbow_housingVisual1.origin.rpy,
+        elbow_housingVisual2.origin.rpy,
+        elbow_housingVisual3.origin.rpy,
+        elbow_housingVisual4.origin.rpy,
+        elbow_housingVisual5.origin.rpy,
+        forearmVisual1.origin.rpy,
+        forearmVisual2.origin.rpy,
+        forearmVisual3.origin.rpy,
+        forearmVisual4.origin.rpy,
+        forearmVisual5.origin.rpy,
+        forearmVisual6.origin.rpy,
+        wristVisual1.origin.rpy,
+        wristVisual2.origin.rpy,
+        mounting_flangeVisual1.origin.rpy,
+        mounting_flangeVisual2.origin.rpy,
+        gripper_bodyVisual1.origin.rpy,
+        gripper_bodyVisual2.origin.rpy,
+        gripper_bodyVisual3.origin.rpy,
+        gripper_bodyVisual4.origin.rpy,
+        finger_rightVisual1.origin.rpy,
+        finger_rightVisual2.origin.rpy,
+        finger_rightVisual3.origin.rpy,
+        finger_rightVisual4.origin.rpy,
+        finger_leftVisual1.origin.rpy,
+        finger_leftVisual2.origin.rpy,
+        finger_leftVisual3.origin.rpy,
+        finger_leftVisual4.origin.rpy,
+        drive_pinionVisual1.origin.rpy,
+        drive_pinionVisual2.origin.rpy},
+      starts = {
+        -0.5*base_linkVisual1.size[1],
+        0,
+        -0.5*base_linkVisual3.size[1],
+        -0.5*base_linkVisual4.length,
+        -0.5*base_linkVisual5.length,
+        -0.5*base_linkVisual6.length,
+        -0.5*base_linkVisual7.length,
+        -0.5*carouselVisual1.length,
+        0,
+        -0.5*carouselVisual3.length,
+        0,
+        0,
+        -0.5*upper_armVisual3.size[1],
+        -0.5*upper_armVisual4.length,
+        -0.5*upper_armVisual5.length,
+        0,
+        -0.5*elbow_housingVisual2.length,
+        -0.5*elbow_housingVisual3.length,
+        -0.5*elbow_housingVisual4.length,
+        -0.5*elbow_housingVisual5.size[1],
+        0,
+        -0.5*forearmVisual2.size[1],
+        -0.5*forearmVisual3.size[1],
+        -0.5*forearmVisual4.size[1],
+        -0.5*forearmVisual5.length,
+        -0.5*forearmVisual6.length,
+        -0.5*wristVisual1.length,
+        -0.5*wristVisual2.length,
+        -0.5*mounting_flangeVisual1.length,
+        -0.5*mounting_flangeVisual2.size[1],
+        -0.5*gripper_bodyVisual1.length,
+        -0.5*gripper_bodyVisual2.size[1],
+        -0.5*gripper_bodyVisual3.size[1],
+        -0.5*gripper_bodyVisual4.size[1],
+        -0.5*finger_rightVisual1.size[1],
+        -0.5*finger_rightVisual2.size[1],
+        0,
+        -0.5*finger_rightVisual4.size[1],
+        -0.5*finger_leftVisual1.size[1],
+        -0.5*finger_leftVisual2.size[1],
+        0,
+        -0.5*finger_leftVisual4.size[1],
+        0,
+        -0.5*drive_pinionVisual2.length},
+      sizes = {
+        {base_linkVisual1.size[1], base_linkVisual1.size[2], base_linkVisual1.size[3]},
+        {1, 1, 1},
+        {base_linkVisual3.size[1], base_linkVisual3.size[2], base_linkVisual3.size[3]},
+        {base_linkVisual4.length, 2*base_linkVisual4.radius, 2*base_linkVisual4.radius},
+        {base_linkVisual5.length, 2*base_linkVisual5.radius, 2*base_linkVisual5.radius},
+        {base_linkVisual6.length, 2*base_linkVisual6.radius, 2*base_linkVisual6.radius},
+        {base_linkVisual7.length, 2*base_linkVisual7.radius, 2*base_linkVisual7.radius},
+        {carouselVisual1.length, 2*carouselVisual1.radius, 2*carouselVisual1.radius},
+        {1, 1, 1},
+        {carouselVisual3.length, 2*carouselVisual3.radius, 2*carouselVisual3.radius},
+        {1, 1, 1},
+        {1, 1, 1},
+        {upper_armVisual3.size[1], upper_armVisual3.size[2], upper_armVisual3.size[3]},
+        {upper_armVisual4.length, 2*upper_armVisual4.radius, 2*upper_armVisual4.radius},
+        {upper_armVisual5.length, 2*upper_armVisual5.radius, 2*upper_armVisual5.radius},
+        {1, 1, 1},
+        {elbow_housingVisual2.length, 2*elbow_housingVisual2.radius, 2*elbow_housingVisual2.radius},
+        {elbow_housingVisual3.length, 2*elbow_housingVisual3.radius, 2*elbow_housingVisual3.radius},
+        {elbow_housingVisual4.length, 2*elbow_housingVisual4.radius, 2*elbow_housingVisual4.radius},
+        {elbow_housingVisual5.size[1], elbow_housingVisual5.size[2], elbow_housingVisual5.size[3]},
+        {1, 1, 1},
+        {forearmVisual2.size[1], forearmVisual2.size[2], forearmVisual2.size[3]},
+        {forearmVisual3.size[1], forearmVisual3.size[2], forearmVisual3.size[3]},
+        {forearmVisual4.size[1], forearmVisual4.size[2], forearmVisual4.size[3]},
+        {forearmVisual5.length, 2*forearmVisual5.radius, 2*forearmVisual5.radius},
+        {forearmVisual6.length, 2*forearmVisual6.radius, 2*forearmVisual6.radius},
+        {wristVisual1.length, 2*wristVisual1.radius, 2*wristVisual1.radius},
+        {wristVisual2.length, 2*wristVisual2.radius, 2*wristVisual2.radius},
+        {mounting_flangeVisual1.length, 2*mounting_flangeVisual1.radius, 2*mounting_flangeVisual1.radius},
+        {mounting_flangeVisual2.size[1], mounting_flangeVisual2.size[2], mounting_flangeVisual2.size[3]},
+        {gripper_bodyVisual1.length, 2*gripper_bodyVisual1.radius, 2*gripper_bodyVisual1.radius},
+        {gripper_bodyVisual2.size[1], gripper_bodyVisual2.size[2], gripper_bodyVisual2.size[3]},
+        {gripper_bodyVisual3.size[1], gripper_bodyVisual3.size[2], gripper_bodyVisual3.size[3]},
+        {gripper_bodyVisual4.size[1], gripper_bodyVisual4.size[2], gripper_bodyVisual4.size[3]},
+        {finger_rightVisual1.size[1], finger_rightVisual1.size[2], finger_rightVisual1.size[3]},
+        {finger_rightVisual2.size[1], finger_rightVisual2.size[2], finger_rightVisual2.size[3]},
+        {1, 1, 1},
+        {finger_rightVisual4.size[1], finger_rightVisual4.size[2], finger_rightVisual4.size[3]},
+        {finger_leftVisual1.size[1], finger_leftVisual1.size[2], finger_leftVisual1.size[3]},
+        {finger_leftVisual2.size[1], finger_leftVisual2.size[2], finger_leftVisual2.size[3]},
+        {1, 1, 1},
+        {finger_leftVisual4.size[1], finger_leftVisual4.size[2], finger_leftVisual4.size[3]},
+        {1, 1, 1},
+        {drive_pinionVisual2.length, 2*drive_pinionVisual2.radius, 2*drive_pinionVisual2.radius}},
+      colors = {
+        base_linkVisual1.color,
+        base_linkVisual2.color,
+        base_linkVisual3.color,
+        base_linkVisual4.color,
+        base_linkVisual5.color,
+        base_linkVisual6.color,
+        base_linkVisual7.color,
+        carouselVisual1.color,
+        carouselVisual2.color,
+        carouselVisual3.color,
+        upper_armVisual1.color,
+        upper_armVisual2.color,
+        upper_armVisual3.color,
+        upper_armVisual4.color,
+        upper_armVisual5.color,
+        elbow_housingVisual1.color,
+        elbow_housingVisual2.color,
+        elbow_housingVisual3.color,
+        elbow_housingVisual4.color,
+        elbow_housingVisual5.color,
+        forearmVisual1.color,
+        forearmVisual2.color,
+        forearmVisual3.color,
+        forearmVisual4.color,
+        forearmVisual5.color,
+        forearmVisual6.color,
+        wristVisual1.color,
+        wristVisual2.color,
+        mounting_flangeVisual1.color,
+        mounting_flangeVisual2.color,
+        gripper_bodyVisual1.color,
+        gripper_bodyVisual2.color,
+        gripper_bodyVisual3.color,
+        gripper_bodyVisual4.color,
+        finger_rightVisual1.color,
+        finger_rightVisual2.color,
+        finger_rightVisual3.color,
+        finger_rightVisual4.color,
+        finger_leftVisual1.color,
+        finger_leftVisual2.color,
+        finger_leftVisual3.color,
+        finger_leftVisual4.color,
+        drive_pinionVisual1.color,
+        drive_pinionVisual2.color}));
 
   constant Integer turretAxis = 1
     "Number of joint \"turret\" in rotationalAxis";
@@ -265,6 +549,75 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
         iyz = 0)))
     "Link 1: \"base_link\"";
 
+  UrdfSync.Records.Box base_linkVisual1(
+    origin(
+      xyz = {0, 0, 0.015},
+      rpy = {0, 0, 0}),
+    size = {0.26, 0.24, 0.03},
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 1: \"foot\" of link \"base_link\"";
+
+  UrdfSync.Records.Mesh base_linkVisual2(
+    origin(
+      xyz = {0, 0, 0.03},
+      rpy = {0, 0, 0}),
+    uri = "modelica://UrdfSync.Examples.SixAxisArm/Resources/base_casting_d67b161a.stl",
+    lower = {-0.11, -0.11, 0},
+    upper = {0.11, 0.11, 0.17},
+    color = {230, 230, 222},
+    opacity = 1)
+    "Visual 2: \"casting\" of link \"base_link\"";
+
+  UrdfSync.Records.Box base_linkVisual3(
+    origin(
+      xyz = {-0.1, 0, 0.085},
+      rpy = {0, 0, 0}),
+    size = {0.06, 0.11, 0.09},
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 3: \"connector_panel\" of link \"base_link\"";
+
+  UrdfSync.Records.Cylinder base_linkVisual4(
+    origin(
+      xyz = {0.11, 0.1, 0.036},
+      rpy = {0, 0, 0}),
+    radius = 0.009,
+    length = 0.012,
+    color = {173, 178, 184},
+    opacity = 1)
+    "Visual 4: \"bolt_1\" of link \"base_link\"";
+
+  UrdfSync.Records.Cylinder base_linkVisual5(
+    origin(
+      xyz = {-0.11, 0.1, 0.036},
+      rpy = {0, 0, 0}),
+    radius = 0.009,
+    length = 0.012,
+    color = {173, 178, 184},
+    opacity = 1)
+    "Visual 5: \"bolt_2\" of link \"base_link\"";
+
+  UrdfSync.Records.Cylinder base_linkVisual6(
+    origin(
+      xyz = {-0.11, -0.1, 0.036},
+      rpy = {0, 0, 0}),
+    radius = 0.009,
+    length = 0.012,
+    color = {173, 178, 184},
+    opacity = 1)
+    "Visual 6: \"bolt_3\" of link \"base_link\"";
+
+  UrdfSync.Records.Cylinder base_linkVisual7(
+    origin(
+      xyz = {0.11, -0.1, 0.036},
+      rpy = {0, 0, 0}),
+    radius = 0.009,
+    length = 0.012,
+    color = {173, 178, 184},
+    opacity = 1)
+    "Visual 7: \"bolt_4\" of link \"base_link\"";
+
   UrdfSync.Records.Link carousel(
     name = "carousel",
     inertial(
@@ -280,6 +633,37 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
         ixz = -1.6e-05,
         iyz = 0)))
     "Link 2: \"carousel\"";
+
+  UrdfSync.Records.Cylinder carouselVisual1(
+    origin(
+      xyz = {0, 0, 0.016},
+      rpy = {0, 0, 0}),
+    radius = 0.096,
+    length = 0.03,
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 1: \"turntable\" of link \"carousel\"";
+
+  UrdfSync.Records.Mesh carouselVisual2(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    uri = "modelica://UrdfSync.Examples.SixAxisArm/Resources/carousel_325c5c27.obj",
+    lower = {-0.082, -0.058, 0},
+    upper = {0.102, 0.058, 0.272},
+    color = {230, 230, 222},
+    opacity = 1)
+    "Visual 2: \"body\" of link \"carousel\"";
+
+  UrdfSync.Records.Cylinder carouselVisual3(
+    origin(
+      xyz = {-0.098, 0, 0.076},
+      rpy = {0, 0, 0}),
+    radius = 0.042,
+    length = 0.09,
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 3: \"turret_motor\" of link \"carousel\"";
 
   UrdfSync.Records.Link upper_arm(
     name = "upper_arm",
@@ -297,6 +681,57 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
         iyz = 0)))
     "Link 3: \"upper_arm\"";
 
+  UrdfSync.Records.Mesh upper_armVisual1(
+    origin(
+      xyz = {0, 0.06, 0},
+      rpy = {0, 0, 0}),
+    uri = "modelica://UrdfSync.Examples.SixAxisArm/Resources/upper_arm_side_732fcd09.stl",
+    lower = {-0.07400000095367432, 0, -0.07400000095367432},
+    upper = {0.07400000095367432, 0.03800000064074993, 0.5019999742507935},
+    color = {230, 230, 222},
+    opacity = 1)
+    "Visual 1: \"side_left\" of link \"upper_arm\"";
+
+  UrdfSync.Records.Mesh upper_armVisual2(
+    origin(
+      xyz = {0, -0.06, 0},
+      rpy = {0, 0, 3.1415927}),
+    uri = "modelica://UrdfSync.Examples.SixAxisArm/Resources/upper_arm_side_732fcd09.stl",
+    lower = {-0.07400000095367432, 0, -0.07400000095367432},
+    upper = {0.07400000095367432, 0.03800000064074993, 0.5019999742507935},
+    color = {230, 230, 222},
+    opacity = 1)
+    "Visual 2: \"side_right\" of link \"upper_arm\"";
+
+  UrdfSync.Records.Box upper_armVisual3(
+    origin(
+      xyz = {0, 0, 0.195},
+      rpy = {0, 0, 0}),
+    size = {0.08, 0.124, 0.15},
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 3: \"web\" of link \"upper_arm\"";
+
+  UrdfSync.Records.Cylinder upper_armVisual4(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {1.5707963, 0, 0}),
+    radius = 0.042,
+    length = 0.204,
+    color = {0, 120, 153},
+    opacity = 1)
+    "Visual 4: \"shoulder_cap\" of link \"upper_arm\"";
+
+  UrdfSync.Records.Cylinder upper_armVisual5(
+    origin(
+      xyz = {0, 0, 0.44},
+      rpy = {1.5707963, 0, 0}),
+    radius = 0.034,
+    length = 0.204,
+    color = {0, 120, 153},
+    opacity = 1)
+    "Visual 5: \"elbow_cap\" of link \"upper_arm\"";
+
   UrdfSync.Records.Link elbow_housing(
     name = "elbow_housing",
     inertial(
@@ -312,6 +747,56 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
         ixz = -0.000213,
         iyz = -1.7e-05)))
     "Link 4: \"elbow_housing\"";
+
+  UrdfSync.Records.Mesh elbow_housingVisual1(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    uri = "modelica://UrdfSync.Examples.SixAxisArm/Resources/elbow_housing_4beb27d3.obj",
+    lower = {-0.1, -0.056, -0.062},
+    upper = {0.13, 0.056, 0.098},
+    color = {230, 230, 222},
+    opacity = 1)
+    "Visual 1: \"body\" of link \"elbow_housing\"";
+
+  UrdfSync.Records.Cylinder elbow_housingVisual2(
+    origin(
+      xyz = {0.138, 0, 0.04},
+      rpy = {0, 1.5707963, 0}),
+    radius = 0.052,
+    length = 0.024,
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 2: \"bearing_ring\" of link \"elbow_housing\"";
+
+  UrdfSync.Records.Cylinder elbow_housingVisual3(
+    origin(
+      xyz = {-0.12, 0.026, 0.05},
+      rpy = {0, 1.5707963, 0}),
+    radius = 0.023,
+    length = 0.05,
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 3: \"roll_motor\" of link \"elbow_housing\"";
+
+  UrdfSync.Records.Cylinder elbow_housingVisual4(
+    origin(
+      xyz = {-0.115, -0.026, 0.05},
+      rpy = {0, 1.5707963, 0}),
+    radius = 0.023,
+    length = 0.04,
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 4: \"pitch_motor\" of link \"elbow_housing\"";
+
+  UrdfSync.Records.Box elbow_housingVisual5(
+    origin(
+      xyz = {0.06, 0, 0.098},
+      rpy = {0, 0, 0}),
+    size = {0.07, 0.06, 0.004},
+    color = {0, 120, 153},
+    opacity = 1)
+    "Visual 5: \"stripe\" of link \"elbow_housing\"";
 
   UrdfSync.Records.Link forearm(
     name = "forearm",
@@ -329,6 +814,64 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
         iyz = 0)))
     "Link 5: \"forearm\"";
 
+  UrdfSync.Records.Mesh forearmVisual1(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    uri = "modelica://UrdfSync.Examples.SixAxisArm/Resources/forearm_tube_ca766f70.stl",
+    lower = {0, -0.058, -0.058},
+    upper = {0.17, 0.058, 0.058},
+    color = {230, 230, 222},
+    opacity = 1)
+    "Visual 1: \"tube\" of link \"forearm\"";
+
+  UrdfSync.Records.Box forearmVisual2(
+    origin(
+      xyz = {0.18, 0, 0},
+      rpy = {0, 0, 0}),
+    size = {0.024, 0.104, 0.06},
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 2: \"bridge\" of link \"forearm\"";
+
+  UrdfSync.Records.Box forearmVisual3(
+    origin(
+      xyz = {0.23, 0.043, 0},
+      rpy = {0, 0, 0}),
+    size = {0.08, 0.018, 0.056},
+    color = {230, 230, 222},
+    opacity = 1)
+    "Visual 3: \"fork_left\" of link \"forearm\"";
+
+  UrdfSync.Records.Box forearmVisual4(
+    origin(
+      xyz = {0.23, -0.043, 0},
+      rpy = {0, 0, 0}),
+    size = {0.08, 0.018, 0.056},
+    color = {230, 230, 222},
+    opacity = 1)
+    "Visual 4: \"fork_right\" of link \"forearm\"";
+
+  UrdfSync.Records.Cylinder forearmVisual5(
+    origin(
+      xyz = {0.27, 0.045, 0},
+      rpy = {1.5707963, 0, 0}),
+    radius = 0.03,
+    length = 0.022,
+    color = {0, 120, 153},
+    opacity = 1)
+    "Visual 5: \"fork_cap_left\" of link \"forearm\"";
+
+  UrdfSync.Records.Cylinder forearmVisual6(
+    origin(
+      xyz = {0.27, -0.045, 0},
+      rpy = {1.5707963, 0, 0}),
+    radius = 0.03,
+    length = 0.022,
+    color = {0, 120, 153},
+    opacity = 1)
+    "Visual 6: \"fork_cap_right\" of link \"forearm\"";
+
   UrdfSync.Records.Link wrist(
     name = "wrist",
     inertial(
@@ -345,6 +888,26 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
         iyz = 0)))
     "Link 6: \"wrist\"";
 
+  UrdfSync.Records.Cylinder wristVisual1(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {1.5707963, 0, 0}),
+    radius = 0.034,
+    length = 0.066,
+    color = {230, 230, 222},
+    opacity = 1)
+    "Visual 1: \"barrel\" of link \"wrist\"";
+
+  UrdfSync.Records.Cylinder wristVisual2(
+    origin(
+      xyz = {0.034, 0, 0},
+      rpy = {0, 1.5707963, 0}),
+    radius = 0.03,
+    length = 0.066,
+    color = {230, 230, 222},
+    opacity = 1)
+    "Visual 2: \"nose\" of link \"wrist\"";
+
   UrdfSync.Records.Link mounting_flange(
     name = "mounting_flange",
     inertial(
@@ -360,6 +923,25 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
         ixz = 0,
         iyz = 0)))
     "Link 7: \"mounting_flange\"";
+
+  UrdfSync.Records.Cylinder mounting_flangeVisual1(
+    origin(
+      xyz = {0.006, 0, 0},
+      rpy = {0, 1.5707963, 0}),
+    radius = 0.0315,
+    length = 0.012,
+    color = {173, 178, 184},
+    opacity = 1)
+    "Visual 1: \"plate\" of link \"mounting_flange\"";
+
+  UrdfSync.Records.Box mounting_flangeVisual2(
+    origin(
+      xyz = {0.006, 0, 0.0315},
+      rpy = {0, 0, 0}),
+    size = {0.008, 0.004, 0.003},
+    color = {0, 120, 153},
+    opacity = 1)
+    "Visual 2: \"zero_mark\" of link \"mounting_flange\"";
 
   UrdfSync.Records.Link tool0(
     name = "tool0")
@@ -381,6 +963,43 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
         iyz = 0)))
     "Link 9: \"gripper_body\"";
 
+  UrdfSync.Records.Cylinder gripper_bodyVisual1(
+    origin(
+      xyz = {0, 0, 0.006},
+      rpy = {0, 0, 0}),
+    radius = 0.0315,
+    length = 0.012,
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 1: \"adapter\" of link \"gripper_body\"";
+
+  UrdfSync.Records.Box gripper_bodyVisual2(
+    origin(
+      xyz = {0, 0, 0.042},
+      rpy = {0, 0, 0}),
+    size = {0.12, 0.06, 0.06},
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 2: \"housing\" of link \"gripper_body\"";
+
+  UrdfSync.Records.Box gripper_bodyVisual3(
+    origin(
+      xyz = {0, 0.031, 0.042},
+      rpy = {0, 0, 0}),
+    size = {0.1, 0.004, 0.044},
+    color = {0, 120, 153},
+    opacity = 1)
+    "Visual 3: \"cover_left\" of link \"gripper_body\"";
+
+  UrdfSync.Records.Box gripper_bodyVisual4(
+    origin(
+      xyz = {0, -0.031, 0.042},
+      rpy = {0, 0, 0}),
+    size = {0.1, 0.004, 0.044},
+    color = {0, 120, 153},
+    opacity = 1)
+    "Visual 4: \"cover_right\" of link \"gripper_body\"";
+
   UrdfSync.Records.Link finger_right(
     name = "finger_right",
     inertial(
@@ -396,6 +1015,44 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
         ixz = 3.98e-06,
         iyz = -6.36e-06)))
     "Link 10: \"finger_right\"";
+
+  UrdfSync.Records.Box finger_rightVisual1(
+    origin(
+      xyz = {-0.012, -0.0181, 0.005},
+      rpy = {0, 0, 0}),
+    size = {0.068, 0.008, 0.01},
+    color = {173, 178, 184},
+    opacity = 1)
+    "Visual 1: \"rack\" of link \"finger_right\"";
+
+  UrdfSync.Records.Box finger_rightVisual2(
+    origin(
+      xyz = {0.0195, 0, 0.017},
+      rpy = {0, 0, 0}),
+    size = {0.037, 0.046, 0.014},
+    color = {173, 178, 184},
+    opacity = 1)
+    "Visual 2: \"carriage\" of link \"finger_right\"";
+
+  UrdfSync.Records.Mesh finger_rightVisual3(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    uri = "modelica://UrdfSync.Examples.SixAxisArm/Resources/finger_26f93e36.obj",
+    lower = {0.004, -0.012, 0.024},
+    upper = {0.034, 0.012, 0.096},
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 3: \"blade\" of link \"finger_right\"";
+
+  UrdfSync.Records.Box finger_rightVisual4(
+    origin(
+      xyz = {0.002, 0, 0.077},
+      rpy = {0, 0, 0}),
+    size = {0.004, 0.022, 0.032},
+    color = {26, 26, 26},
+    opacity = 1)
+    "Visual 4: \"pad\" of link \"finger_right\"";
 
   UrdfSync.Records.Link grasp_point(
     name = "grasp_point")
@@ -417,6 +1074,44 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
         iyz = -6.36e-06)))
     "Link 12: \"finger_left\"";
 
+  UrdfSync.Records.Box finger_leftVisual1(
+    origin(
+      xyz = {-0.012, -0.0181, 0.005},
+      rpy = {0, 0, 0}),
+    size = {0.068, 0.008, 0.01},
+    color = {173, 178, 184},
+    opacity = 1)
+    "Visual 1: \"rack\" of link \"finger_left\"";
+
+  UrdfSync.Records.Box finger_leftVisual2(
+    origin(
+      xyz = {0.0195, 0, 0.017},
+      rpy = {0, 0, 0}),
+    size = {0.037, 0.046, 0.014},
+    color = {173, 178, 184},
+    opacity = 1)
+    "Visual 2: \"carriage\" of link \"finger_left\"";
+
+  UrdfSync.Records.Mesh finger_leftVisual3(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    uri = "modelica://UrdfSync.Examples.SixAxisArm/Resources/finger_26f93e36.obj",
+    lower = {0.004, -0.012, 0.024},
+    upper = {0.034, 0.012, 0.096},
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 3: \"blade\" of link \"finger_left\"";
+
+  UrdfSync.Records.Box finger_leftVisual4(
+    origin(
+      xyz = {0.002, 0, 0.077},
+      rpy = {0, 0, 0}),
+    size = {0.004, 0.022, 0.032},
+    color = {26, 26, 26},
+    opacity = 1)
+    "Visual 4: \"pad\" of link \"finger_left\"";
+
   UrdfSync.Records.Link drive_pinion(
     name = "drive_pinion",
     inertial(
@@ -432,6 +1127,27 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
         ixz = 0,
         iyz = 0)))
     "Link 13: \"drive_pinion\"";
+
+  UrdfSync.Records.Mesh drive_pinionVisual1(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    uri = "modelica://UrdfSync.Examples.SixAxisArm/Resources/drive_pinion_006c7beb.stl",
+    lower = {-0.013737000465393067, -0.013737000465393067, 0},
+    upper = {0.013737000465393067, 0.013737000465393067, 0.01},
+    color = {173, 178, 184},
+    opacity = 1)
+    "Visual 1: \"gear\" of link \"drive_pinion\"";
+
+  UrdfSync.Records.Cylinder drive_pinionVisual2(
+    origin(
+      xyz = {0, 0, -0.005},
+      rpy = {0, 0, 0}),
+    radius = 0.005,
+    length = 0.028,
+    color = {51, 56, 61},
+    opacity = 1)
+    "Visual 2: \"shaft\" of link \"drive_pinion\"";
 
   UrdfSync.Records.RevoluteJoint turret(
     name = "turret",

@@ -68,7 +68,7 @@ equation
     experiment(StopTime=1, Interval=0.02, Tolerance=1e-6),
     Documentation(info="<html>
 <p>
-Robot WheeledRobot as <code>UrdfSync.Robots.GenericRobot</code> reads it from its record. It simulates without inputs: every axis moves inside its limits and comes back. The generic robot has no shapes, so nothing holds it: it falls. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+Robot WheeledRobot as <code>UrdfSync.Robots.GenericRobot</code> reads it from its record. It simulates without inputs: every axis moves inside its limits and comes back. The generic robot touches nothing, so nothing holds it: it falls. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
 </html>"));
 end WheeledRobotGeneric;

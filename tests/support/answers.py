@@ -1,0 +1,90 @@
+"""Projects in step, and the saved answers of commands in them."""
+
+from __future__ import annotations
+
+import shutil
+import time
+from pathlib import Path
+
+from urdfsync import cli, uptodate
+
+LIMIT = 60.0
+"""Seconds after which an answer is not saved any more."""
+TETRAHEDRON = (
+    "solid t\n"
+    + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+    + ("endloop\nendfacet\nendsolid t\n")
+)
+_URDF = """\
+<robot name="{name}">
+  <link name="base"><visual><geometry><mesh filename="package://{name}_meshes/base.stl"/></geometry></visual></link>
+  <link name="tip"><inertial><mass value="1"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <joint name="hinge" type="revolute"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+</robot>
+"""
+_CONFIG = """\
+[defaults]
+cross_check = false
+create_parents = true
+
+[robots.arm]
+source = "robots/arm.urdf"
+package = "Lab.Arm"
+package_paths = ["ros"]
+templates = "own"
+
+[robots.leg]
+source = "robots/leg.urdf"
+package = "Leg"
+"""
+
+
+def built(folder: Path) -> Path:
+    """A folder, in step, with all that a decision may look at: two robots, a parent package, templates, a mesh in a
+    package that is searched for, one beside the source, a stray state, an edited file, a class that is a folder."""
+    for name in ("arm", "leg"):
+        _write(folder / f"robots/{name}.urdf", _URDF.format(name=name))
+    _write(folder / "ros/group/arm_meshes/package.xml", "<package><name>arm_meshes</name></package>")
+    _write(folder / "ros/group/arm_meshes/base.stl", TETRAHEDRON)
+    _write(folder / "robots/leg_meshes/base.stl", TETRAHEDRON)
+    _write(folder / "own/notes/readme.txt", "nothing but a text\n")
+    _write(folder / "urdfsync.toml", _CONFIG)
+    command = ["build", "--quiet", "--config", str(folder / "urdfsync.toml")]
+    assert cli.main(command) == 0
+    record = folder / "modelica/Leg/Links/TipParameters.mo"
+    record.write_text(record.read_text().replace("end ", "  // mine\nend ", 1))
+    base = folder / "modelica/Lab/Arm/Links/Base.mo"
+    whole = base.with_suffix("") / "package.mo"
+    whole.parent.mkdir()
+    base.rename(whole)
+    for suffix in ("toml", "json"):
+        shutil.copy(folder / f".urdfsync/robots/leg.{suffix}", folder / f".urdfsync/robots/gone.{suffix}")
+    assert cli.main(command) == 0
+    return folder
+
+
+def save(*arguments: str) -> None:
+    """Run a command until its answer is saved: not as long as its dependencies are racy."""
+    end = time.monotonic() + LIMIT
+    while saved(*arguments) is None:
+        time.sleep(0.06)
+        assert cli.main(arguments) == 0
+        assert time.monotonic() < end, "no answer was saved"
+
+
+def saved(*arguments: str) -> list[str] | None:
+    """The saved answer of a command, if it holds."""
+    file = uptodate.find_config(list(arguments))
+    return uptodate.find_answer(file, uptodate.answer_key(list(arguments), file)) if file else None
+
+
+def tmpfs(path: Path) -> bool:
+    """Whether a path is on tmpfs, where no answer is saved."""
+    return path.stat().st_dev in set(uptodate._tmpfs_devices())
+
+
+def _write(path: Path, text: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)

@@ -1,0 +1,616 @@
+"""The up-to-date check prints a saved answer as long as the command would say the same."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import types
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from support import answers
+from support.answers import save, saved
+
+from urdfsync import cli, dependencies, report, streams, uptodate
+from urdfsync.__main__ import main as program
+from urdfsync.checking import afterbuild
+
+Capture = pytest.CaptureFixture[str]
+Edit = Callable[[Path], object]
+
+BUILD, CHECK, STATUS = ["build"], ["build", "--check"], ["status"]
+STAMP = ".urdfsync/stamp"
+LEG = "modelica/Leg/Links/Tip.mo"
+URDF = "robots/leg.urdf"
+IN_STEP = "arm: in step, 17 files, 1 kept because you edited it\nleg: in step, 16 files, 1 kept because you edited it"
+
+
+@pytest.fixture(autouse=True)
+def _no_tmpfs(tmp_path: Path) -> None:
+    if answers.tmpfs(tmp_path):
+        pytest.skip("on tmpfs no answer is saved: use --basetemp")
+
+
+@pytest.fixture
+def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A project in step, which is the working folder; no answer is saved in it."""
+    place = tmp_path / "project"
+    shutil.copytree(in_step, place)
+    (place / STAMP).unlink(missing_ok=True)
+    monkeypatch.chdir(place)
+    return place
+
+
+# What is said again
+
+
+@pytest.mark.parametrize(
+    "command",
+    [BUILD, CHECK, STATUS, ["build", "leg"], ["build", "-q"], ["build", "--check", "--json"], ["status", "-v"]],
+)
+def test_what_was_said_is_said_again(folder: Path, command: list[str], capsys: Capture) -> None:
+    save(*command)
+    capsys.readouterr()
+    assert cli.main(command) == 0
+    said = capsys.readouterr()
+    assert uptodate.print_answer(command) == 0
+    assert capsys.readouterr() == said
+    assert "stray-state" in said.out + said.err or command[-1] == "-q"
+
+
+def test_commands_share_a_file(folder: Path) -> None:
+    for command in (BUILD, CHECK, STATUS):
+        save(*command)
+    assert all(saved(*command) is not None for command in (BUILD, CHECK, STATUS))
+
+
+def test_a_check_says_nothing_of_a_build(folder: Path) -> None:
+    shutil.rmtree(".urdfsync/base")  # a clone: what its files are merged with is not there yet
+    save(*CHECK)
+    assert saved(*BUILD) is None
+
+
+def test_the_answer_belongs_to_the_folder_and_the_environment(
+    folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save(*BUILD)
+    with monkeypatch.context() as patch:
+        patch.chdir("robots")
+        assert saved(*BUILD) is None, "paths look different from here"
+    with monkeypatch.context() as patch:
+        patch.setenv("ROS_PACKAGE_PATH", str(folder))
+        assert saved(*BUILD) is None
+    with monkeypatch.context() as patch:
+        patch.setenv("MODELICAPATH", str(folder))
+        assert saved(*BUILD) is None
+    assert saved(*BUILD) is not None
+
+
+def test_a_configuration_that_is_named(folder: Path) -> None:
+    Path("urdfsync.toml").rename("robots.toml")
+    save("build", "--config", "robots.toml")
+    assert saved("build", "--config=./robots.toml") is None, "another command, as far as anybody knows"
+    save("build", "--config=./robots.toml")
+
+
+@pytest.mark.parametrize("command", [["build", "--full"], ["build", "--svg"], ["diff"], ["build", "--check", "nobody"]])
+def test_what_is_not_said_again(folder: Path, command: list[str], capsys: Capture) -> None:
+    time.sleep(0.1)
+    cli.main(command)
+    assert saved(*command) is None
+
+
+def test_a_build_that_wrote_saves_no_answer(folder: Path) -> None:
+    time.sleep(0.1)
+    Path(LEG).unlink()
+    assert cli.main(BUILD) == 0
+    assert saved(*BUILD) is None
+    save(*BUILD)
+
+
+def test_builds_with_checks_are_not_said_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(afterbuild, "checked", lambda config, request, results: results)
+    Path("urdfsync.toml").write_text('[defaults]\non_build = "check"\n' + Path("urdfsync.toml").read_text()[11:])
+    assert cli.main(BUILD) == 0
+    time.sleep(0.1)
+    assert cli.main(BUILD) == 0
+    assert saved(*BUILD) is None
+    save(*CHECK)
+
+
+# What an answer depends on
+
+
+def _rewrite(path: str) -> Edit:
+    """Another content of the same size, with the same time of change."""
+
+    def edit(folder: Path) -> None:
+        file = folder / path
+        content, status = file.read_bytes(), file.stat()
+        file.write_bytes(content[:-2] + b"x" + content[-1:])
+        os.utime(file, ns=(status.st_atime_ns, status.st_mtime_ns))
+        assert file.stat().st_mtime_ns == status.st_mtime_ns
+        assert file.stat().st_size == status.st_size
+
+    return edit
+
+
+def _replace(path: str) -> Edit:
+    """The same content and times, in another file."""
+
+    def edit(folder: Path) -> None:
+        shutil.copy2(folder / path, folder / "other")
+        (folder / "other").replace(folder / path)
+
+    return edit
+
+
+def _write(path: str, text: str = "") -> Edit:
+    def edit(folder: Path) -> None:
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(text)
+
+    return edit
+
+
+def _delete(path: str) -> Edit:
+    return lambda folder: (folder / path).unlink()
+
+
+def _link(path: str) -> Edit:
+    def edit(folder: Path) -> None:
+        (folder / path).rename(folder / "moved")
+        (folder / path).symlink_to(folder / "moved")
+
+    return edit
+
+
+EDITS: dict[str, Edit] = {
+    **{
+        f"{name} {path}": edit(path)
+        for path in (URDF, LEG)
+        for name, edit in (("rewrite", _rewrite), ("replace", _replace), ("delete", _delete), ("link", _link))
+    },
+    **{
+        f"rewrite {path}": _rewrite(path)
+        for path in (
+            *("urdfsync.toml", "robots/leg_meshes/base.stl", ".urdfsync/robots/leg.json"),
+            *(".urdfsync/robots/gone.toml", "modelica/Leg/package.order"),
+        )
+    },
+    "a mesh that is better placed": _write("robots/arm_meshes/base.stl", answers.TETRAHEDRON),
+    "a package that hides another": _write("ros/a/package.xml", "<name>arm_meshes</name>"),
+    "a folder to be ignored": _write("ros/group/COLCON_IGNORE"),
+    "a template": _write("own/link.mo.jinja", "<< this >>"),
+    "a folder of templates": _write("own/notes/deep/readme.txt"),
+    "a parent that is gone": _delete("modelica/Lab/package.mo"),
+    "a parent's single file": _write("modelica/Lab.mo"),
+    "a package above all": _write("modelica/package.mo"),
+    "a class that is a folder": lambda folder: (folder / LEG).rename(folder / "modelica/Leg/Links/package2.mo"),
+    "a folder that is a class": _delete("modelica/Lab/Arm/Links/Base/package.mo"),
+    "another stray state": _write(".urdfsync/robots/other.toml"),
+    "bases that are lost": lambda folder: shutil.rmtree(folder / ".urdfsync/base/leg"),
+    "an interrupted build": _write(".urdfsync/journal/apply.json"),
+    "a file that may not be read": lambda folder: (folder / URDF).chmod(0),
+    "a linked folder": _link("modelica/Leg"),
+    "a search path that comes": _write("later/src/leg_meshes/package.xml", "<name>leg_meshes</name>"),
+    "a folder that may be read at last": lambda folder: (folder / "ros/closed").chmod(0o700),
+    "a mark of a package, by a link": lambda folder: (folder / "target").rmdir(),
+}
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_every_dependency_counts(folder: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(folder / "later"))
+    (folder / "ros/closed").mkdir(mode=0)
+    (folder / "ros/marked").mkdir()
+    (folder / "target").mkdir()
+    (folder / "ros/marked/package.xml").symlink_to(folder / "target")
+    save(*BUILD)
+    assert saved(*BUILD) is not None
+    EDITS[name](folder)
+    assert saved(*BUILD) is None
+
+
+def test_so_does_a_library_that_comes_to_modelicapath(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MODELICAPATH", str(folder / "libraries"))
+    source = Path(URDF).read_text()
+    assert "package://leg_meshes/" in source
+    Path(URDF).write_text(source.replace("package://leg_meshes/", "modelica://LegMeshes/"))
+    save(*BUILD)
+    assert saved(*BUILD) is not None
+    _write("libraries/LegMeshes 2.0/package.mo")(folder)
+    assert saved(*BUILD) is None
+
+
+def test_so_does_another_program(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    save(*BUILD)
+    with monkeypatch.context() as patch:
+        patch.setattr(uptodate, "__version__", "0.0.1")
+        assert saved(*BUILD) is None
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "geteuid", lambda: 12345, raising=False)
+        assert saved(*BUILD) is None, "another user may not be allowed to read all that"
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "getgroups", lambda: [12345], raising=False)
+        assert saved(*BUILD) is None, "nor one of other groups"
+
+
+def test_so_does_a_module_that_somebody_is_working_on(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    module = types.ModuleType("urdfsync.addition")
+    module.__file__ = str(tmp_path / "addition.py")
+    Path(module.__file__).write_text("VERSION = 1\n")
+    monkeypatch.setitem(sys.modules, module.__name__, module)
+    save(*BUILD)
+    _rewrite("addition.py")(tmp_path)
+    assert saved(*BUILD) is None
+
+
+def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
+    save(*BUILD)
+    for path in ("notes.txt", "modelica/notes.txt", "modelica/Leg/Own.mo", "robots/other.urdf", ".urdfsync/own.txt"):
+        _write(path)(folder)
+    assert saved(*BUILD) is not None
+
+
+# When an answer is saved
+
+
+@pytest.mark.parametrize("written", [True, False])
+def test_no_answer_depends_on_a_file_that_was_written_meanwhile(folder: Path, written: bool) -> None:
+    time.sleep(0.1)  # what was before is old enough
+    started = uptodate.read_clocks()
+    with dependencies.record_dependencies() as found:
+        dependencies.read_file(folder / "urdfsync.toml")
+        if written:
+            Path(URDF).write_bytes(Path(URDF).read_bytes())
+        dependencies.read_file(folder / URDF)
+    uptodate.save_answer(str(folder / "urdfsync.toml"), "key", ["answer"], found, started)
+    assert Path(STAMP).exists() is not written
+
+
+@pytest.mark.parametrize(
+    ("age", "stat", "is_settled"),
+    [
+        (0.04, {}, False),
+        (0.06, {}, True),
+        (1.9, {"second": True}, False),
+        (2.1, {"second": True}, True),
+        (59, {"device": 2}, False),
+        (61, {"device": 2}, True),
+        (-10, {}, False),
+        (-10, {"altered": 0.06}, True),
+        (-10, {"altered": 61, "device": 2}, False),
+        (100, {"altered": 0}, False),
+        (100, {"altered": 0.01}, False),
+    ],
+)
+def test_files_that_changed_shortly_before_are_racy(age: float, stat: dict[str, float], is_settled: bool) -> None:
+    now, elapsed, tick = 5_000_000_000_000_000_123, 3_000_000_000, 1_000_000_000
+    changed = now - elapsed - int(age * tick)
+    if stat.get("second"):
+        changed -= changed % tick - tick  # a clock that counts seconds
+    altered = changed
+    if "altered" in stat:
+        altered = (now - elapsed - int(stat["altered"] * tick)) * bool(stat["altered"])
+    found = (0o100644, 7, int(stat.get("device", 1)), 10, changed, altered)
+    created = os.stat_result((0o100644, 8, 1, 1, 0, 0, 0, 0, 0, 0), {"st_mtime_ns": now, "st_dev": 1})
+    assert uptodate.is_racy(found, uptodate.Clock(created, is_reliable=True), elapsed) is not is_settled
+    assert uptodate.is_racy(found, uptodate.Clock(created, is_reliable=False), elapsed)
+    assert uptodate.is_racy(found, uptodate.Clock(created, is_reliable=True, tmpfs=frozenset([found[2]])), elapsed)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs tmpfs")
+def test_on_tmpfs_no_answer_is_saved(in_step: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A store through a memory map is never noted there."""
+    if not (Path("/dev/shm").is_dir() and answers.tmpfs(Path("/dev/shm"))):
+        pytest.skip("there is no tmpfs")
+    with tempfile.TemporaryDirectory(dir="/dev/shm") as folder:
+        place = Path(folder) / "project"
+        shutil.copytree(in_step, place, ignore=shutil.ignore_patterns("stamp"))
+        monkeypatch.chdir(place)
+        time.sleep(0.1)
+        assert cli.main(BUILD) == 0
+        assert not (place / STAMP).exists()
+
+
+# Files that hold no answer
+
+
+def test_a_truncated_file_holds_no_answer(folder: Path) -> None:
+    save(*BUILD)
+    content, status = Path(STAMP).read_bytes(), Path(STAMP).stat()
+    zeros = [content[: len(content) // 2] + b"\0" * (len(content) // 2)]
+    for other in [*(content[:n] for n in (0, 5, 30, len(content) // 2, len(content) - 1)), *zeros, b"\xff\0\0"]:
+        Path(STAMP).write_bytes(other)
+        os.utime(STAMP, ns=(status.st_mtime_ns, status.st_mtime_ns))
+        assert saved(*BUILD) is None
+        assert uptodate.print_answer(BUILD) is None
+    Path(STAMP).write_bytes(content)
+    os.utime(STAMP, ns=(status.st_mtime_ns, status.st_mtime_ns))
+    assert saved(*BUILD) is not None, "nothing else was wrong"
+
+
+def test_a_copy_holds_no_answer(folder: Path) -> None:
+    save(*BUILD)
+    shutil.copy2(STAMP, "copy")
+    Path("copy").replace(STAMP)
+    assert saved(*BUILD) is None, "such as one that somebody has committed"
+
+
+def test_neither_a_pipe_nor_a_link_in_its_place_is_read(folder: Path) -> None:
+    save(*BUILD)
+    Path(STAMP).rename(folder / "elsewhere")
+    Path(STAMP).symlink_to(folder / "elsewhere")
+    assert saved(*BUILD) is None
+    Path(STAMP).unlink()
+    os.mkfifo(STAMP)
+    assert saved(*BUILD) is None, "nobody waits for it"
+
+
+@pytest.mark.parametrize("name", ["stamp", ".stamp.urdfsync-tmp", ".clock.urdfsync-tmp"])
+def test_no_link_is_followed_where_an_answer_is_saved(folder: Path, name: str) -> None:
+    victim = folder.parent / "victim"
+    victim.write_text("precious")
+    (folder / ".urdfsync" / name).symlink_to(victim)
+    save(*BUILD)
+    assert victim.read_text() == "precious"
+    assert not (folder / ".urdfsync" / name).is_symlink()
+
+
+def test_nothing_is_written_through_a_linked_state_folder(folder: Path) -> None:
+    (folder / ".urdfsync").rename(folder.parent / "elsewhere")
+    (folder / ".urdfsync").symlink_to(folder.parent / "elsewhere")
+    before = sorted(path.name for path in (folder.parent / "elsewhere").iterdir())
+    time.sleep(0.1)
+    cli.main(["status"])
+    assert sorted(path.name for path in (folder.parent / "elsewhere").iterdir()) == before
+
+
+@pytest.mark.parametrize("system", ["Windows", "FAT"])
+def test_no_answer_is_saved_where_the_time_of_a_change_can_be_set(
+    folder: Path, system: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    time.sleep(0.1)  # so that it would be saved
+    with monkeypatch.context() as patch:
+        if system == "Windows":
+            patch.setattr(uptodate, "HAS_CHANGE_TIMES", False)
+        else:
+            patch.setattr(os, "fstat", lambda descriptor, original=os.fstat: _as_on_fat(original(descriptor)))
+        assert cli.main(BUILD) == 0
+        assert not Path(STAMP).exists()
+    save(*BUILD)
+
+
+def _as_on_fat(status: os.stat_result) -> os.stat_result:
+    """The time of change of status is that of content."""
+    times = {"st_mtime_ns": status.st_mtime_ns, "st_ctime_ns": status.st_mtime_ns, "st_atime_ns": status.st_atime_ns}
+    return os.stat_result(tuple(status), times)
+
+
+def test_a_progress_bar_is_not_saved(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(report, "_PATIENCE", 0.0)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    save(*BUILD)
+    assert "━" in capsys.readouterr().err, "there was one"
+    assert uptodate.print_answer(BUILD) == 0
+    said = capsys.readouterr()
+    assert "━" not in said.err
+    assert said.out.count("in step") == 2
+
+
+def test_an_answer_that_can_not_be_saved_is_no_error(folder: Path, capsys: Capture) -> None:
+    Path(STAMP).mkdir()
+    time.sleep(0.1)  # so that it would be saved
+    assert cli.main(BUILD) == 0
+    assert capsys.readouterr().out == f"{IN_STEP}\n"
+    assert sorted(path.name for path in Path(".urdfsync").iterdir() if path.name.startswith(".")) == [".gitignore"]
+
+
+# Check and command agree, whatever happens to the files
+
+
+PATHS = (
+    *(URDF, LEG, "urdfsync.toml", "robots/leg_meshes/base.stl", "robots/arm_meshes/base.stl", "own/link.mo.jinja"),
+    *("modelica/Leg/package.order", "modelica/Leg/Links/Tip/package.mo", "modelica/Lab/package.mo"),
+    *(
+        ".urdfsync/robots/leg.json",
+        ".urdfsync/robots/leg.toml",
+        ".urdfsync/robots/gone.toml",
+    ),
+    *("ros/a/package.xml", "ros/group/arm_meshes/package.xml", ".urdfsync/journal/prepare.json"),
+)
+CHANGES = st.tuples(
+    st.sampled_from(PATHS),
+    st.sampled_from(["first", "first", "other", "longer", "absent"]),
+    st.sampled_from(["write", "replace", "link", "mode"]),
+    st.booleans(),
+)
+"""A path, what is there then, how it gets there, and whether its times stay what they were first."""
+STEPS = st.lists(st.one_of(CHANGES, st.sampled_from([BUILD, CHECK, STATUS, "rest"])), min_size=4, max_size=12)
+
+
+@pytest.mark.slow
+@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(STEPS)
+def test_check_and_command_agree(
+    in_step: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch, steps: list[object]
+) -> None:
+    """About 15 s of CPU."""
+    site = tmp_path_factory.mktemp("site")
+    place = site / "project"
+    shutil.copytree(in_step, place)
+    first = {path: _state(place / path) for path in PATHS}
+    with monkeypatch.context() as patch:
+        patch.chdir(place)
+        save(*CHECK)
+        for step in steps:
+            if isinstance(step, list):
+                cli.main(step)
+            elif isinstance(step, tuple):
+                path, what, how, old = step
+                _bring(place / path, what, how, old, first[path])
+            else:
+                time.sleep(0.06)  # long enough for the next answer
+            for command in (BUILD, CHECK, STATUS):
+                said = saved(*command)
+                assert said is None or said == _full(command), (command, step)
+
+
+State = tuple[bytes, os.stat_result] | None
+
+
+def _state(path: Path) -> State:
+    return (path.read_bytes(), path.stat()) if path.is_file() else None
+
+
+def _bring(path: Path, what: str, how: str, old: bool, first: State) -> None:
+    if what == "absent" or (what == "first" and first is None):
+        path.unlink(missing_ok=True)
+        return
+    content = first[0] if first else b"new"
+    if what != "first":
+        content = content[:-2] + b"x" + content[-1:] * (2 if what == "longer" else 1)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if how == "mode" and path.is_file():
+        path.chmod(path.stat().st_mode ^ 0o010)
+    elif how == "write":
+        path.write_bytes(content)
+    else:
+        other = path.with_name(f"{path.name}.new")
+        other.write_bytes(content)
+        if how == "link":
+            path.unlink(missing_ok=True)
+            path.symlink_to(other)
+        else:
+            other.replace(path)
+    if old and first:
+        os.utime(path, ns=(first[1].st_atime_ns, first[1].st_mtime_ns))
+
+
+def _full(command: list[str]) -> list[str] | None:
+    """What the command says if it is carried out, in the form of a saved answer; None unless it succeeds."""
+    said: streams.Transcript = []
+    with streams.safe_streams(said):
+        code = cli._main(command)
+    return [text for pair in said if pair[1] for text in pair] if code == 0 else None
+
+
+# The whole program
+
+
+def test_an_interruption_is_an_exit_code(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(arguments: list[str]) -> int:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(uptodate, "print_answer", interrupted)
+    assert program() == 130
+
+
+def imported(*arguments: str, code: int = 0) -> tuple[set[str], str]:
+    """What Python imports, and what it prints."""
+    variables = {**os.environ, "PYTHONPATH": str(Path(cli.__file__).parents[1])}
+    command = [sys.executable, "-X", "importtime", *arguments]
+    done = subprocess.run(command, env=variables, capture_output=True, text=True, check=False)
+    assert done.returncode == code, done.stderr
+    lines = [line for line in done.stderr.splitlines() if line.startswith("import time:")]
+    return {line.rpartition("|")[2].strip() for line in lines}, done.stdout
+
+
+def test_nothing_heavy_is_imported(folder: Path) -> None:
+    end = time.monotonic() + answers.LIMIT
+    anyway, _ = imported("-c", "import runpy")
+    while "urdfsync.cli" in (names := imported("-m", "urdfsync", *BUILD))[0]:
+        assert time.monotonic() < end, "no answer was saved"
+    assert names[1] == f"{IN_STEP}\n"
+    ours = {f"urdfsync.{name}" for name in ("uptodate", "dependencies", "streams")}
+    light = {"__future__", "_contextvars", "collections.abc", "contextvars", "errno", "runpy", "time"}
+    assert names[0] - anyway - ours <= {"urdfsync", *light}
+
+
+FULL = "import sys; from urdfsync.cli import main; sys.exit(main())"
+SHORT = "import sys; from urdfsync.__main__ import main; sys.exit(main())"
+
+
+def started(code: str, command: list[str], **options: Any) -> subprocess.Popen[bytes]:
+    variables = {**os.environ, "PYTHONPATH": str(Path(cli.__file__).parents[1]), **options.pop("env", {})}
+    return subprocess.Popen([sys.executable, "-c", code, *command], env=variables, **options)
+
+
+def save_by_program(command: list[str]) -> None:
+    """Let the whole program run until it has saved an answer."""
+    end = time.monotonic() + answers.LIMIT
+    while not Path(STAMP).exists():
+        with started(FULL, command, stdout=subprocess.PIPE) as process:
+            process.communicate()
+        assert time.monotonic() < end, "no answer was saved"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
+@pytest.mark.parametrize("variables", [{}, {"NO_COLOR": "1"}])
+def test_it_looks_the_same_on_a_terminal(folder: Path, variables: dict[str, str]) -> None:
+    said = {_on_terminal(FULL, variables)}
+    end = time.monotonic() + answers.LIMIT
+    while not Path(STAMP).exists():
+        said.add(_on_terminal(FULL, variables))
+        assert time.monotonic() < end, "no answer was saved"
+    said.add(_on_terminal(SHORT.replace("sys.exit(main())", "main(); assert 'argparse' not in sys.modules"), variables))
+    (same,) = said
+    assert (b"\x1b[" in same) is not bool(variables)
+    assert "✓ ".encode() in same
+
+
+def _on_terminal(code: str, variables: dict[str, str]) -> bytes:
+    import pty
+
+    master, slave = pty.openpty()
+    variables = {"TERM": "xterm", "PYTHONUTF8": "1", **variables}
+    with started(code, BUILD, stdin=slave, stdout=slave, stderr=slave, env=variables) as process:
+        os.close(slave)
+        said = b""
+        while block := _read(master):
+            said += block
+    os.close(master)
+    assert process.returncode == 0, said
+    return said
+
+
+def _read(descriptor: int) -> bytes:
+    try:
+        return os.read(descriptor, 4096)
+    except OSError:  # the other end is closed
+        return b""
+
+
+def _with_full_disk(code: str) -> tuple[int, bytes]:
+    with Path("/dev/full").open("wb") as sink, started(code, CHECK, stdout=sink, stderr=subprocess.PIPE) as process:
+        _, said = process.communicate()
+    return process.returncode, said
+
+
+def _without_reader(code: str) -> tuple[int, bytes]:
+    source, sink = os.pipe()
+    os.close(source)
+    with started(code, CHECK, stdout=sink, stderr=subprocess.PIPE) as process:
+        os.close(sink)
+        _, said = process.communicate()
+    return process.returncode, said
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+@pytest.mark.parametrize("ending", [_with_full_disk, _without_reader])
+def test_an_output_that_ends_early(folder: Path, ending: Callable[[str], tuple[int, bytes]]) -> None:
+    whole = ending(FULL)
+    save_by_program(CHECK)
+    assert ending(SHORT) == whole
+    assert whole[0] == (2 if ending is _with_full_disk else 0)

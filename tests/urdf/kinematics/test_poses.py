@@ -1,0 +1,246 @@
+"""Poses, lowest points and start positions against independent answers."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from support.trees import AXES, NUMBERS, ORIGINS, SCALAR, robots
+
+from urdfsync.urdf.kinematics.poses import (
+    IDENTITY,
+    Pose,
+    compose,
+    link_poses,
+    lowest_point,
+    motion,
+    own_range,
+    pose,
+    start_positions,
+)
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.robot import (
+    Box,
+    Capsule,
+    Cylinder,
+    Joint,
+    JointType,
+    Limit,
+    Link,
+    Mesh,
+    Mimic,
+    Origin,
+    Robot,
+    Sphere,
+    Vector,
+)
+
+Array = NDArray[np.float64]
+
+SIZES = st.floats(0.01, 3)
+
+
+def homogeneous(value: Pose) -> Array:
+    result = np.eye(4)
+    result[:3, :3], result[:3, 3] = value
+    return result
+
+
+def text(vector: Vector) -> str:
+    return " ".join(map(repr, vector))
+
+
+def urdf(robot: Robot) -> str:
+    """A URDF with the poses and axes of the robot."""
+    lines = [f'<link name="{link.name}"/>' for link in robot.links]
+    for joint in robot.joints:
+        kind = "continuous" if joint.type == "revolute" else joint.type
+        inside = (
+            f'<origin xyz="{text(joint.origin.xyz)}" rpy="{text(joint.origin.rpy)}"/><axis xyz="{text(joint.axis)}"/>'
+        )
+        ends = f'<parent link="{joint.parent}"/><child link="{joint.child}"/>'
+        limit = '<limit lower="-9" upper="9" effort="1" velocity="1"/>'
+        lines.append(f'<joint name="{joint.name}" type="{kind}">{inside}{ends}{limit}</joint>')
+    return "\n".join(['<robot name="r">', *lines, "</robot>"])
+
+
+def configuration(model: pin.Model, robot: Robot, positions: dict[str, float]) -> Array:
+    """Pinocchio's vector of positions, in which a continuous joint has a cosine and a sine."""
+    q: Array = pin.neutral(model)
+    for joint in robot.joints:
+        if joint.type != "fixed":
+            at = model.joints[model.getJointId(joint.name)].idx_q
+            value = positions[joint.name]
+            if joint.type == "prismatic":
+                q[at] = value
+            else:
+                q[at : at + 2] = math.cos(value), math.sin(value)
+    return q
+
+
+@settings(deadline=None)
+@given(robots((*SCALAR, "fixed"), mimics=False), st.lists(NUMBERS, min_size=7, max_size=7))
+def test_link_poses_are_those_of_pinocchio(robot: Robot, values: list[float]) -> None:
+    positions = {joint.name: value for joint, value in zip(robot.joints, values, strict=False)}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        model = pin.buildModelFromXML(urdf(robot))
+    data = model.createData()
+    pin.framesForwardKinematics(model, data, configuration(model, robot, positions))
+    poses = link_poses(KinematicTree.of(robot), positions)
+    assert poses.keys() == {link.name for link in robot.links}
+    for link, found in poses.items():
+        expected = data.oMf[model.getFrameId(link, pin.FrameType.BODY)].homogeneous
+        assert np.abs(homogeneous(found) - expected).max() < 1e-12 * max(1, np.abs(expected).max()), link
+
+
+@given(ORIGINS, ORIGINS)
+def test_poses_compose_as_matrices_do(outer: Origin, inner: Origin) -> None:
+    product = homogeneous(pose(outer)) @ homogeneous(pose(inner))
+    assert np.abs(homogeneous(compose(pose(outer), pose(inner))) - product).max() < 1e-13
+    assert compose(IDENTITY, pose(inner)) == pose(inner)
+
+
+def test_rpy_turns_about_fixed_axes_x_first() -> None:
+    rotation = homogeneous(pose(Origin(rpy=(math.pi / 2, 0, math.pi / 2))))[:3, :3]
+    assert rotation @ [0, 1, 0] == pytest.approx([0, 0, 1], abs=1e-15)
+    assert rotation @ [1, 0, 0] == pytest.approx([0, 1, 0], abs=1e-15)
+
+
+@pytest.mark.parametrize("kind", ["fixed", "planar", "floating"])
+def test_joints_without_a_position_stay_where_they_are(kind: str) -> None:
+    assert motion(Joint("j", kind, "a", "b"), 1.0) == IDENTITY  # type: ignore[arg-type]
+
+
+def circle(radius: float, height: float) -> Array:
+    angles = np.linspace(0, 2 * math.pi, 241)
+    return np.stack([radius * np.cos(angles), radius * np.sin(angles), np.full_like(angles, height)], axis=1)
+
+
+def ball(radius: float, height: float) -> Array:
+    elevations = np.linspace(-math.pi / 2, math.pi / 2, 121)
+    rings = [circle(radius * math.cos(e), radius * math.sin(e) + height) for e in elevations]
+    return np.concatenate(rings)
+
+
+def surface(shape: Box | Sphere | Cylinder | Capsule) -> Array:
+    """Points of a shape, dense where it may touch a plane."""
+    match shape:
+        case Box(size=size):
+            return np.array(np.meshgrid(*([-edge / 2, edge / 2] for edge in size))).reshape(3, -1).T
+        case Sphere(radius=radius):
+            return ball(radius, 0)
+        case Cylinder(radius=radius, length=length):
+            return np.concatenate([circle(radius, end * length / 2) for end in (-1, 1)])
+        case Capsule(radius=radius, length=length):
+            return np.concatenate([ball(radius, end * length / 2) for end in (-1, 1)])
+
+
+SHAPES = st.one_of(
+    st.builds(Box, st.tuples(SIZES, SIZES, SIZES)),
+    st.builds(Sphere, SIZES),
+    st.builds(Cylinder, SIZES, SIZES),
+    st.builds(Capsule, SIZES, SIZES),
+)
+
+
+@settings(deadline=None, max_examples=50)
+@given(SHAPES, ORIGINS)
+@example(Cylinder(0.3, 0.1), Origin((0, 0, 1), (math.pi / 2, 0, 0)))
+def test_the_lowest_point_is_that_of_the_surface(shape: Box | Sphere | Cylinder | Capsule, origin: Origin) -> None:
+    at = homogeneous(pose(origin))
+    lowest = (surface(shape) @ at[:3, :3].T + at[:3, 3])[:, 2].min()
+    found = lowest_point(shape, pose(origin))
+    assert found is not None
+    assert found <= lowest + 1e-12
+    assert found >= lowest - 1e-3 * (1 + np.abs(surface(shape)).max())
+
+
+def test_the_lowest_point_of_a_mesh_is_that_of_its_hull() -> None:
+    hull = [(0.0, 0.0, -1.0), (0.0, -2.0, 0.0), (1.0, 1.0, 1.0)]
+    assert lowest_point(Mesh("m.stl"), pose(Origin((5, 5, 5))), hull) == 4
+    assert lowest_point(Mesh("m.stl"), pose(Origin((5, 5, 5), (math.pi / 2, 0, 0))), hull) == pytest.approx(3)
+    assert lowest_point(Mesh("m.stl"), IDENTITY, ()) is None
+
+
+def followed(robot: Robot, leader: str) -> Iterator[tuple[Joint, float, float]]:
+    """Every joint that moves with a leader, and factor and offset of its position."""
+    waiting = [(leader, 1.0, 0.0)]
+    while waiting:
+        name, factor, offset = waiting.pop()
+        yield next(joint for joint in robot.joints if joint.name == name), factor, offset
+        for joint in robot.joints:
+            if joint.mimic and joint.mimic.joint == name:
+                m = joint.mimic
+                waiting.append((joint.name, m.multiplier * factor, m.multiplier * offset + m.offset))
+
+
+def allowed(joints: Iterable[tuple[Joint, float, float]]) -> tuple[float, float]:
+    """The positions of a leader at which no joint that moves with it is outside of its own range."""
+    lowest, highest = -math.inf, math.inf
+    for joint, factor, offset in joints:
+        if factor:
+            ends = sorted((end - offset) / factor for end in own_range(joint))
+            lowest, highest = max(lowest, ends[0]), min(highest, ends[1])
+    return lowest, highest
+
+
+@given(robots(SCALAR))
+def test_start_positions_respect_all_ranges_and_are_as_close_to_zero_as_these_allow(robot: Robot) -> None:
+    positions = start_positions(KinematicTree.of(robot))
+    assert positions.keys() == {joint.name for joint in robot.joints}
+    for leader in robot.joints:
+        if leader.mimic is None:
+            joints = list(followed(robot, leader.name))
+            lowest, highest = allowed(joints)
+            if lowest <= highest:
+                assert positions[leader.name] == pytest.approx(min(max(0, lowest), highest), abs=1e-9)
+            for joint, factor, offset in joints:
+                assert positions[joint.name] == pytest.approx(factor * positions[leader.name] + offset, abs=1e-9)
+
+
+def chain(*joints: Joint) -> KinematicTree:
+    return KinematicTree.of(Robot("r", (Link("l0"), *(Link(joint.child) for joint in joints)), joints))
+
+
+def test_a_leader_starts_where_the_last_of_its_followers_can_be() -> None:
+    first = Joint("a", "continuous", "l0", "l1")
+    second = Joint("b", "revolute", "l1", "l2", limit=Limit(-9, 9), mimic=Mimic("a", -2, 0))
+    third = Joint("c", "prismatic", "l2", "l3", limit=Limit(3, 5), mimic=Mimic("b", 0.5, 1))
+    assert start_positions(chain(first, second, third)) == {"a": -2, "b": 4, "c": 3}
+
+
+def test_joints_that_follow_a_fixed_one_are_held_at_their_offsets() -> None:
+    mount = Joint("mount", "fixed", "l0", "l1")
+    held = Joint("held", "revolute", "l1", "l2", limit=Limit(-3, -2), mimic=Mimic("mount", 1, 0.25))
+    assert start_positions(chain(mount, held)) == {"mount": 0, "held": 0.25}
+
+
+FLOATS = st.floats(allow_nan=False, allow_infinity=False)
+
+
+@given(st.sampled_from(["revolute", "continuous"]), FLOATS, FLOATS, NUMBERS)
+@example("revolute", 1e-320, 0.0, 1.0)
+@example("continuous", 1e10, 0.0, 0.0)
+def test_absurd_numbers_still_give_finite_positions(
+    kind: JointType, multiplier: float, offset: float, end: float
+) -> None:
+    leader = Joint("a", "revolute", "l0", "l1", limit=Limit(1e300, 1e305))
+    follower = Joint("b", kind, "l1", "l2", limit=Limit(end, end + 1), mimic=Mimic("a", multiplier, offset))
+    assert all(map(math.isfinite, start_positions(chain(leader, follower)).values()))
+
+
+@given(AXES, NUMBERS)
+def test_a_turn_about_an_axis_leaves_the_axis_alone(axis: Vector, angle: float) -> None:
+    assume(angle)
+    rotation, shift = motion(Joint("j", "continuous", "a", "b", axis=axis), angle)
+    assert np.array(rotation) @ axis == pytest.approx(axis, abs=1e-14)
+    assert shift == (0, 0, 0)
+    assert np.trace(rotation) == pytest.approx(1 + 2 * math.cos(angle), abs=1e-14)

@@ -1,0 +1,120 @@
+"""The canonical order of a robot's elements, and what follows from it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hypothesis import given
+from hypothesis import strategies as st
+from support.trees import robots
+
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, strip_numbers
+from urdfsync.urdf.names import natural_key
+from urdfsync.urdf.robot import Dynamics, Joint, Limit, Link, Mimic, Origin, Robot
+
+
+def walk(robot: Robot, link: str) -> Iterator[Joint]:
+    """Joints below a link, as one would follow them with a finger."""
+    for joint in sorted((j for j in robot.joints if j.parent == link), key=lambda j: natural_key(j.name)):
+        yield joint
+        yield from walk(robot, joint.child)
+
+
+def hand(*names: str) -> Robot:
+    """A palm with a joint of each name."""
+    joints = [Joint(name, "revolute", "palm", f"{name} tip") for name in names]
+    return Robot("hand", (Link("palm"), *(Link(joint.child) for joint in joints)), tuple(joints))
+
+
+@given(robots())
+def test_links_and_joints_stand_depth_first(robot: Robot) -> None:
+    skeleton = KinematicTree.of(robot)
+    (root,) = {link.name for link in robot.links} - {joint.child for joint in robot.joints}
+    assert list(skeleton.joints) == list(walk(robot, root))
+    assert [link.name for link in skeleton.links] == [root, *(joint.child for joint in skeleton.joints)]
+
+
+@given(robots(), st.randoms(use_true_random=False))
+def test_the_order_of_elements_makes_no_difference(robot: Robot, random: st.DataObject) -> None:
+    links, joints = list(robot.links), list(robot.joints)
+    random.shuffle(links)  # type: ignore[attr-defined]
+    random.shuffle(joints)  # type: ignore[attr-defined]
+    assert KinematicTree.of(Robot("shuffled", tuple(links), tuple(joints))) == KinematicTree.of(robot)
+
+
+def test_siblings_stand_in_natural_order() -> None:
+    skeleton = KinematicTree.of(hand("finger10", "thumb", "finger9", "finger1"))
+    assert [joint.name for joint in skeleton.joints] == ["finger1", "finger9", "finger10", "thumb"]
+    assert [link.name for link in skeleton.leaves()] == ["finger1 tip", "finger9 tip", "finger10 tip", "thumb tip"]
+
+
+@given(robots())
+def test_children_and_leaves_are_all_links(robot: Robot) -> None:
+    skeleton = KinematicTree.of(robot)
+    children, leaves = skeleton.children(), [link.name for link in skeleton.leaves()]
+    assert sorted([*children, *leaves]) == sorted(link.name for link in robot.links)
+    assert [joint for link in skeleton.links for joint in children.get(link.name, ())] == sorted(
+        skeleton.joints, key=lambda joint: [link.name for link in skeleton.links].index(joint.parent)
+    )
+
+
+@given(robots())
+def test_every_joint_with_an_axis_is_driven_or_follows(robot: Robot) -> None:
+    skeleton = KinematicTree.of(robot)
+    driven = [joint.name for motion in ("rotational", "translational") for joint in skeleton.axes(motion)]
+    following = [joint.name for joint, _ in skeleton.followers()]
+    assert sorted(driven + following) == sorted(joint.name for joint in robot.joints if joint.type in MOTION_KINDS)
+    grouped = skeleton.followers_by_leader()
+    assert sorted(joint.name for group in grouped.values() for joint, _ in group) == sorted(following)
+    assert all(mimic.joint == leader for leader, group in grouped.items() for _, mimic in group)
+
+
+@given(robots())
+def test_leaders_come_before_those_that_follow_them(robot: Robot) -> None:
+    order = KinematicTree.of(robot).leaders_first()
+    place = {joint.name: number for number, joint in enumerate(order)}
+    assert sorted(place) == sorted(joint.name for joint in robot.joints)
+    assert all(place[joint.mimic.joint] < place[joint.name] for joint in order if joint.mimic)
+
+
+def test_a_fixed_joint_that_claims_to_follow_does_not() -> None:
+    links = (Link("a"), Link("b"), Link("c"))
+    joints = (Joint("j", "revolute", "a", "b"), Joint("k", "fixed", "b", "c", mimic=Mimic("j")))
+    skeleton = KinematicTree.of(Robot("r", links, joints))
+    assert list(skeleton.followers()) == []
+    assert [joint.name for joint in skeleton.leaders_first()] == ["j", "k"]
+
+
+def test_identifiers_leave_out_what_is_taken() -> None:
+    skeleton = KinematicTree.of(hand("finger"), taken=("Palm",))
+    assert skeleton.link("palm").component == "palm_link"
+    assert skeleton.joint("finger").component == "finger"
+
+
+def test_a_robot_may_be_one_link() -> None:
+    skeleton = KinematicTree.of(Robot("stone", (Link("stone"),)))
+    assert (skeleton.joints, skeleton.children(), skeleton.leaves()) == ((), {}, skeleton.links)
+
+
+def test_a_chain_may_be_longer_than_python_recurses() -> None:
+    joints = tuple(Joint(f"j{n}", "revolute", f"l{n}", f"l{n + 1}") for n in range(3000))
+    followers = tuple(
+        Joint(f"f{n}", "revolute", "l0", f"m{n}", mimic=Mimic(f"f{n - 1}" if n else "j0")) for n in range(3000)
+    )
+    links = tuple(Link(name) for name in ["l0", *(joint.child for joint in (*joints, *followers))])
+    skeleton = KinematicTree.of(Robot("chain", links, (*joints, *followers)))
+    assert [link.name for link in skeleton.links][-1] == "l3000"
+    assert skeleton.leaders_first()[-1].name == "f2999"
+
+
+def test_a_bare_joint_keeps_what_is_no_number() -> None:
+    full = Joint(
+        *("elbow", "revolute", "arm", "hand", Origin((1.0, 2.0, 3.0)), (0.0, 0.0, 1.0)),
+        limit=Limit(-1.0, 1.0, 5.0, 2.0),
+        dynamics=Dynamics(0.5),
+        mimic=Mimic("shoulder", 2.0, 0.5),
+        actuated=True,
+    )
+    kept = Joint("elbow", "revolute", "arm", "hand", limit=Limit(), mimic=Mimic("shoulder"), actuated=True)
+    assert strip_numbers(full) == strip_numbers(kept) == kept
+    assert strip_numbers(Joint("elbow", "fixed", "arm", "hand")) == Joint("elbow", "fixed", "arm", "hand")

@@ -1,0 +1,114 @@
+"""Which joints a source calls actuated, in all forms that are in use."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from lxml import etree
+from support import urdfs
+from support.corpus import distinct_files
+
+from urdfsync.urdf.parse.source import RobotReading, read_robot
+
+BASE = (
+    *map(urdfs.link, ("base", "arm", "wheel", "caster")),
+    urdfs.joint("elbow", "continuous", "base", "arm"),
+    urdfs.joint("drive wheel", "continuous", "base", "wheel"),
+    urdfs.joint("roll", "continuous", "base", "caster"),
+)
+COMMAND, STATE = '<command_interface name="velocity"/>', '<state_interface name="velocity"/>'
+
+
+def read(*elements: str, base: Sequence[str] = BASE) -> RobotReading:
+    return read_robot(urdfs.robot(*base, *elements).encode(), "own.urdf", cross_check=False)
+
+
+def actuated(reading: RobotReading) -> list[str]:
+    assert reading.robot is not None
+    return sorted(joint.name for joint in reading.robot.joints if joint.actuated)
+
+
+@pytest.mark.parametrize(
+    ("element", "names"),
+    [
+        pytest.param(
+            """<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+            <joint name="elbow"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>
+            <actuator name="m"><mechanicalReduction>1</mechanicalReduction></actuator></transmission>""",
+            ["elbow"],
+            id="with an interface",
+        ),
+        pytest.param(
+            """<transmission name="t" type="pr2_mechanism_model/SimpleTransmission"><actuator name="m"/>
+            <joint name="elbow"/><mechanicalReduction>1</mechanicalReduction></transmission>""",
+            ["elbow"],
+            id="as for the PR2",
+        ),
+        pytest.param(
+            '<transmission><joint name="elbow"/><joint name="drive wheel"/></transmission>',
+            ["drive wheel", "elbow"],
+            id="a differential",
+        ),
+        pytest.param("<transmission><joint/><actuator name='elbow'/></transmission>", [], id="no joint"),
+        pytest.param("<transmission><group><joint name='elbow'/></group></transmission>", [], id="not its own joint"),
+        pytest.param(
+            f"""<ros2_control name="c" type="system"><hardware><plugin>p</plugin></hardware>
+            <joint name="elbow">{COMMAND}{STATE}</joint><joint name="roll">{STATE}</joint></ros2_control>""",
+            ["elbow"],
+            id="ros2_control, with a joint that is measured only",
+        ),
+        pytest.param(
+            f"""<ros2_control name="c" type="system"><joint name="roll">{STATE}</joint>
+            <transmission name="t"><plugin>p</plugin><actuator name="m" role="a"/><joint name="elbow" role="j"/>
+            </transmission></ros2_control>""",
+            ["elbow"],
+            id="a transmission of ros2_control",
+        ),
+        pytest.param(
+            f'<ros2_control name="c" type="sensor"><joint name="roll">{STATE}</joint></ros2_control>',
+            [],
+            id="ros2_control of a sensor",
+        ),
+        pytest.param('<gazebo><transmission><joint name="elbow"/></transmission></gazebo>', [], id="of a simulator"),
+    ],
+)
+def test_forms(element: str, names: list[str]) -> None:
+    reading = read(element)
+    assert actuated(reading) == names
+    assert not reading.diagnostics
+    assert reading.robot is not None
+    assert len(reading.robot.extensions) == 1, "the element stays an extension"
+
+
+def test_a_drive_of_a_joint_that_does_not_exist_is_told_with_its_line() -> None:
+    reading = read(
+        '<transmission name="left">\n<joint name="drive weel"/></transmission>',
+        f'<ros2_control name="all">\n<joint name="zzz">{COMMAND}</joint></ros2_control>',
+    )
+    assert [str(found) for found in reading.diagnostics] == [
+        "own.urdf:11: warning: transmission left drives joint 'drive weel', which does not exist; "
+        "perhaps 'drive wheel' is meant [unknown-actuated-joint]",
+        "own.urdf:13: warning: ros2_control all drives joint 'zzz', which does not exist; "
+        "correct its name, or take it out [unknown-actuated-joint]",
+    ]
+    assert actuated(reading) == []
+
+
+def test_what_a_joint_with_an_error_leaves_out_is_no_second_finding() -> None:
+    reading = read('<transmission name="t"><joint name="bad"/></transmission>', '<joint name="bad" type="fixed"/>')
+    assert {found.code for found in reading.diagnostics} == {"missing-element"}
+
+
+@pytest.mark.parametrize("file", distinct_files())
+def test_real_robots(corpus: Path, file: str) -> None:
+    """The second opinion is a search by XPath."""
+    content = (corpus / file).read_bytes()
+    reading = read_robot(content, file, cross_check=False)
+    if reading.robot is None:
+        pytest.skip("a file with errors")
+    root = etree.fromstring(content, etree.XMLParser(recover=True))
+    named = {str(name) for name in root.xpath("/robot/transmission/joint/@name")}
+    assert actuated(reading) == sorted(named & {joint.name for joint in reading.robot.joints})
+    assert not [found for found in reading.diagnostics if found.code == "unknown-actuated-joint"]

@@ -1,0 +1,188 @@
+"""Every real robot and every version of the histories: read without exception, judged, and read right.
+
+The corpus stands beside the repository, or where URDFSYNC_CORPUS says; without it these tests are skipped.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from lxml import etree
+
+from urdfsync.diagnostics import Severity
+from urdfsync.urdf.parse.source import RobotReading, read_robot
+from urdfsync.urdf.robot import Box, Collision, Cylinder, Geometry, Inertia, Joint, Link, Mesh, Origin, Sphere, Visual
+from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
+
+CORPUS = Path(os.environ.get("URDFSYNC_CORPUS", Path(__file__).parents[3] / "shared" / "corpus"))
+FILES = sorted(path.relative_to(CORPUS).as_posix() for path in CORPUS.rglob("*.urdf") if path.is_file())
+ROBOTS = [file for file in FILES if file.startswith("robots/")]
+
+pytestmark = pytest.mark.skipif(not FILES, reason=f"no corpus at {CORPUS}; set URDFSYNC_CORPUS")
+
+TURTLEBOT = "histories/ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtlebot3"
+SO101 = "histories/TheRobotStudio+SO-ARM100__Simulation_SO101_so101"
+SO101_FAULTS = ["duplicate-link", "cycle", "duplicate-link", "cycle", "two-parents"]
+FAULTY = {
+    # A typo: the link is called mu_link, the joint's child imu_link.
+    f"{TURTLEBOT}_waffle_pi.urdf/003.urdf": ["unknown-child"],
+    # The links base and gripper exist twice, as bodies and as frames fixed to themselves.
+    f"{SO101}_new_calib.urdf/000.urdf": SO101_FAULTS,
+    f"{SO101}_new_calib.urdf/001.urdf": SO101_FAULTS,
+    f"{SO101}_old_calib.urdf/000.urdf": SO101_FAULTS,
+    # MuJoCo models that were committed under a name that ends in .urdf.
+    "histories/kscalelabs+sim__sim_stompy_legs_robot.urdf/000.urdf": ["not-urdf"],
+    "histories/kscalelabs+sim__sim_stompy_legs_robot_fixed.urdf/001.urdf": ["not-urdf"],
+    # An arm to be mounted on the link body of another file.
+    "robots/random/spot_ros/spot_description/urdf/spot_arm.urdf": ["unknown-parent"],
+}  # fmt: skip
+"""The errors of the corpus, judged by hand: each is a real fault of its file."""
+
+ODD = {
+    # A box of size 0 0 0, and principal moments 0, 0 and 3e-8.
+    "matlab/sawyer_description/urdf/rethinkSawyer.urdf": ["shape-size", "inertia-triangle"],
+    # Principal moments 0.0008, 0.001 and 0.01: no body has these.
+    "drake/atlas/urdf/robotiq.urdf": ["inertia-triangle"],
+    "drake/atlas/urdf/robotiq_simple.urdf": ["inertia-triangle"],
+    "drake/atlas/urdf/robotiq_tendons.urdf": ["inertia-triangle", "unknown-material", "missing-limit-value"],
+    "ros-industrial/robotiq/robotiq_3f_gripper_visualization/cfg/robotiq-3f-gripper_articulated.urdf":
+        ["inertia-triangle"],
+    # <xacro:grey/> inside visuals, and materials that a file not included defines.
+    "matlab/robotis_op_description/robots/robotisOP2.urdf":
+        ["unknown-material", "xacro-leftover", "unknown-material", "unknown-material"],
+    # <robot> without a name, which yourdfpy does not read.
+    "oems/xacro_generated/open-manipulator_robotis/open_manipulator_description/urdf/open_manipulator.urdf":
+        ["missing-name", "second-reader-failed", "unknown-material"],
+    "random/spot_ros/spot_description/urdf/spot_arm.urdf": [],
+}  # fmt: skip
+"""The warnings and notes about the robots, in the order of lines, judged by hand; all others have none."""
+
+
+def read(file: str, *, cross_check: bool = False) -> RobotReading:
+    return read_robot((CORPUS / file).read_bytes(), file, cross_check=cross_check)
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_a_file_is_read_or_has_a_real_fault(file: str) -> None:
+    reading = read(file, cross_check=True)
+    errors = [d.code for d in reading.diagnostics if d.severity is Severity.ERROR]
+    assert errors == FAULTY.get(file, [])
+    assert (reading.robot is None) == bool(errors)
+    assert all(d.file == file and d.line > 0 and d.hint for d in reading.diagnostics)
+    if file in ROBOTS:
+        others = [d.code for d in reading.diagnostics if d.severity is not Severity.ERROR]
+        assert others == ODD.get(file.removeprefix("robots/"), [])
+
+
+def rotation(rpy: tuple[float, float, float]) -> Any:
+    """Fixed-axis roll, pitch and yaw: first about x, then y, then z."""
+    (a, b, c), (d, e, f) = np.cos(rpy), np.sin(rpy)
+    about_x = np.array([[1, 0, 0], [0, a, -d], [0, d, a]])
+    about_y = np.array([[b, 0, e], [0, 1, 0], [-e, 0, b]])
+    about_z = np.array([[c, -f, 0], [f, c, 0], [0, 0, 1]])
+    return about_z @ about_y @ about_x
+
+
+def assert_pose(origin: Origin, matrix: Any) -> None:
+    expected = np.eye(4) if matrix is None else matrix
+    assert np.allclose(rotation(origin.rpy), expected[:3, :3], rtol=0, atol=1e-14)
+    assert origin.xyz == tuple(expected[:3, 3])
+
+
+def assert_geometry(geometry: Geometry, other: Any) -> None:
+    match geometry:
+        case Box(size=size):
+            assert size == tuple(other.box.size)
+        case Cylinder(radius=radius, length=length):
+            assert (radius, length) == (other.cylinder.radius, other.cylinder.length)
+        case Sphere(radius=radius):
+            assert radius == other.sphere.radius
+        case Mesh(filename=filename, scale=scale):
+            assert filename == other.mesh.filename
+            assert scale == (1.0, 1.0, 1.0) if other.mesh.scale is None else tuple(other.mesh.scale)
+        case _:
+            pytest.fail(f"{geometry} is new to yourdfpy")
+
+
+def assert_link(link: Link, other: Any) -> None:
+    assert (link.inertial is None) == (other.inertial is None)
+    if link.inertial is not None:
+        i: Inertia = link.inertial.inertia
+        assert_pose(link.inertial.origin, other.inertial.origin)
+        assert link.inertial.mass == (other.inertial.mass or 0.0)
+        tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
+        assert np.array_equal(tensor, np.zeros((3, 3)) if other.inertial.inertia is None else other.inertial.inertia)
+    shapes: list[Visual | Collision] = [*link.visuals, *link.collisions]
+    assert (len(link.visuals), len(link.collisions)) == (len(other.visuals), len(other.collisions))
+    for shape, expected in zip(shapes, [*other.visuals, *other.collisions], strict=True):
+        assert_pose(shape.origin, expected.origin)
+        assert_geometry(shape.geometry, expected.geometry)
+
+
+def assert_joint(joint: Joint, other: Any) -> None:
+    assert (joint.type, joint.parent, joint.child) == (other.type, other.parent, other.child)
+    assert_pose(joint.origin, other.origin)
+    axis = other.axis / (np.linalg.norm(other.axis) or 1)
+    assert np.allclose(joint.axis, axis if axis.any() else (1, 0, 0), rtol=0, atol=1e-15)
+    for ours, theirs, names in (
+        (joint.limit, other.limit, ("lower", "upper", "effort", "velocity")),
+        (joint.dynamics, other.dynamics, ("damping", "friction")),
+        (joint.mimic, other.mimic, ("multiplier", "offset")),
+        (joint.calibration, other.calibration, ("rising", "falling")),
+        (joint.safety_controller, other.safety_controller, ("k_velocity", "soft_lower_limit")),
+    ):
+        assert (ours is None) == (theirs is None)
+        for name in names if ours is not None else ():
+            assert float(getattr(ours, name) or 0) == float(getattr(theirs, name) or 0), name
+
+
+@pytest.mark.parametrize(
+    "file", [file for file in ROBOTS if file not in FAULTY and "open_manipulator.urdf" not in file]
+)
+def test_every_number_agrees_with_yourdfpy(file: str) -> None:
+    yourdfpy = pytest.importorskip("yourdfpy")
+    robot = read(file).robot
+    other = yourdfpy.URDF.load(str(CORPUS / file), load_meshes=False, build_scene_graph=False).robot
+    assert robot is not None
+    assert robot.name == other.name
+    for link, expected in zip(robot.links, other.links, strict=True):
+        assert link.name == expected.name
+        assert_link(link, expected)
+    for joint, expected in zip(robot.joints, other.joints, strict=True):
+        assert joint.name == expected.name
+        assert_joint(joint, expected)
+
+
+@pytest.mark.parametrize("file", [file for file in ROBOTS if file not in FAULTY])
+def test_nothing_is_dropped_and_every_line_is_right(file: str) -> None:
+    reading = read(file)
+    assert reading.robot is not None
+    root = etree.parse(CORPUS / file).getroot()
+    assert len(reading.robot.links) == len(root.findall("link"))
+    assert sum(len(link.visuals) for link in reading.robot.links) == len(root.findall("link/visual"))
+    assert sum(len(link.collisions) for link in reading.robot.links) == len(root.findall("link/collision"))
+    known = ("link", "joint", "material", etree.Comment)
+    assert sum(not e.owner for e in reading.robot.extensions) == sum(child.tag not in known for child in root)
+    lines = (CORPUS / file).read_text(encoding="utf-8").split("\n")
+    for kind in ("link", "joint"):
+        for element in root.findall(kind):
+            assert f"<{kind}" in lines[reading.lines[f"{kind} {element.get('name')}"] - 1]
+
+
+@pytest.mark.parametrize("file", [file for file in ROBOTS if file not in FAULTY])
+def test_the_order_of_elements_makes_no_difference_to_the_snapshot(file: str) -> None:
+    root = etree.parse(CORPUS / file).getroot()
+    children = list(root)
+    random.Random(file).shuffle(children)
+    root[:] = children
+    original, shuffled = read(file).robot, read_robot(etree.tostring(root), file, cross_check=False).robot
+    assert original is not None
+    assert shuffled is not None
+    snapshot = to_snapshot(original)
+    assert to_snapshot(shuffled) == snapshot
+    assert to_snapshot(from_snapshot(snapshot)) == snapshot

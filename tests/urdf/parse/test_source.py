@@ -1,0 +1,628 @@
+"""Reading a URDF: values and defaults, tolerated oddities, and one diagnostic per fault with its line."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from urdfsync.diagnostics import Severity
+from urdfsync.urdf.parse.fields import parse_numbers
+from urdfsync.urdf.parse.source import RobotReading, read_robot
+from urdfsync.urdf.robot import (
+    Box,
+    Calibration,
+    Capsule,
+    Collision,
+    Cylinder,
+    Dynamics,
+    Extension,
+    Inertia,
+    Inertial,
+    Joint,
+    Limit,
+    Link,
+    Material,
+    Mesh,
+    Mimic,
+    Origin,
+    Robot,
+    SafetyController,
+    Sphere,
+    Visual,
+)
+
+ARM = """<?xml version="1.0" encoding="utf-8"?>
+<!-- äöü: three letters of two bytes each -->
+<robot name="arm" xmlns:q="urn:q">
+  <material name="blue"><color rgba="0 0 1 1"/></material>
+  <link name="base"/>
+  <link name="arm">
+    <inertial>
+      <origin xyz="0 0 .5" rpy="0 0 1e-1"/>
+      <mass value="+2."/>
+      <inertia ixx="3" ixy="0" ixz="-0" iyy="3" iyz="0" izz="1"/>
+    </inertial>
+    <visual name="tube">
+      <origin xyz="0 0 0.5"/>
+      <geometry><cylinder radius="0.1" length="1"/></geometry>
+      <material name="blue"/>
+    </visual>
+    <visual><geometry><mesh filename="package://p/a.stl" scale="1 1 -1"/></geometry></visual>
+    <collision><geometry><box size="1 2 3"/></geometry></collision>
+  </link>
+  <joint name="turn" type="revolute">
+    <parent link="base"/><child link="arm"/>
+    <axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="10" velocity="2"/>
+    <dynamics damping="0.5"/>
+    <calibration rising="0.1"/>
+    <safety_controller k_velocity="1" k_position="2" soft_lower_limit="-0.9" soft_upper_limit="0.9"/>
+  </joint>
+  <q:note><![CDATA[a < b]]></q:note>
+</robot>
+"""
+
+
+def read(text: str) -> RobotReading:
+    return read_robot(text.encode(), "a.urdf", cross_check=False)
+
+
+def robot_of(text: str) -> Robot:
+    """The robot of a text that must be readable without a word."""
+    reading = read(text)
+    assert reading.diagnostics == ()
+    assert reading.robot is not None
+    return reading.robot
+
+
+def findings(text: str) -> list[tuple[str, str, int]]:
+    return [(str(d.severity), d.code, d.line) for d in read(text).diagnostics]
+
+
+def in_link(inner: str) -> str:
+    return f'<robot name="r">\n<link name="a">\n{inner}\n</link>\n</robot>'
+
+
+def in_visual(inner: str) -> str:
+    return in_link(f"<visual>{inner}</visual>")
+
+
+def with_joint(inner: str, kind: str = "revolute") -> str:
+    ends = '<parent link="a"/><child link="b"/>'
+    joint = f'<joint name="j" type="{kind}">{ends}\n{inner}\n</joint>'
+    return f'<robot name="r">\n<link name="a"/><link name="b"/>\n{joint}\n</robot>'
+
+
+def only_joint(inner: str, kind: str = "revolute") -> Joint:
+    (joint,) = robot_of(with_joint(inner, kind)).joints
+    return joint
+
+
+def test_a_whole_robot() -> None:
+    blue = Material("blue", (0.0, 0.0, 1.0, 1.0))
+    tube = Visual(Cylinder(0.1, 1.0), Origin((0.0, 0.0, 0.5)), "tube", blue)
+    arm = Link(
+        "arm",
+        Inertial(2.0, Origin((0.0, 0.0, 0.5), (0.0, 0.0, 0.1)), Inertia(ixx=3.0, iyy=3.0, izz=1.0)),
+        (tube, Visual(Mesh("package://p/a.stl", (1.0, 1.0, -1.0)))),
+        (Collision(Box((1.0, 2.0, 3.0))),),
+    )
+    turn = Joint(
+        "turn",
+        "revolute",
+        "base",
+        "arm",
+        axis=(0.0, 0.0, 1.0),
+        limit=Limit(-1.0, 1.0, 10.0, 2.0),
+        dynamics=Dynamics(damping=0.5),
+        calibration=Calibration(rising=0.1),
+        safety_controller=SafetyController(1.0, 2.0, -0.9, 0.9),
+    )
+    note = Extension("", "q:note", '<q:note xmlns:q="urn:q">a &lt; b</q:note>')
+    assert robot_of(ARM) == Robot("arm", (Link("base"), arm), (turn,), (note,))
+
+
+def test_lines_of_elements() -> None:
+    lines = read(ARM).lines
+    expected = {
+        "robot": 3,
+        "link base": 5,
+        "link arm": 6,
+        "link arm / inertial": 7,
+        "link arm / inertial / mass": 9,
+        "link arm / visual 1": 12,
+        "link arm / visual 1 / material": 15,
+        "link arm / visual 2 / mesh": 17,
+        "link arm / collision 1": 18,
+        "joint turn": 20,
+        "joint turn / limit": 23,
+    }
+    assert {path: lines[path] for path in expected} == expected
+
+
+def test_the_line_is_where_a_start_tag_begins_even_in_long_files() -> None:
+    blank = "\n" * 70_000
+    reading = read(f'<robot name="r">{blank}<link\n name="a"\n/><link name="a"/></robot>')
+    assert reading.lines["link a"] == 70_001
+    assert [(d.code, d.line) for d in reading.diagnostics] == [("duplicate-link", 70_003)]
+
+
+def test_tags_in_a_document_type_are_none() -> None:
+    reading = read('<!DOCTYPE robot SYSTEM "<link>">\n<robot name="r">\n<link name="a"/></robot>')
+    assert reading.robot == Robot("r", (Link("a"),))
+    assert reading.lines == {"robot": 2, "link a": 3}
+
+
+def test_the_first_of_two_elements_that_are_called_the_same_has_the_line() -> None:
+    inertial = '<inertial>\n<mass value="1"/>\n<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+    reading = read(f'<robot name="r">\n<link name="a">\n{inertial}</link>\n<link name="a / inertial"/></robot>')
+    assert reading.lines["link a / inertial"] == 3
+
+
+def test_elements_are_counted_without_those_that_are_left_out() -> None:
+    inside = '<parent link="a"/><child link="a"/><axis xyz="0 0 2"/>'
+    joints = f'<joint name="j" type="fixed"/><joint name="j" type="continuous">{inside}</joint>'
+    text = f'<robot name="r"><link name="a"/>{joints}</robot>'
+    (warning,) = [found for found in read(text).diagnostics if found.code == "axis-not-unit"]
+    assert warning.message == "joint j: the axis 0 0 2 has length 2, and is normalised"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "utf-32"])
+@pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
+def test_encodings_and_line_ends(encoding: str, line_end: str) -> None:
+    text = ARM.replace("utf-8", encoding.removesuffix("-sig")).replace("\n", line_end)
+    reading = read_robot(text.encode(encoding), "a.urdf", cross_check=False)
+    assert reading.diagnostics == ()
+    assert reading.robot == robot_of(ARM)
+    assert reading.lines == read(ARM).lines
+
+
+def test_a_declared_latin_1_is_read() -> None:
+    text = '<?xml version="1.0" encoding="iso-8859-1"?><robot name="ä"><link name="ö"/></robot>'
+    reading = read_robot(text.encode("latin-1"), "a.urdf")
+    assert reading.robot == Robot("ä", (Link("ö"),))
+
+
+def test_utf_8_that_calls_itself_utf_16() -> None:
+    reading = read('<?xml version="1.0" encoding="utf-16"?><robot name="ä"><link name="a"/></robot>')
+    assert reading.robot == Robot("ä", (Link("a"),))
+    assert [(str(d.severity), d.code) for d in reading.diagnostics] == [("warning", "xml-declaration")]
+
+
+def test_a_wrong_xml_version_is_tolerated() -> None:
+    reading = read(ARM.replace('version="1.0"', 'version="0.0"'))
+    assert reading.robot == robot_of(ARM)
+    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [("warning", "xml-version", 1)]
+
+
+@pytest.mark.parametrize(
+    "declaration",
+    [
+        "<?xml version=1.0?>",
+        "<?XML version='1.0'?>",
+        "<?xml encoding='utf-8' version='1.0'?>",
+        "<?xml version='1.0'encoding='utf-8'?>",
+        "<?xml verison='1.0'\r\n?>",
+    ],
+)
+def test_a_declaration_that_is_not_well_formed_is_tolerated(declaration: str) -> None:
+    reading = read(f"{declaration}<robot name='cart'>\r\n<link name='body'/></robot>")
+    assert reading.robot == Robot("cart", (Link("body"),))
+    assert [(d.severity, d.code, d.line) for d in reading.diagnostics] == [(Severity.WARNING, "xml-declaration", 1)]
+
+
+def test_blanks_before_the_declaration_are_tolerated() -> None:
+    reading = read("\r\n \n" + ARM)
+    assert reading.robot == robot_of(ARM)
+    assert [(d.severity, d.code, d.line) for d in reading.diagnostics] == [(Severity.WARNING, "xml-declaration", 3)]
+    assert reading.lines["robot"] == read(ARM).lines["robot"] + 2
+
+
+def test_only_a_declaration_without_faults_names_the_encoding() -> None:
+    text = "<?xml version='1.0' encoding='iso-8859-1'?><robot name='ä'><link name='ö'/></robot>"
+    assert read_robot(text.encode("latin-1"), "a.urdf").robot == Robot("ä", (Link("ö"),))
+    (found,) = (d for d in read_robot(f"\n{text}".encode("latin-1"), "a.urdf").diagnostics if d.severity == "error")
+    assert (found.code, found.line) == ("file-encoding", 2)
+
+
+def test_undeclared_prefixes_are_tolerated_once_each() -> None:
+    text = ARM.replace(' xmlns:q="urn:q"', "").replace("</robot>", '<q:b p:z="1"/>\n<p:c/></robot>')
+    reading = read(text)
+    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [
+        ("warning", "xml-prefix", 28),
+        ("warning", "xml-prefix", 29),
+    ]
+    assert reading.robot is not None
+    assert [e.text for e in reading.robot.extensions] == [
+        "<q:note>a &lt; b</q:note>",
+        '<q:b p:z="1"></q:b>',
+        "<p:c></p:c>",
+    ]
+    assert reading.robot.links == robot_of(ARM).links
+
+
+def test_a_default_namespace_does_not_hide_the_elements() -> None:
+    assert robot_of('<robot name="r" xmlns="http://www.ros.org"><link name="a"/></robot>').links == (Link("a"),)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+def test_every_truncation_is_one_error(encoding: str) -> None:
+    content = ARM.rstrip().replace("utf-8", encoding).encode(encoding)
+    for end in range(len(content)):
+        reading = read_robot(content[:end], "a.urdf")
+        assert reading.robot is None, end
+        assert [d.severity for d in reading.diagnostics] == [Severity.ERROR], end
+        assert reading.diagnostics[0].line > 0, end
+    assert read_robot(content + b"", "a.urdf", cross_check=False).robot is not None
+
+
+DEEP = b"<origin>" * 254, b"</origin>" * 254
+LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
+
+
+@pytest.mark.parametrize(
+    ("content", "code", "line"),
+    [
+        (b"", "file-empty", 1),
+        (b"\xef\xbb\xbf", "file-empty", 1),
+        (b" \r\n\n", "file-empty", 1),
+        (b"\0" * 512, "file-empty", 1),
+        (b"<robot/>\n<robot/>", "xml-syntax", 2),
+        (b"<robot>\n<link>\n</robot>", "xml-syntax", 3),
+        (b"<robot>\n<link name='a' name='b'/></robot>", "xml-syntax", 2),
+        (b"<robot>\n<link name=a/></robot>", "xml-syntax", 2),
+        (b"<robot>\n<x:y></robot>", "xml-syntax", 2),
+        (b"<robot>\n&nbsp;</robot>", "xml-syntax", 2),
+        (b"<!DOCTYPE robot SYSTEM 'a.dtd'>\n<robot>\n&e;</robot>", "xml-entity", 3),
+        (b"<robot name='\x01'/>", "xml-syntax", 1),
+        (b"<a>" * 300 + b"</a>" * 300, "xml-syntax", 1),
+        (b"<robot name='r'>\n<link name='a'><visual>%b%b</visual></link></robot>" % DEEP, "xml-syntax", 2),
+        (b"<robot name='r'>\n<link name='a' xml:id='1'/></robot>", "xml-syntax", 2),
+        (b"robot: yes", "xml-syntax", 1),
+        (b"<robot>\n\n  <link name='\xe4'/></robot>", "file-encoding", 3),
+        (b"\x1f\x8b\x08\x00", "file-encoding", 1),
+        (b"<?xml version='1.0' encoding='klingon'?><robot/>", "file-encoding", 1),
+        (b"<?xml version='1.0' encoding='rot13'?><robot/>", "file-encoding", 1),
+        (b"<?xml version='1.0' encoding='undefined'?><robot/>", "file-encoding", 1),
+        (b"<!-- cart -->\n<?xml version='1.0'?>\n<robot/>", "xml-syntax", 2),
+        (b"<?xml version='1.0'>\n<robot/>", "xml-syntax", 1),
+        (f"{LAUGHS}<robot name='r'>&b;</robot>".encode(), "xml-entity", 1),
+        (f"\n{LAUGHS}<robot name='&b;'/>".encode(), "xml-entity", 2),
+        (b"<!DOCTYPE robot [<!ENTITY a SYSTEM 'file:///etc/passwd'>]><robot/>", "xml-entity", 1),
+        (b"<robot>\n<<<<<<< HEAD\n<link name='a'/>\n=======\n>>>>>>> b\n</robot>", "merge-conflict", 2),
+        (b"<robot name='r'>\r\n<link name='a'/>\r\n>>>>>>> b\r\n</robot>", "merge-conflict", 3),
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "lfs-pointer", 1),
+        (b"<sdf version='1.9'/>", "not-urdf", 1),
+        (b"<!-- a -->\n<mujoco model='m'/>", "not-urdf", 2),
+        (b"<html><body/></html>", "not-urdf", 1),
+        (b"<Robot name='r'/>", "not-urdf", 1),
+        (b"<robot name='r' xmlns:xacro='x'>\n<xacro:macro name='m'/>\n<link name='a'/></robot>", "xacro-source", 2),
+        (b"<robot name='r'>\n<xacro:leg side='left'/></robot>", "xacro-source", 2),
+        (b"<robot name='r'>\n<link name='a'><visual>\n<origin xyz='${h}'/></visual></link></robot>", "xacro-source", 3),
+    ],
+)  # fmt: skip
+def test_a_file_that_is_no_urdf_is_one_error(content: bytes, code: str, line: int) -> None:
+    reading = read_robot(content, "a.urdf")
+    assert reading.robot is None
+    assert [
+        (d.severity, d.code, d.file, d.line) for d in reading.diagnostics if d.severity is not Severity.WARNING
+    ] == [(Severity.ERROR, code, "a.urdf", line)]
+    assert all(d.hint for d in reading.diagnostics)
+
+
+def test_a_syntax_error_has_its_column() -> None:
+    (diagnostic,) = read("<robot>\n  <link name=a/></robot>").diagnostics
+    assert (diagnostic.line, diagnostic.column) == (2, 14)
+
+
+@pytest.mark.parametrize(
+    ("text", "message", "hint"),
+    [
+        ("<link name='a & b'/>", "an `&` begins no character reference", "write `&amp;`"),
+        ("<link name='R&D'/>", "an `&` begins no character reference", "write `&amp;`"),
+        ("<mass value='&kg;'/>", "Entity 'kg' not defined", "replace the entity by its text"),
+        ("<link name='a<b'/>", "Unescaped '<' not allowed in attributes values", "write `&lt;`"),
+        ("<link name=a/>", "the value of an attribute has no quotes", "put it in quotes"),
+        ("<link name='a' name='b'/>", "an element has the same attribute twice", "remove one of them"),
+        ("<!-- wheels -- left -->", "`--` stands inside of a comment", "take it out, or close the comment"),
+        ("<link name='&#7;'/>", "a character stands here that XML does not allow", "remove it"),
+        ("<?xml version='1.0'?>", "an XML declaration comes too late", "remove what is before it"),
+        ("<a>" * 300 + "</a>" * 300, "elements stand inside of one another 256 deep", "make it less deep"),
+    ],
+)
+def test_what_is_often_wrong_in_xml_is_said_with_what_to_do(text: str, message: str, hint: str) -> None:
+    (found,) = read(f"<robot name='r'>\n{text}</robot>").diagnostics
+    assert (found.code, found.line) == ("xml-syntax", 2)
+    assert found.message.startswith(f"this is not well-formed XML: {message}")
+    assert hint in found.hint
+    assert found.hint.endswith(", or wait until the export is complete")
+
+
+def test_what_looks_like_a_fault_in_a_comment_is_none() -> None:
+    comment = "<!--\n<<<<<<< HEAD\n<!ENTITY a 'b'> ${x} <link name='no'/>\n-->"
+    robot = robot_of(f'<!DOCTYPE robot>\n<robot name="r">{comment}<link name="a"/></robot>')
+    assert robot.links == (Link("a"),)
+
+
+INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "line"),
+    [
+        ('<robot name="r">\n</robot>', "no-link", 1),
+        ('<robot name="r">\n<link/></robot>', "missing-attribute", 2),
+        ('<robot name="r">\n<link name=" "/></robot>', "empty-attribute", 2),
+        (with_joint("", "fixed").replace(' name="j"', ""), "missing-attribute", 3),
+        (with_joint("", "fixed").replace(' type="fixed"', ""), "missing-attribute", 3),
+        (with_joint("", "fixed").replace('<parent link="a"/>', ""), "missing-element", 3),
+        (with_joint("", "fixed").replace('<child link="b"/>', "\n<child/>"), "missing-attribute", 4),
+        (with_joint("", "revolut"), "unknown-joint-type", 3),
+        (with_joint("", "Fixed"), "unknown-joint-type", 3),
+        (with_joint('<axis xyz="0 0"/>', "continuous"), "bad-number", 4),
+        (with_joint('<axis xyz="0 0 0"/>', "continuous"), "zero-axis", 4),
+        (with_joint('<limit lower="1" upper="-1" effort="1" velocity="1"/>'), "limit-order", 4),
+        (with_joint('<limit lower="" upper="1" effort="1" velocity="1"/>'), "empty-attribute", 4),
+        (with_joint('<mimic/>', "continuous"), "missing-attribute", 4),
+        (with_joint('<mimic joint=""/>', "continuous"), "empty-attribute", 4),
+        (with_joint('<mimic joint="k"/>', "continuous"), "unknown-mimic", 4),
+        (with_joint('<mimic joint="j"/>', "continuous"), "mimic-cycle", 4),
+        (with_joint('<dynamics damping="1 2"/>', "continuous"), "bad-number", 4),
+        (with_joint('<origin xyz="nan 0 0"/>', "fixed"), "bad-number", 4),
+        (with_joint('<origin rpy=""/>', "fixed"), "empty-attribute", 4),
+        (with_joint('<origin quat_xyzw="0 0 0 1"/>', "fixed"), "unsupported-attribute", 4),
+        (in_link(f'<inertial>\n<mass value="-1"/>{INERTIA}</inertial>'), "negative-mass", 4),
+        (in_visual('\n<geometry><box/></geometry>'), "missing-attribute", 4),
+        (in_visual('\n<geometry><cylinder length="1"/></geometry>'), "missing-attribute", 4),
+        (in_visual('\n<geometry><capsule radius="1"/></geometry>'), "missing-attribute", 4),
+        (in_visual('\n<geometry><sphere/></geometry>'), "missing-attribute", 4),
+        (in_visual('\n<geometry><mesh/></geometry>'), "missing-attribute", 4),
+        (in_visual('\n<geometry><mesh filename=""/></geometry>'), "empty-attribute", 4),
+        (in_visual('\n<geometry><mesh filename="a.stl" scale="0.001"/></geometry>'), "bad-number", 4),
+    ],
+)  # fmt: skip
+def test_a_fault_of_the_model_is_one_error(text: str, code: str, line: int) -> None:
+    reading = read(text)
+    assert reading.robot is None
+    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [("error", code, line)]
+    assert all(d.hint for d in reading.diagnostics)
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "line"),
+    [
+        ('<robot>\n<link name="a"/></robot>', "missing-name", 1),
+        (in_link("<visual nme='v'><geometry><sphere radius='1'/></geometry></visual>"), "unknown-attribute", 3),
+        (with_joint(""), "missing-limit", 3),
+        (with_joint('<limit effort="1" velocity="1"/>'), "missing-limit-value", 4),
+        (with_joint('<limit velocity="1"/>', "continuous"), "missing-limit-value", 4),
+        (with_joint('<limit lower="0" upper="1" effort="1" velocity="-1"/>'), "negative-limit", 4),
+        (with_joint('<limit lower="0" upper="1" effort="1" velocity="1"/><axis xyz="0 0 2"/>'), "axis-not-unit", 4),
+        (with_joint('<limit lower="0" upper="1" effort="1" velcoity="1" velocity="1"/>\n<dynamics dampin="1"/>'),
+         "unknown-attribute", 5),
+        (with_joint("<dynamic/>", "continuous"), "unknown-element", 4),
+        (with_joint('<dynamics damping="-1"/>', "continuous"), "negative-dynamics", 4),
+        (with_joint('<dynamics friction="1"/>', "fixed"), "dynamics-without-effect", 4),
+        (with_joint('<safety_controller k_position="1"/>', "continuous"), "missing-gain", 4),
+        (with_joint('<origin/>\n<origin xyz="1 0 0"/>', "fixed"), "duplicate-element", 5),
+        (in_link(f"<inertial>{INERTIA}</inertial>"), "missing-mass", 3),
+        (in_link('<inertial><mass value="1"/></inertial>'), "missing-inertia", 3),
+        (in_link('<inertial><mass value="1"/>\n<inertia ixx="1" iyy="1" izz="1"/></inertial>'), "missing-inertia", 4),
+        (in_link("<visual/>"), "unknown-geometry", 3),
+        (in_visual("<geometry/>"), "unknown-geometry", 3),
+        (in_visual("<geometry><plane/></geometry>"), "unknown-geometry", 3),
+        (in_visual('<geometry><sphere radius="1"/><sphere radius="2"/></geometry>'), "duplicate-element", 3),
+        (in_visual('\n<geometry><sphere radius="-1"/></geometry>'), "shape-size", 4),
+        (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name="m"/>'), "unknown-material", 4),
+        (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color/></material>'), "bad-color", 4),
+        (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color rgba="1 1 1"/></material>'),
+         "bad-color", 4),
+        (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color rgba="255 0 0 1"/></material>'),
+         "color-range", 4),
+        ('<robot name="r">\n<xacro:arg name="b" xmlns:xacro="x"/>\n<link name="a"/></robot>', "xacro-leftover", 2),
+        ('<robot name="r">\n<link name="${n}a"/></robot>', "xacro-leftover", 2),
+    ],
+)  # fmt: skip
+def test_an_oddity_of_the_model_is_one_warning(text: str, code: str, line: int) -> None:
+    reading = read(text)
+    assert reading.robot is not None
+    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [("warning", code, line)]
+    assert all(d.hint for d in reading.diagnostics)
+
+
+def test_all_faults_are_told_in_the_order_of_lines() -> None:
+    text = """<robot name="r">
+        <link name="a"><visual><geometry><box size="1 2"/></geometry></visual></link>
+        <link name="a"/>
+        <joint name="j" type="wobbly"><parent link="a"/><child link="c"/></joint>
+        <joint name="k" type="fixed"><origin xyz="0 1,5 0"/><parent link="d"/><child link="a"/></joint>
+        </robot>"""
+    assert findings(text) == [
+        ("error", "bad-number", 2),
+        ("error", "duplicate-link", 3),
+        ("error", "unknown-joint-type", 4),
+        ("error", "unknown-child", 4),
+        ("error", "bad-number", 5),
+        ("error", "unknown-parent", 5),
+    ]
+
+
+def test_many_warnings_of_a_kind_are_told_once() -> None:
+    visuals = '\n<visual><geometry><sphere radius="1"/></geometry><material name="m"/></visual>' * 12
+    (diagnostic,) = read(in_link(visuals)).diagnostics
+    assert (diagnostic.code, diagnostic.line) == ("unknown-material", 4)
+    assert diagnostic.message.endswith("(and 11 more like it: lines 5, 6, 7, 8, 9, 10, 11, 12, …)")
+
+
+@pytest.mark.parametrize(
+    ("inner", "expected"),
+    [
+        ("", None),
+        ("<limit/>", Limit(0.0, 0.0, None, None)),
+        ('<limit upper="2" effort="0"/>', Limit(0.0, 2.0, 0.0, None)),
+    ],
+)
+def test_limits_that_are_absent(inner: str, expected: Limit | None) -> None:
+    robot = read(with_joint(inner)).robot
+    assert robot is not None
+    assert robot.joints[0].limit == expected
+
+
+def test_defaults_of_a_joint() -> None:
+    assert only_joint("<origin/><axis/>", "continuous") == Joint("j", "continuous", "a", "b")
+
+
+def test_dynamics_and_mimic_count_by_their_presence() -> None:
+    assert only_joint("<dynamics/>", "continuous").dynamics == Dynamics(0.0, 0.0)
+    text = with_joint('<mimic joint="k"/>', "continuous").replace("</robot>", "")
+    text += '<link name="c"/><joint name="k" type="continuous"><parent link="b"/><child link="c"/></joint></robot>'
+    assert robot_of(text).joints[0].mimic == Mimic("k", 1.0, 0.0)
+
+
+def test_axes_are_unit_vectors_and_exact_ones_stay_exact() -> None:
+    third = 0.5773502691896258
+    assert only_joint('<axis xyz="0 -1 0"/>', "continuous").axis == (0.0, -1.0, 0.0)
+    assert only_joint(f'<axis xyz="{third} {third} {third}"/>', "continuous").axis == (third, third, third)
+    rounded = only_joint('<axis xyz="0.57735 0.57735 0.57735"/>', "planar").axis
+    assert math.hypot(*rounded) == pytest.approx(1, abs=1e-15)
+    assert only_joint('<axis xyz="0 0 0"/>', "fixed").axis == (1.0, 0.0, 0.0)
+    huge = read(with_joint('<axis xyz="1e308 1e308 0"/>', "continuous")).robot
+    assert huge is not None
+    assert huge.joints[0].axis == pytest.approx((math.sqrt(0.5), math.sqrt(0.5), 0))
+
+
+def test_shapes_are_counted_without_those_that_are_left_out() -> None:
+    text = in_link("<visual/>\n<visual><geometry><sphere\nradius='1'/></geometry></visual>")
+    reading = read(text)
+    assert reading.robot is not None
+    assert reading.robot.links[0].visuals == (Visual(Sphere(1.0)),)
+    assert reading.lines["link a / visual 1 / sphere"] == 4
+
+
+def test_a_capsule() -> None:
+    (link,) = robot_of(in_visual('<geometry><capsule radius="1" length="2"/></geometry>')).links
+    assert link.visuals[0].geometry == Capsule(1.0, 2.0)
+
+
+SPHERE = '<geometry><sphere radius="1"/></geometry>'
+RED = '<color rgba="1 0 0 1"/>'
+
+
+def materials(text: str) -> list[Material | None]:
+    robot = read(text).robot
+    assert robot is not None
+    return [visual.material for link in robot.links for visual in link.visuals]
+
+
+def test_materials_are_looked_up_through_the_whole_robot() -> None:
+    text = in_link(
+        f'<visual>{SPHERE}<material name="inline"/></visual>'
+        f'<visual>{SPHERE}<material name="inline">{RED}</material></visual>'
+        f'<visual>{SPHERE}<material name="global"/></visual>'
+        f'<visual>{SPHERE}<material name="">{RED}</material></visual>'
+        f'<visual>{SPHERE}<material name=""/></visual>'
+        f"<visual>{SPHERE}</visual>"
+    ).replace("</robot>", '<material name="global"><texture filename="a.png"/></material></robot>')
+    red = (1.0, 0.0, 0.0, 1.0)
+    assert findings(text) == []
+    assert materials(text) == [
+        Material("inline", red),
+        Material("inline", red),
+        Material("global", None, "a.png"),
+        Material("", red),
+        None,
+        None,
+    ]
+
+
+def test_the_first_definition_of_a_material_counts_and_those_of_the_robot_come_first() -> None:
+    again = f'<visual>{SPHERE}<material name="m"><color rgba="0 1 0 1"/></material></visual>'
+    text = in_link(again).replace("</robot>", f'<material name="m">{RED}</material></robot>')
+    assert materials(text) == [Material("m", (1.0, 0.0, 0.0, 1.0))]
+    assert findings(text) == [("warning", "material-redefined", 3)]
+
+
+def test_extensions_are_kept_with_their_place_in_canonical_form() -> None:
+    text = """<robot name="r" xmlns:drake="urn:drake" xmlns:other="urn:other">
+      <link name="a">
+        <contact b="2" a="1"> <!-- no --> <stiffness value="3"/> </contact>
+        <collision><geometry><sphere radius="1"/></geometry><surface/></collision>
+      </link>
+      <transmission name="t"><type> simple </type></transmission>
+      <drake:filter/>
+    </robot>"""
+    assert robot_of(text).extensions == (
+        Extension("", "transmission", '<transmission name="t"><type>simple</type></transmission>'),
+        Extension("", "drake:filter", '<drake:filter xmlns:drake="urn:drake"></drake:filter>'),
+        Extension("link a", "contact", '<contact a="1" b="2"><stiffness value="3"></stiffness></contact>'),
+        Extension("link a", "surface", "<surface></surface>"),
+    )
+
+
+@pytest.mark.parametrize("word", ["0", "-1", "+.5", "1.", "1e3", "1E-3", "-1.5e+10", "1e-400", "00012"])
+def test_decimal_numbers(word: str) -> None:
+    assert parse_numbers(f" {word}\n", 1) == (float(word),)
+
+
+NO_NUMBERS = "nan inf -inf infinity 1_000 0x10 0x1p3 1,5 1e e5 . - --1 1.2.3 1d3 ½ １ 1\N{NO-BREAK SPACE}2 ${x} 1f True"
+
+
+@pytest.mark.parametrize("word", NO_NUMBERS.split(" "))
+def test_words_that_are_no_decimal_numbers(word: str) -> None:
+    with pytest.raises(ValueError, match="is not a decimal number"):
+        parse_numbers(word, 1)
+
+
+def test_numbers_that_are_too_large() -> None:
+    with pytest.raises(ValueError, match="too large"):
+        parse_numbers("1e999", 1)
+
+
+def test_long_words_are_judged_at_once_and_shown_in_brief() -> None:
+    (diagnostic,) = read(with_joint(f'<axis xyz="0 0 {"1" * 200_000}e"/>', "continuous")).diagnostics
+    assert diagnostic.code == "bad-number"
+    assert len(diagnostic.message) < 250
+
+
+def test_vectors_have_their_exact_length_and_any_blanks() -> None:
+    assert parse_numbers("1\t2\n  3 ", 3) == (1.0, 2.0, 3.0)
+    for text in ("1 2", "1 2 3 4", ""):
+        with pytest.raises(ValueError, match="numbers instead of 3"):
+            parse_numbers(text, 3)
+
+
+def test_negative_zero_is_zero() -> None:
+    assert math.copysign(1, parse_numbers("-0.0", 1)[0]) == 1
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_numbers_are_read_exactly(value: float) -> None:
+    assert parse_numbers(repr(value), 1) == (value,)
+
+
+@settings(deadline=None)
+@given(st.binary(max_size=60), st.integers(0, len(ARM)), st.integers(0, 30))
+@example(b"\xfe\xff", 0, 0)
+def test_no_input_raises(noise: bytes, position: int, removed: int) -> None:
+    arm = ARM.encode()
+    reading = read_robot(arm[:position] + noise + arm[position + removed :], "a.urdf", cross_check=False)
+    errors = [d for d in reading.diagnostics if d.severity is Severity.ERROR]
+    assert (reading.robot is None) == bool(errors)
+    assert all(d.line > 0 and d.hint for d in reading.diagnostics)
+    assert all(re.fullmatch("[a-z]+(-[a-z]+)*", d.code) for d in reading.diagnostics)
+
+
+ATTRIBUTE = st.text(st.characters(exclude_characters='<&"', exclude_categories=["Cs", "Cc"]), max_size=8)
+
+
+@settings(deadline=None)
+@given(ATTRIBUTE)
+def test_any_name_is_a_name(name: str) -> None:
+    reading = read(f'<robot name="r"><link name="{name}"/></robot>')
+    assert all(d.code in ("empty-attribute", "xml-syntax", "xacro-leftover") for d in reading.diagnostics)
+    if reading.robot:
+        assert reading.robot.links[0].name.strip() == name.strip()

@@ -1,0 +1,183 @@
+"""URDF names to identifiers: legal, injective however names are chosen, and a function of their set."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import pytest
+from hypothesis import assume, example, given
+from hypothesis import strategies as st
+
+from urdfsync.modelica import parser
+from urdfsync.modelica.names import KEYWORDS
+from urdfsync.urdf import names
+from urdfsync.urdf.names import Identifier, Key, identify, is_reserved, natural_key, spell
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "naming.md"
+
+PARTS = """
+    a A b _ 1 2 é 左 - . / end time name con Links rotational world
+    Axis Frame Mimic Parameters Run _link _joint _link_2
+""".split()
+NAMES = st.lists(st.sampled_from(PARTS), min_size=1, max_size=3).map("".join) | st.text(min_size=1, max_size=5)
+KEYS = st.tuples(st.sampled_from(["link", "joint"]), NAMES)
+SETS = st.frozensets(KEYS, max_size=12)
+TAKEN = st.sampled_from(["Robot", "A", "B", "End_link", "RotationalAxis"])
+
+WORDS = KEYWORDS | {"time", "real", "integer", "string", "boolean", "der", "abs", "zeros", "fill"}
+ROBOT_MODEL = {
+    *("animation", "checklimits", "fixedstart", "showcollisions", "frame_a", "frame_b", "m", "links", "joints"),
+    *("rotationalaxis", "rotationalsupport", "rotationalrange", "phi_start", "w_start"),
+    *("translationalaxis", "translationalsupport", "translationalrange", "s_start", "v_start"),
+}
+RECORD = Path(__file__).resolve().parents[2] / "modelica" / "UrdfSync" / "Records" / "Robot.mo"
+ROBOT_RECORD = {
+    part.name.parts[0].lower() for part in parser.parse(RECORD.read_text(encoding="utf-8")).classes[0].components
+}
+DEVICES = {"con", "prn", "aux", "nul", "com1", "com9", "lpt1", "lpt9"}
+
+
+def names_in_robot_model(identifier: Identifier) -> Iterator[str]:
+    """The name of a link or joint in the robot model, folded."""
+    yield identifier.component.lower()
+
+
+def components(identifiers: Mapping[Key, Identifier]) -> dict[Key, str]:
+    return {key: identifier.component for key, identifier in identifiers.items()}
+
+
+@given(SETS, TAKEN)
+@example(frozenset({("link", "b-c"), ("link", "b.c"), ("joint", "b_c"), ("link", "b_c_link")}), "Robot")
+@example(frozenset({("link", "fooAxis"), ("joint", "foo"), ("link", "FOO")}), "Robot")
+def test_no_two_names_meet_anywhere(names: frozenset[Key], taken: str) -> None:
+    identifiers = identify(names, [taken])
+    assert identifiers.keys() == names
+    in_model = [name for identifier in identifiers.values() for name in names_in_robot_model(identifier)]
+    assert len(in_model) == len(set(in_model))
+    assert not {taken.lower(), *ROBOT_MODEL} & set(in_model)
+    assert not ROBOT_RECORD & set(in_model)
+    files = [name.lower() for each in identifiers.values() for name in (each.type, each.record)]
+    assert len(files) == len(set(files))
+    assert not {"package", *DEVICES} & set(files)
+
+
+def test_every_field_of_the_robots_record_is_known() -> None:
+    assert {"name", "connectionmatrix", "jointtree", "linkinertias"} < ROBOT_RECORD
+    assert ROBOT_RECORD <= names.GENERATED
+    assert identify([("link", "jointTree")]) == {("link", "jointTree"): Identifier("jointTree_link")}
+
+
+@given(SETS, TAKEN)
+def test_every_identifier_is_legal_and_begins_as_its_use_demands(names: frozenset[Key], taken: str) -> None:
+    for identifier in identify(names, [taken]).values():
+        assert re.fullmatch("[a-z][A-Za-z0-9_]*", identifier.component, re.ASCII)
+        assert re.fullmatch("[A-Z][A-Za-z0-9_]*", identifier.type, re.ASCII)
+        assert identifier.type[1:] == identifier.component[1:]
+        assert identifier.component.lower() not in WORDS
+        assert not identifier.component.lower().endswith(("parameters", "run", "test"))
+
+
+@given(st.permutations(range(12)), st.lists(KEYS, min_size=12, max_size=12), TAKEN)
+def test_the_order_of_names_makes_no_difference(order: list[int], names: list[Key], taken: str) -> None:
+    assert identify([names[k] for k in order], [taken]) == identify(names, [taken])
+
+
+@given(SETS, KEYS, TAKEN)
+def test_a_name_that_clashes_with_nothing_changes_nothing_else(names: frozenset[Key], new: Key, taken: str) -> None:
+    assume(new not in names)
+    before, wanted = identify(names, [taken]), Identifier(spell(new[1], new[0]))
+    others = {name for each in before.values() for name in names_in_robot_model(each)}
+    assume(others.isdisjoint(names_in_robot_model(wanted)))
+    after = identify(names | {new}, [taken])
+    assert {key: after[key] for key in names} == before
+
+
+@given(SETS)
+def test_a_name_that_is_free_and_right_is_kept(names: frozenset[Key]) -> None:
+    identifiers = identify(names)
+    for (kind, name), identifier in identifiers.items():
+        if identifier.component == name:
+            continue
+        others = [each for key, each in identifiers.items() if key != (kind, name)]
+        wanted = set(names_in_robot_model(Identifier(spell(name, kind))))
+        clashes = wanted & {other for each in others for other in names_in_robot_model(each)}
+        assert clashes or is_reserved(spell(name, kind)) or spell(name, kind) != name
+
+
+@pytest.mark.parametrize("name", sorted(ROBOT_MODEL | ROBOT_RECORD | DEVICES | WORDS))
+@pytest.mark.parametrize("kind", ["link", "joint"])
+def test_reserved_names_give_way(name: str, kind: str) -> None:
+    assert identify([(kind, name)])[kind, name].component == f"{name}_{kind}"
+
+
+@given(st.text(min_size=50, max_size=400) | st.text("ab", min_size=95, max_size=105))
+def test_file_names_stay_below_what_file_systems_take(name: str) -> None:
+    clashing = [("link", name), ("joint", name), ("link", name + "x"), ("link", name.swapcase() + "x")]
+    identifiers = identify(clashing)
+    assert len({identifier.type.lower() for identifier in identifiers.values()}) == len(set(clashing))
+    assert all(len(f"{identifier.record}.mo".encode()) <= 143 for identifier in identifiers.values()), "eCryptfs: 143"
+
+
+def test_what_is_cut_off_still_counts() -> None:
+    long, other = spell("a" * 99 + "bc", "link"), spell("a" * 99 + "bd", "link")
+    assert len(long) == len(other) == 100
+    assert long[:92] == other[:92] == "a" * 91 + "_"
+    assert long != other
+    assert spell("a" * 100, "link") == "a" * 100
+
+
+def test_many_names_of_one_spelling_do_not_take_quadratic_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = itertools.count()
+    is_free = names._is_free
+    monkeypatch.setattr(names, "_is_free", lambda *arguments: (next(calls), is_free(*arguments))[1])
+    keys = [("link", chr(0x4E00 + k)) for k in range(300)]
+    assert identify(keys)["link", chr(0x4E00 + 299)].component == "link__link_299"
+    assert next(calls) <= 3 * len(keys)
+
+
+@given(st.lists(st.text("0123aé٣ ", max_size=5), max_size=4, unique=True))
+def test_the_natural_order_is_total(names: list[str]) -> None:
+    assert len({natural_key(name) for name in names}) == len(names)
+    for permutation in itertools.permutations(names):
+        assert sorted(permutation, key=natural_key) == sorted(names, key=natural_key)
+
+
+def test_components_are_told_by_kind_in_the_order_of_their_names() -> None:
+    for taken, arm in (("Robot", "arm"), ("arm", "arm_link"), ("Robot", "arm")):
+        found = names.components(("b", "arm"), ("arm",), taken)
+        assert [list(names.items()) for names in found.values()] == [[("b", "b"), ("arm", arm)], [("arm", "arm_joint")]]
+        assert list(found) == ["links", "joints"]
+
+
+def test_the_natural_order_counts() -> None:
+    names = ["link10", "link9", "link09", "link", "9", "10", "link1b", "link1a2"]
+    expected = ["9", "10", "link", "link1a2", "link1b", "link09", "link9", "link10"]
+    assert sorted(names, key=natural_key) == expected
+
+
+def test_numbers_may_have_more_digits_than_python_converts() -> None:
+    assert natural_key("9" * 5000) < natural_key("1" + "0" * 5000)
+
+
+def table_rows() -> list[list[str]]:
+    """Rows of the examples in the page for users: robot's names, and identifiers in the same order."""
+    rows = re.findall(r"^\| (.*?) \| (.*?) \| (.*?) \|$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+    return [[names, identifiers] for names, identifiers, _ in rows if "`" in names]
+
+
+def key_of(text: str) -> Key:
+    kind, _, name = text.partition(" ")
+    return kind, name.strip("`")
+
+
+@pytest.mark.parametrize(("names", "identifiers"), table_rows())
+def test_the_examples_for_users_are_true(names: str, identifiers: str) -> None:
+    keys = [key_of(part) for part in names.split(", ")]
+    assert [identify(keys, ["MyArm"])[key].component for key in keys] == re.findall("`(.*?)`", identifiers)
+
+
+def test_the_page_for_users_has_examples() -> None:
+    assert len(table_rows()) >= 12

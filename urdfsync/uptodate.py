@@ -1,0 +1,300 @@
+"""The up-to-date check: say again what a command said, while nothing that its answer depended on has changed.
+
+`.urdfsync/stamp` holds the saved answers of `build`, `status` and the hook, a list of all paths that they depended on,
+and a hash of what the system said of these paths. A file in any other state is no answer, and the command runs.
+The check comes before all else that a command does, so this module imports only what loads in a fraction of a ms.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import time
+from collections.abc import Iterator
+
+from urdfsync import __version__, streams
+from urdfsync.dependencies import CHECKS, LSTAT, STAT, Dependencies, Stat, check_paths, stat_of
+
+COMMANDS = ("build", "status")
+CONFIGURATION = "urdfsync.toml"
+HAS_CHANGE_TIMES = os.name != "nt"
+"""Whether files have a time of change that nobody can set: on Windows `st_ctime` is the time of creation."""
+PROGRAM_START = time.monotonic_ns(), time.time_ns()
+
+_FORMAT = "urdfsync answers 3"
+_FOLDER, _NAME = ".urdfsync", "stamp"
+_VARIABLES = (
+    *("ROS_PACKAGE_PATH", "MODELICAPATH", "PYTHONPATH", "NO_COLOR", "FORCE_COLOR", "TERM", "COLORTERM", "COLUMNS"),
+    *("LINES", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "UNICODE_VERSION"),
+)
+"""Environment variables that decide which files a command finds, and how its output looks."""
+_MAX_ANSWERS = 16
+_MAX_CHARACTERS = 100_000
+"""Longer answers are not saved."""
+_TICK, _COARSE_TICK, _SKEW = 50_000_000, 2_000_000_000, 60_000_000_000
+"""Nanoseconds: the coarsest clock of a file system that counts fractions of seconds, the coarsest one of all (FAT), and
+the largest difference allowed between the clocks of two file systems, one of which may be on another machine."""
+
+
+class SavedAnswers:
+    """The content of the file: paths by their check, the hash of what was found there, answers by their key."""
+
+    def __init__(self, paths: dict[str, list[str]], found: int, answers: dict[str, list[str]]) -> None:
+        self.paths, self.found, self.answers = paths, found, answers
+
+    @classmethod
+    def parse(cls, text: str, inode: int, written: int) -> SavedAnswers:
+        """Read the text of a file with this inode and time of change (ns).
+
+        Raises ValueError unless this program wrote it in this very file, and all of it: a copy, such as a committed
+        one, comes from somebody else.
+        """
+        head, *sections, end = [section.split("\0") for section in text.split("\0\0")]
+        *expected, found = head
+        if expected != [_FORMAT, str(inode), str(written), _program()] or end != [str(len(sections))]:
+            raise ValueError("no answers of this program")
+        paths = {check: [path for path in section if path] for check, section in zip(CHECKS, sections, strict=False)}
+        return cls(paths, int(found), {key: answer for key, *answer in sections[len(CHECKS) :]})
+
+    def dumps(self, inode: int, written: int) -> str:
+        """The text of a file with this inode and time. Raises ValueError for texts that it can't hold."""
+        sections = [*self.paths.values(), *([key, *answer] for key, answer in self.answers.items())]
+        head, end = [_FORMAT, str(inode), str(written), _program(), str(self.found)], [str(len(sections))]
+        if any(not text or "\0" in text for section in (head, *sections) for text in section):
+            raise ValueError("a text is empty, or has the separator in it")
+        return "\0\0".join("\0".join(section) for section in (head, *sections, end))
+
+    def hold(self) -> bool:
+        """Whether nothing that the answers depended on has changed."""
+        try:
+            return _hash({check: check_paths(check, paths) for check, paths in self.paths.items()}) == self.found
+        except (OSError, ValueError, LookupError):
+            return False
+
+
+def _hash(found: dict[str, list[tuple[int, ...]]]) -> int:
+    """A hash of what was found at all paths; Python gives tuples of integers the same one in each process."""
+    return hash(tuple([tuple(found[check]) for check in CHECKS]))
+
+
+def _program() -> str:
+    """Who saved an answer: another version or another user may come to another one."""
+    user = (os.geteuid(), os.getegid(), *sorted(os.getgroups())) if hasattr(os, "geteuid") else 0
+    return repr((__version__, sys.version, sys.prefix, sys.byteorder, user, __file__))
+
+
+def find_config(arguments: list[str]) -> str | None:
+    """The absolute path of the configuration that a command is about; None if there is none. Raises OSError."""
+    folder = os.getcwd()
+    for number, argument in enumerate(arguments, start=1):
+        if argument == "--config":
+            return os.path.join(folder, *arguments[number : number + 1])
+        if argument.startswith("--config="):
+            return os.path.join(folder, argument.removeprefix("--config="))
+    while not os.path.isfile(file := os.path.join(folder, CONFIGURATION)):
+        if folder == (folder := os.path.dirname(folder)):
+            return None
+    return file
+
+
+def answer_key(arguments: list[str], config_file: str) -> str:
+    """A command with all that its answer depends on beside files."""
+    terminals = ((stream.isatty(), stream.encoding) for stream in (sys.stdout, sys.stderr))
+    variables = map(os.environ.get, _VARIABLES)
+    return repr((arguments, config_file, os.getcwd(), *terminals, *variables))
+
+
+def read_answers(config_file: str) -> SavedAnswers | None:
+    """The answers saved beside a configuration; None if there are none, or somebody else wrote the file."""
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # a pipe must not hold it up
+    path = os.path.join(os.path.dirname(config_file), _FOLDER, _NAME)
+    try:
+        with open(os.open(path, flags), encoding="utf-8", errors="surrogateescape", newline="") as file:
+            status = os.fstat(file.fileno())
+            return SavedAnswers.parse(file.read(), status.st_ino, status.st_mtime_ns)
+    except (OSError, ValueError):
+        return None
+
+
+def find_answer(config_file: str, key: str) -> list[str] | None:
+    """A saved answer whose dependencies have not changed; None if there is none."""
+    saved = read_answers(config_file)
+    answer = saved.answers.get(key) if saved else None
+    return answer if answer is not None and saved and saved.hold() else None
+
+
+def has_answer(arguments: list[str]) -> bool:
+    """Whether a saved answer would do for a command."""
+    config_file = find_config(arguments)
+    return config_file is not None and find_answer(config_file, answer_key(arguments, config_file)) is not None
+
+
+def print_answer(arguments: list[str]) -> int | None:
+    """Print the saved answer of a command. Returns the exit code; None if there is none, so that the command runs."""
+    if not arguments or arguments[0] not in COMMANDS or sys.stdout is None or sys.stderr is None:
+        return None
+    try:
+        config_file = find_config(arguments)
+        answer = find_answer(config_file, answer_key(arguments, config_file)) if config_file else None
+    except OSError:
+        return None  # the command reports it
+    if answer is None:
+        return None
+    with streams.safe_streams() as output:
+        for name, text in zip(answer[::2], answer[1::2], strict=True):
+            (output if name == streams.OUTPUT else sys.stderr).write(text)
+        if output.trouble:
+            from urdfsync import report  # 30 ms, and hardly ever needed
+
+            return report.unwritten(output)
+    return 0
+
+
+def save_answer(
+    config_file: str, key: str, answer: list[str], dependencies: Dependencies, started: tuple[int, int]
+) -> None:
+    """Save the answer of a command that began to read at `started` (see `read_clocks`) and exited with 0.
+
+    Nothing is saved if one of the dependencies is racy, or if it is not certain that they are all there are.
+    """
+    from pathlib import PurePath  # 10 ms, which the check does without
+
+    recorded = _absolute(dependencies)
+    has_read = dependencies.complete and str(PurePath(config_file)) in recorded[STAT]  # `--help` reads no configuration
+    if not has_read or sum(map(len, answer)) > _MAX_CHARACTERS:
+        return
+    recorded[STAT].update(_module_files())
+    folder = os.path.join(os.path.dirname(config_file), _FOLDER)
+    clock, elapsed = read_clock(folder), elapsed_since(started)
+    stats = [*recorded[LSTAT].values(), *recorded[STAT].values()]
+    if clock is None or any(is_racy(found, clock, elapsed) for found in stats):
+        return
+    saved = _merged(read_answers(config_file), recorded, {key: answer})
+    try:
+        _write(folder, saved)
+    except (OSError, ValueError):
+        return  # the next command runs, as this one did
+
+
+def _absolute(dependencies: Dependencies) -> dict[str, dict[str, tuple[int, ...]]]:
+    here = os.getcwd()
+    return {
+        check: {os.path.join(here, path): found for path, found in entries.items()}
+        for check, entries in dependencies.entries.items()
+    }
+
+
+def _module_files() -> dict[str, Stat]:
+    """The files of all modules in use: somebody may be working on urdfsync. Those of Python go by its version."""
+    found = {}
+    for name, module in list(sys.modules.items()):
+        file = getattr(module, "__file__", None)
+        if file and name.partition(".")[0] not in sys.stdlib_module_names and os.path.isfile(file):
+            found[os.path.abspath(file)] = stat_of(os.stat(file))
+    return found
+
+
+def _merged(
+    saved: SavedAnswers | None, recorded: dict[str, dict[str, tuple[int, ...]]], answers: dict[str, list[str]]
+) -> SavedAnswers:
+    """New answers, together with the saved ones if these hold and depend on nothing that has changed meanwhile."""
+    if saved and len(saved.answers) < _MAX_ANSWERS:
+        before: dict[str, dict[str, tuple[int, ...]]] = {}
+        with contextlib.suppress(OSError):
+            before = {c: dict(zip(paths, check_paths(c, paths), strict=True)) for c, paths in saved.paths.items()}
+        holds = before and _hash({c: [*entries.values()] for c, entries in before.items()}) == saved.found
+        if holds and all(before[c].get(path, found) == found for c in CHECKS for path, found in recorded[c].items()):
+            recorded = {check: before[check] | recorded[check] for check in CHECKS}
+            answers = saved.answers | answers
+    found = _hash({check: [*entries.values()] for check, entries in recorded.items()})
+    return SavedAnswers({check: [*entries] for check, entries in recorded.items()}, found, answers)
+
+
+def _write(folder: str, saved: SavedAnswers) -> None:
+    """Write the file, bound to its inode and time. Raises OSError, or ValueError for texts that it can't hold."""
+    temporary = os.path.join(folder, ".stamp.urdfsync-tmp")
+    with _created(temporary) as file:
+        status = os.fstat(file)
+        os.write(file, saved.dumps(status.st_ino, status.st_mtime_ns).encode("utf-8", "surrogateescape"))
+        os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
+        os.replace(temporary, os.path.join(folder, _NAME))
+
+
+@contextlib.contextmanager
+def _created(path: str) -> Iterator[int]:
+    """A new file in a state folder, which is removed at the end if it is there still. Raises OSError.
+
+    No link is followed: a repository may have committed some that lead elsewhere.
+    """
+    if os.path.islink(os.path.dirname(path)):
+        raise NotADirectoryError
+    with contextlib.suppress(FileNotFoundError):
+        os.unlink(path)  # left by a process that was killed
+    file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+    try:
+        yield file
+    finally:
+        os.close(file)
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(path)
+
+
+# Racy files: those that may have changed after they were read, and show the same stat values. The rule is git's.
+
+
+class Clock:
+    """The clock of a file system, which may be another machine's."""
+
+    def __init__(self, created: os.stat_result, is_reliable: bool, tmpfs: frozenset[int] = frozenset()) -> None:
+        """Store what a file showed that was created just now.
+
+        `is_reliable` says that nobody can set the time of change of a file's status. `tmpfs` are devices on which
+        the system does not note stores through a memory map.
+        """
+        self.created, self.is_reliable, self.tmpfs = created, is_reliable, tmpfs
+
+
+def read_clock(folder: str | os.PathLike[str]) -> Clock | None:
+    """Read the clock of a folder's file system from a file created there; None if that is not possible."""
+    if not HAS_CHANGE_TIMES:
+        return None
+    try:
+        with _created(os.path.join(folder, ".clock.urdfsync-tmp")) as file:
+            created = os.fstat(file)
+            os.utime(file, ns=(0, 0))  # FAT and sshfs let this set the time of change of the status, too
+            return Clock(created, os.fstat(file).st_ctime_ns >= created.st_ctime_ns, frozenset(_tmpfs_devices()))
+    except OSError:
+        return None
+
+
+def _tmpfs_devices() -> Iterator[int]:
+    """The devices of all tmpfs file systems; none where there is no Linux. See proc_pid_mountinfo(5)."""
+    with contextlib.suppress(FileNotFoundError), open("/proc/self/mountinfo", errors="surrogateescape") as file:
+        for line in file:
+            fields, _, kind = line.partition(" - ")
+            if kind.startswith("tmpfs "):
+                major, minor = fields.split()[2].split(":")
+                yield os.makedev(int(major), int(minor))
+
+
+def is_racy(found: tuple[int, ...], clock: Clock, elapsed: int) -> bool:
+    """Whether a file may have changed since it was read, at most `elapsed` ns ago, and show the same stat values."""
+    _, _, device, _, changed, status_changed = found
+    now = clock.created.st_mtime_ns
+    if not clock.is_reliable or device in clock.tmpfs or status_changed <= 0:
+        return True
+    if device != clock.created.st_dev:
+        return max(changed, status_changed) >= now - elapsed - _SKEW
+    is_coarse = any(moment % 1_000_000_000 == 0 for moment in (changed, status_changed, now))
+    return status_changed >= now - elapsed - (_COARSE_TICK if is_coarse else _TICK)
+
+
+def read_clocks() -> tuple[int, int]:
+    """This moment by two clocks, for `elapsed_since`."""
+    return time.monotonic_ns(), time.time_ns()
+
+
+def elapsed_since(started: tuple[int, int]) -> int:
+    """Nanoseconds since `read_clocks`, or more: one clock stops while the machine sleeps, the other one may be set."""
+    return max(time.monotonic_ns() - started[0], time.time_ns() - started[1])

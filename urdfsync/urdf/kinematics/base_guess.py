@@ -1,0 +1,39 @@
+"""Guess whether a robot is mobile, for `init`."""
+
+from __future__ import annotations
+
+import re
+
+from urdfsync.domain import Proposal
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.names import natural_key
+from urdfsync.urdf.robot import Robot
+
+_FOOTPRINT = re.compile(r"base_?footprint", re.IGNORECASE)
+_LIMBS = (
+    ("wheels", re.compile(r"wheel|caster|castor|track(?!er|ing)", re.IGNORECASE)),
+    (
+        "legs",
+        re.compile(
+            r"(?<![a-z])(?:(?:upper|lower)?leg|foot|feet|ankle|knee|hip|thigh|calf|shank|shin|toe)s?(?![a-z])",
+            re.IGNORECASE,
+        ),
+    ),
+)
+_CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
+
+
+def guess_base(robot: Robot) -> Proposal:
+    """Guess from names whether a robot stands on the ground by itself; the reason tells the name that decided."""
+    root = KinematicTree.of(robot).links[0].name
+    if root.lower() == "world":
+        return Proposal("base", "fixed", f'its root link is named "{root}"')
+    if _FOOTPRINT.search(root):
+        return Proposal("base", "floating", f'its root link is named "{root}"')
+    turning = [joint for joint in robot.joints if joint.type in ("continuous", "revolute")]
+    for limbs, pattern in _LIMBS:
+        for kind, names in (("link", {j.child for j in turning}), ("joint", {j.name for j in turning})):
+            found = sorted((name for name in names if pattern.search(_CAMEL.sub(" ", name))), key=natural_key)
+            if len(found) > 1:
+                return Proposal("base", "floating", f'{kind} "{found[0]}" and others sound like {limbs}')
+    return Proposal("base", "fixed", "no link or joint sounds like wheels or legs")

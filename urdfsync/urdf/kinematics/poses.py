@@ -1,0 +1,122 @@
+"""Poses of links, in plain Python: rotation matrices as rows, vectors in metres."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
+from urdfsync.urdf.robot import Box, Capsule, Cylinder, Geometry, Joint, Origin, Sphere, Vector
+
+Matrix = tuple[Vector, Vector, Vector]
+Pose = tuple[Matrix, Vector]
+"""Rotation R and translation p: v_world = R·v + p."""
+
+# Farther than any joint moves, and not so far that arithmetic overflows; leaderPosition in the library has it, too.
+_FAR = 1e60
+
+IDENTITY: Pose = (((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0, 0.0, 0.0))
+
+
+def pose(origin: Origin) -> Pose:
+    """Return the pose of an origin: Rz(yaw)·Ry(pitch)·Rx(roll), as URDF defines it."""
+    (sr, sp, sy), (cr, cp, cy) = map(math.sin, origin.rpy), map(math.cos, origin.rpy)
+    rotation = (
+        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
+        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
+        (-sp, cp * sr, cp * cr),
+    )
+    return rotation, origin.xyz
+
+
+def compose(outer: Pose, inner: Pose) -> Pose:
+    """Return the pose of `inner`, which is given in `outer`, in the frame that `outer` is given in."""
+    (rotation, translation), columns = outer, tuple(zip(*inner[0], strict=True))
+    turned = tuple(tuple(dot(row, column) for column in columns) for row in rotation)
+    moved = tuple(p + dot(row, inner[1]) for p, row in zip(translation, rotation, strict=True))
+    return turned, moved  # type: ignore[return-value]
+
+
+def motion(joint: Joint, position: float) -> Pose:
+    """Return the pose of the child link in the joint frame: a turn by Rodrigues' formula, or a shift along the axis."""
+    if MOTION_KINDS.get(joint.type) == "translational":
+        return IDENTITY[0], tuple(position * a for a in joint.axis)  # type: ignore[return-value]
+    if MOTION_KINDS.get(joint.type) != "rotational":
+        return IDENTITY
+    (x, y, z), s, c = joint.axis, math.sin(position), math.cos(position)
+    v = 1 - c
+    rotation = (
+        (c + x * x * v, x * y * v - z * s, x * z * v + y * s),
+        (y * x * v + z * s, c + y * y * v, y * z * v - x * s),
+        (z * x * v - y * s, z * y * v + x * s, c + z * z * v),
+    )
+    return rotation, (0.0, 0.0, 0.0)
+
+
+def link_poses(tree: KinematicTree, positions: Mapping[str, float]) -> Mapping[str, Pose]:
+    """Return the poses of all links in the root frame at the given joint positions (0 if not given)."""
+    poses = {tree.links[0].name: IDENTITY}
+    for joint in tree.joints:
+        moved = compose(pose(joint.origin), motion(joint, positions.get(joint.name, 0.0)))
+        poses[joint.child] = compose(poses[joint.parent], moved)
+    return poses
+
+
+def start_positions(tree: KinematicTree) -> Mapping[str, float]:
+    """Return where each joint is at the beginning: as close to zero as its limits and those of its followers allow."""
+    ranges = _ranges(tree)
+    positions: dict[str, float] = {}
+    for joint in tree.leaders_first():
+        if joint.mimic is not None and joint.type in MOTION_KINDS:
+            position = joint.mimic.multiplier * positions[joint.mimic.joint] + joint.mimic.offset
+        else:
+            lower, upper = ranges[joint.name]
+            position = min(max(0.0, lower), upper)
+        positions[joint.name] = _near(position)
+    return positions
+
+
+def lowest_point(geometry: Geometry, at: Pose, hull: Iterable[Sequence[float]] = ()) -> float | None:
+    """Return the smallest z of a shape at a pose; of a mesh that of its `hull`, None if that is empty."""
+    up, height = at[0][2], at[1][2]
+    match geometry:
+        case Box(size=size):
+            return height - sum(abs(a) * edge / 2 for a, edge in zip(up, size, strict=True))
+        case Sphere(radius=radius):
+            return height - radius
+        case Capsule(radius=radius, length=length):
+            return height - abs(up[2]) * length / 2 - radius
+        case Cylinder(radius=radius, length=length):
+            return height - abs(up[2]) * length / 2 - radius * math.hypot(up[0], up[1])
+        case _:
+            return min((height + dot(up, point) for point in hull), default=None)
+
+
+def _ranges(tree: KinematicTree) -> Mapping[str, tuple[float, float]]:
+    ranges = {joint.name: own_range(joint) for joint in tree.joints}
+    followers = tree.followers_by_leader()
+    for joint in reversed(tree.leaders_first()):
+        for follower, mimic in followers.get(joint.name, ()) if joint.type in MOTION_KINDS else ():
+            if abs(mimic.multiplier) > math.ulp(1):
+                ends = sorted((_near(end) - mimic.offset) / mimic.multiplier for end in ranges[follower.name])
+                lower, upper = ranges[joint.name]
+                ranges[joint.name] = max(lower, ends[0]), min(upper, ends[1])
+    return ranges
+
+
+def own_range(joint: Joint) -> tuple[float, float]:
+    """Return the smallest and largest position of one joint by itself."""
+    if joint.type not in MOTION_KINDS:
+        return 0.0, 0.0
+    if joint.type == "continuous" or joint.limit is None:
+        return -math.inf, math.inf
+    return joint.limit.lower, joint.limit.upper
+
+
+def _near(position: float) -> float:
+    return min(max(position, -_FAR), _FAR)
+
+
+def dot(a: Sequence[float], b: Sequence[float]) -> float:
+    """Return the scalar product of two vectors of three."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -1,0 +1,108 @@
+"""A robot's tree in canonical order: depth-first from the root, siblings in natural order of their names.
+
+The order of elements in the URDF does not matter here; numbers of links, joints, axes and frames
+follow from this order.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Literal
+
+import msgspec
+
+from urdfsync.urdf.names import Identifier, Key, identify, natural_key
+from urdfsync.urdf.robot import Joint, Limit, Link, Mimic, Robot
+
+Motion = Literal["rotational", "translational"]
+
+MOTION_KINDS: Mapping[str, Motion] = {
+    "continuous": "rotational",
+    "revolute": "rotational",
+    "prismatic": "translational",
+}
+"""Kind of motion of each joint type that has one axis."""
+
+
+class KinematicTree(msgspec.Struct, frozen=True):
+    """Links and joints in canonical order; joint `k` leads to link `k + 1`, link 0 is the root."""
+
+    links: tuple[Link, ...]
+    joints: tuple[Joint, ...]
+    names: Mapping[Key, Identifier]
+
+    @classmethod
+    def of(cls, robot: Robot, taken: Iterable[str] = ()) -> KinematicTree:
+        """Return the tree of a robot that passed all checks; `taken` names are not given to any element.
+
+        Raises KeyError or ValueError for a robot that passes none.
+        """
+        links = {link.name: link for link in robot.links}
+        children: defaultdict[str, list[Joint]] = defaultdict(list)
+        for joint in robot.joints:
+            children[joint.parent].append(joint)
+        for siblings in children.values():
+            siblings.sort(key=lambda joint: natural_key(joint.name), reverse=True)  # the first is popped first
+        (root,) = links.keys() - {joint.child for joint in robot.joints}
+        joints: list[Joint] = []
+        waiting = list(children[root])
+        while waiting:
+            joints.append(waiting.pop())
+            waiting += children[joints[-1].child]
+        keys = [("link", link.name) for link in robot.links] + [("joint", joint.name) for joint in joints]
+        order = (links[root], *(links[joint.child] for joint in joints))
+        return cls(order, tuple(joints), identify(keys, taken))
+
+    def link(self, name: str) -> Identifier:
+        """Return the identifier of a link."""
+        return self.names["link", name]
+
+    def joint(self, name: str) -> Identifier:
+        """Return the identifier of a joint."""
+        return self.names["joint", name]
+
+    def children(self) -> Mapping[str, tuple[Joint, ...]]:
+        """Return the joints that start at each link, in canonical order; links without any are left out."""
+        children: defaultdict[str, list[Joint]] = defaultdict(list)
+        for joint in self.joints:
+            children[joint.parent].append(joint)
+        return {link: tuple(joints) for link, joints in children.items()}
+
+    def leaves(self) -> tuple[Link, ...]:
+        """Return the links at which no joint starts."""
+        parents = {joint.parent for joint in self.joints}
+        return tuple(link for link in self.links if link.name not in parents)
+
+    def axes(self, motion: Motion) -> tuple[Joint, ...]:
+        """Return the joints with an axis of that kind that can be driven: all but those that follow another one."""
+        return tuple(j for j in self.joints if MOTION_KINDS.get(j.type) == motion and j.mimic is None)
+
+    def followers(self) -> Iterator[tuple[Joint, Mimic]]:
+        """Yield the joints with an axis that follow another joint, and how."""
+        return ((j, j.mimic) for j in self.joints if j.type in MOTION_KINDS and j.mimic is not None)
+
+    def followers_by_leader(self) -> Mapping[str, tuple[tuple[Joint, Mimic], ...]]:
+        """Return the direct followers of each joint that has any."""
+        followers: defaultdict[str, list[tuple[Joint, Mimic]]] = defaultdict(list)
+        for joint, mimic in self.followers():
+            followers[mimic.joint].append((joint, mimic))
+        return {leader: tuple(joints) for leader, joints in followers.items()}
+
+    def leaders_first(self) -> list[Joint]:
+        """Return all joints, each after the joint that it follows."""
+        followers = self.followers_by_leader()
+        order = [joint for joint in self.joints if joint.mimic is None or joint.type not in MOTION_KINDS]
+        for joint in order:  # grows while it is walked
+            order += (follower for follower, _ in followers.get(joint.name, ()))
+        return order
+
+
+def strip_numbers(joint: Joint) -> Joint:
+    """Return the joint without its numbers: with its ends, its type, its leader and what drives it.
+
+    A limit stays, without its numbers: whether a joint has one decides with others whether it is driven.
+    """
+    limit = None if joint.limit is None else Limit()
+    mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
+    return Joint(joint.name, joint.type, joint.parent, joint.child, limit=limit, mimic=mimic, actuated=joint.actuated)

@@ -1,1 +1,0 @@
-"""XML to robot, in parts: strict parsing, typed fields, links, joints, checks, and the second reader."""
