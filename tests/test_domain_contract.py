@@ -12,10 +12,9 @@ import msgspec
 import pytest
 
 from urdfsync import config, registry
-from urdfsync.changes import compare
 from urdfsync.config import Keys
 from urdfsync.diagnostics import Severity
-from urdfsync.difference import Version
+from urdfsync.diff.changes import compare
 from urdfsync.domain import (
     Artifact,
     Dependency,
@@ -27,6 +26,7 @@ from urdfsync.domain import (
     Snapshot,
     Target,
     Templates,
+    Version,
 )
 from urdfsync.engine import generate
 from urdfsync.files import digest, templates_digest

@@ -66,12 +66,6 @@ def test_what_was_said_is_said_again(folder: Path, command: list[str], capsys: C
     assert "stray-state" in said.out + said.err or command[-1] == "-q"
 
 
-def test_commands_share_a_file(folder: Path) -> None:
-    for command in (BUILD, CHECK, STATUS):
-        save(*command)
-    assert all(saved(*command) is not None for command in (BUILD, CHECK, STATUS))
-
-
 def test_a_check_says_nothing_of_a_build(folder: Path) -> None:
     shutil.rmtree(".urdfsync/base")  # a clone: what its files are merged with is not there yet
     save(*CHECK)
@@ -501,7 +495,7 @@ def _bring(path: Path, what: str, how: str, old: bool, first: State) -> None:
 def _full(command: list[str]) -> list[str] | None:
     """What the command says if it is carried out, in the form of a saved answer; None unless it succeeds."""
     said: streams.Transcript = []
-    with streams.safe_streams(said):
+    with streams.SafeStreams(said):
         code = cli._main(command)
     return [text for pair in said if pair[1] for text in pair] if code == 0 else None
 

@@ -166,7 +166,7 @@ def _mentioned_records(
     leaving = [a.path for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in moved]
     if not leaving:
         return frozenset()
-    from urdfsync.engine.dangling import words  # hardly any build takes a record away
+    from urdfsync.engine.dangling import code_words  # hardly any build takes a record away
 
     known = {action.path: action.kind for action in actions}
     edited = [path for path, kind in known.items() if kind in USERS]
@@ -174,7 +174,7 @@ def _mentioned_records(
     texts = [merged.get(key) or files.any_text(key) for key in (*edited, *sorted(own))]
     around = files.users_files({inputs.folder, inputs.old_folder})
     texts += [content.decode(errors="replace") for content in around.values()]
-    used = {word for text in texts for word in words(text)}
+    used = {word for text in texts for word in code_words(text)}
     return frozenset(path for path in leaving if path.rpartition("/")[2].removesuffix(".mo") in used)
 
 

@@ -14,8 +14,7 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
-from urdfsync.difference import Version
-from urdfsync.domain import Dependency, Domain, Import, Lookup, Role, Snapshot, Templates
+from urdfsync.domain import Dependency, Domain, Import, Lookup, Role, Snapshot, Templates, Version
 from urdfsync.engine import imports, orphans, parents, source
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles

@@ -11,9 +11,9 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import dependencies, profiling, uptodate
-from urdfsync.changes import Changes
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.diff.changes import Changes
 from urdfsync.domain import Target
 from urdfsync.engine import imports, orphans, outdated
 from urdfsync.engine.actions import Actions
