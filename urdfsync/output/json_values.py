@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from urdfsync import difference
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import Action
 from urdfsync.outcome import Result
 from urdfsync.output import conflicts
@@ -62,7 +62,7 @@ def result_values(result: Result) -> dict[str, Any]:
         "summary": summary(result),
         "drawing": str(result.drawing) if result.drawing else None,
         "checked": result.checked,
-        "class": changes.change_class if changes else difference.ChangeClass.NONE,
+        "class": changes.change_class if changes else ChangeClass.NONE,
         "changes": [change_values(change) for change in changes.changes] if changes else [],
         "actions": [action_values(action, changes) for action in result.actions],
         "conflicts": [_conflict_values(target) for target in conflicts.find_conflicts([result])],

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync import difference
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Role
+from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.outcome import Checked, Result
 
@@ -119,7 +118,7 @@ def _cause(action: Action, changes: Changes) -> str:
     """The changes that a file follows from: records those of their element, models and packages structural ones."""
     found = [change for change in changes.changes if change.element == action.owner]
     if action.role in (Role.MODEL, Role.PACKAGE, Role.ORDER):
-        structural = [one for one in changes.changes if one.change_class is difference.ChangeClass.STRUCTURAL]
+        structural = [one for one in changes.changes if one.change_class is ChangeClass.STRUCTURAL]
         own = [change for change in structural if change.element == action.owner]
         found = own or structural or ([] if changes.generator else found)
     if not found:
@@ -138,16 +137,16 @@ def change_lines(changes: Changes) -> list[str]:
     """What changed in the model, one line each: `joint elbow / limit / effort: 54 → 60 N.m (+11 %)`."""
     lines = [GENERATOR] if changes.generator else []
     for change in changes.changes:
-        is_unmodelled = change.change_class is difference.ChangeClass.UNMODELLED
+        is_unmodelled = change.change_class is ChangeClass.UNMODELLED
         lines += [f"{change}: {change_value(change)}{' (not modelled)' if is_unmodelled else ''}"]
     return lines
 
 
 def change_value(change: Change) -> str:
     """What happened at one place: `54 → 60 N.m (+11 %)`, `renamed to elbow`, `added`."""
-    if change.kind is difference.Kind.RENAMED:
+    if change.kind is ChangeKind.RENAMED:
         return f"renamed to {change.new}"
-    if change.kind is not difference.Kind.CHANGED:
+    if change.kind is not ChangeKind.CHANGED:
         return str(change.kind)
     relation = ""
     if change.noise:
@@ -170,6 +169,6 @@ def _value(value: object) -> str:
 def change_classes(changes: Changes) -> str:
     """`1 structural and 2 parameter changes`."""
     classes = Counter(change.change_class for change in changes.changes)
-    counts = [(classes[one], one) for one in reversed(difference.ChangeClass) if classes[one]]
+    counts = [(classes[one], one) for one in reversed(ChangeClass) if classes[one]]
     words = " and ".join(f"{number} {one}" for number, one in counts)
     return f"{words} change{'' if counts[-1][0] == 1 else 's'}"
