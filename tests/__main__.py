@@ -16,6 +16,7 @@ CHECKS = {
     "lint": ["ruff", "check", "."],
     "format": ["ruff", "format", "--check", "."],
     "types": ["mypy"],
+    "imports": ["lint-imports", "--no-cache"],
     "examples in step": ["urdfsync", "build", "--check"],
     "tests": [*PYTEST, "-m", "not long and not large"],
 }
@@ -30,7 +31,10 @@ def main() -> int:
     for name, (module, *arguments) in checks.items():
         print(f"== {name}", flush=True)  # noqa: T201
         extra = given if module == "pytest" else []
-        if subprocess.run([sys.executable, "-m", module, *arguments, *extra], cwd=ROOT, check=False).returncode:
+        command = [sys.executable, "-m", module]
+        if module == "lint-imports":  # which is no module
+            command = [str(Path(sys.executable).with_name(module))]
+        if subprocess.run([*command, *arguments, *extra], cwd=ROOT, check=False).returncode:
             failed.append(name)
     print(f"failed: {', '.join(failed)}" if failed else "all checks passed", flush=True)  # noqa: T201
     return 1 if failed else 0

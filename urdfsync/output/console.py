@@ -163,7 +163,7 @@ class Console:
     def end(self, command: str, code: int) -> None:
         """The end of a command on robots: its JSON document, and where the time went."""
         self.stop_progress()
-        from urdfsync.views import profiles
+        from urdfsync.output import profiles
 
         profile = profiling.current()
         if self.json:
