@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import re
 from collections.abc import Iterator, Sequence
@@ -18,6 +17,7 @@ from urdfsync.config.names import is_robot_name
 from urdfsync.config.paths import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
+from urdfsync.files import put
 from urdfsync.modelica.names import class_name
 
 _HEADER = """\
@@ -93,20 +93,14 @@ def make_draft(file: Path, sources: Sequence[Path], domain_name: str) -> Draft:
 def write(draft: Draft) -> None:
     """Write a draft, as a whole or not at all. Raises ConfigError if that fails, or if the file exists by now."""
     file = draft.file
-    temporary = file.with_name(f".{file.name}.urdfsync-tmp")
+    if file.exists():
+        raise _exists(file)
     try:
-        content = draft.text.encode()
-        temporary.write_bytes(content)
-        if file.exists():
-            raise _exists(file)
-        temporary.replace(file)
+        put(file, draft.text.encode())
     except OSError as error:
         message = f"the configuration can't be written: {error.strerror}"
         hint = "check the folder's permissions and the space on the disk, or name another file with --config"
         raise ConfigError(Diagnostic(Severity.ERROR, "config-not-written", message, shown(file), hint=hint)) from None
-    finally:
-        with contextlib.suppress(OSError):  # what could not be made can't be removed
-            temporary.unlink(missing_ok=True)
 
 
 def _exists(file: Path) -> ConfigError:
