@@ -295,7 +295,7 @@ def test_without_the_extra_the_real_check_says_what_to_install(
     streams = capsys.readouterr()
     assert streams.out.splitlines()[0].endswith("files written; not checked")
     assert "warning: there is no compiler: " in streams.err
-    assert "pip install platformdirs psutil rumoca" in streams.err
+    assert "pip install filelock psutil rumoca" in streams.err
 
 
 def test_robots_that_are_not_to_be_checked_are_not(project: Path) -> None:

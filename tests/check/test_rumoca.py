@@ -162,7 +162,7 @@ def test_each_compiler_needs_its_own_only(monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == absent else name)
     monkeypatch.setattr("shutil.which", lambda name: name)
     require("omc")
-    with pytest.raises(CompilerError, match=r"rumoca is not installed; pip install 'urdfsync\[check\]'"):
+    with pytest.raises(CompilerError, match="rumoca is not installed; pip install filelock psutil rumoca"):
         require("rumoca")
     absent = "OMPython"
     require("rumoca")

@@ -106,5 +106,6 @@ def request(args: argparse.Namespace, console: Console, **options: Any) -> Build
         progress=console.progress,
         wait=getattr(args, "wait", 60.0),
         jobs=getattr(args, "jobs", None),
+        executor=getattr(args, "executor", ""),
         **options,
     )

@@ -27,6 +27,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, no_progress
 from urdfsync.engine.plan import Plan, plan_if_current, plan_robot
+from urdfsync.extras import install_command
 
 LEAST_STALE = 6
 """With fewer stale robots, importing urdfsync in each worker takes longer than it saves."""
@@ -156,7 +157,7 @@ def _cluster(address: str) -> Executor:
     try:
         from distributed import Client  # an extra, and a second to import
     except ImportError:
-        message, hint = "`--executor` needs Dask, which is not installed", "install urdfsync with the extra `cluster`"
+        message, hint = "`--executor` needs Dask, which is not installed", install_command("cluster")
         raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
     try:
         executor: Executor = Client(address, timeout=_PATIENCE, set_as_default=False).get_executor()
