@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 
 import pytest
@@ -94,6 +95,32 @@ def test_the_picture_holds_the_whole_diagram(gripper: Diagram) -> None:
     assert top < -y2
     assert left + width > x2
     assert top + height > -y1
+
+
+def test_all_text_is_ten_pixels_high_or_more_at_its_natural_size() -> None:
+    names = [f"link_{'o' * length}" for length in range(0, 80, 8)]
+    chain = {
+        a: [TreeJoint(f"to_{b}", b, "rotational", f"{b}Axis", f"{b}Support")] for a, b in itertools.pairwise(names)
+    }
+    tree = Tree(names[0], chain, {names[-1]: f"{names[-1]}Frame"})
+    labels = {name: Label("link", name, "123456789 kg") for name in names}
+    labels |= {joint.name: Label("rotational", joint.name) for joints in chain.values() for joint in joints}
+    root = etree.fromstring(svg(layout(tree), labels, names[-1]))
+    left, top, width, height = map(float, root.get("viewBox", "").split())
+    scale = float(root.get("width", "")) / width
+    assert float(root.get("height", "")) == scale * height
+    assert min(scale * float(text.get("font-size", "")) for text in root.iter(f"{SVG}text")) >= 10
+
+
+def test_joints_names_keep_clear_of_their_neighbours_connectors() -> None:
+    joints = {a: [TreeJoint(f"forearm_roll{b}", b, "rotational", f"{b}Axis", f"{b}Support")] for a, b in ("ab", "bc")}
+    diagram = layout(Tree("a", joints, {"c": "cFrame"}))
+    labels = {name: Label("link", name) for name in "abc"}
+    labels |= {name: Label("rotational", name) for name in ("forearm_rollb", "forearm_rollc")}
+    root = etree.fromstring(svg(diagram, labels))
+    (text,) = [element for element in root.iter(f"{SVG}text") if element.text == "forearm_rollb"][1:]
+    support = diagram.placements["cSupport"]
+    assert -float(text.get("y", "")) > support.centre[1] + 4  # radius of its circle
 
 
 def test_it_needs_nothing_from_elsewhere_and_is_the_same_each_time(gripper: Diagram) -> None:

@@ -11,12 +11,20 @@ from urdfsync.urdf.robot import Inertial, Joint, Link, Mimic, Robot
 
 ROBOT = Robot(
     "arm",
-    (Link("base", Inertial(12.3456)), Link("Arm"), Link("tip<&>"), Link("left"), Link("right")),
+    (
+        Link("base", Inertial(12.3456)),
+        Link("Arm"),
+        Link("tip<&>"),
+        Link("left"),
+        Link("right"),
+        Link("last", Inertial(1234)),
+    ),
     (
         Joint("turn", "revolute", "base", "Arm"),
         Joint("mount", "fixed", "Arm", "tip<&>"),
         Joint("slide", "prismatic", "Arm", "left"),
-        Joint("follow", "prismatic", "Arm", "right", mimic=Mimic("slide", -2)),
+        Joint("follow", "prismatic", "Arm", "right", mimic=Mimic("slide", -2.5)),
+        Joint("stay", "revolute", "right", "last", mimic=Mimic("mount", 7)),
     ),
 )
 
@@ -31,7 +39,14 @@ def test_every_element_is_named_as_in_modelica() -> None:
     names = {"base", "arm_link", "tip___", "left", "right", "turn", "mount", "slide", "follow", "followMimic"}
     assert names <= set(found)
     assert "Plant.Arm" in found
-    assert {"12.3 kg", "-2"} <= set(found)
+    assert {"12.3 kg", "1230 kg"} <= set(found)
+
+
+def test_couplings_show_their_ratio_or_that_they_hold_a_joint_whose_leader_cannot_move() -> None:
+    found = texts(Target("Plant.Arm", "Arm"))
+    assert "× -2.5" in found
+    assert "held" in found
+    assert "× 7" not in found
 
 
 def test_the_robots_class_decides_about_names_as_in_the_model() -> None:

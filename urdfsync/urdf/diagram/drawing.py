@@ -14,11 +14,13 @@ from urdfsync.urdf.diagram.routing import Path, Placement, Point
 
 Kind: TypeAlias = Literal["link", "coupling"] | JointKind
 
-_PIXELS = 3  # nominal size of one unit of the diagram
+# Size of one unit of the diagram. It grows with the robot, so that the smallest text is 10 pixels high at 100 %:
+# a viewer scrolls over a wide robot.
+_PIXELS = 4
 _MARGIN = 10
 _HEADER = 24  # room for the title and the names of the connectors at the top
 _FOOTER, _LEGEND = 8, 10  # room for the legend: in any case, and per row
-_FONT, _SMALLEST = 3.6, 2.4
+_FONT, _SMALLEST = 3.6, 2.5
 _ADVANCE = 0.56  # mean width of a character, by font size
 _BEND = 2.0  # radius of the bends of flange lines: joining a bus looks unlike crossing it
 
@@ -148,8 +150,8 @@ def _component(label: Label, placement: Placement, *, driven: bool) -> Iterator[
     yield _text((x, -y + _LOOKS[label.kind].detail + 1.3), label.detail, "middle", _FONT, 17)
     if label.kind == "link":
         yield _text((placement.x1, -placement.y1 + 4), label.name, "", _FONT, 40)
-    elif driven:
-        yield from _haloed((x + 10, -placement.y2 - 9), label.name, 26)
+    elif driven:  # above the connectors, since the next joint's stand right of them
+        yield from _haloed((placement.x1, -placement.y2 - 16.5), label.name, 42)
     elif label.kind in ("rotational", "translational"):
         yield from _haloed((x + 1.5, -placement.y2 - 2.4), label.name, 34)
     else:
@@ -157,10 +159,10 @@ def _component(label: Label, placement: Placement, *, driven: bool) -> Iterator[
     yield "</g>"
 
 
-def _haloed(at: tuple[float, float], text: str, room: float) -> Iterator[str]:
+def _haloed(at: tuple[float, float], text: str, room: float, style: str = "") -> Iterator[str]:
     """A name where lines may pass: they stop short of its letters."""
-    yield _text(at, text, "halo", _FONT, room)
-    yield _text(at, text, "", _FONT, room)
+    yield _text(at, text, f"{style} halo".strip(), _FONT, room)
+    yield _text(at, text, style, _FONT, room)
 
 
 def _icon(kind: Kind, centre: tuple[float, float], scale: float, glyph: bool = True) -> Iterator[str]:
@@ -181,7 +183,7 @@ def _frame(name: str, placement: Placement, *, is_root: bool) -> Iterator[str]:
     if is_root:
         yield _text((x, -placement.y1 + 4.5), name, "port middle", _FONT, 40)
     else:
-        yield _text((placement.x2, -placement.y1 + 4.5), name, "port end", _FONT, 60)
+        yield from _haloed((placement.x2 - 2, -placement.y1 + 4.5), name, 58, "port end")
 
 
 def _flange(placement: Placement, motion: LineKind, *, is_support: bool) -> Iterator[str]:

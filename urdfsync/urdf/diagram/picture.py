@@ -18,15 +18,20 @@ def draw(robot: Robot, target: Target, options: Options) -> str:
     labels = {}
     for link in skeleton.links:
         component = skeleton.link(link.name).component
-        labels[component] = Label("link", component, f"{link.inertial.mass:.3g} kg" if link.inertial else "")
+        labels[component] = Label("link", component, f"{_rounded(link.inertial.mass)} kg" if link.inertial else "")
     ratios: dict[str, str] = {}
     for joint in skeleton.joints:
         component = skeleton.joint(joint.name).component
         kind = MOTION_KINDS.get(joint.type) or ("fixed" if joint.type == "fixed" else "free")
         labels[component] = Label(kind, component)
         if joint.mimic:
-            ratios[component] = f"{joint.mimic.multiplier:.3g}"
+            ratios[component] = f"× {_rounded(joint.mimic.multiplier)}"
     for coupling in couplings(skeleton, names):
-        ratio = ratios[coupling.follower] if coupling.leader else ""
+        ratio = ratios[coupling.follower] if coupling.leader else "held"
         labels[coupling.component] = Label("coupling", coupling.component, ratio)
     return svg(layout(tree(skeleton, names)), labels, target.package)
+
+
+def _rounded(value: float) -> str:
+    """Three digits; from a thousand on, the others are zeros rather than an exponent."""
+    return f"{float(f'{value:.3g}'):g}"
