@@ -1,4 +1,4 @@
-"""The diagram as SVG: well-formed whatever the names are, complete, and the same for the same robot."""
+"""The SVG of a diagram: well-formed with any names, complete, readable, and the same for the same robot."""
 
 from __future__ import annotations
 
@@ -10,8 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
-from urdfsync.urdf.diagram.drawing import Label, svg
+from urdfsync.domain import Target
+from urdfsync.urdf.diagram.drawing import Label, draw, svg
 from urdfsync.urdf.diagram.layout import Diagram, Tree, TreeCoupling, TreeJoint, layout
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Inertial, Joint, Link, Mimic, Robot
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -40,8 +43,32 @@ LABELS = {
 }
 
 
+ROBOT = Robot(
+    "arm",
+    (
+        Link("base", Inertial(12.3456)),
+        Link("Arm"),
+        Link("tip<&>"),
+        Link("left"),
+        Link("right"),
+        Link("last", Inertial(1234)),
+    ),
+    (
+        Joint("turn", "revolute", "base", "Arm"),
+        Joint("mount", "fixed", "Arm", "tip<&>"),
+        Joint("slide", "prismatic", "Arm", "left"),
+        Joint("follow", "prismatic", "Arm", "right", mimic=Mimic("slide", -2.5)),
+        Joint("stay", "revolute", "right", "last", mimic=Mimic("mount", 7)),
+    ),
+)
+
+
 def texts(drawing: str) -> list[str]:
     return [element.text or "" for element in etree.fromstring(drawing).iter(f"{SVG}text")]
+
+
+def arm_texts(target: Target) -> list[str]:
+    return texts(draw(ROBOT, target, Options()))
 
 
 def box(name: str, detail: str = "") -> str:
@@ -153,3 +180,22 @@ def test_any_text_gives_well_formed_xml(name: str, detail: str) -> None:
 def test_a_component_without_label_is_an_error(gripper: Diagram) -> None:
     with pytest.raises(KeyError, match="palm"):
         svg(gripper, {name: label for name, label in LABELS.items() if name != "palm"})
+
+
+def test_every_element_is_named_as_in_modelica() -> None:
+    found = arm_texts(Target("Plant.Arm", "Arm"))
+    names = {"base", "arm_link", "tip___", "left", "right", "turn", "mount", "slide", "follow", "followMimic"}
+    assert names <= set(found)
+    assert "Plant.Arm" in found
+    assert {"12.3 kg", "1230 kg"} <= set(found)
+
+
+def test_couplings_show_their_ratio_or_that_they_hold_a_joint_whose_leader_cannot_move() -> None:
+    found = arm_texts(Target("Plant.Arm", "Arm"))
+    assert "× -2.5" in found
+    assert "held" in found
+    assert "× 7" not in found
+
+
+def test_the_robots_class_decides_about_names_as_in_the_model() -> None:
+    assert "arm" in arm_texts(Target("Plant.Machine", "Machine"))
