@@ -156,7 +156,7 @@ class UrdfDomain:
         options: Options,
     ) -> str | None:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf.diagram.picture import draw
+        from urdfsync.urdf.diagram.drawing import draw
 
         return draw(from_snapshot(snapshot), target, options) if "package" in options.approach else None
 

@@ -1,7 +1,8 @@
-"""The diagram as SVG: well-formed whatever the names are, complete, and the same for the same robot."""
+"""The SVG of a diagram: well-formed with any names, complete, readable, and the same for the same robot."""
 
 from __future__ import annotations
 
+import itertools
 import re
 
 import pytest
@@ -9,8 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
-from urdfsync.urdf.diagram.drawing import Label, svg
+from urdfsync.domain import Target
+from urdfsync.urdf.diagram.drawing import Label, draw, svg
 from urdfsync.urdf.diagram.layout import Diagram, Tree, TreeCoupling, TreeJoint, layout
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Inertial, Joint, Link, Mimic, Robot
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -39,8 +43,32 @@ LABELS = {
 }
 
 
+ROBOT = Robot(
+    "arm",
+    (
+        Link("base", Inertial(12.3456)),
+        Link("Arm"),
+        Link("tip<&>"),
+        Link("left"),
+        Link("right"),
+        Link("last", Inertial(1234)),
+    ),
+    (
+        Joint("turn", "revolute", "base", "Arm"),
+        Joint("mount", "fixed", "Arm", "tip<&>"),
+        Joint("slide", "prismatic", "Arm", "left"),
+        Joint("follow", "prismatic", "Arm", "right", mimic=Mimic("slide", -2.5)),
+        Joint("stay", "revolute", "right", "last", mimic=Mimic("mount", 7)),
+    ),
+)
+
+
 def texts(drawing: str) -> list[str]:
     return [element.text or "" for element in etree.fromstring(drawing).iter(f"{SVG}text")]
+
+
+def arm_texts(target: Target) -> list[str]:
+    return texts(draw(ROBOT, target, Options()))
 
 
 def box(name: str, detail: str = "") -> str:
@@ -96,6 +124,32 @@ def test_the_picture_holds_the_whole_diagram(gripper: Diagram) -> None:
     assert top + height > -y1
 
 
+def test_all_text_is_ten_pixels_high_or_more_at_its_natural_size() -> None:
+    names = [f"link_{'o' * length}" for length in range(0, 80, 8)]
+    chain = {
+        a: [TreeJoint(f"to_{b}", b, "rotational", f"{b}Axis", f"{b}Support")] for a, b in itertools.pairwise(names)
+    }
+    tree = Tree(names[0], chain, {names[-1]: f"{names[-1]}Frame"})
+    labels = {name: Label("link", name, "123456789 kg") for name in names}
+    labels |= {joint.name: Label("rotational", joint.name) for joints in chain.values() for joint in joints}
+    root = etree.fromstring(svg(layout(tree), labels, names[-1]))
+    width, height = map(float, root.get("viewBox", "").split()[2:])
+    scale = float(root.get("width", "")) / width
+    assert float(root.get("height", "")) == scale * height
+    assert min(scale * float(text.get("font-size", "")) for text in root.iter(f"{SVG}text")) >= 10
+
+
+def test_joints_names_keep_clear_of_their_neighbours_connectors() -> None:
+    joints = {a: [TreeJoint(f"forearm_roll{b}", b, "rotational", f"{b}Axis", f"{b}Support")] for a, b in ("ab", "bc")}
+    diagram = layout(Tree("a", joints, {"c": "cFrame"}))
+    labels = {name: Label("link", name) for name in "abc"}
+    labels |= {name: Label("rotational", name) for name in ("forearm_rollb", "forearm_rollc")}
+    root = etree.fromstring(svg(diagram, labels))
+    (text,) = [element for element in root.iter(f"{SVG}text") if element.text == "forearm_rollb"][1:]
+    support = diagram.placements["cSupport"]
+    assert -float(text.get("y", "")) > support.centre[1] + 4  # radius of its circle
+
+
 def test_it_needs_nothing_from_elsewhere_and_is_the_same_each_time(gripper: Diagram) -> None:
     drawing = svg(gripper, LABELS, "Gripper")
     assert drawing == svg(gripper, dict(reversed(LABELS.items())), "Gripper")
@@ -126,3 +180,22 @@ def test_any_text_gives_well_formed_xml(name: str, detail: str) -> None:
 def test_a_component_without_label_is_an_error(gripper: Diagram) -> None:
     with pytest.raises(KeyError, match="palm"):
         svg(gripper, {name: label for name, label in LABELS.items() if name != "palm"})
+
+
+def test_every_element_is_named_as_in_modelica() -> None:
+    found = arm_texts(Target("Plant.Arm", "Arm"))
+    names = {"base", "arm_link", "tip___", "left", "right", "turn", "mount", "slide", "follow", "followMimic"}
+    assert names <= set(found)
+    assert "Plant.Arm" in found
+    assert {"12.3 kg", "1230 kg"} <= set(found)
+
+
+def test_couplings_show_their_ratio_or_that_they_hold_a_joint_whose_leader_cannot_move() -> None:
+    found = arm_texts(Target("Plant.Arm", "Arm"))
+    assert "× -2.5" in found
+    assert "held" in found
+    assert "× 7" not in found
+
+
+def test_the_robots_class_decides_about_names_as_in_the_model() -> None:
+    assert "arm" in arm_texts(Target("Plant.Machine", "Machine"))

@@ -1,1 +1,1 @@
-"""The diagram of the robot model: layout, routing, and the same as a picture."""
+"""The diagram of the robot model: its layout, the routing of its lines, and its drawing as SVG."""

@@ -1,4 +1,4 @@
-"""The robot model's diagram as a picture: SVG text, self-contained, the same text for the same diagram."""
+"""Draw the robot model's diagram as SVG: the text refers to no other file, and a robot always gives the same one."""
 
 from __future__ import annotations
 
@@ -9,22 +9,29 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Literal, NamedTuple, TypeAlias
 
-from urdfsync.urdf.diagram.layout import Diagram, JointKind, LineKind
+from urdfsync.domain import Target
+from urdfsync.urdf.diagram.layout import Diagram, JointKind, LineKind, layout
 from urdfsync.urdf.diagram.routing import Path, Placement, Point
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
+from urdfsync.urdf.model.robot import connector_names, couplings, tree
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Robot
 
 Kind: TypeAlias = Literal["link", "coupling"] | JointKind
 
-_PIXELS = 3  # nominal size of one unit of the diagram
+# Size of one unit of the diagram. It grows with the robot, so that the smallest text is 10 pixels high at 100 %:
+# a viewer scrolls over a wide robot.
+_PIXELS = 4
 _MARGIN = 10
 _HEADER = 24  # room for the title and the names of the connectors at the top
 _FOOTER, _LEGEND = 8, 10  # room for the legend: in any case, and per row
-_FONT, _SMALLEST = 3.6, 2.4
+_FONT, _SMALLEST = 3.6, 2.5
 _ADVANCE = 0.56  # mean width of a character, by font size
 _BEND = 2.0  # radius of the bends of flange lines: joining a bus looks unlike crossing it
 
 
 class Label(NamedTuple):
-    """How a component is drawn: its kind, its name, and what its icon says inside (mass, ratio)."""
+    """Kind and name of a component, and the text inside its icon: mass or ratio."""
 
     kind: Kind
     name: str
@@ -37,7 +44,7 @@ class _Look(NamedTuple):
     rounding: int
     glyph: str
     detail: float
-    """How far below its middle the icon has its detail."""
+    """Distance of the text inside the icon from the icon's middle, downwards."""
     legend: str
 
 
@@ -102,8 +109,34 @@ text { font-family: Helvetica, Arial, "Liberation Sans", sans-serif; fill: #2b2f
 """.strip()
 
 
+def draw(robot: Robot, target: Target, options: Options) -> str:
+    """Return the robot model's diagram as SVG, in the layout of the generated model, with masses and ratios."""
+    skeleton = KinematicTree.of(robot, taken=(target.name,))
+    names = connector_names(skeleton, options)
+    labels = {}
+    for link in skeleton.links:
+        component = skeleton.link(link.name).component
+        labels[component] = Label("link", component, f"{_rounded(link.inertial.mass)} kg" if link.inertial else "")
+    ratios: dict[str, str] = {}
+    for joint in skeleton.joints:
+        component = skeleton.joint(joint.name).component
+        kind = MOTION_KINDS.get(joint.type) or ("fixed" if joint.type == "fixed" else "free")
+        labels[component] = Label(kind, component)
+        if joint.mimic:
+            ratios[component] = f"× {_rounded(joint.mimic.multiplier)}"
+    for coupling in couplings(skeleton, names):
+        ratio = ratios[coupling.follower] if coupling.leader else "held"
+        labels[coupling.component] = Label("coupling", coupling.component, ratio)
+    return svg(layout(tree(skeleton, names)), labels, target.package)
+
+
+def _rounded(value: float) -> str:
+    """Three digits; from a thousand on, the others are zeros rather than an exponent."""
+    return f"{float(f'{value:.3g}'):g}"
+
+
 def svg(diagram: Diagram, labels: Mapping[str, Label], title: str = "") -> str:
-    """Draw a layout; `labels` has an entry for every placed component but the model's own connectors.
+    """Draw a layout; `labels` has an entry for each placed component except the model's own connectors.
 
     Raises KeyError for a component without label.
     """
@@ -148,8 +181,8 @@ def _component(label: Label, placement: Placement, *, driven: bool) -> Iterator[
     yield _text((x, -y + _LOOKS[label.kind].detail + 1.3), label.detail, "middle", _FONT, 17)
     if label.kind == "link":
         yield _text((placement.x1, -placement.y1 + 4), label.name, "", _FONT, 40)
-    elif driven:
-        yield from _haloed((x + 10, -placement.y2 - 9), label.name, 26)
+    elif driven:  # above the connectors, since the next joint's stand right of them
+        yield from _haloed((placement.x1, -placement.y2 - 16.5), label.name, 42)
     elif label.kind in ("rotational", "translational"):
         yield from _haloed((x + 1.5, -placement.y2 - 2.4), label.name, 34)
     else:
@@ -157,10 +190,10 @@ def _component(label: Label, placement: Placement, *, driven: bool) -> Iterator[
     yield "</g>"
 
 
-def _haloed(at: tuple[float, float], text: str, room: float) -> Iterator[str]:
-    """A name where lines may pass: they stop short of its letters."""
-    yield _text(at, text, "halo", _FONT, room)
-    yield _text(at, text, "", _FONT, room)
+def _haloed(at: tuple[float, float], text: str, room: float, style: str = "") -> Iterator[str]:
+    """Draw a name over lines, with a white border, so that the lines stop short of its letters."""
+    yield _text(at, text, f"{style} halo".strip(), _FONT, room)
+    yield _text(at, text, style, _FONT, room)
 
 
 def _icon(kind: Kind, centre: tuple[float, float], scale: float, glyph: bool = True) -> Iterator[str]:
@@ -181,11 +214,11 @@ def _frame(name: str, placement: Placement, *, is_root: bool) -> Iterator[str]:
     if is_root:
         yield _text((x, -placement.y1 + 4.5), name, "port middle", _FONT, 40)
     else:
-        yield _text((placement.x2, -placement.y1 + 4.5), name, "port end", _FONT, 60)
+        yield from _haloed((placement.x2 - 2, -placement.y1 + 4.5), name, 58, "port end")
 
 
 def _flange(placement: Placement, motion: LineKind, *, is_support: bool) -> Iterator[str]:
-    """A connector without its name: it is that of the joint below."""
+    """Draw a connector of a joint. It has no name in the picture: the joint's stands above it."""
     half = (placement.y2 - placement.y1) // 3
     colour = "#000000" if motion == "rotational" else "#007f00"
     fill = "#ffffff" if is_support else colour
@@ -199,7 +232,7 @@ def _rectangle(centre: Point, half: Point, style: str) -> str:
 
 
 def _lines(diagram: Diagram) -> Iterator[str]:
-    """One path per look, so that lines that share a trunk are painted once."""
+    """Draw all lines of one look as one path, so that a shared trunk is painted once."""
     looks: dict[str, list[str]] = {look: [] for look in _LINE_LOOKS}
     for ends, points in diagram.lines.items():
         look = diagram.kinds[ends] + (" support" if ends[0].endswith(".support") else "")
@@ -210,7 +243,7 @@ def _lines(diagram: Diagram) -> Iterator[str]:
 
 
 def _curved(points: Path, radius: float) -> str:
-    """Path data of a polyline, each bend rounded as far as its shorter side allows."""
+    """Return path data of a polyline. Each bend is rounded, at most up to the middle of its shorter side."""
     if not points:
         return ""
     data = [f"M{points[0][0]} {-points[0][1]}"]
@@ -235,7 +268,7 @@ def _towards(a: Point, b: Point, distance: float) -> tuple[float, float]:
 
 
 def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
-    """Where a net branches: three or more of its segments meet. A net's lines are of one kind and share one end."""
+    """Return the points where three or more segments of a net meet. The lines of a net share their kind and one end."""
     uses = Counter(end for ends in diagram.lines for end in ends)
     nets: defaultdict[tuple[LineKind, str], list[Path]] = defaultdict(list)
     for ends, points in diagram.lines.items():
@@ -244,29 +277,26 @@ def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
 
 
 def _branchings(net: Iterable[Path]) -> Iterator[Point]:
-    sides: defaultdict[Point, set[Point]] = defaultdict(set)
+    points: set[Point] = set()
     across: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
     upright: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
-    for points in net:
-        for a, b in itertools.pairwise(points):
-            sides[a].add((_sign(b[0] - a[0]), _sign(b[1] - a[1])))
-            sides[b].add((_sign(a[0] - b[0]), _sign(a[1] - b[1])))
-            if a[1] == b[1]:
-                across[a[1]].append((min(a[0], b[0]), max(a[0], b[0])))
+    for path in net:
+        points.update(path)
+        for (x1, y1), (x2, y2) in itertools.pairwise(path):
+            if y1 == y2:
+                across[y1].append((min(x1, x2), max(x1, x2)))
             else:
-                upright[a[0]].append((min(a[1], b[1]), max(a[1], b[1])))
+                upright[x1].append((min(y1, y2), max(y1, y2)))
     runs = {y: _united(intervals) for y, intervals in across.items()}
     falls = {x: _united(intervals) for x, intervals in upright.items()}
-    for (x, y), found in sides.items():
-        if _inside(x, runs.get(y, [])):
-            found |= {(-1, 0), (1, 0)}
-        if _inside(y, falls.get(x, [])):
-            found |= {(0, -1), (0, 1)}
-        if len(found) > 2:
+    for x, y in points:  # coordinates are even: one step beside a point lies inside a segment or outside of all
+        run, fall = runs.get(y, []), falls.get(x, [])
+        if _inside(x - 1, run) + _inside(x + 1, run) + _inside(y - 1, fall) + _inside(y + 1, fall) > 2:
             yield x, y
 
 
 def _united(intervals: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Join intervals that touch or overlap; the result is sorted."""
     united: list[tuple[int, int]] = []
     for start, end in sorted(intervals):
         if united and start <= united[-1][1]:
@@ -282,7 +312,7 @@ def _inside(value: int, intervals: list[tuple[int, int]]) -> bool:
 
 
 def _legend_rows(kinds: Iterable[Kind], width: float) -> list[list[Kind]]:
-    """The kinds that the legend explains, as many side by side as there is room for."""
+    """Arrange the legend's kinds in rows, each as long as `width` allows."""
     rows: list[list[Kind]] = []
     used = width
     for kind in kinds:
@@ -308,7 +338,7 @@ def _legend(rows: list[list[Kind]], start: Point) -> Iterator[str]:
 
 
 def _text(at: tuple[float, float], text: str, style: str, size: float, room: float) -> str:
-    """Text in smaller letters, and then shortened in the middle, if it needs more than `room`."""
+    """Draw a text. One that is longer than `room` gets smaller letters, and then loses its middle."""
     if not text:
         return ""
     fitting = max(min(size, size * room / _width(text, size)), min(size, _SMALLEST))
@@ -324,5 +354,5 @@ def _width(text: str, size: float) -> float:
 
 
 def _escaped(text: str) -> str:
-    """Text for XML; characters that can't be printed become spaces."""
+    """Escape a text for XML; characters that can't be printed become spaces, since XML forbids some of them."""
     return html.escape("".join(char if char.isprintable() else " " for char in text))

@@ -1,4 +1,4 @@
-"""The robot model's diagram: where links, joints and couplings stand, and how the lines between them run.
+"""Layout of the robot model's diagram: places of links, joints and couplings, and paths of the lines between them.
 
 A row shows one chain, from left to right, and ends at the connector of its last link. A link's first child
 joint continues the link's row; every other one starts a row of its own, below all rows of the joints before it:
@@ -26,19 +26,7 @@ from typing import Literal, NamedTuple, TypeAlias
 import msgspec
 
 from urdfsync.urdf.diagram import routing
-from urdfsync.urdf.diagram.routing import (
-    CONNECTOR,
-    DROP,
-    JOINT_AT,
-    LINK_AT,
-    SIZE,
-    Path,
-    Placement,
-    Point,
-    Row,
-    RowNeeds,
-    square,
-)
+from urdfsync.urdf.diagram.routing import CONNECTOR, SIZE, Path, Placement, Point, Row, RowNeeds, square
 
 JointKind: TypeAlias = Literal["fixed", "rotational", "translational", "free"]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]
@@ -53,11 +41,14 @@ PORTS: Mapping[str, Point] = {
     "leader": (-100, 0),
     "follower": (100, 0),
 }
-"""Where a component's connectors are in its icon, -100 to 100 both ways."""
+"""Connectors of components, in the coordinates of their icons, -100 to 100 both ways."""
 
 FRAME_A: Point = (-100, 0)
-"""Where the middle of the connector `frame_a` is in every robot's diagram."""
+"""Middle of the connector `frame_a` in every robot's diagram."""
 
+_LINK_AT = 4  # from a column's trunk to the left edge of its links and couplings
+_JOINT_AT = 20  # from a column's trunk to the left edge of its joints
+_DROP = 26  # from a row's spine down to the middle of its links
 _FRAME = 32  # size of a frame connector, as in the Modelica Standard Library
 _TRUNK = 8  # from the connector of the root frame to the first trunk
 _MARGIN = 44  # from the last trunk to the connectors at the right: a link and its name
@@ -88,7 +79,7 @@ class TreeCoupling(msgspec.Struct, frozen=True):
 
 
 class Tree(msgspec.Struct, frozen=True):
-    """What the diagram shows, by component names: a tree of links and joints, and the couplings across it.
+    """A tree of links and joints, and the couplings between joints, all by component names.
 
     `children` gives the joints that start at a link, in the order they are drawn; links without any
     may be left out. `frames` names the connectors of links that have one.
@@ -165,17 +156,17 @@ class _Plan(msgspec.Struct, frozen=True):
 
     def link(self, name: str) -> Placement:
         row, column = self.cells.links[name]
-        x = self.trunks[column] + LINK_AT + SIZE // 2
-        return square((x, self.rows[row].spine - DROP))
+        x = self.trunks[column] + _LINK_AT + SIZE // 2
+        return square((x, self.rows[row].spine - _DROP))
 
     def joint(self, name: str) -> Placement:
         row, column = self.cells.joints[name]
-        x = self.trunks[column] + JOINT_AT + SIZE // 2
+        x = self.trunks[column] + _JOINT_AT + SIZE // 2
         return square((x, self.rows[row].spine))
 
     def coupling(self, follower: str) -> Placement:
         row, column = self.cells.joints[follower]
-        x = self.trunks[column] + LINK_AT + SIZE // 2
+        x = self.trunks[column] + _LINK_AT + SIZE // 2
         return square((x, self.rows[row].band))
 
 
@@ -192,7 +183,7 @@ def _plan(tree: Tree) -> _Plan:
 
 
 def _connectors(tree: Tree, plan: _Plan) -> Iterator[tuple[str, Placement]]:
-    """The model's own connectors: frames of leaves at the right, all others beside what they belong to."""
+    """Yield the model's own connectors: frames of leaves at the right, all others beside their link or joint."""
     for name, joint in plan.cells.parts.items():
         x, y = plan.joint(name).centre
         if joint.axis and joint.support:
@@ -226,7 +217,7 @@ def _arrange(tree: Tree) -> _Cells:
 
 
 def _branches(tree: Tree, link: str, cell: _Cell) -> list[tuple[TreeJoint, int, int | None]]:
-    """The joints that start at a link, last one first, each with its column and its row, None for a new one."""
+    """Return the joints that start at a link, last one first, each with column and row; None is a new row."""
     children = tree.children.get(link, ())
     return [(joint, cell.column, None if index else cell.row) for index, joint in enumerate(children)][::-1]
 
@@ -252,7 +243,7 @@ def _detours(tree: Tree, cells: _Cells) -> _Detours:
 
 
 def _needs(tree: Tree, cells: _Cells, detours: _Detours) -> list[RowNeeds]:
-    """What every row holds."""
+    """Return the contents of each row, from top to bottom."""
     driven = {cells.joints[name].row for name, joint in cells.parts.items() if joint.axis}
     banded = {cells.joints[coupling.follower].row for coupling in tree.couplings}
     framed = {cells.links[link].row for link in tree.frames if tree.children.get(link)}
@@ -300,7 +291,7 @@ def _frame_lines(tree: Tree, plan: _Plan) -> Iterator[_Line]:
 
 
 def _flange_lines(plan: _Plan) -> Iterator[_Line]:
-    """From the joints to the connectors above them."""
+    """Yield the lines from joints to the connectors above them."""
     for name, joint in plan.cells.parts.items():
         if joint.axis and joint.support:
             icon = plan.joint(name)
@@ -335,6 +326,6 @@ def _kind(joint: TreeJoint) -> LineKind:
 
 
 def _shift(plan: _Plan) -> Point:
-    """How far everything moves, so that `frame_a` is where the class that all robots extend has it."""
+    """Return the offset that brings `frame_a` to its place in the class that all robots extend."""
     (x, y), (at_x, at_y) = plan.connectors["frame_a"].centre, FRAME_A
     return at_x - x, at_y - y

@@ -1,7 +1,6 @@
-"""Coordinates for a diagram in rows and columns: room for components, tracks for the lines between them.
+"""Coordinates of rows, columns and of the tracks for lines between them. This module knows no robot.
 
-Nothing in here knows a robot: it deals in rectangles, in channels with numbered tracks, and in paths of
-axis-parallel segments. All coordinates are even, y points upwards.
+Lines consist of axis-parallel segments. All coordinates are even, y points upwards.
 """
 
 from __future__ import annotations
@@ -19,17 +18,10 @@ Key = TypeVar("Key", bound=Hashable)
 
 SIZE = 20
 """Width and height of a component."""
-LINK_AT = 4
-"""From a column's trunk to the left edge of its links and couplings."""
-JOINT_AT = 20
-"""From a column's trunk to the left edge of its joints."""
-COLUMN = 48
-"""From trunk to trunk, as long as one track is enough in the gap between."""
 CONNECTOR = 12
 """Width and height of a connector of the model that stands beside a component."""
-DROP = 26
-"""From a row's spine down to the middle of its links."""
 
+_COLUMN = 48  # from trunk to trunk, as long as one track is enough in the gap between
 _TRACK = 4  # distance of neighbouring lines
 _BELOW = 44  # from a row's spine down to its end: link, its name, a gap
 _NAME = 8  # room for a name above a component
@@ -49,18 +41,18 @@ class Placement(msgspec.Struct, frozen=True):
         return (self.x1 + self.x2) // 2, (self.y1 + self.y2) // 2
 
     def at(self, icon: Point) -> Point:
-        """Where a point of the icon's coordinate system, -100 to 100 both ways, lies in the diagram."""
+        """Return the place in the diagram of a point of the icon's coordinate system, -100 to 100 both ways."""
         across = (self.x2 - self.x1) * (icon[0] + 100) // 200
         up = (self.y2 - self.y1) * (icon[1] + 100) // 200
         return self.x1 + across, self.y1 + up
 
     def moved(self, dx: int, dy: int) -> Placement:
-        """The same rectangle elsewhere."""
+        """Return the rectangle moved by `dx` and `dy`."""
         return Placement(self.x1 + dx, self.y1 + dy, self.x2 + dx, self.y2 + dy)
 
 
 class RowNeeds(msgspec.Struct, frozen=True):
-    """What a row must hold: lines and couplings above it, connectors above its joints, frames below its links."""
+    """Contents of a row: tracks above it; whether it has couplings, connectors above joints, frames below links."""
 
     tracks: int
     band: bool
@@ -95,15 +87,15 @@ def rows(needs: Iterable[RowNeeds], top: int) -> list[Row]:
 
 
 def trunks(gaps: Sequence[int], left: int) -> list[int]:
-    """Give x of every column's trunk; `gaps` counts the tracks left of each, `left` is where the first gap begins."""
+    """Return x of each column's trunk; `gaps` counts the tracks left of each, the first gap begins at x = `left`."""
     found = [left + _TRACK * (gaps[0] + 1)]
     for count in gaps[1:]:
-        found.append(found[-1] + COLUMN + _TRACK * max(0, count - 1))
+        found.append(found[-1] + _COLUMN + _TRACK * max(0, count - 1))
     return found
 
 
 def gap_track(trunk: int, track: int) -> int:
-    """Give x of a numbered track in the gap left of a trunk."""
+    """Return x of a numbered track in the gap left of a trunk."""
     return trunk - _TRACK * (track + 1)
 
 
@@ -122,13 +114,13 @@ def tracks(intervals: Mapping[Key, tuple[int, int]]) -> dict[Key, int]:
 
 
 def square(centre: Point, size: int = SIZE) -> Placement:
-    """A square around `centre`."""
+    """Return a square around `centre`."""
     half = size // 2
     return Placement(centre[0] - half, centre[1] - half, centre[0] + half, centre[1] + half)
 
 
 def path(points: Iterable[Point]) -> Path:
-    """The polyline without repeated points and without points inside a straight run."""
+    """Return the polyline without repeated points and without points inside a straight run."""
     kept: list[Point] = []
     for point in points:
         if kept and point == kept[-1]:
