@@ -79,7 +79,7 @@ def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Calla
     monkeypatch.setenv("PRE_COMMIT_ALLOW_NO_CONFIG", "1")
     repository = Repository(project, monkeypatch)
     script = project.parent / "urdfsync-hook"
-    script.write_text(f"#!{sys.executable}\nimport sys\nfrom urdfsync.hook import start\nstart()\n")
+    script.write_text(f"#!{sys.executable}\nimport sys\nfrom urdfsync.hook import main\nsys.exit(main())\n")
     script.chmod(0o755)
 
     def make(mode: str, also: str = "") -> Site:
@@ -377,4 +377,4 @@ def test_the_hooks_are_what_pre_commit_expects() -> None:
     entries = [line.split()[1:] for line in manifest.read_text().splitlines() if line.strip().startswith("entry:")]
     assert entries == [["urdfsync-hook", "build"], ["urdfsync-hook", "check"]]
     project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["project"]
-    assert project["scripts"]["urdfsync-hook"] == "urdfsync.hook:start"
+    assert project["scripts"]["urdfsync-hook"] == "urdfsync.hook:main"
