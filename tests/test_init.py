@@ -6,10 +6,12 @@ import json
 import sys
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from urdfsync import cli, config
+from urdfsync.files import TEMPORARY
 from urdfsync.modelica.names import class_name, is_identifier
 
 Capture = pytest.CaptureFixture[str]
@@ -142,12 +144,16 @@ def test_long_and_taken_names_give_a_configuration_that_is_right(bare: Path) -> 
     assert len(config.load(bare / "urdfsync.toml").robots) == len(names)
 
 
-@pytest.mark.parametrize("failing", ["write_bytes", "replace"])
+@pytest.mark.parametrize("failing", ["open", "replace"])
 def test_a_disk_that_is_full_leaves_no_configuration_behind(
     bare: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch, failing: str
 ) -> None:
-    def refuse(path: Path, *_: object) -> None:
-        raise OSError(28, "No space left on device", str(path))
+    real = getattr(Path, failing)
+
+    def refuse(path: Path, *arguments: Any, **options: Any) -> Any:
+        if path.name.endswith(TEMPORARY):
+            raise OSError(28, "No space left on device", str(path))
+        return real(path, *arguments, **options)
 
     monkeypatch.setattr(Path, failing, refuse)
     before = sorted(bare.iterdir())
@@ -155,6 +161,15 @@ def test_a_disk_that_is_full_leaves_no_configuration_behind(
     message = "urdfsync.toml: error: the configuration can't be written: No space left on device; check the folder's"
     assert capsys.readouterr().err.startswith(message)
     assert sorted(bare.iterdir()) == before
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+def test_no_link_in_a_repository_leads_init_outside(bare: Path, tmp_path: Path) -> None:
+    victim = tmp_path / "victim"
+    victim.write_text("precious")
+    (bare / ".urdfsync.toml.urdfsync-tmp").symlink_to(victim)
+    assert init("ladder.json") == 0
+    assert victim.read_text() == "precious"
 
 
 def test_a_folder_that_does_not_exist_is_not_made(bare: Path, capsys: Capture) -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from urdfsync.checking.subject import Subject
 from urdfsync.config import load
-from urdfsync.difference import ChangeClass
+from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions

@@ -13,7 +13,7 @@ import pytest
 from urdfsync import cli
 from urdfsync.engine.rules import sides_hash
 from urdfsync.files import digest
-from urdfsync.state.lock import Lock
+from urdfsync.state.lock import build_lock
 
 Capture = pytest.CaptureFixture[str]
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
@@ -426,7 +426,7 @@ def test_a_broken_robot_hinders_no_other(clean: Path, capsys: Capture) -> None:
 
 
 def test_another_build_is_waited_for(clean: Path, capsys: Capture) -> None:
-    with Lock(clean / ".urdfsync/lock", 0) as lock:
+    with build_lock(clean, clean / ".urdfsync", 0) as lock:
         lock.acquire()
         assert resolve(MODEL, "--merge", "--wait", "0") == 4
     assert "parameter Real mine = 1;" in Path(MODEL).read_text()

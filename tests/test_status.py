@@ -7,11 +7,10 @@ from pathlib import Path
 import pytest
 
 from urdfsync import status, wording
-from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.difference import ChangeClass
-from urdfsync.difference import Kind as Happening
-from urdfsync.domain import Role
+from urdfsync.diff.changes import Change, Changes
+from urdfsync.domain import ChangeClass, Role
+from urdfsync.domain import ChangeKind as Happening
 from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.merge import merge

@@ -14,7 +14,7 @@ import pytest
 
 from urdfsync import cli, files
 from urdfsync.config import library_folder
-from urdfsync.state.lock import Lock
+from urdfsync.state.lock import build_lock
 
 Capture = pytest.CaptureFixture[str]
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
@@ -170,7 +170,7 @@ def test_without_its_state_a_package_is_not_known_as_built(built: Path, capsys: 
 
 
 def test_a_build_that_is_writing_is_waited_for(built: Path, capsys: Capture) -> None:
-    with Lock(built / ".urdfsync/lock", 0) as lock:
+    with build_lock(built, built / ".urdfsync", 0) as lock:
         lock.acquire()
         assert shown(capsys) == ["ladder: in step, 14 files"], "it only reads, and nothing is half written"
 

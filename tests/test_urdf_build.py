@@ -12,8 +12,7 @@ from lxml import etree
 from urdfsync import wording
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
-from urdfsync.difference import ChangeClass
-from urdfsync.domain import Role
+from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
@@ -128,6 +127,29 @@ def test_a_robot_whose_meshes_were_never_there_has_no_broken_path(arm: Path) -> 
     for text in contents(arm / "modelica").values():
         assert b"modelica://" not in text
         assert b"UrdfSync.Visualizers.Mesh" not in text
+
+
+def test_missing_meshes_are_one_warning_for_each_package_and_a_note_from_the_second_build_on(arm: Path) -> None:
+    shutil.rmtree(arm / "ws/src/six_axis_arm/meshes")
+    source = arm / "ws/src/six_axis_arm/six_axis_arm.urdf"
+    text = source.read_text()
+    source.write_text(text.replace("package://six_axis_arm/meshes/carousel.obj", "package://turntable/carousel.obj"))
+
+    def told(full: bool = False) -> list[str]:
+        return [str(found).partition(": ")[2] for found in run(arm, full=full).diagnostics]
+
+    warnings = [
+        "warning: 6 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) not found; left out; "
+        "add the folder that holds the folder `six_axis_arm` to `package_paths` [mesh-not-found]",
+        "warning: mesh `package://turntable/carousel.obj` not found; left out; "
+        "add the folder that holds the folder `turntable` to `package_paths` [mesh-not-found]",
+    ]
+    note = "note: 7 meshes left out; `urdfsync build --full` says which, and why [left-out]"
+    assert told() == warnings
+    source.write_text(source.read_text().replace('<mass value="', '<mass value="1'))
+    assert told() == [note]
+    assert told() == [note]
+    assert told(full=True) == warnings
 
 
 def test_a_mesh_that_changes_renews_its_copy_and_the_records_with_its_numbers_only(arm: Path) -> None:

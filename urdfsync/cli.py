@@ -34,7 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(arguments: list[str], transcript: streams.Transcript | None = None) -> int:
-    with streams.safe_streams(transcript) as output:
+    with streams.SafeStreams(transcript) as output:
         code = _main(arguments)
         return unwritten(output) if output.trouble else code
 

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from urdfsync import difference, resolution, wording
+from urdfsync import resolution, wording
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.outcome import Result
 from urdfsync.profiling import OTHER, STAGES, Profile
 from urdfsync.status import FileState, RobotState
 
 if TYPE_CHECKING:
-    from urdfsync.changes import Change
     from urdfsync.checking.verdict import Verdict
-    from urdfsync.comparing.comparison import Comparison
+    from urdfsync.diff.changes import Change
     from urdfsync.domain import Deviation
     from urdfsync.watching.events import Event
 
@@ -57,9 +57,9 @@ def robot(result: Result) -> dict[str, Any]:
         "summary": wording.summary(result),
         "drawing": str(result.drawing) if result.drawing else None,
         "checked": result.checked,
-        "class": result.changes.change_class if result.changes else difference.ChangeClass.NONE,
+        "class": result.changes.change_class if result.changes else ChangeClass.NONE,
         "changes": [change(found) for found in result.changes.changes] if result.changes else [],
-        "actions": [_action(action) for action in result.actions],
+        "actions": [action(one) for one in result.actions],
         "conflicts": [_conflict(target) for target in resolution.conflicts([result])],
         "diagnostics": [finding(diagnostic) for diagnostic in result.diagnostics],
     }
@@ -95,26 +95,6 @@ def state(found: RobotState) -> dict[str, Any]:
         **{key: values[key] for key in ("class", "changes")},
         "files": [_file(file) for file in found.files],
         "diagnostics": values["diagnostics"],
-    }
-
-
-def comparison(found: Comparison) -> dict[str, Any]:
-    """What changed in a source as plain data."""
-    result = found.result
-    return {
-        "name": result.robot,
-        "source": found.source,
-        "against": found.against,
-        "built": not found.missing,
-        "failed": result.failed,
-        "locked": result.locked,
-        "in_step": found.in_step,
-        "summary": wording.comparison(found),
-        "class": found.change_class,
-        "changes": [change(one) for one in found.changes.changes] if found.changes else [],
-        "effects": [_effect(effect) for effect in found.effects],
-        "actions": [{**_action(action), "edited": action.path in found.edited} for action in result.actions],
-        "diagnostics": [finding(diagnostic) for diagnostic in result.diagnostics],
     }
 
 
@@ -189,13 +169,8 @@ def _plain(value: object) -> Any:
     return str(value) if isinstance(value, Path) else value
 
 
-def _effect(found: difference.Effect) -> dict[str, Any]:
-    values = {"old": found.old, "new": found.new, "unit": found.unit, "hint": found.hint}
-    return {"effect": " / ".join(found.path), **values}
-
-
 def _file(file: FileState) -> dict[str, Any]:
-    values = {**_action(file.action), "path": file.path, "reason": file.reason}
+    values = {**action(file.action), "path": file.path, "reason": file.reason}
     return {"path": file.path, "status": file.status} | values
 
 
@@ -213,7 +188,8 @@ def _conflict(target: resolution.Target) -> dict[str, Any]:
     }
 
 
-def _action(action: Action) -> dict[str, Any]:
+def action(action: Action) -> dict[str, Any]:
+    """An action as plain data."""
     return {
         "path": action.path,
         "action": action.kind,

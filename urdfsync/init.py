@@ -16,6 +16,7 @@ from urdfsync import registry, tables
 from urdfsync.config import is_robot_name, shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
+from urdfsync.files import TEMPORARY
 from urdfsync.modelica.names import class_name
 
 _HEADER = """\
@@ -91,10 +92,10 @@ def draft(file: Path, sources: Sequence[Path], domain_name: str) -> Draft:
 def write(proposal: Draft) -> None:
     """Write a draft, as a whole or not at all. Raises ConfigError if that fails, or if the file exists by now."""
     file = proposal.file
-    temporary = file.with_name(f".{file.name}.urdfsync-tmp")
+    temporary = file.with_name(f".{file.name}-{os.urandom(8).hex()}{TEMPORARY}")
     try:
-        content = proposal.text.encode()
-        temporary.write_bytes(content)
+        with temporary.open("xb") as new:  # follows no link that somebody left there
+            new.write(proposal.text.encode())
         if file.exists():
             raise _exists(file)
         temporary.replace(file)

@@ -23,10 +23,10 @@ from urdfsync.status import RobotState
 from urdfsync.views import builds, statuses, terminal
 
 if TYPE_CHECKING:
+    from rich.console import Console
     from rich.progress import Progress, TaskID
 
     from urdfsync.checking.verdict import Verdict
-    from urdfsync.comparing.comparison import Comparison
     from urdfsync.init import Draft
     from urdfsync.standalone import Record
     from urdfsync.views.checks import Checks
@@ -48,14 +48,13 @@ class Report:
         config: str = "",
     ) -> None:
         """`config` is the configuration as the user named it, for commands that are proposed."""
-        self._json, self._quiet, self._verbose, self._explain = as_json, quiet, verbose, explain
+        self.as_json, self.quiet, self.verbose, self._explain = as_json, quiet, verbose, explain
         self._config = config
         self._begin = time.monotonic()
         self._bar: tuple[Progress, TaskID] | None = None
         self._results: list[Result] = []
         self._states: list[RobotState] = []
-        self._comparisons: list[Comparison] = []
-        self._verdicts: list[dict[str, Any]] = []
+        self._entries: list[dict[str, Any]] = []
         self._checks: Checks | None = None
         self._warnings: Sequence[Diagnostic] = ()
 
@@ -74,30 +73,30 @@ class Report:
     def warnings(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Findings that concern the whole command and do not stop it."""
         self._warnings = diagnostics
-        if not self._json:
-            self._findings(diagnostics)
+        if not self.as_json:
+            self.findings(diagnostics)
 
     @profiling.stage("presentation")
     def result(self, result: Result) -> None:
         """Show what was done with one robot."""
         self._stop_bar()
         self._results.append(result)
-        if self._json:
+        if self.as_json:
             return
-        self._findings(result.diagnostics)
-        if self._quiet and not result.conflicts:
+        self.findings(result.diagnostics)
+        if self.quiet and not result.conflicts:
             return
-        if not (self._explain or self._verbose or builds.has_more(result)):
+        if not (self._explain or self.verbose or builds.has_more(result)):
             builds.plain(result.robot, wording.summary(result))
             return
         stream = sys.stderr if result.failed else sys.stdout
-        lines = builds.lines(result, stream, quiet=self._quiet, verbose=self._verbose, explain=self._explain)
+        lines = builds.lines(result, stream, quiet=self.quiet, verbose=self.verbose, explain=self._explain)
         terminal.show(lines, stream)
         if result.conflicts:
             from urdfsync.views import conflicts  # most builds have no use for it
 
             before = sum(len(other.conflicts) for other in self._results[:-1])
-            look = conflicts.Look(self._verbose, self._quiet, before, self._config)
+            look = conflicts.Look(self.verbose, self.quiet, before, self._config)
             terminal.show(conflicts.lines(result, terminal.console(stream), look), stream)
 
     @profiling.stage("presentation")
@@ -105,60 +104,56 @@ class Report:
         """Show how one robot stands."""
         self._stop_bar()
         self._states.append(found)
-        if self._json:
+        if self.as_json:
             return
-        self._findings(found.result.diagnostics if self._verbose else found.findings)
-        if self._quiet and not found.result.conflicts:
+        self.findings(found.result.diagnostics if self.verbose else found.findings)
+        if self.quiet and not found.result.conflicts:
             return
-        if not statuses.has_more(found, self._verbose):
+        if not statuses.has_more(found, self.verbose):
             builds.plain(found.result.robot, wording.state(found))
             return
         stream = sys.stderr if found.result.failed else sys.stdout
-        terminal.show(statuses.lines(found, stream, self._verbose), stream)
+        terminal.show(statuses.lines(found, stream, self.verbose), stream)
 
-    @profiling.stage("presentation")
-    def comparison(self, found: Comparison) -> None:
-        """Show what changed in one source."""
+    def entry(self, values: dict[str, Any]) -> None:
+        """Add what the JSON document says of one robot."""
         self._stop_bar()
-        self._comparisons.append(found)
-        if self._json:
-            return
-        self._findings(found.result.diagnostics)
-        if self._quiet and not found.result.conflicts:
-            return
-        if found.in_step and found.changes is None:
-            builds.plain(found.result.robot, wording.comparison(found))
-            return
-        from urdfsync.views import comparisons  # a build has no use for it
+        self._entries.append(values)
 
-        console = terminal.console(sys.stderr if found.result.failed else sys.stdout)
-        for part in comparisons.parts(found, console, self._verbose):
-            console.print(part)
+    def line(self, robot: str, summary: str) -> None:
+        """Show a robot that needs no more than a line."""
+        self._stop_bar()
+        builds.plain(robot, summary)
+
+    def console(self, *, failed: bool) -> Console:
+        """Return a console for what needs more: the error stream for what failed."""
+        self._stop_bar()
+        return terminal.console(sys.stderr if failed else sys.stdout)
 
     def verdict(self, found: Verdict, strict: bool, robots: Sequence[str] = ()) -> None:
         """Show what was checked of one robot; `robots` are all that the command is about, by their names."""
         self._stop_bar()
-        if self._json:
+        if self.as_json:
             from urdfsync import documents
 
-            self._verdicts.append(documents.verdict(found, strict))
+            self._entries.append(documents.verdict(found, strict))
             return
         if self._checks is None:
             from urdfsync.views import checks  # no other command has a use for it
 
-            look = checks.Look(strict=strict, verbose=self._verbose, quiet=self._quiet)
+            look = checks.Look(strict=strict, verbose=self.verbose, quiet=self.quiet)
             self._checks = checks.Checks(terminal.console(sys.stdout), robots, look)
         console = terminal.console(sys.stdout)
         for line in self._checks.lines(found):
             console.print(line, soft_wrap=True)
-        self._findings(found.diagnostics)
+        self.findings(found.diagnostics)
 
     def cleared(self, freed: int) -> None:
         """Show how many bytes there were in the cache of checks that was emptied."""
         self._stop_bar()
-        if self._json:
+        if self.as_json:
             self._document("check", Exit.IN_STEP, {"freed": freed})
-        elif not self._quiet:
+        elif not self.quiet:
             sys.stdout.write(f"cache emptied, {wording.size(freed)} freed\n" if freed else "the cache was empty\n")
 
     @profiling.stage("presentation")
@@ -166,7 +161,7 @@ class Report:
         """The end of a command on robots: the JSON document, if one is asked for."""
         self._stop_bar()
         self._close_checks()
-        if self._json:
+        if self.as_json:
             self._document(command, code, {"robots": self._robots()} | self._profile(), self._warnings)
         elif profile := profiling.current():
             from urdfsync.views import profiles  # hardly anybody asks
@@ -179,14 +174,14 @@ class Report:
         """Findings that stopped the whole command."""
         self._stop_bar()
         self._close_checks()
-        if self._json:
+        if self.as_json:
             self._document(command, code, {"robots": self._robots()}, [*self._warnings, *diagnostics])
         else:
-            self._findings(diagnostics)
+            self.findings(diagnostics)
 
     def bad_usage(self, command: str, usage: str, found: Diagnostic) -> None:
         """Say what is wrong with the arguments of a command, and how it is called."""
-        if not self._json:
+        if not self.as_json:
             sys.stderr.write(usage)
         self.problems(command, [found])
 
@@ -194,11 +189,11 @@ class Report:
         """What shows the events of the daemon."""
         from urdfsync.views.watching import watching
 
-        return watching(as_json=self._json, quiet=self._quiet, verbose=self._verbose, config=self._config)
+        return watching(as_json=self.as_json, quiet=self.quiet, verbose=self.verbose, config=self._config)
 
     def draft(self, draft: Draft) -> None:
         """Show the configuration that `init` wrote."""
-        if self._json:
+        if self.as_json:
             robots = [
                 {
                     "name": guess.robot,
@@ -211,8 +206,8 @@ class Report:
             values = {"config": str(draft.file), "robots": robots}
             self._document("init", Exit.IN_STEP, values, draft.diagnostics)
             return
-        self._findings(draft.diagnostics)
-        if not self._quiet:
+        self.findings(draft.diagnostics)
+        if not self.quiet:
             from urdfsync.views import drafts  # no other command has a use for it
 
             console = terminal.console(sys.stdout)
@@ -225,7 +220,7 @@ class Report:
             line = f"set MODELICAPATH={folder};%MODELICAPATH%"
         else:
             line = f'export MODELICAPATH={shlex.quote(str(folder))}"${{MODELICAPATH:+:$MODELICAPATH}}"'
-        if self._json:
+        if self.as_json:
             self._document("library", Exit.IN_STEP, {"folder": str(folder), "line": line})
         elif sys.stdout.isatty():
             sys.stdout.write(f"{wording.visible(str(folder))}\n{wording.visible(line)}\n")
@@ -234,7 +229,7 @@ class Report:
 
     def record(self, found: Record, file: Path | None, written: bool | None) -> None:
         """Show the record of a source, or what became of the file that it belongs into."""
-        if self._json:
+        if self.as_json:
             place = {"text": found.text} if file is None else {"file": str(file), "written": written}
             target = {"class": found.target.name, "within": found.target.package}
             self._document("record", Exit.IN_STEP, target | place, self._warnings)
@@ -242,7 +237,7 @@ class Report:
             if hasattr(sys.stdout, "reconfigure") and not sys.stdout.isatty():
                 sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # a file is what Modelica tools read
             sys.stdout.write(found.text)
-        elif not self._quiet:
+        elif not self.quiet:
             said = "written" if written else "unchanged"
             sys.stdout.write(f"{wording.visible(str(file))} {said}: record {found.target.name}\n")
 
@@ -260,8 +255,7 @@ class Report:
         return [
             *map(documents.robot, self._results),
             *map(documents.state, self._states),
-            *map(documents.comparison, self._comparisons),
-            *self._verdicts,
+            *self._entries,
         ]
 
     def _document(
@@ -280,10 +274,12 @@ class Report:
         indent = None if command == "watch" else 2  # its output is one object per line
         sys.stdout.write(json.dumps(document, indent=indent) + "\n")
 
-    def _findings(self, diagnostics: Sequence[Diagnostic]) -> None:
-        if self._quiet:
+    def findings(self, diagnostics: Sequence[Diagnostic]) -> None:
+        """Show findings on the error stream; without --verbose, of many alike only some."""
+        self._stop_bar()
+        if self.quiet:
             diagnostics = [found for found in diagnostics if found.severity is Severity.ERROR]
-        findings, more = (diagnostics, {}) if self._verbose else wording.folded(diagnostics)
+        findings, more = (diagnostics, {}) if self.verbose else wording.folded(diagnostics)
         if not findings:
             return
         hidden = (f"and {number} more like these [{code}]; --verbose shows them" for code, number in more.items())
@@ -300,7 +296,7 @@ class Report:
 
     @property
     def _wants_bar(self) -> bool:
-        return not self._json and not self._quiet and sys.stderr.isatty()
+        return not self.as_json and not self.quiet and sys.stderr.isatty()
 
     def _start_bar(self, what: str) -> tuple[Progress, TaskID]:
         """The bar, which moves to and fro until there is a number of steps."""

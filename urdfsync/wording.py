@@ -8,18 +8,17 @@ from collections import Counter
 from collections.abc import Container, Sequence
 from typing import TYPE_CHECKING
 
-from urdfsync import difference
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import ChangeClass, ChangeKind
 from urdfsync.engine.actions import DELETES, Kind
 from urdfsync.outcome import Checked, Result
 from urdfsync.status import FileStatus, RobotState
 
 if TYPE_CHECKING:
-    from urdfsync.changes import Change, Changes
-    from urdfsync.comparing.comparison import Comparison
+    from urdfsync.diff.changes import Change, Changes
 
 _WIDTH = 40
-_GENERATOR = "a template, an option or urdfsync itself changed"
+GENERATOR = "a template, an option or urdfsync itself changed"
 FEW = 5
 """So many warnings of one kind are shown; of more, only the first ones and their number."""
 
@@ -135,41 +134,17 @@ def outlook(found: RobotState) -> list[str]:
     return [*([changed] if changed else []), "; ".join(filter(None, [build, waits]))]
 
 
-def comparison(found: Comparison) -> str:
-    """What changed since the older version, as the rest of a line that names the robot."""
-    if found.result.failed:
-        errors = sum(finding.severity is Severity.ERROR for finding in found.result.diagnostics)
-        return f"{counted(errors, 'error')}, so nothing can be compared"
-    if found.missing:
-        return found.missing
-    since = f"since {'the last build' if found.against is None else found.against}"
-    if found.changes is None:
-        return f"nothing changed {since}{'' if found.in_step else ', but files are not as they should be'}"
-    what = _classes(found.changes) if found.changes.changes else _GENERATOR
-    return f"{what} {since}{', only by rounding' if found.changes.noise else ''}"
-
-
-def files(found: Comparison) -> str:
-    """What happens to the files of a package, as a heading."""
-    if found.against is None:
-        return f"A build: {summary(found.result)}"
-    number, kinds = len(found.result.actions), Counter(action.kind for action in found.result.actions)
-    parts = ", ".join(f"{kinds[kind]} to {kind}" for kind in (Kind.UPDATE, Kind.CREATE, Kind.DELETE) if kinds[kind])
-    head = f"{counted(number, 'file')} of the package {'differs' if number == 1 else 'differ'}"
-    return f"{head}: {parts}" if len(kinds) > 1 else head
-
-
 def _change_classes(found: Changes) -> str:
     """`1 structural and 2 parameter changes in the source`."""
     if found.generator:
-        return _GENERATOR
-    return f"{_classes(found)} in the source{' (rounding)' if found.noise else ''}"
+        return GENERATOR
+    return f"{change_counts(found)} in the source{' (rounding)' if found.noise else ''}"
 
 
-def _classes(found: Changes) -> str:
+def change_counts(found: Changes) -> str:
     """`1 structural and 2 parameter changes`."""
     classes = Counter(change.change_class for change in found.changes)
-    counts = [(classes[one], one) for one in reversed(difference.ChangeClass) if classes[one]]
+    counts = [(classes[one], one) for one in reversed(ChangeClass) if classes[one]]
     words = " and ".join(f"{number} {one}" for number, one in counts)
     return f"{words} change{'' if counts[-1][0] == 1 else 's'}"
 
@@ -191,19 +166,19 @@ def folded(diagnostics: Sequence[Diagnostic]) -> tuple[list[Diagnostic], dict[st
 
 def changes(found: Changes) -> list[str]:
     """What changed in the model, one line each: `joint elbow / limit / effort: 54 → 60 N.m (+11 %)`."""
-    lines = [_GENERATOR] if found.generator else []
+    lines = [GENERATOR] if found.generator else []
     return lines + [_change(change) for change in found.changes]
 
 
 def _change(change: Change) -> str:
     match change.kind:
-        case difference.Kind.CHANGED:
+        case ChangeKind.CHANGED:
             what = f"{_value(change.old)} → {_value(change.new)} {change.unit}".rstrip() + _relation(change)
-        case difference.Kind.RENAMED:
+        case ChangeKind.RENAMED:
             what = f"renamed to {change.new}"
         case kind:
             what = str(kind)
-    unmodelled = " (not modelled)" if change.change_class is difference.ChangeClass.UNMODELLED else ""
+    unmodelled = " (not modelled)" if change.change_class is ChangeClass.UNMODELLED else ""
     return f"{change}: {what}{unmodelled}"
 
 

@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 
 from urdfsync.checking.libraries import library
-from urdfsync.classfiles import StoredClasses
+from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.scopes import UNKNOWN, Element, Missing, Node, Scopes, Stored, Unknown
 from urdfsync.modelica.syntax import Name
-from urdfsync.modelica.unresolved import Kind, Unresolved, unresolved
+from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
 REPOSITORY = Path(__file__).parents[2]
 
@@ -219,13 +219,13 @@ def test_nothing_is_said_of_what_cannot_be_told(body: str) -> None:
 
 def test_a_redeclaration_inside_of_a_modifier_is_told_apart() -> None:
     (one,) = found(PLANT, USER, "model Mine\n extends Plant.Test(crane(redeclare User.Telescope boom));\nend Mine;\n")
-    assert (one.kind, one.owner, one.name, one.line) == (Kind.NESTED_REDECLARE, "Plant.Crane", "boom", 2)
+    assert (one.kind, one.owner, one.name, one.line) == (UnresolvedKind.NESTED_REDECLARE, "Plant.Crane", "boom", 2)
     assert told("Plant.Crane crane(redeclare User.Telescope boom);") == []
     assert [
         one.kind for one in found(PLANT, USER, "model M\n Plant.Test t(crane(redeclare Nowhere boom));\nend M;")
     ] == [
-        Kind.NESTED_REDECLARE,
-        Kind.CLASS,
+        UnresolvedKind.NESTED_REDECLARE,
+        UnresolvedKind.CLASS,
     ]
 
 

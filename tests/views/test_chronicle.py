@@ -9,11 +9,10 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.difference import ChangeClass
-from urdfsync.difference import Kind as Event
-from urdfsync.domain import Role
+from urdfsync.diff.changes import Change, Changes
+from urdfsync.domain import ChangeClass, Role
+from urdfsync.domain import ChangeKind as Event
 from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Checked, Result
 from urdfsync.views.chronicle import Chronicle

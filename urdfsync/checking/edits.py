@@ -8,7 +8,7 @@ from typing import TypeAlias
 from urdfsync.checking.verdict import TOLERANCE, Effect
 from urdfsync.domain import Deviation
 from urdfsync.files import normalised
-from urdfsync.merging.tokens import is_trivia, tokens
+from urdfsync.merge.tokens import is_trivia, tokens
 
 Values: TypeAlias = Mapping[str, Sequence[float]]
 """Series of a simulation by the names of variables."""

@@ -28,10 +28,10 @@ from urdfsync.checking.toolbox import Toolbox
 from urdfsync.checking.trials import Trials
 from urdfsync.checking.verdict import Compiled, Verdict
 from urdfsync.checking.wishes import Wishes
-from urdfsync.classfiles import StoredClasses
 from urdfsync.config import Config, RobotConfig, library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, Progress
+from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.names import LIBRARY
 
 

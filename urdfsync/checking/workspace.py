@@ -13,9 +13,9 @@ import shutil
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from urdfsync.classfiles import mentions, related
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.modelica.files import files_that_use, has_word
 from urdfsync.modelica.names import within
 
 _NOT_CLASSES = frozenset({"Resources"})
@@ -51,7 +51,7 @@ def surroundings(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
     waiting = [*texts.values(), *found.values()] if others else []
     while waiting:
         text = waiting.pop()
-        for folder in [folder for folder, name in others.items() if mentions(text, name)]:
+        for folder in [folder for folder, name in others.items() if has_word(text, name)]:
             del others[folder]
             more = _read(robot.output, folder, frozenset(others))
             found |= more
@@ -71,7 +71,7 @@ def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
     folders = frozenset(other.folder for other in config.robots)
     read = _read(robot.output, robot.output, folders) if robot.output not in folders else {}
     files = {robot.output / path: content for path, content in read.items() if path.endswith(".mo")}
-    return related(files, [robot.target.package.rpartition(".")[2]])
+    return files_that_use(files, [robot.target.package.rpartition(".")[2]])
 
 
 def write(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: Mapping[str, bytes]) -> Path:

@@ -10,12 +10,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from urdfsync import changes, profiling
-from urdfsync.changes import Changes
+from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.difference import ElementKey, Version
-from urdfsync.domain import Role, Snapshot, Target
+from urdfsync.diff import changes
+from urdfsync.diff.changes import Changes
+from urdfsync.domain import ElementKey, Role, Snapshot, Target, Version
 from urdfsync.engine import imports, source
 from urdfsync.engine.dangling import DanglingNames, lost_names
 from urdfsync.engine.generate import Package, generate
@@ -154,7 +154,7 @@ class Generation:
         for path, old_path in self._reidentified_files().items():
             before[old_path] = (last[path].owner, last[path].template)
         now = {path: (a.owner, a.template) for path, a in self.package.artifacts.items()}
-        renamed = changes.moves(before, now, self.changes.renames if self.changes else {})
+        renamed = changes.moved_files(before, now, self.changes.renames if self.changes else {})
         targets = {inputs.old_key(path): inputs.key(renamed.get(path, path)) for path in texts}
         return renamed_files(recorded.files, targets, {inputs.key(path) for path in now})
 
@@ -174,7 +174,7 @@ class Generation:
             return {}
         files = {inputs.old_path(key): (one.owner, str(one.role)) for key, one in recorded.files.items()}
         today = {path: (one.owner, str(one.role)) for path, one in self.last_package.artifacts.items()}
-        moved = changes.moves({path: key for path, key in files.items() if key[0] in owners}, today, {})
+        moved = changes.moved_files({path: key for path, key in files.items() if key[0] in owners}, today, {})
         return {new: old for old, new in moved.items()}
 
     def _renamed_identifiers(self) -> dict[str, str]:

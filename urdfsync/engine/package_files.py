@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 from urdfsync import dependencies
-from urdfsync.classfiles import modelica_files, related
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.renames import OnDisk
 from urdfsync.files import Tree, digest, text_digest
+from urdfsync.modelica.files import files_that_use, modelica_files
 
 
 class FileState(NamedTuple):
@@ -135,7 +135,7 @@ class PackageFiles:
             if packages.isdisjoint(path.parents):
                 with contextlib.suppress(OSError):
                     found[path] = dependencies.read_file(path)
-        return related(found, [package.name for package in packages])
+        return files_that_use(found, [package.name for package in packages])
 
     def _is_class_folder(self, key: str) -> bool:
         """Return whether the class of a missing file has a folder of its own."""

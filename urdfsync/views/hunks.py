@@ -9,13 +9,11 @@ from typing import NamedTuple
 import msgspec
 
 from urdfsync.merge import Merge, split_lines
-from urdfsync.merging.myers import Change, diff
-from urdfsync.merging.tokens import NEWLINE, tokens
+from urdfsync.merge.sequence import Replacement, compare
+from urdfsync.merge.tokens import NEWLINE, tokens
 
 CONTEXT = 2
 """So many unchanged lines are shown around changed ones."""
-_MAX_WORK = 20_000
-"""What finding the changed parts of a changed run of lines may cost (see `urdfsync.merging.myers`)."""
 _REWRITTEN = 0.6
 """Of lines that changed more than this share of their characters, no part is singled out."""
 _REMOVED = "(removed)"
@@ -89,7 +87,7 @@ class _TwoWay:
 
     def __init__(self, mine: Sequence[str], generated: Sequence[str]) -> None:
         self._mine, self._generated = mine, generated
-        changes = diff(mine, generated)
+        changes = compare(mine, generated)
         self._parts = _Parts(mine, generated, changes)
         both = frozenset({"mine", "generated"})
         self._groups = [
@@ -132,7 +130,7 @@ class _ThreeWay:
     ) -> None:
         """`clashes` are the lines of base, from 1, over which the sides are in conflict."""
         self._base, self._texts = base, {"mine": mine, "generated": generated}
-        self._changes = {side: diff(base, text) for side, text in self._texts.items()}
+        self._changes = {side: compare(base, text) for side, text in self._texts.items()}
         self._parts = {side: _Parts(base, text, self._changes[side]) for side, text in self._texts.items()}
         self._halves = {side: list(self._half(side)) for side in self._texts}
         self._groups = list(_groups(self._changes["mine"], self._changes["generated"], clashes))
@@ -205,7 +203,9 @@ class _ThreeWay:
                 yield Labelled(label, Line(0, _REMOVED), group.clash)
 
 
-def _groups(mine: Sequence[Change], generated: Sequence[Change], clashes: Sequence[range]) -> Iterator[_Group]:
+def _groups(
+    mine: Sequence[Replacement], generated: Sequence[Replacement], clashes: Sequence[range]
+) -> Iterator[_Group]:
     """The changes of both sides, those together that overlap or touch, as the merge sees them."""
     shifts = {"mine": 0, "generated": 0}
     waiting = sorted(
@@ -257,7 +257,7 @@ class _Highlights(msgspec.Struct, frozen=True):
 class _Parts:
     """Which parts of the lines changed from one version to another."""
 
-    def __init__(self, old: Sequence[str], new: Sequence[str], changes: Sequence[Change]) -> None:
+    def __init__(self, old: Sequence[str], new: Sequence[str], changes: Sequence[Replacement]) -> None:
         self._old, self._new = old, new
         self._gone, self._added = _Highlights(), _Highlights()
         for change in changes:
@@ -271,7 +271,7 @@ class _Parts:
         """A line of the new version that the old one has not, or that stands between such lines."""
         return self._added.line(index, self._new[index])
 
-    def _compare(self, change: Change) -> None:
+    def _compare(self, change: Replacement) -> None:
         before, after = self._old[change.start : change.stop], self._new[change.new_start : change.new_stop]
         if not before or not after:
             return
@@ -280,7 +280,7 @@ class _Parts:
             self._added.blank.update(range(change.new_start, change.new_stop))
             return
         old, new = tokens("".join(before)), tokens("".join(after))
-        found = diff(old, new, thin=False, work=_MAX_WORK)
+        found = compare(old, new, minimal=True)
         gone, added = [range(c.start, c.stop) for c in found], [range(c.new_start, c.new_stop) for c in found]
         if min(_share(old, gone), _share(new, added)) <= _REWRITTEN:
             self._gone.parts.update(_spread(old, gone, change.start))

@@ -177,7 +177,7 @@ class Robots:
         return uptodate.read_clock(self._config.root / STATE_FOLDER)
 
     def _scope(self, robot: RobotConfig) -> Scope:
-        return scope(self._config, robot, self._package_paths, self._memory)
+        return scope(self._config, robot, self._package_paths)
 
 
 def _look(disk: PackageFiles, path: str, seen: FileState | None) -> FileState | None:

@@ -7,14 +7,14 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from urdfsync import wording
-from urdfsync.comparing import outline
-from urdfsync.comparing.outline import Entry, Row, Tone
+from urdfsync.diff import outline
+from urdfsync.diff.outline import OutlineEntry, OutlineRow, Tone
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.outcome import Result
 
 if TYPE_CHECKING:
-    from urdfsync.changes import Changes
+    from urdfsync.diff.changes import Changes
 
 _ROWS = 2
 """So many rows of an outline are said in full."""
@@ -106,7 +106,7 @@ def _changes(found: Changes) -> str:
     return ", ".join(parts)
 
 
-def _entry(entry: Entry) -> str:
+def _entry(entry: OutlineEntry) -> str:
     """`link elbow: mass 1.2 → 1.35 kg (+12.5 %)`, `link tool added`."""
     if entry.rows[0].tone in _ELEMENT and not entry.rows[0].label:
         more = ", ".join(map(_row, entry.rows[1:]))
@@ -114,18 +114,18 @@ def _entry(entry: Entry) -> str:
     return f"{entry.title}: {', '.join(map(_row, entry.rows))}"
 
 
-def _element(entry: Entry) -> str:
+def _element(entry: OutlineEntry) -> str:
     """An element that comes, goes or has another name, without what is in it."""
     return f"{entry.title} {entry.rows[0].new.partition(':')[0]}"
 
 
-def _row(row: Row) -> str:
+def _row(row: OutlineRow) -> str:
     relation = f" ({row.relation})" if row.relation else ""
     value = f"{row.old} → {row.new}" if row.old else row.new
     return f"{_label(row)} {value}{relation}".strip()
 
 
-def _label(row: Row) -> str:
+def _label(row: OutlineRow) -> str:
     """Where a value is; the group of a number with a name is left out: nothing else of the element has that."""
     words = row.label.split(" / ")
     if len(words) == 2 and _PLAIN_NUMBER.fullmatch(row.old) and not _INDEX.search(row.label):

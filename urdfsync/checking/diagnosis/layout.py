@@ -18,8 +18,7 @@ import msgspec
 from urdfsync.checking.diagnosis.package import Package, holds_class
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import normalised
-from urdfsync.merging.soundness import markers
-from urdfsync.modelica.lexer import Fault
+from urdfsync.modelica.lexer import Fault, find_markers
 from urdfsync.modelica.names import is_identifier, within
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import Class, StoredText, declared
@@ -209,7 +208,7 @@ def _syntax(package: Package, path: str, text: str, found: Sequence[Fault]) -> l
     faults = [fault for fault in found if not fault.reason.endswith(_TWICE)]
     if not faults:
         return [_repeated(package, path, fault) for fault in found]
-    reason, line = next(iter(markers(text)), None) or min(faults, key=lambda fault: fault.line)
+    reason, line = next(iter(find_markers(text)), None) or min(faults, key=lambda fault: fault.line)
     more = len(found) - 1
     places = f"{more} more place{'s' if more > 1 else ''}"
     hint = f"correct it first: {places} in the file may look wrong because of it" if more else ""

@@ -9,7 +9,7 @@ from urdfsync.checking.diagnosis.package import Package
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.modelica.scopes import Element, Node, Scopes, Sources
 from urdfsync.modelica.syntax import Component
-from urdfsync.modelica.unresolved import Kind, Unresolved, first_type, unresolved
+from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, first_type, unresolved
 
 _FEW = 5
 """So many more lines are named."""
@@ -22,7 +22,7 @@ def check(package: Package, classes: Iterable[tuple[str, ...]], sources: Sources
     """
     scopes = Scopes(sources)
     nodes = [node for name in sorted(classes) if isinstance(node := scopes.node(name), Node)]
-    found: dict[tuple[str, Kind, str, str], list[Unresolved]] = {}
+    found: dict[tuple[str, UnresolvedKind, str, str], list[Unresolved]] = {}
     for node in nodes:
         for one in unresolved(node, scopes):
             found.setdefault((node.file, one.kind, one.owner, one.part), []).append(one)
@@ -39,7 +39,7 @@ class _Words:
     def told(self, file: Path, places: Sequence[Unresolved]) -> Diagnostic:
         """One finding for all places in a file that have the same fault."""
         one = min(places, key=lambda place: place.line)
-        if one.kind is Kind.NESTED_REDECLARE:
+        if one.kind is UnresolvedKind.NESTED_REDECLARE:
             severity, code = Severity.WARNING, "nested-redeclare"
             message = f"the redeclaration of `{one.part}` inside of another modifier is not checked: rumoca ignores it"
             hint = f"write a model that says `extends {one.owner}(redeclare … {one.part})`, and use that instead"
@@ -58,7 +58,7 @@ class _Words:
         )
 
     def _message(self, one: Unresolved) -> str:
-        if one.kind in (Kind.CLASS, Kind.FUNCTION):
+        if one.kind in (UnresolvedKind.CLASS, UnresolvedKind.FUNCTION):
             return f"there is no {one.kind.value} `{one.name}`"
         noun = self._noun(one.element) if one.element else "part" if one.is_part else "element"
         if one.is_field and noun != "attribute":

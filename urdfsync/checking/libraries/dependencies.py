@@ -14,8 +14,8 @@ import msgspec
 
 from urdfsync.checking import workspace
 from urdfsync.checking.libraries import library, references
-from urdfsync.classfiles import mentions
 from urdfsync.config import RobotConfig
+from urdfsync.modelica.files import has_word
 from urdfsync.modelica.names import LIBRARY
 
 _KNOWN = frozenset((*library.PARTS, LIBRARY))
@@ -79,7 +79,7 @@ def fingerprint(robot: RobotConfig, texts: Iterable[bytes]) -> str:
     waiting = list(texts) if names else []
     while waiting:
         text = waiting.pop()
-        for name in [name for name in names if mentions(text, os.fsencode(name))]:
+        for name in [name for name in names if has_word(text, os.fsencode(name))]:
             names.discard(name)
             path = library.find(name, places)
             if path is not None:
