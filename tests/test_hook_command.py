@@ -6,6 +6,7 @@ import itertools
 import json
 import os
 import subprocess
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from support.git import NEEDS_GIT, Repository
 from support.networks import edit, resistor
 
 from urdfsync import cli, hook
-from urdfsync.staging import committing
+from urdfsync.hooks import check
 from urdfsync.state.lock import build_lock
 
 pytestmark = NEEDS_GIT
@@ -472,7 +473,7 @@ def put(version: Mapping[str, bytes], paths: Sequence[str]) -> None:
 
 def stash(monkeypatch: pytest.MonkeyPatch, *paths: str) -> None:
     """Let pre-commit have put changes of these files aside."""
-    monkeypatch.setattr(committing, "_aside", lambda index: frozenset(paths))
+    monkeypatch.setattr(check, "_find_stashed", lambda index: frozenset(paths))
 
 
 @pytest.mark.parametrize("path", ["ladder.json", "step.csv", R1, STATE, "urdfsync.toml"])
@@ -515,12 +516,13 @@ def test_for_programs(repo: Repository, capsys: Capture) -> None:
     assert json.loads("\n".join(said(capsys, "check", "--json", code=0)))["diagnostics"] == []
 
 
-def test_the_script_is_the_command(repo: Repository, capsys: Capture) -> None:
-    assert hook.run(["check"]) == 0
+def test_the_script_is_the_command(repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "argv", ["urdfsync-hook", "check"])
+    assert hook.main() == 0
     resistor(120)
-    assert hook.run(["check"]) == 0
+    assert hook.main() == 0
     repo.git("add", "ladder.json")
-    assert hook.run(["check"]) == 1
+    assert hook.main() == 1
     assert "".join(capsys.readouterr()).splitlines() == said(capsys, "check")
 
 
