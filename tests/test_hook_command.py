@@ -45,7 +45,10 @@ def said(capsys: Capture, mode: str, *arguments: str, code: int = 1) -> list[str
     capsys.readouterr()
     assert cli.main(["hook", mode, *arguments]) == code
     out, err = capsys.readouterr()
-    return f"{err}{out}".splitlines()
+    lines = f"{err}{out}".splitlines()
+    told = [line for line in lines if line and not line.startswith(" ")]
+    assert "--json" in arguments or len(set(told)) == len(told), "a finding is told once"
+    return lines
 
 
 def git(*arguments: str) -> str:

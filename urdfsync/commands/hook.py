@@ -9,7 +9,7 @@ import argparse
 import os
 import shlex
 import sys
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,6 +22,7 @@ from urdfsync.report import Report
 
 if TYPE_CHECKING:
     from urdfsync.hooks.check import CommitFault
+    from urdfsync.hooks.index import Index
 
 _FEW = 5
 """So many files are named one by one."""
@@ -63,98 +64,46 @@ def _run(args: argparse.Namespace, report: Report) -> int:
             report.result(fault.result)
     if faults:
         index = Index(folder)  # a build may have written
-        ignored = index.ignored({path for fault in faults for path in fault.to_add if not index.tracks(path)})
-        place = Place(index.top, _typing_folder(index.top, folder, os.environ), index.pending)
+        advice = _Advice(index, _typing_folder(index.top, folder))
         if args.json:
-            diagnostics += [_finding(fault, place, ignored) for fault in faults]
+            diagnostics += [_finding(fault, advice) for fault in faults]
         else:
-            sys.stdout.writelines(f"{wording.visible(line)}\n" for line in lines(faults, place, ignored))
+            sys.stdout.writelines(f"{wording.visible(line)}\n" for line in _lines(faults, advice))
     report.problems("hook", diagnostics, code)
     return code
 
 
-def _typing_folder(top: Path, folder: Path, environment: Mapping[str, str]) -> Path:
-    """The folder in which the user has called git or pre-commit, as far as these tell."""
-    if "GIT_PREFIX" in environment:
-        return top / environment["GIT_PREFIX"]
-    shell = Path(os.path.realpath(environment.get("PWD") or folder))
-    return shell if "PRE_COMMIT" in environment and shell.is_relative_to(top) else folder
+def _typing_folder(top: Path, folder: Path) -> Path:
+    """Return the folder in which the user called git or pre-commit, as far as these tell."""
+    if "GIT_PREFIX" in os.environ:
+        return top / os.environ["GIT_PREFIX"]
+    shell = Path(os.path.realpath(os.environ.get("PWD") or folder))
+    return shell if "PRE_COMMIT" in os.environ and shell.is_relative_to(top) else folder
 
 
-class Place:
-    """Where the user is, and what commands to copy have to know because of that."""
-
-    def __init__(self, top: Path, folder: Path, pending: Callable[[str], Collection[str]]) -> None:
-        """`top` is that of the repository, `folder` where the user types.
-
-        `pending` gives all files below a folder that `git add` would take with it; all by their path from the top.
-        """
-        self._top, self._folder, self._pending = top, folder, pending
-
-    def shown(self, path: Path | str) -> str:
-        """A path as the user would type it; a text is one of the repository."""
-        text = os.path.relpath(self._top / path, self._folder)
-        return f"./{text}" if text.startswith("-") else text
-
-    def add_command(self, faults: Sequence[CommitFault], ignored: Collection[str]) -> str:
-        """The command that stages what faults name; `ignored` files have to be forced."""
-        paths = sorted({path for fault in faults for path in fault.to_add})
-        if not set(ignored).isdisjoint(paths):
-            return shlex.join(["git", "add", "-f", *map(self.shown, paths)])
-        folders = {folder for fault in faults for folder in fault.folders}
-        return shlex.join(["git", "add", *map(self.shown, self._folded(paths, folders))])
-
-    def build_commands(self, faults: Sequence[CommitFault]) -> str:
-        """The commands that build what faults name, one for each configuration."""
-        commands = []
-        for file in dict.fromkeys(fault.config for fault in faults):
-            robots = [fault.robot for fault in faults if fault.config == file]
-            near = next((f for f in (self._folder, *self._folder.parents) if (f / FILE_NAME).is_file()), None)
-            option = [] if near is not None and near / FILE_NAME == file else ["--config", self.shown(file)]
-            commands.append(shlex.join(["urdfsync", "build", *robots, *option]))
-        return " && ".join(commands)
-
-    def _folded(self, paths: Sequence[str], folders: Collection[str]) -> list[str]:
-        """The paths; if they are many, folders instead of those in which nothing else would be added."""
-        found = list(paths)
-        for folder in sorted(folders) if len(paths) > _FEW else ():
-            inside = {path for path in found if path.startswith(f"{folder}/")}
-            if len(inside) > 1 and inside.issuperset(self._pending(folder)):
-                found = [folder, *(path for path in found if path not in inside)]
-        return sorted(found)
-
-
-def lines(faults: Sequence[CommitFault], place: Place, ignored: Collection[str]) -> Iterator[str]:
-    """Everything that there is to say of robots that are not in step, or not staged."""
+def _lines(faults: Sequence[CommitFault], advice: _Advice) -> Iterator[str]:
+    """Return a line for each robot, then commands to copy."""
     several = len({fault.config for fault in faults}) > 1
     for fault in faults:
         if several:
-            yield f"{fault.robot} ({place.shown(fault.config)}): {_fault(fault, place)}"
+            yield f"{fault.robot} ({advice.shown(fault.config)}): {_message(fault, advice)}"
         elif not fault.needs_user:  # else its result has been shown
-            yield f"{fault.robot}: {_fault(fault, place)}"
-    for advice, command in _steps(faults, place, ignored):
-        yield advice
+            yield f"{fault.robot}: {_message(fault, advice)}"
+    for step, command in advice.steps(faults):
+        yield step
         yield f"  {command}"
 
 
-def _steps(faults: Sequence[CommitFault], place: Place, ignored: Collection[str]) -> Iterator[tuple[str, str]]:
-    """What to do, and the command for it."""
-    ready = [fault for fault in faults if fault.to_add and not fault.needs_build]
-    if ready:
-        yield "add to the commit:", place.add_command(ready, ignored)
-    waiting = [fault for fault in faults if fault.needs_build and not fault.needs_user]
-    if not waiting:
-        return
-    unstaged = sorted({path for fault in waiting for path in fault.unstaged})
-    advice = "build, then add to the commit:"
-    if unstaged:
-        files = shlex.join(map(place.shown, unstaged))
-        advice = f"stage the changes (git add {files}) or put them aside (git stash push --keep-index), then build:"
-    yield advice, f"{place.build_commands(waiting)} && {place.add_command(waiting, ignored)}"
+def _finding(fault: CommitFault, advice: _Advice) -> Diagnostic:
+    """Return the same of one robot, for programs."""
+    message = f"robot `{fault.robot}`: {_message(fault, advice)}"
+    hint = "; ".join(f"`{command}`" for _, command in advice.steps([fault]))
+    code = "out-of-step" if fault.result else "not-staged"
+    return Diagnostic(Severity.ERROR, code, message, advice.shown(fault.config), hint=hint)
 
 
-def _fault(fault: CommitFault, place: Place) -> str:
-    """What is wrong, as the rest of a line that names the robot."""
+def _message(fault: CommitFault, advice: _Advice) -> str:
+    """Return what is wrong, as the rest of a line that names the robot."""
     result = fault.result
     if result is None:
         number = len(fault.to_add)
@@ -164,13 +113,57 @@ def _fault(fault: CommitFault, place: Place) -> str:
     what = "what urdfsync recorded of it is out of date" if result.in_step else wording.summary(result)
     if not fault.unstaged:
         return f"out of step: {what}"
-    files = ", ".join(map(place.shown, fault.unstaged))
+    files = ", ".join(map(advice.shown, fault.unstaged))
     return f"out of step: {what}; {files} {'has' if len(fault.unstaged) == 1 else 'have'} changes that are not staged"
 
 
-def _finding(fault: CommitFault, place: Place, ignored: Collection[str]) -> Diagnostic:
-    """The same for programs."""
-    message = f"robot `{fault.robot}`: {_fault(fault, place)}"
-    hint = "; ".join(f"`{command}`" for _, command in _steps([fault], place, ignored))
-    code = "out-of-step" if fault.result else "not-staged"
-    return Diagnostic(Severity.ERROR, code, message, place.shown(fault.config), hint=hint)
+class _Advice:
+    """Commands that put faults right, with paths as the user would type them."""
+
+    def __init__(self, index: Index, folder: Path) -> None:
+        """`folder` is where the user types."""
+        self._index, self._folder = index, folder
+
+    def shown(self, path: Path | str) -> str:
+        """Return a path as the user would type it; a text is a path from the top of the repository."""
+        text = os.path.relpath(self._index.top / path, self._folder)
+        return f"./{text}" if text.startswith("-") else text
+
+    def steps(self, faults: Sequence[CommitFault]) -> Iterator[tuple[str, str]]:
+        """Return what to do, and the command for it."""
+        ready = [fault for fault in faults if fault.to_add and not fault.needs_build]
+        if ready:
+            yield "add to the commit:", self._add_command(ready)
+        waiting = [fault for fault in faults if fault.needs_build and not fault.needs_user]
+        if not waiting:
+            return
+        step, unstaged = (
+            "build, then add to the commit:",
+            sorted({path for fault in waiting for path in fault.unstaged}),
+        )
+        if unstaged:
+            files = shlex.join(map(self.shown, unstaged))
+            step = f"stage the changes (git add {files}) or put them aside (git stash push --keep-index), then build:"
+        yield step, f"{self._build_commands(waiting)} && {self._add_command(waiting)}"
+
+    def _build_commands(self, faults: Sequence[CommitFault]) -> str:
+        """Return a command for each configuration."""
+        commands = []
+        near = next((f for f in (self._folder, *self._folder.parents) if (f / FILE_NAME).is_file()), None)
+        for file in dict.fromkeys(fault.config for fault in faults):
+            robots = [fault.robot for fault in faults if fault.config == file]
+            option = [] if near is not None and near / FILE_NAME == file else ["--config", self.shown(file)]
+            commands.append(shlex.join(["urdfsync", "build", *robots, *option]))
+        return " && ".join(commands)
+
+    def _add_command(self, faults: Sequence[CommitFault]) -> str:
+        """Return the command that stages files; of many, folders instead of those in which nothing else is to add."""
+        paths, force = sorted({path for fault in faults for path in fault.to_add}), []
+        if self._index.ignored(path for path in paths if not self._index.tracks(path)):
+            force = ["-f"]
+        elif len(paths) > _FEW:
+            for folder in sorted({folder for fault in faults for folder in fault.folders}):
+                inside = {path for path in paths if path.startswith(f"{folder}/")}
+                if len(inside) > 1 and inside.issuperset(self._index.pending(folder)):
+                    paths = sorted({folder, *paths} - inside)
+        return shlex.join(["git", "add", *force, *map(self.shown, paths)])
