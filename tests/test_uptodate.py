@@ -19,9 +19,10 @@ from hypothesis import strategies as st
 from support import answers
 from support.answers import save, saved
 
-from urdfsync import cli, dependencies, report, streams, uptodate
+from urdfsync import cli, dependencies, streams, uptodate
 from urdfsync.__main__ import main as program
-from urdfsync.checking import afterbuild
+from urdfsync.check import afterbuild
+from urdfsync.output import console
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]
@@ -111,7 +112,7 @@ def test_a_build_that_wrote_saves_no_answer(folder: Path) -> None:
 
 
 def test_builds_with_checks_are_not_said_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(afterbuild, "checked", lambda config, request, results: results)
+    monkeypatch.setattr(afterbuild, "with_checks", lambda config, request, results: results)
     Path("urdfsync.toml").write_text('[defaults]\non_build = "check"\n' + Path("urdfsync.toml").read_text()[11:])
     assert cli.main(BUILD) == 0
     time.sleep(0.1)
@@ -393,7 +394,7 @@ def _as_on_fat(status: os.stat_result) -> os.stat_result:
 
 
 def test_a_progress_bar_is_not_saved(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(report, "_PATIENCE", 0.0)
+    monkeypatch.setattr(console, "_BAR_AFTER", 0.0)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     save(*BUILD)
     assert "━" in capsys.readouterr().err, "there was one"

@@ -9,13 +9,13 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from urdfsync import wording
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
+from urdfsync.output.phrases import change_lines
 
 SAMPLES = Path(__file__).parents[1] / "modelica" / "UrdfSync" / "Resources" / "robots"
 CONFIGURATION = """
@@ -226,7 +226,7 @@ def test_a_build_says_what_changed_since_the_last_one(arm: Path) -> None:
     change(arm, 'upper="1.222" effort="130" velocity="5"', 'upper="1.3" effort="143" velocity="5.0000001"')
     result = run(arm)
     assert result.changes is not None
-    assert wording.changes(result.changes) == [
+    assert change_lines(result.changes) == [
         "joint elbow / limit / effort: 130 → 143 N·m (+10 %)",
         "joint elbow / limit / upper: 1.222 → 1.3 rad (70.02° → 74.48°)",
         "joint elbow / limit / velocity: 5 → 5.0000001 rad/s (rounding)",
@@ -241,7 +241,7 @@ def test_what_is_not_modelled_is_told_and_writes_nothing(arm: Path) -> None:
     change(arm, '<transmission name="turret_transmission"', '<transmission name="gear"')
     result = run(arm)
     assert result.changes is not None
-    assert wording.changes(result.changes) == [
+    assert change_lines(result.changes) == [
         "robot / transmission gear: added (not modelled)",
         "robot / transmission turret_transmission: removed (not modelled)",
     ]
@@ -253,11 +253,11 @@ def test_a_rename_and_a_template_are_told_as_such(arm: Path) -> None:
     change(arm, '<joint name="elbow"', '<joint name="knee"')
     renamed = run(arm).changes
     assert renamed is not None
-    assert wording.changes(renamed) == ["joint elbow: renamed to knee"]
+    assert change_lines(renamed) == ["joint elbow: renamed to knee"]
     (arm / "urdfsync.toml").write_text(CONFIGURATION + "collisions = false\n")
     other = run(arm).changes
     assert other is not None
-    assert wording.changes(other)[0] == "a template, an option or urdfsync itself changed"
+    assert change_lines(other)[0] == "a template, an option or urdfsync itself changed"
 
 
 CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller"/>
@@ -292,7 +292,7 @@ def test_a_drive_that_comes_is_a_structural_change(cart: Path) -> None:
     (cart / "cart.urdf").write_text(CART.replace('"t">', '"t"><joint name="caster"/>'))
     result = run(cart)
     assert result.changes is not None
-    assert "joint caster / drive: passive → driven" in wording.changes(result.changes)
+    assert "joint caster / drive: passive → driven" in change_lines(result.changes)
     assert result.changes.change_class is ChangeClass.STRUCTURAL
 
 

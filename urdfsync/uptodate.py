@@ -147,9 +147,9 @@ def print_answer(arguments: list[str]) -> int | None:
         for name, text in zip(answer[::2], answer[1::2], strict=True):
             (output if name == streams.OUTPUT else sys.stderr).write(text)
         if output.trouble:
-            from urdfsync import report  # 30 ms, and hardly ever needed
+            from urdfsync import cli  # 30 ms, and hardly ever needed
 
-            return report.unwritten(output)
+            return cli.tell_unwritten(output)
     return 0
 
 

@@ -77,6 +77,7 @@ manifests = st.builds(
     folder=st.just("m/P"),
     source=st.just(MANIFEST.source),
     generator=st.just(MANIFEST.generator),
+    options=st.sampled_from([None, {}, {"ground": True, "names": ["a"], "inner": {"x": 1.5}}]),
     names=st.dictionaries(names, st.dictionaries(names, names, max_size=3), max_size=2),
     dependencies=st.dictionaries(names, st.builds(DependencyRecord, names, copies, st.none() | names), max_size=2),
     orders=st.dictionaries(

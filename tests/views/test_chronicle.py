@@ -91,7 +91,7 @@ def test_a_verbose_build_lists_changes_and_files() -> None:
     assert told(UPDATED, verbose=True) == [
         "14:03:12  arm  link elbow: mass 1.2 → 1.35 kg (+12.5 %), 1 record written",
         "  link elbow / mass: 1.2 → 1.35 kg (+12.5 %)",
-        f"  update     {ELBOW}  what it is made from changed",
+        f"  update     {ELBOW}  link elbow: mass 1.2 → 1.35 kg (+12.5 %)",
     ]
 
 

@@ -16,14 +16,14 @@ REPOSITORY = Path(__file__).parents[2]
 PROGRAM = r"""
 import os
 from pathlib import Path
-from urdfsync.report import Report
+from urdfsync.views.watching import watching
 from urdfsync.watching import events
 
 def opened():
     return [number for number in range(50) if os.path.exists(f"/dev/fd/{number}")]
 
 before = opened()
-with Report().watching() as listener:
+with watching() as listener:
     listener(events.Started(Path("urdfsync.toml"), ("arm", "cart")))
     os.system(r"exec >&2; printf 'one\r\ntwo\n\n 10 %%\r100 %%\n\033[2Jthree\033[31m red\033[0m\nfour'")
 assert opened() == before

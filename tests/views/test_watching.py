@@ -251,7 +251,7 @@ def test_programs_get_a_line_of_json_at_once(monkeypatch: pytest.MonkeyPatch) ->
         (line,) = stream.flushed.splitlines()
         programs(built("arm", Kind.UPDATE, Kind.UNCHANGED))
     event = json.loads(line)
-    assert (event["version"], event["event"], event["robot"]) == (1, "waiting", "arm")
+    assert (event["version"], event["event"], event["robot"]) == (2, "waiting", "arm")
     assert event["time"] == "2026-03-04T14:03:12+01:00"
     assert event["diagnostics"][0]["message"] == "this is no XML"
     event = json.loads(stream.flushed.splitlines()[1])

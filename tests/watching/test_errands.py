@@ -11,8 +11,8 @@ import pytest
 from support.daemon import LIMIT
 
 from urdfsync import config
-from urdfsync.checking.afterbuild import Findings
-from urdfsync.checking.verdict import Compiled, Verdict
+from urdfsync.check.afterbuild import BuildCheck
+from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.build import build
@@ -21,10 +21,10 @@ from urdfsync.outcome import Checked
 from urdfsync.watching import events
 from urdfsync.watching.checks import Checks, Errand
 
-RIGHT = Verdict("ladder", "Ladder", compiled=(Compiled("Ladder", 12, 3),), seconds=2.5)
+RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12, 3),), seconds=2.5)
 BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)
-WRONG = Verdict("ladder", "Ladder", diagnostics=(BROKEN,), seconds=1.0)
-SYNTAX = Verdict("ladder", "Ladder", unchecked=("nothing was compiled, since there is no library",))
+WRONG = CheckResult("ladder", "Ladder", diagnostics=(BROKEN,), seconds=1.0)
+SYNTAX = CheckResult("ladder", "Ladder", unchecked=("nothing was compiled, since there is no library",))
 NOTE = Diagnostic(Severity.WARNING, "not-checked", SYNTAX.unchecked[0])
 
 OTHER = '[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\non_build = "check"\n'
@@ -36,15 +36,15 @@ class Bench:
     def __init__(self) -> None:
         self.told: list[events.Event] = []
         self.begun: queue.SimpleQueue[str] = queue.SimpleQueue()
-        self._ends: dict[str, queue.SimpleQueue[Verdict | Exception]] = {"ladder": queue.SimpleQueue()}
+        self._ends: dict[str, queue.SimpleQueue[CheckResult | Exception]] = {"ladder": queue.SimpleQueue()}
         self._ends["other"] = queue.SimpleQueue()
-        self._over: queue.SimpleQueue[tuple[Errand, Findings | None]] = queue.SimpleQueue()
+        self._over: queue.SimpleQueue[tuple[Errand, BuildCheck | None]] = queue.SimpleQueue()
         self.checks = Checks(BuildOptions(), self.told.append, lambda *end: self._over.put(end), self._examine)
         self.config = config.load(Path("urdfsync.toml"))
 
     def _examine(
-        self, config: Config, robots: Sequence[RobotConfig], request: BuildOptions, tell: Progress
-    ) -> Iterator[Verdict]:
+        self, config: Config, robots: Sequence[RobotConfig], options: CheckOptions, tell: Progress
+    ) -> Iterator[CheckResult]:
         (robot,) = robots
         self.begun.put(robot.name)
         while True:
@@ -62,7 +62,7 @@ class Bench:
         """As the daemon does after a build of the robot of this number."""
         self.checks.ask(self.config, self.config.robots[number])
 
-    def end(self, verdict: Verdict | Exception, robot: str = "ladder") -> None:
+    def end(self, verdict: CheckResult | Exception, robot: str = "ladder") -> None:
         """Let the check of a robot end, as soon as it runs."""
         self._ends[robot].put(verdict)
         self.receive()

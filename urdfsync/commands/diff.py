@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -11,18 +12,20 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from urdfsync import config, profiling, wording
-from urdfsync.commands import common
+from urdfsync import config
+from urdfsync.commands import arguments
 from urdfsync.config import Config
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.diff.outline import OutlineEntry, OutlineRow, Tone, effect_rows, outline
 from urdfsync.engine.actions import CONFLICTS, Action, Kind
-from urdfsync.report import Report
-from urdfsync.views import terminal
-from urdfsync.views.terminal import text
+from urdfsync.outcome import Exit
+from urdfsync.output.console import Console, has_marks, line, rich_console, text
+from urdfsync.output.json_values import action_values, change_values, finding_values
+from urdfsync.output.phrases import GENERATOR, change_classes, counted, error_count
+from urdfsync.output.phrases import summary as build_summary
 
 if TYPE_CHECKING:
-    from rich.console import Console
+    from rich.console import Console as RichConsole
     from rich.text import Text
     from rich.tree import Tree
 
@@ -44,7 +47,7 @@ _SILENT = frozenset({Kind.UNCHANGED, Kind.KEEP, Kind.FORGET})
 _KINDS = {Kind.CREATE: "green", Kind.RESTORE: "green", Kind.UPDATE: "default", Kind.DELETE: "red", Kind.ADOPT: "green"}
 
 
-def add(commands: common.Commands) -> None:
+def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
     parser = commands.add_parser(
         "diff",
@@ -58,30 +61,31 @@ def add(commands: common.Commands) -> None:
     )
     parser.add_argument("source", nargs="?", default="", metavar="SOURCE", help="a source or a robot (default: all)")
     parser.add_argument("--against", metavar="VERSION", help="the older version: a file or a git revision")
-    common.add_robot_option(parser)
-    common.add_wait(parser)
-    common.add_profile(parser)
-    parser.set_defaults(run=_run)
-    common.add_common(parser)
+    arguments.add_robot_option(parser)
+    arguments.add_wait(parser)
+    arguments.add_profile(parser)
+    parser.set_defaults(run=run)
+    arguments.add_common(parser)
 
 
-def _run(options: argparse.Namespace, report: Report) -> int:
+def run(args: argparse.Namespace, console: Console) -> Exit:
+    """Show what changed in each source."""
     from urdfsync.diff import comparison  # imports all that a build needs: for other commands' parsers it is not loaded
 
     folder = config.working_folder()
-    configuration = _configuration(options, folder)
-    sources = comparison.find_sources(options.source, configuration, options.robot or [], folder)
-    comparison.check_sources(sources, options.against, configuration, folder)
+    configuration = _configuration(args, folder)
+    sources = comparison.find_sources(args.source, configuration, args.robot or [], folder)
+    comparison.check_sources(sources, args.against, configuration, folder)
     found = []
-    request = common.request(options, report)
-    for one in comparison.compare_sources(sources, options.against, configuration, request, folder):
-        if report.as_json:
-            report.entry(_to_json(one))
+    request = arguments.request(args, console)
+    for one in comparison.compare_sources(sources, args.against, configuration, request, folder):
+        if console.json:
+            console.add_robot(_to_json(one))
         else:
-            _show(one, report)
+            _show(one, console)
         found.append(one)
     code = comparison.exit_code(found)
-    report.finish("diff", code)
+    console.end("diff", code)
     return code
 
 
@@ -89,7 +93,7 @@ def _configuration(options: argparse.Namespace, folder: Path) -> Config | None:
     """Return the configuration; None if there is none and none is needed. Raises ConfigError."""
     named = options.config or options.robot or not options.source
     if named or any((place / config.FILE_NAME).is_file() for place in (folder, *folder.parents)):
-        return common.configuration(options)
+        return arguments.configuration(options)
     if options.against is not None:
         return None
     message = f"no {config.FILE_NAME} in {folder} or a folder above it, so there is no last build to compare with"
@@ -99,8 +103,6 @@ def _configuration(options: argparse.Namespace, folder: Path) -> Config | None:
 
 def _to_json(found: Comparison) -> dict[str, Any]:
     """Return a comparison as docs/json.md describes it."""
-    from urdfsync import documents
-
     result = found.result
     return {
         "name": result.robot,
@@ -112,56 +114,58 @@ def _to_json(found: Comparison) -> dict[str, Any]:
         "in_step": found.in_step,
         "summary": _summary(found),
         "class": found.change_class,
-        "changes": [documents.change(one) for one in found.changes.changes] if found.changes else [],
+        "changes": [change_values(one) for one in found.changes.changes] if found.changes else [],
         "effects": [
             {"effect": " / ".join(one.path), "old": one.old, "new": one.new, "unit": one.unit, "hint": one.hint}
             for one in found.effects
         ],
-        "actions": [{**documents.action(one), "edited": one.path in found.edited} for one in result.actions],
-        "diagnostics": [documents.finding(diagnostic) for diagnostic in result.diagnostics],
+        "actions": [
+            {**action_values(one, result.changes), "edited": one.path in found.edited} for one in result.actions
+        ],
+        "diagnostics": [finding_values(diagnostic) for diagnostic in result.diagnostics],
     }
 
 
 def _summary(found: Comparison) -> str:
     """Return what changed since the older version, as the rest of a line that names the robot."""
     if found.result.failed:
-        errors = sum(finding.severity is Severity.ERROR for finding in found.result.diagnostics)
-        return f"{wording.counted(errors, 'error')}, so nothing can be compared"
+        return f"{error_count(found.result.diagnostics)}, so nothing can be compared"
     if found.missing:
         return found.missing
     since = f"since {'the last build' if found.against is None else found.against}"
     if found.changes is None:
         return f"nothing changed {since}{'' if found.in_step else ', but files are not as they should be'}"
-    what = wording.change_counts(found.changes) if found.changes.changes else wording.GENERATOR
+    what = change_classes(found.changes) if found.changes.changes else GENERATOR
     return f"{what} {since}{', only by rounding' if found.changes.noise else ''}"
 
 
 # --- text ---------------------------------------------------------------------------------------------------------
 
 
-@profiling.stage("presentation")
-def _show(found: Comparison, report: Report) -> None:
+def _show(found: Comparison, console: Console) -> None:
     """Print what there is to say about one source: a tree of changes by element, effects on the model, files."""
-    report.findings(found.result.diagnostics)
-    if report.quiet and not found.result.conflicts:
+    console.findings(found.result.diagnostics)
+    if console.quiet and not found.result.conflicts:
         return
+    screen = rich_console(sys.stderr if found.result.failed else sys.stdout)
     if found.in_step and found.changes is None:
-        report.line(found.result.robot, _summary(found))
+        mark = [("✓ ", "green")] if has_marks(screen.file) else []
+        console.print([line(*mark, (found.result.robot, "bold"), (f": {_summary(found)}", ""))])
         return
-    console = report.console(failed=found.result.failed)
-    if not console.is_terminal:
-        console.width = 10_000  # lines of a pipe are never broken
-    console.print(_tree(found, console, report.verbose))
-    for line in (*_effects(found, console, report.verbose), *_files(found, console, report.verbose)):
-        console.print(line)
+    console.stop_progress()
+    if not screen.is_terminal:
+        screen.width = 10_000  # lines of a pipe are never broken
+    screen.print(_tree(found, screen, console.verbose))
+    for row in (*_effects(found, screen, console.verbose), *_files(found, screen, console.verbose)):
+        screen.print(row)
 
 
-def _tree(found: Comparison, console: Console, verbose: bool) -> Tree:
+def _tree(found: Comparison, console: RichConsole, verbose: bool) -> Tree:
     """Return the robot with its changes by element."""
     from rich.tree import Tree
 
     mark, style = ("✓", "green") if found.in_step else ("~", "yellow")
-    marks = [(f"{mark} ", style)] if terminal.has_marks(console.file) else []
+    marks = [(f"{mark} ", style)] if has_marks(console.file) else []
     headline = text(*marks, (found.result.robot, "bold"), (f": {_summary(found)}", ""))
     tree = Tree(headline, guide_style="dim")
     if found.changes is None:
@@ -194,7 +198,7 @@ def _titled(entry: OutlineEntry) -> OutlineRow:
 class _Columns:
     """Rows below each other: labels, values, and how new values stand to old ones."""
 
-    def __init__(self, rows: Sequence[OutlineRow], console: Console, guides: int) -> None:
+    def __init__(self, rows: Sequence[OutlineRow], console: RichConsole, guides: int) -> None:
         """Columns that suit these rows; `guides` is the width of what stands before them."""
         self._total = console.width - guides
         widest = min(_WIDEST, self._total // 3)
@@ -205,7 +209,7 @@ class _Columns:
 
     def line(self, row: OutlineRow, margin: str = "", style: str = "") -> Text:
         """Return the row; what does not fit goes to further lines, below the values; `margin` stands before them."""
-        from rich.console import Console
+        from rich.console import Console as RichConsole
 
         line = text((f"{row.label:<{self._label}}  ", style or ("dim" if row.tone is Tone.QUIET else "")))
         indent = "\n" + margin + " " * (self._label + 2)
@@ -216,7 +220,7 @@ class _Columns:
         if pieces[0].cell_len > room:  # broken at the arrow first
             new = _value(msgspec.structs.replace(row, old=""))
             parts = [text((row.old, "dim")), text(("→ ", "dim")).append_text(new)] if row.old else [new]
-            pieces = [piece for part in parts for piece in part.wrap(Console(width=room), room)]
+            pieces = [piece for part in parts for piece in part.wrap(RichConsole(width=room), room)]
         for count, piece in enumerate(pieces):
             line.append(indent if count else "").append_text(piece)
         if row.relation:
@@ -233,7 +237,7 @@ def _value(row: OutlineRow) -> Text:
     return text((row.old, style or "dim"), (" → ", "dim"), (row.new, style))
 
 
-def _effects(found: Comparison, console: Console, verbose: bool) -> Iterator[Text]:
+def _effects(found: Comparison, console: RichConsole, verbose: bool) -> Iterator[Text]:
     """Yield the properties of the whole model that differ."""
     rows = effect_rows(found.effects)
     shown = rows if verbose or len(rows) <= _EFFECTS else rows[: _EFFECTS - 1]
@@ -245,20 +249,20 @@ def _effects(found: Comparison, console: Console, verbose: bool) -> Iterator[Tex
         yield _more(len(rows) - len(shown), "effect")
 
 
-def _files(found: Comparison, console: Console, verbose: bool) -> Iterator[Text]:
+def _files(found: Comparison, console: RichConsole, verbose: bool) -> Iterator[Text]:
     """Yield the files that are concerned, edited ones first."""
     result = found.result
     actions = [action for action in result.actions if action.kind not in _SILENT]
     if found.in_step or not actions:
         return
-    heading = f"A build: {wording.summary(result)}"
+    heading = f"A build: {build_summary(result)}"
     if found.against is not None:
         kinds = Counter(action.kind for action in result.actions)
-        heading = f"{wording.counted(len(result.actions), 'file')} of the package"
+        heading = f"{counted(len(result.actions), 'file')} of the package"
         heading += " differs" if len(result.actions) == 1 else " differ"
         if len(kinds) > 1:
-            counted = (f"{kinds[kind]} to {kind}" for kind in (Kind.UPDATE, Kind.CREATE, Kind.DELETE) if kinds[kind])
-            heading += f": {', '.join(counted)}"
+            parts = (f"{kinds[kind]} to {kind}" for kind in (Kind.UPDATE, Kind.CREATE, Kind.DELETE) if kinds[kind])
+            heading += f": {', '.join(parts)}"
     yield from (text(("", "")), text((heading, "bold")))
     actions.sort(key=lambda action: (action.path not in found.edited, action.path.rpartition("/")))
     urgent = sum(action.path in found.edited for action in actions)
@@ -270,7 +274,7 @@ def _files(found: Comparison, console: Console, verbose: bool) -> Iterator[Text]
         yield text((_ADVICE, "dim"))
 
 
-def _file(found: Comparison, action: Action, console: Console) -> Text:
+def _file(found: Comparison, action: Action, console: RichConsole) -> Text:
     """Return what happens to a file, and why if it is one that the user edited."""
     word = "waiting" if action.held else action.kind.value.removeprefix("unowned-")
     style = "bold red" if action.kind in CONFLICTS else "yellow" if action.held else _KINDS.get(action.kind, "yellow")

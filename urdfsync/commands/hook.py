@@ -8,17 +8,17 @@ from __future__ import annotations
 import argparse
 import os
 import shlex
-import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from urdfsync import wording
-from urdfsync.commands import common
+from urdfsync.commands import arguments
 from urdfsync.config import FILE_NAME, working_folder
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Exit, exit_code
-from urdfsync.report import Report
+from urdfsync.output.console import Console, line
+from urdfsync.output.phrases import summary
+from urdfsync.output.results import show_result
 
 if TYPE_CHECKING:
     from urdfsync.hooks.check import CommitFault
@@ -28,27 +28,27 @@ _FEW = 5
 """So many files are named one by one."""
 
 
-def add(commands: common.Commands) -> None:
+def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
     parser = commands.add_parser(
         "hook",
         help="judge what is being committed; for hooks of git",
         description="Judge staged sources against staged outputs, for all configurations that git tracks. The index is "
         "never touched.",
-        epilog=f"example: urdfsync hook check\n\n{common.CODES}",
+        epilog=f"example: urdfsync hook check\n\n{arguments.CODES}",
     )
     modes = "build brings packages in step, check writes nothing"
     parser.add_argument("mode", choices=("build", "check"), help=modes)
     parser.add_argument(
         "configs", nargs="*", type=Path, metavar="CONFIG", help=f"only these, instead of all {FILE_NAME}"
     )
-    common.add_wait(parser)
-    common.add_jobs(parser)
-    parser.set_defaults(run=_run)
-    common.add_common(parser)
+    arguments.add_wait(parser)
+    arguments.add_jobs(parser)
+    parser.set_defaults(run=run)
+    arguments.add_common(parser)
 
 
-def _run(args: argparse.Namespace, report: Report) -> int:
+def run(args: argparse.Namespace, console: Console) -> Exit:
     """Judge the configurations that the arguments name, or all that git tracks."""
     from urdfsync.hooks.check import check_index  # not at the top: no other command needs git or temporary folders
     from urdfsync.hooks.index import Index
@@ -56,20 +56,20 @@ def _run(args: argparse.Namespace, report: Report) -> int:
     folder = working_folder()
     index = Index(folder)
     named = [*args.configs, *filter(None, [args.config])]
-    faults, diagnostics = check_index(index, common.request(args, report), args.mode == "build", named)
+    faults, diagnostics = check_index(index, arguments.request(args, console), args.mode == "build", named)
     code = exit_code([fault.result for fault in faults if fault.result])
     code = Exit.ERROR if diagnostics else code or (Exit.OUT_OF_STEP if faults else Exit.IN_STEP)
     for fault in faults:
-        if fault.result and (args.json or fault.needs_user):
-            report.result(fault.result)
+        if fault.result and (console.json or fault.needs_user):
+            show_result(console, fault.result)
     if faults:
         index = Index(folder)  # a build may have written
         advice = _Advice(index, _typing_folder(index.top, folder))
-        if args.json:
+        if console.json:
             diagnostics += [_finding(fault, advice) for fault in faults]
         else:
-            sys.stdout.writelines(f"{wording.visible(line)}\n" for line in _lines(faults, advice))
-    report.problems("hook", diagnostics, code)
+            console.print(line((text, "")) for text in _lines(faults, advice))
+    console.fail("hook", diagnostics, code)
     return code
 
 
@@ -109,8 +109,8 @@ def _message(fault: CommitFault, advice: _Advice) -> str:
         number = len(fault.to_add)
         return f"in step on disk, but {'1 file is' if number == 1 else f'{number} files are'} not staged"
     if fault.needs_user:
-        return wording.summary(result)
-    what = "what urdfsync recorded of it is out of date" if result.in_step else wording.summary(result)
+        return summary(result)
+    what = "what urdfsync recorded of it is out of date" if result.in_step else summary(result)
     if not fault.unstaged:
         return f"out of step: {what}"
     files = ", ".join(map(advice.shown, fault.unstaged))

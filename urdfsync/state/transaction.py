@@ -41,6 +41,7 @@ from urdfsync.state.journal import (
     refuse_old,
     save,
     set_aside,
+    unfinished_file,
 )
 
 _OTHER = "no regular file"
@@ -132,11 +133,9 @@ class Transactions:
             return (self._set_aside(),)
         if phase is Phase.PREPARE:
             try:
-                transaction.discard() if transaction else file_operations.remove(journal_file(self._folder, phase))
+                transaction.discard()
             except OSError as error:
                 raise self._unfinished(error) from None
-            return ()
-        if transaction is None:
             return ()
         applied = self._finish(transaction)
         message = f"the last build of robot `{transaction.journal.robot}` was interrupted; it is finished"
@@ -155,10 +154,8 @@ class Transactions:
         except OSError as other:
             raise self._unfinished(other, *known) from error
 
-    def _load(self, phase: Phase) -> _Transaction | None:
+    def _load(self, phase: Phase) -> _Transaction:
         journal = load(self._root, self._folder, phase, self._shown)
-        if journal is None:
-            return None
         transaction = _Transaction(self._root, self._folder, self._shown, journal)
         trees, source = self._trees(), journal_file(self._folder, phase)
         check_paths(transaction.targets, trees, self._folder, self._shown, source)
@@ -255,7 +252,8 @@ class _Transaction:
             file_operations.remove(file.temporary)
         for path in reversed(self.journal.made):
             file_operations.remove_folder(_join(self._root, path))
-        file_operations.remove(journal_file(self._folder, Phase.PREPARE))
+        for journal in (unfinished_file(self._folder), journal_file(self._folder, Phase.PREPARE)):
+            file_operations.remove(journal)
 
     def finish(self) -> Applied:
         """Change all targets that have not changed yet, the manifest last, and remove all traces. Raises OSError."""

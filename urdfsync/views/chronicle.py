@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
-from urdfsync import wording
 from urdfsync.config import shown
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.actions import CONFLICTS, Actions, Kind
 from urdfsync.outcome import Checked, Result
-from urdfsync.views import builds, conflicts, terminal
-from urdfsync.views.terminal import text
+from urdfsync.output.conflicts import Extent, conflict_lines
+from urdfsync.output.console import findings, text
+from urdfsync.output.phrases import check_result, counted, summary
+from urdfsync.output.results import result_lines
 from urdfsync.watching import events, words
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ class Chronicle:
     def __init__(self, console: Console, *, quiet: bool = False, verbose: bool = False, config: str = "") -> None:
         """`console` is where conflicts are going to be shown; `config` the configuration as the user named it."""
         self._console, self._quiet, self._verbose = console, quiet, verbose
-        self._look = conflicts.Look(verbose, quiet, 0, config)
+        self._extent = Extent(verbose, quiet, 0, config)
         self._said: dict[tuple[str, str], Collection[Hashable]] = {}
         self._column = 0
 
@@ -54,7 +55,7 @@ class Chronicle:
             case events.Built():
                 yield from self._built(event, clock)
             case events.Failed(result, again) if self._verbose or not again:
-                yield Line(self._line(clock, result.robot, wording.summary(result), "bold red"), error=True)
+                yield Line(self._line(clock, result.robot, summary(result), "bold red"), error=True)
                 yield from self._findings(result.diagnostics)
             case events.Checked():
                 yield from self._checked(event, clock)
@@ -86,7 +87,7 @@ class Chronicle:
         did = [words.news(result, known=known)] if speaks else []
         did = list(filter(None, did)) + ([again] if again else [])
         if not did and (self._verbose or left):
-            did = [wording.summary(result)]
+            did = [summary(result)]
         if did:
             yield Line(self._line(clock, result.robot, ", ".join(did), "yellow" if result.conflicts else ""))
             yield from self._details(result, known=known, left=left)
@@ -97,7 +98,7 @@ class Chronicle:
         keys = frozenset((one.code, one.message, one.file) for one in event.diagnostics)
         before = self._said.get((event.robot, "check"))
         known = not self._is_new(event.robot, "check", keys if wrong else ())
-        said = wording.checked(event.checked, event.diagnostics)
+        said = check_result(event.checked, event.diagnostics)
         took = f" ({event.seconds:.1f} s)" if event.seconds else ""
         if wrong and known and self._quiet:
             return
@@ -116,10 +117,10 @@ class Chronicle:
             hidden = (CONFLICTS if known else frozenset()) | (frozenset() if left else _LEFT)
             seen = [action for action in result.actions if action.kind not in hidden]
             result = msgspec.structs.replace(result, actions=Actions(seen), changes=None)
-        lines = builds.lines(result, self._console.file, quiet=self._quiet, verbose=self._verbose)
+        lines = result_lines(result, quiet=self._quiet, verbose=self._verbose)
         yield from (Line(line.__rich__()) for line in itertools.islice(lines, 1, None))
         if result.conflicts:
-            yield from map(Line, conflicts.lines(result, self._console, self._look))
+            yield from map(Line, conflict_lines(result, self._console, self._extent))
 
     def _fresh(self, event: events.Built) -> Sequence[Diagnostic]:
         """The findings that the robot's last build did not have; lines may have moved.
@@ -141,15 +142,9 @@ class Chronicle:
 
     def _findings(self, diagnostics: Sequence[Diagnostic], clock: str = "") -> Iterator[Line]:
         """Findings as any command shows them; with a time of day, if they belong to no line that has one."""
-        if self._quiet:
-            diagnostics = [found for found in diagnostics if found.severity is Severity.ERROR]
-        findings, more = (diagnostics, {}) if self._verbose else wording.folded(diagnostics)
-        for found in findings:
+        for found in findings(diagnostics, quiet=self._quiet, verbose=self._verbose):
             time = text((f"{clock}  " if clock else "", "dim"))
-            yield Line(time.append_text(terminal.finding(found).__rich__()), error=True)
-        for code, number in more.items():
-            said = f"and {number} more like these [{code}]; --verbose shows them"
-            yield Line(text((said, "dim")), error=True)
+            yield Line(time.append_text(found.__rich__()), error=True)
 
     def _line(self, clock: str, robot: str, said: str, style: str) -> Text:
         name = f"{robot:<{self._column}}  " if robot else ""
@@ -161,7 +156,7 @@ def _plain(event: events.Event) -> tuple[str, str, bool]:
     match event:
         case events.Started(config, robots, again):
             what = "configuration read again, " if again else ""
-            return "", f"{what}watching {wording.counted(len(robots), 'robot')} of {shown(config)}", True
+            return "", f"{what}watching {counted(len(robots), 'robot')} of {shown(config)}", True
         case events.Settling(robot):
             return robot, "changed, settling", False
         case events.Calm(robot):

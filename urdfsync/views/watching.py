@@ -7,14 +7,20 @@ import json
 import sys
 import time
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Protocol, Self
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
-from urdfsync import documents
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.engine.actions import Kind
+from urdfsync.outcome import Result
+from urdfsync.output.console import JSON_VERSION, has_marks, text
+from urdfsync.output.json_values import finding_values, result_values
 from urdfsync.views.area import Area
 from urdfsync.views.chronicle import NAME, Chronicle
 from urdfsync.views.diversion import Diversion
-from urdfsync.views.terminal import has_marks, text
 from urdfsync.watching import events
 from urdfsync.watching.standing import Board, Mood
 
@@ -55,6 +61,30 @@ class Watching(events.Listener, Protocol):
         ...
 
 
+def event_values(found: events.Event, time: datetime.datetime) -> dict[str, Any]:
+    """An event of the daemon as plain data: its values under their own names, a result as `result_values` has it.
+
+    Of a result's files those that are just unchanged are left out; what a check said is an event of its own.
+    """
+    values: dict[str, Any] = {"version": JSON_VERSION, "event": type(found).__name__.lower(), "time": time.isoformat()}
+    for name, value in msgspec.structs.asdict(found).items():
+        if isinstance(value, Result):
+            inside = {key: part for key, part in result_values(value).items() if key != "checked"}
+            actions = [action for action in inside["actions"] if action["action"] != Kind.UNCHANGED]
+            values |= {"robot": inside.pop("name"), **inside, "actions": actions}
+        else:
+            values[name] = _plain(value)
+    return values
+
+
+def _plain(value: object) -> Any:
+    if isinstance(value, tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, Diagnostic):
+        return finding_values(value)
+    return str(value) if isinstance(value, Path) else value
+
+
 def now() -> datetime.datetime:
     """The time, with the local offset."""
     return datetime.datetime.now().astimezone()
@@ -81,7 +111,7 @@ class ForPrograms:
 
     def __call__(self, event: events.Event) -> None:
         """Print an event."""
-        sys.stdout.write(json.dumps(documents.event(event, self._clock())) + "\n")
+        sys.stdout.write(json.dumps(event_values(event, self._clock())) + "\n")
         sys.stdout.flush()
 
     def progress(self, what: str, done: int, total: int) -> None:

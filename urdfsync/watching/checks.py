@@ -13,7 +13,7 @@ from typing import Self
 
 import msgspec
 
-from urdfsync.checking.afterbuild import Examine, Findings, Inspector, is_general
+from urdfsync.check.afterbuild import BuildCheck, BuildChecker, CheckRobots, is_general
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.options import BuildOptions
@@ -28,7 +28,7 @@ class Errand(msgspec.Struct, eq=False):
     """One check that was asked for."""
 
     robot: RobotConfig
-    inspector: Inspector
+    inspector: BuildChecker
     fingerprint: str | None
     given_up: bool = False
 
@@ -40,8 +40,8 @@ class Checks:
         self,
         request: BuildOptions,
         tell: Callable[[events.Event], None],
-        ended: Callable[[Errand, Findings | None], None],
-        examine: Examine,
+        ended: Callable[[Errand, BuildCheck | None], None],
+        examine: CheckRobots,
     ) -> None:
         """`ended` is called from another thread, and has to see to it that this one calls the method of that name."""
         self._request, self._tell, self._ended, self._examine = request, tell, ended, examine
@@ -65,8 +65,8 @@ class Checks:
         """Check the package of a robot as it is now, unless that is under way, or known already."""
         if not robot.checking:
             return
-        inspector = Inspector(config, self._request, self._examine)
-        fingerprint = inspector.fingerprint(robot)
+        inspector = BuildChecker(config, self._request, self._examine)
+        fingerprint = inspector.cache.key(robot)
         pending = self._pending(robot.name)
         if pending is not None and fingerprint is not None and pending.fingerprint == fingerprint:
             return
@@ -76,14 +76,14 @@ class Checks:
         if last is not None and fingerprint is not None and told == fingerprint:
             if pending is not None:
                 self._tell(last)
-        elif found := inspector.recall(robot, fingerprint):
+        elif found := inspector.known(robot, fingerprint):
             was_right = pending is None and (last is None or last.checked is Checked.RIGHT)
             self._conclude(robot, fingerprint, found, silent=was_right and found.checked is Checked.RIGHT)
         else:
             self._waiting[robot.name] = Errand(robot, inspector, fingerprint)
             self._go_on()
 
-    def ended(self, errand: Errand, found: Findings | None) -> None:
+    def ended(self, errand: Errand, found: BuildCheck | None) -> None:
         """Take note of the end of a check that was told of, and make the next one."""
         self._running = None
         if found is not None and not errand.given_up:
@@ -125,15 +125,17 @@ class Checks:
 
         found = None
         try:
-            found = next(errand.inspector.inspect([errand.robot], tell))
+            found = next(errand.inspector.check([errand.robot], tell))
         except builder.StoppedError:
             pass
         except Exception as error:  # noqa: BLE001 - a bug that one robot meets must not end the checks of all
-            found = Findings(Checked.WRONG, (builder.unexpected(error, "it can't be checked"),))
+            found = BuildCheck(Checked.WRONG, (builder.unexpected(error, "it can't be checked"),))
         finally:
             self._ended(errand, found)
 
-    def _conclude(self, robot: RobotConfig, fingerprint: str | None, found: Findings, *, silent: bool = False) -> None:
+    def _conclude(
+        self, robot: RobotConfig, fingerprint: str | None, found: BuildCheck, *, silent: bool = False
+    ) -> None:
         """Remember what was found, and tell it; what is about the machine is told once."""
         new = tuple(one for one in found.diagnostics if one not in self._said)
         self._said.update(one for one in new if is_general(one))

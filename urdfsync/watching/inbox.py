@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.checking.afterbuild import Findings
+from urdfsync.check.afterbuild import BuildCheck
 from urdfsync.watching.checks import Errand
 
 
@@ -27,7 +27,7 @@ class Examined(msgspec.Struct, frozen=True):
     """A check has ended."""
 
     errand: Errand
-    found: Findings | None
+    found: BuildCheck | None
     """None if it was given up."""
 
 

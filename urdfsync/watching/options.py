@@ -6,7 +6,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.checking import afterbuild
+from urdfsync.check import afterbuild, run
 from urdfsync.engine.options import BuildOptions
 from urdfsync.watching.settling import Times
 
@@ -27,5 +27,5 @@ class Options(msgspec.Struct, frozen=True):
     """What to run after a build that changed something; empty for nothing."""
     request: BuildOptions = msgspec.field(default_factory=BuildOptions)
     """How to build; the daemon adds how progress is told."""
-    examine: afterbuild.Examine = afterbuild.on_disk
+    examine: afterbuild.CheckRobots = run.check_robots
     """How to check packages."""

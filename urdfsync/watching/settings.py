@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import msgspec
 
-from urdfsync import advice, config
-from urdfsync.config import Config, RobotConfig
+from urdfsync import config
+from urdfsync.config import Config, RobotConfig, warnings
 from urdfsync.diagnostics import ConfigError, Diagnostic
 from urdfsync.watching.options import Options
 from urdfsync.watching.samples import Sample, alike
@@ -37,7 +37,7 @@ class Settings:
         loaded = config.load(self._options.file)
         robots = loaded.select(self._options.robots)
         self._trouble = ()
-        return Loaded(loaded, robots, tuple(advice.warnings(loaded, robots)))
+        return Loaded(loaded, robots, tuple(warnings.find_warnings(loaded, robots)))
 
     def has_changed(self, sample: Sample) -> bool:
         """Whether the file is not what it was when it was read."""

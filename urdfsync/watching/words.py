@@ -6,12 +6,12 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from urdfsync import wording
 from urdfsync.diff import outline
 from urdfsync.diff.outline import OutlineEntry, OutlineRow, Tone
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.outcome import Result
+from urdfsync.output.phrases import action_counts, counted
 
 if TYPE_CHECKING:
     from urdfsync.diff.changes import Changes
@@ -52,7 +52,7 @@ def _done(actions: Sequence[Action]) -> list[str]:
         return []
     roles = {action.role for action in written}
     noun = _NOUNS.get(roles.pop(), "file") if len(roles) == 1 else "file"
-    return [f"{wording.counted(len(written), noun)} written"]
+    return [f"{counted(len(written), noun)} written"]
 
 
 def _deeds(result: Result) -> Iterator[str]:
@@ -63,7 +63,7 @@ def _deeds(result: Result) -> Iterator[str]:
         if 0 < len(found) <= _NAMES:
             silent.add(kind)
             yield from map(_deed, found)
-    yield from wording.deeds(result, silent)
+    yield from action_counts(result, silent)
 
 
 def _deed(action: Action) -> str:
@@ -80,9 +80,9 @@ def _deed(action: Action) -> str:
 
 def _conflicts(result: Result, *, known: bool) -> Iterator[str]:
     if result.conflicts:
-        yield wording.counted(len(result.conflicts), "conflict") + (" as before" if known else "")
+        yield counted(len(result.conflicts), "conflict") + (" as before" if known else "")
         if held := sum(action.held for action in result.actions.decided):
-            yield f"{wording.counted(held, 'change')} waiting for that"
+            yield f"{counted(held, 'change')} waiting for that"
 
 
 def _changes(found: Changes) -> str:
@@ -101,8 +101,8 @@ def _changes(found: Changes) -> str:
     parts = [_element(entry) for entry in named] if few else []
     if rest:
         elements = len({change.element for change in rest})
-        count = wording.counted(len(rest), "more change" if parts else "change")
-        parts.append(f"{count} in {wording.counted(elements, 'element')}")
+        count = counted(len(rest), "more change" if parts else "change")
+        parts.append(f"{count} in {counted(elements, 'element')}")
     return ", ".join(parts)
 
 
