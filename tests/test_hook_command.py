@@ -240,17 +240,43 @@ def test_many_files_are_named_one_by_one_if_there_is_more_in_their_folder(repo: 
     assert "?? modelica/Ladder/notes.txt" in git("status", "--porcelain")
 
 
-def test_a_robot_that_is_removed_with_its_source(repo: Repository, capsys: Capture) -> None:
+def add_robot(repo: Repository) -> None:
+    """Commit a second robot, in step."""
     Path("other.json").write_bytes(Path("ladder.json").read_bytes())
-    other = '\n[robots.other]\nsource = "other.json"\npackage = "Other"\ndomain = "rcnetwork"\n'
-    edit(
-        "urdfsync.toml",
-        'package = "Ladder"\ndomain = "rcnetwork"\n',
-        f'package = "Ladder"\ndomain = "rcnetwork"\n{other}',
-    )
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "other.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
     run("urdfsync build")
     repo.commit()
-    edit("urdfsync.toml", other, "")
+
+
+def test_robots_are_built_together_as_far_as_their_sources_are_staged(
+    repo: Repository, capsys: Capture, snapshot_of: Snapshot
+) -> None:
+    add_robot(repo)
+    for name in ("ladder.json", "other.json"):
+        edit(name, '"ohm": 100}', '"ohm": 120}')
+    repo.git("add", ".")
+    resistor(130, before=120)
+    before = snapshot_of(repo.folder / "modelica/Ladder")
+    lines = said(capsys, "build")
+    assert lines[:3] == [
+        "ladder: out of step: 1 file to write; ladder.json has changes that are not staged",
+        "other: out of step: 1 file written",
+        "add to the commit:",
+    ]
+    assert snapshot_of(repo.folder / "modelica/Ladder") == before
+    repo.git("checkout", ".")
+    resistor(120, before=120)
+    lines = said(capsys, "build", "--jobs", "2")
+    assert lines[:2] == [f"{name}: out of step: 1 file written" for name in ("ladder", "other")]
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_a_robot_that_is_removed_with_its_source(repo: Repository, capsys: Capture) -> None:
+    text = Path("urdfsync.toml").read_text()
+    add_robot(repo)
+    Path("urdfsync.toml").write_text(text)
     repo.git(
         "rm", "-q", "-r", "other.json", "modelica/Other", ".urdfsync/robots/other.toml", ".urdfsync/robots/other.json"
     )

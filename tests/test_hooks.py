@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import os
-import shutil
 import subprocess
 import sys
 import tomllib
@@ -227,36 +226,6 @@ def test_a_roll_back_because_of_another_hook_leaves_nothing_half_done(make: Call
 
 
 @MODES
-def test_a_robot_that_is_deleted_with_its_source(make: Callable[..., Site], mode: str) -> None:
-    Path("other.json").write_bytes(Path("ladder.json").read_bytes())
-    text = Path("urdfsync.toml").read_text()
-    Path("urdfsync.toml").write_text(text + text.replace("ladder", "other").replace("Ladder", "Other"))
-    site = make(mode)
-    Path("urdfsync.toml").write_text(text)
-    site.git(
-        "rm", "-q", "-r", "other.json", "modelica/Other", ".urdfsync/robots/other.json", ".urdfsync/robots/other.toml"
-    )
-    site.git("add", "urdfsync.toml")
-    site.commit()
-
-
-@MODES
-def test_a_source_that_is_deleted_alone(make: Callable[..., Site], mode: str) -> None:
-    site = make(mode)
-    site.git("rm", "-q", "ladder.json")
-    assert "urdfsync.toml:2: error: robot `ladder`: the source ladder.json does not exist" in site.commit(code=1)
-
-
-@MODES
-def test_an_output_that_is_not_tracked(make: Callable[..., Site], mode: str) -> None:
-    site = make(mode)
-    site.git("rm", "-q", "--cached", R1)
-    said = site.commit(code=1)
-    assert "ladder: in step on disk, but 1 file is not staged" in said
-    assert command(said) == ["git", "add", R1]
-
-
-@MODES
 def test_a_merge_without_conflicts(make: Callable[..., Site], mode: str) -> None:
     site = make(mode)
     site.git("checkout", "-q", "-b", "other")
@@ -321,25 +290,6 @@ def test_partial_and_implicit_commits_have_an_index_of_their_own(make: Callable[
     assert "1 file written" in site.commit("--", "ladder.json", code=1)
     site.commit("--all")
     assert "120" in site.committed(R1)
-
-
-@MODES
-def test_configurations_below_the_root(make: Callable[..., Site], mode: str) -> None:
-    for name in ("left", "right"):
-        shutil.copytree(RC_FOLDER / "examples", name)
-        shutil.copy("urdfsync.toml", name)
-        cli.main(["build", "--quiet", "--config", f"{name}/urdfsync.toml"])
-    site = make(mode)
-    edit("left/ladder.json", '"ohm": 100}', '"ohm": 120}')
-    edit("right/ladder.json", '"ohm": 100}', '"ohm": 130}')
-    site.git("add", ".")
-    said = site.commit(code=1)
-    assert "ladder (left/urdfsync.toml): out of step: 1 file" in said
-    assert "ladder (right/urdfsync.toml): out of step: 1 file" in said
-    for name in ("left", "right"):
-        cli.main(["build", "--quiet", "--config", f"{name}/urdfsync.toml"])
-    site.git("add", ".")
-    site.commit()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a daemon is ended by a signal")

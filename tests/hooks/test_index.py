@@ -36,14 +36,6 @@ def changed(folder: Path = Path()) -> set[str]:
     return set(Index(folder.absolute()).changed)
 
 
-def test_the_working_tree_of_a_fresh_commit_is_what_is_staged(repo: Repository) -> None:
-    index = Index(repo.folder)
-    assert index.top == repo.folder
-    assert index.changed == frozenset()
-    assert index.tracks("cad/tip \xfc.stl")
-    assert not index.tracks("cad")
-
-
 def test_contents_count_not_times(repo: Repository) -> None:
     os.utime("top.txt", (1, 1))
     assert changed() == set()
@@ -77,22 +69,6 @@ def test_files_that_git_was_told_not_to_look_at_may_differ(repo: Repository) -> 
         assert checkout.place(repo.folder / "cad/arm.urdf").read_text() == "cad/arm.urdf, committed\n"
 
 
-def test_files_that_are_only_meant_to_be_added_are_not_staged(repo: Repository) -> None:
-    Path("new.txt").write_text("new")
-    repo.git("add", "--intent-to-add", "new.txt")
-    index = Index(repo.folder)
-    assert not index.tracks("new.txt")
-    assert index.changed == frozenset()
-
-
-def test_the_index_of_a_partial_commit_is_another_one(repo: Repository, monkeypatch: pytest.MonkeyPatch) -> None:
-    Path("top.txt").write_text("staged")
-    repo.git("add", "top.txt")
-    monkeypatch.setenv("GIT_INDEX_FILE", ".git/other")
-    repo.git("read-tree", "HEAD")
-    assert changed() == {"top.txt"}
-
-
 def test_a_further_working_tree_has_its_own_index(
     repo: Repository, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -105,17 +81,6 @@ def test_a_further_working_tree_has_its_own_index(
     with index_checkout(index) as checkout:
         checkout.add(index.changed)
         assert checkout.place(tmp_path / "second/top.txt").read_text() == "top.txt, committed\n"
-
-
-def test_the_index_is_only_read(repo: Repository) -> None:
-    os.utime("top.txt", (1, 1))
-    before = Path(".git/index").read_bytes()
-    index = Index(repo.folder)
-    with index_checkout(index) as checkout:
-        checkout.add(["top.txt", "cad/arm.urdf"])
-        checkout.add_folder(repo.folder / "out/Arm")
-    assert Path(".git/index").read_bytes() == before
-    assert not Path(".git/index.lock").exists()
 
 
 def test_paths_of_the_repository(repo: Repository, tmp_path: Path) -> None:
