@@ -2,8 +2,8 @@
 
 The folder has the path from the root of the file system down to the repository in it, so that each relative path from
 a source leads to the same place, inside or outside of the repository. Folders on that way are made; everything beside
-it is a link to the real thing. Only outputs are copied, since they must not be links. Hard links would change a time of
-the user's files, by which git would read them all again.
+it is a link to the real thing. Only outputs, which must not be links, and staged files that differ are files. Hard
+links would change a time of the user's files, by which git would read them all again.
 """
 
 from __future__ import annotations
@@ -51,14 +51,15 @@ class IndexCheckout:
 
     def add(self, paths: Iterable[str]) -> None:
         """Check out files, as files and not as links; what is not staged is removed from here."""
-        index, changed = self._index, []
+        index, staged = self._index, []
         for path in paths:
-            self._remove(index.top / path)
-            if index.is_submodule(path) or (index.tracks(path) and path not in index.changed):
-                self._copy(index.top / path)
+            file = index.top / path
+            self._remove(file)
+            if index.is_submodule(path):
+                self.place(file).symlink_to(file)  # as it is on disk
             elif index.tracks(path):
-                changed.append(path)
-        index.checkout(changed, self.place(index.top))
+                staged.append(path)
+        index.checkout(staged, self.place(index.top))
 
     def add_folder(self, folder: Path) -> None:
         """Check out all that is staged below a folder, and let it hold nothing else."""
@@ -111,11 +112,16 @@ class IndexCheckout:
                 place.unlink()
             place.mkdir(exist_ok=True)
         self._made.add(folder)
-        if self._complete.isdisjoint((folder, *folder.parents)):
-            for entry in _entries(folder):
-                if Path(entry.path) not in (self._index.top / ".git", self._scratch):
-                    # a link that stays in the repository has to stay in here, too
-                    (place / entry.name).symlink_to(Path(entry).readlink() if entry.is_symlink() else entry.path)
+        if not self._complete.isdisjoint((folder, *folder.parents)):
+            return
+        try:
+            paths = list(folder.iterdir())
+        except (PermissionError, FileNotFoundError):
+            return  # a folder above the repository that may only be passed through, or one that only the index has
+        for path in paths:
+            if path not in (self._index.top / ".git", self._scratch):
+                # a link that stays in the repository has to stay in here, too
+                (place / path.name).symlink_to(path.readlink() if path.is_symlink() else path)
 
     def _remove(self, path: Path) -> None:
         """Make room for a file or folder of our own."""
@@ -126,13 +132,6 @@ class IndexCheckout:
         elif place.is_dir():
             shutil.rmtree(place)
             self._made = {folder for folder in self._made if path != folder and path not in folder.parents}
-
-    def _copy(self, path: Path) -> None:
-        place = self.place(path)
-        if path.is_dir() and not path.is_symlink():  # a submodule: as it is on disk
-            place.symlink_to(path)
-        else:
-            shutil.copyfile(path, place, follow_symlinks=False)
 
 
 @contextlib.contextmanager
@@ -173,11 +172,3 @@ def plan_index(
                 diagnostics=tuple(map(checkout.real_diagnostic, result.diagnostics)),
             )
         return real_config, results
-
-
-def _entries(folder: Path) -> Iterator[os.DirEntry[str]]:
-    try:
-        with os.scandir(folder) as found:
-            yield from found
-    except (PermissionError, FileNotFoundError):
-        return  # a folder above the repository that only lets us pass, or one that exists in the index only
