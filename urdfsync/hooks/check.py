@@ -15,7 +15,7 @@ import msgspec
 from urdfsync import config as configuration
 from urdfsync import uptodate
 from urdfsync.config import FILE_NAME, Config, RobotConfig, shown
-from urdfsync.dependencies import record_dependencies
+from urdfsync.dependencies import Dependencies, record_dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
@@ -77,13 +77,16 @@ def check_index(
             continue
         faults += found
         if not found and not index.changed:
-            here = Path.cwd()
-            read = {
-                (here / path).as_posix().removeprefix(f"{index.top.as_posix()}/") for _, path in dependencies.entries
-            }
-            answer, key = sorted(filter(index.tracks, read)), answer_key(str(index.top), str(file))
-            uptodate.save_answer(str(file), key, answer, dependencies, started)
+            _save_answer(index, file, dependencies, started)
     return faults, diagnostics
+
+
+def _save_answer(index: Index, file: Path, dependencies: Dependencies, started: tuple[int, int]) -> None:
+    """Save that a commit passes while all files that were read, and are tracked, stay as they are, and tracked."""
+    here, top = Path.cwd(), f"{index.top.as_posix()}/"
+    read = {(here / path).as_posix().removeprefix(top) for _, path in dependencies.entries}
+    key = answer_key(str(index.top), str(file))
+    uptodate.save_answer(str(file), key, sorted(filter(index.tracks, read)), dependencies, started)
 
 
 def _check_configuration(
@@ -97,14 +100,15 @@ def _check_configuration(
     config, staged, unstaged = _plan_differing(index, file, dry)
     faults: list[CommitFault] = []
     to_build: list[RobotConfig] = []
-    to_plan: dict[str, set[str]] = {}
+    to_plan: list[tuple[RobotConfig, set[str]]] = []
+    """Robots, and the files that keep a build of them from writing."""
     for robot in config.robots:
         files, result, inputs = RobotFiles(index, config, robot), staged.get(robot.name), unstaged[robot.name]
-        if result is not None and not _needs_build(result):
+        if result is not None and not _needs_build(result):  # what is staged is in step, the working tree differs
             faults += _fault(files, index.unstaged(files.untracked_sources()))
-        elif result is not None and inputs:
+        elif result is not None and inputs:  # a build of the working tree would not fit the staged source
             faults += _fault(files, files.to_stage(result.actions), result, inputs)
-        elif (actions := _current_actions(config, robot, dry)) is not None:
+        elif (actions := _current_actions(config, robot, dry)) is not None:  # built already, perhaps not staged
             add = index.unstaged(files.needed(_work(result) if result else actions))
             faults += _fault(files, add, None if add else result)
         else:
@@ -112,11 +116,11 @@ def _check_configuration(
             if writing and not blocking:
                 to_build.append(robot)
             else:
-                to_plan[robot.name] = blocking
-    missing = [robot for robot in config.robots if robot.name in to_plan and robot.name not in staged]
-    planned = {result.robot: result for result in build(config, missing, dry)} if missing else {}
-    for name, blocking in to_plan.items():
-        files, result = RobotFiles(index, config, *config.select([name])), staged.get(name) or planned[name]
+                to_plan.append((robot, blocking))
+    unplanned = [robot for robot, _ in to_plan if robot.name not in staged]
+    planned = staged | {result.robot: result for result in build(config, unplanned, dry)}
+    for robot, blocking in to_plan:
+        files, result = RobotFiles(index, config, robot), planned[robot.name]
         if _needs_build(result):
             faults += _fault(files, files.to_stage(result.actions), result, blocking)
         else:
@@ -208,7 +212,7 @@ def _find_blocking(
     found = files.find_inputs(stashed, dry)
     if writing:
         found |= files.find_outputs(stashed)
-        if any(map(index.below, files.folders[:1])):
+        if any(map(index.below, index.paths([files.robot.folder]))):
             found |= {path for path in files.state if not index.tracks(path)}
     return found
 
