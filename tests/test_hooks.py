@@ -122,18 +122,6 @@ def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[..., S
     assert site.status() == []
 
 
-def test_the_check_writes_nothing_and_passes_after_a_build(make: Callable[..., Site]) -> None:
-    site = make("check")
-    resistor(120)
-    site.git("add", ".")
-    said = site.commit(code=1)
-    assert "ladder: out of step: 1 file to write\nbuild, then add to the commit:\n  urdfsync build ladder && " in said
-    assert site.status() == ["M  ladder.json"]
-    cli.main(["build"])
-    site.git("add", ".")
-    site.commit()
-
-
 def test_paths_are_those_of_the_folder_in_which_git_was_called(make: Callable[..., Site]) -> None:
     site = make("build")
     resistor(120)
