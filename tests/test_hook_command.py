@@ -6,6 +6,7 @@ import itertools
 import json
 import os
 import subprocess
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from support.git import NEEDS_GIT, Repository
 from support.networks import edit, resistor
 
 from urdfsync import cli, hook
-from urdfsync.staging import committing
+from urdfsync.hooks import check
 from urdfsync.state.lock import build_lock
 
 pytestmark = NEEDS_GIT
@@ -44,7 +45,10 @@ def said(capsys: Capture, mode: str, *arguments: str, code: int = 1) -> list[str
     capsys.readouterr()
     assert cli.main(["hook", mode, *arguments]) == code
     out, err = capsys.readouterr()
-    return f"{err}{out}".splitlines()
+    lines = f"{err}{out}".splitlines()
+    told = [line for line in lines if line and not line.startswith(" ")]
+    assert "--json" in arguments or len(set(told)) == len(told), "a finding is told once"
+    return lines
 
 
 def git(*arguments: str) -> str:
@@ -93,17 +97,6 @@ def test_the_check_says_what_to_do_and_writes_nothing(repo: Repository, capsys: 
     assert snapshot_of(repo.folder) == before
     run(lines[-1])
     assert said(capsys, "check", code=0) == []
-
-
-def test_the_index_is_left_alone(repo: Repository, capsys: Capture) -> None:
-    resistor(120)
-    repo.git("add", "ladder.json")
-    resistor(130, before=120)
-    os.utime(R1, (1, 1))  # git would like to take note of that
-    before = (repo.folder / ".git/index").read_bytes()
-    for mode in ("check", "build"):
-        said(capsys, mode)
-    assert (repo.folder / ".git/index").read_bytes() == before
 
 
 @pytest.mark.parametrize("mode", ["build", "check"])
@@ -236,17 +229,43 @@ def test_many_files_are_named_one_by_one_if_there_is_more_in_their_folder(repo: 
     assert "?? modelica/Ladder/notes.txt" in git("status", "--porcelain")
 
 
-def test_a_robot_that_is_removed_with_its_source(repo: Repository, capsys: Capture) -> None:
+def add_robot(repo: Repository) -> None:
+    """Commit a second robot, in step."""
     Path("other.json").write_bytes(Path("ladder.json").read_bytes())
-    other = '\n[robots.other]\nsource = "other.json"\npackage = "Other"\ndomain = "rcnetwork"\n'
-    edit(
-        "urdfsync.toml",
-        'package = "Ladder"\ndomain = "rcnetwork"\n',
-        f'package = "Ladder"\ndomain = "rcnetwork"\n{other}',
-    )
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "other.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
     run("urdfsync build")
     repo.commit()
-    edit("urdfsync.toml", other, "")
+
+
+def test_robots_are_built_together_as_far_as_their_sources_are_staged(
+    repo: Repository, capsys: Capture, snapshot_of: Snapshot
+) -> None:
+    add_robot(repo)
+    for name in ("ladder.json", "other.json"):
+        edit(name, '"ohm": 100}', '"ohm": 120}')
+    repo.git("add", ".")
+    resistor(130, before=120)
+    before = snapshot_of(repo.folder / "modelica/Ladder")
+    lines = said(capsys, "build")
+    assert lines[:3] == [
+        "ladder: out of step: 1 file to write; ladder.json has changes that are not staged",
+        "other: out of step: 1 file written",
+        "add to the commit:",
+    ]
+    assert snapshot_of(repo.folder / "modelica/Ladder") == before
+    repo.git("checkout", ".")
+    resistor(120, before=120)
+    lines = said(capsys, "build", "--jobs", "2")
+    assert lines[:2] == [f"{name}: out of step: 1 file written" for name in ("ladder", "other")]
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_a_robot_that_is_removed_with_its_source(repo: Repository, capsys: Capture) -> None:
+    text = Path("urdfsync.toml").read_text()
+    add_robot(repo)
+    Path("urdfsync.toml").write_text(text)
     repo.git(
         "rm", "-q", "-r", "other.json", "modelica/Other", ".urdfsync/robots/other.toml", ".urdfsync/robots/other.json"
     )
@@ -455,6 +474,7 @@ def test_all_ways_in_which_index_and_working_tree_can_differ(
         repo.git("add", "--all")
         put(versions[source], sources)
         put(versions[output], outputs)
+        os.utime(R1, (1, 1))  # git would like to note that in the index
         index, before = (repo.folder / ".git/index").read_bytes(), snapshot_of(repo.folder / "modelica")
         code = 0 if staged == built else 1
         assert bool(said(capsys, "check", code=code)) == bool(code)
@@ -472,7 +492,7 @@ def put(version: Mapping[str, bytes], paths: Sequence[str]) -> None:
 
 def stash(monkeypatch: pytest.MonkeyPatch, *paths: str) -> None:
     """Let pre-commit have put changes of these files aside."""
-    monkeypatch.setattr(committing, "_aside", lambda index: frozenset(paths))
+    monkeypatch.setattr(check, "_find_stashed", lambda index: frozenset(paths))
 
 
 @pytest.mark.parametrize("path", ["ladder.json", "step.csv", R1, STATE, "urdfsync.toml"])
@@ -515,12 +535,13 @@ def test_for_programs(repo: Repository, capsys: Capture) -> None:
     assert json.loads("\n".join(said(capsys, "check", "--json", code=0)))["diagnostics"] == []
 
 
-def test_the_script_is_the_command(repo: Repository, capsys: Capture) -> None:
-    assert hook.run(["check"]) == 0
+def test_the_script_is_the_command(repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "argv", ["urdfsync-hook", "check"])
+    assert hook.main() == 0
     resistor(120)
-    assert hook.run(["check"]) == 0
+    assert hook.main() == 0
     repo.git("add", "ladder.json")
-    assert hook.run(["check"]) == 1
+    assert hook.main() == 1
     assert "".join(capsys.readouterr()).splitlines() == said(capsys, "check")
 
 

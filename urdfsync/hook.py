@@ -1,99 +1,71 @@
-"""`urdfsync-hook`: `urdfsync hook` for runners of git hooks. Says nothing, and soon, if nothing is to be done."""
+"""`urdfsync-hook`: `urdfsync hook` for runners of git hooks. It ends soon, without a word, if nothing is to be done."""
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from urdfsync import uptodate
-from urdfsync.staging import listing
 
-TYPE_CHECKING = False  # the one of `typing` takes 2 of the 11 ms that a hook without work has
-if TYPE_CHECKING:
-    from urdfsync.staging.staged import Index
-
-_MODES = (["build"], ["check"])
+STATES = ".urdfsync/robots/"
+"""Where a configuration has the recorded states of its robots."""
+_TRACKED = (b"H 100644 ", b"H 100755 ", b"H 120000 ")
+"""How the entry of a file begins that the working tree has as it is staged; other modes are submodules."""
 
 
 def main() -> int:
     """Run the hook with the arguments of the program; returns the exit code."""
+    arguments = sys.argv[1:]
     try:
-        return run(sys.argv[1:])
+        if arguments in (["build"], ["check"]) and is_answered():
+            return 0
+        from urdfsync import cli  # four times the time of all the rest
+
+        return cli.main(["hook", *arguments])
     except KeyboardInterrupt:
         return 130
 
 
-def run(arguments: Sequence[str]) -> int:
-    """Run the hook; returns the exit code."""
-    given = list(arguments)
+def is_answered() -> bool:
+    """Return whether the working tree has what is staged, and saved answers say that such a commit passes."""
+    from urdfsync import git  # here, so that Ctrl-C during the import leaves no traceback
+
     try:
-        if given in _MODES and (_is_answered() or _nothing_to_do()):
-            return 0
-    except Exception:  # noqa: BLE001, S110 - whatever it is: the command meets it again, and says it
-        pass
-    from urdfsync import cli  # not at the top: this takes longer than all the rest
-
-    return cli.main(["hook", *given])
-
-
-def _is_answered() -> bool:
-    """Whether the working tree has what is staged, and saved answers say that this is all that a commit needs."""
-    try:
-        found = listing.unchanged()
-        if found is None:
+        listing, top = git.run(".", *git.LIST_INDEX), git.run(".", *git.TOP)
+        if listing.returncode or top.returncode:
             return False
-        top, files = found
-        configurations = [path for path in files if path.rpartition("/")[2] == uptodate.CONFIGURATION]
-        return bool(configurations) and all(_is_answered_for(top, path, files) for path in configurations)
-    except OSError:
+        files, folder = set(), os.fsdecode(top.stdout.removesuffix(b"\n"))
+        for entry in listing.stdout.split(b"\0")[:-1]:
+            head, _, path = entry.partition(b"\t")
+            if not head.startswith(_TRACKED) or not head.endswith(b" 0"):
+                return False  # it differs, or is not merged
+            files.add(os.fsdecode(path))
+        configurations, lost_states = find_configurations(files)
+        if lost_states or not configurations:
+            return False
+        for file in (f"{folder}/{path}" for path in configurations):
+            answer = uptodate.find_answer(file, answer_key(folder, file))
+            if answer is None or not files.issuperset(answer):
+                return False
+    except Exception:  # noqa: BLE001 - whatever it is: the command meets it again, and reports it
         return False
+    return True
 
 
-def _is_answered_for(top: str, path: str, files: set[str]) -> bool:
-    file = f"{top}/{path}"
-    needed = uptodate.find_answer(file, _answer_key(top, file))
-    return needed is not None and files.issuperset(needed)
+def find_configurations(files: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Return the configurations among tracked files, and the recorded states that belong to none of them."""
+    found, states = [], []
+    for path in files:
+        if path.rpartition("/")[2] == uptodate.CONFIGURATION:
+            found.append(path)
+        elif path.endswith(".toml") and f"/{path}".count(f"/{STATES}") == 1:
+            states.append(path)
+    folders = {path.removesuffix(uptodate.CONFIGURATION) for path in found}
+    return sorted(found), sorted(path for path in states if path.rpartition(STATES)[0] not in folders)
 
 
-def _answer_key(top: str, file: str) -> str:
+def answer_key(top: str, file: str) -> str:
+    """Return the key of the answer for a configuration: all that it depends on beside files."""
     variables = map(os.environ.get, ("ROS_PACKAGE_PATH", "MODELICAPATH", "PYTHONPATH"))
     return repr(("hook", top, file, os.getcwd(), *variables))  # noqa: PTH109 - no pathlib here
-
-
-def _nothing_to_do() -> bool:
-    """Whether the working tree has what is staged, and all robots are in step; what is wrong is reported later."""
-    from pathlib import Path
-
-    from urdfsync.diagnostics import UrdfsyncError
-    from urdfsync.staging.staged import Index
-
-    try:
-        index = Index(Path.cwd())
-        files = index.named(uptodate.CONFIGURATION)
-        if index.changed or not files:
-            return False
-        return all(_is_committed(index, path) for path in files)
-    except (UrdfsyncError, OSError):
-        return False
-
-
-def _is_committed(index: Index, path: str) -> bool:
-    """Whether that holds for the robots of one configuration; if so, the answer is saved."""
-    from urdfsync import config
-    from urdfsync.dependencies import record_dependencies
-    from urdfsync.engine.options import BuildOptions
-    from urdfsync.staging.worktree import Worktree
-
-    started = uptodate.read_clocks()
-    with record_dependencies() as dependencies:
-        request = BuildOptions(dry=True, package_paths=config.ros_package_path(os.environ))
-        tree = Worktree(index, config.load(index.top / path), request)
-        found = [tree.committed(robot) for robot in tree.config.robots]
-        needed = [paths for paths in found if paths is not None]
-    if len(needed) < len(found):
-        return False
-    file = str(index.top / path)
-    answer = sorted(set().union(*needed))
-    uptodate.save_answer(file, _answer_key(str(index.top), file), answer, dependencies, started)
-    return True

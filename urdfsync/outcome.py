@@ -56,6 +56,8 @@ class Result(msgspec.Struct, frozen=True):
     """It failed half way, and what was begun could not be put back: the next build does that."""
     dry: bool = False
     """Nothing was written, whatever the actions say."""
+    renews_state: bool = False
+    """A build writes to the recorded state that is committed; see `BuildOptions.compares_state`."""
     drawing: Path | None = None
     changes: Changes | None = None
     """What changed in the model since the last build; None if nothing did, or there is none to compare with."""

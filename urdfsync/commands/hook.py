@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 import os
 import shlex
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,11 +17,12 @@ from urdfsync.config import FILE_NAME, working_folder
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Exit, exit_code
 from urdfsync.output.console import Console, line
-from urdfsync.output.phrases import counted, summary
+from urdfsync.output.phrases import summary
 from urdfsync.output.results import show_result
 
 if TYPE_CHECKING:
-    from urdfsync.staging.verdict import Verdict
+    from urdfsync.hooks.check import CommitFault
+    from urdfsync.hooks.index import Index
 
 _FEW = 5
 """So many files are named one by one."""
@@ -49,128 +50,120 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Judge the configurations that the arguments name, or all that git tracks."""
-    from urdfsync.staging import committing  # not at the top: no other command needs git or temporary folders
-    from urdfsync.staging.staged import Index
+    from urdfsync.hooks.check import check_index  # not at the top: no other command needs git or temporary folders
+    from urdfsync.hooks.index import Index
 
-    folder, request = working_folder(), arguments.request(args, console)
+    folder = working_folder()
     index = Index(folder)
     named = [*args.configs, *filter(None, [args.config])]
-    verdicts, diagnostics = committing.judge(index, folder, request, args.mode == "build", named)
-    code = exit_code([verdict.result for verdict in verdicts if verdict.result])
-    code = Exit.ERROR if diagnostics else code or (Exit.OUT_OF_STEP if verdicts else Exit.IN_STEP)
-    for verdict in verdicts:
-        if verdict.result and (console.json or verdict.troubled):
-            show_result(console, verdict.result)
-    if verdicts:
+    faults, diagnostics = check_index(index, arguments.request(args, console), args.mode == "build", named)
+    code = exit_code([fault.result for fault in faults if fault.result])
+    code = Exit.ERROR if diagnostics else code or (Exit.OUT_OF_STEP if faults else Exit.IN_STEP)
+    for fault in faults:
+        if fault.result and (console.json or fault.needs_user):
+            show_result(console, fault.result)
+    if faults:
         index = Index(folder)  # a build may have written
-        ignored = index.ignored({path for verdict in verdicts for path in verdict.add if not index.tracks(path)})
-        place = Place(index.top, _typing_folder(index.top, folder, os.environ), index.pending)
+        advice = _Advice(index, _typing_folder(index.top, folder))
         if console.json:
-            diagnostics += [_finding(verdict, place, ignored) for verdict in verdicts]
+            diagnostics += [_finding(fault, advice) for fault in faults]
         else:
-            console.print(line((words, "")) for words in lines(verdicts, place, ignored))
+            console.print(line((text, "")) for text in _lines(faults, advice))
     console.fail("hook", diagnostics, code)
     return code
 
 
-def _typing_folder(top: Path, folder: Path, environment: Mapping[str, str]) -> Path:
-    """The folder in which the user has called git or pre-commit, as far as these tell."""
-    if "GIT_PREFIX" in environment:
-        return top / environment["GIT_PREFIX"]
-    shell = Path(os.path.realpath(environment.get("PWD") or folder))
-    return shell if "PRE_COMMIT" in environment and shell.is_relative_to(top) else folder
+def _typing_folder(top: Path, folder: Path) -> Path:
+    """Return the folder in which the user called git or pre-commit, as far as these tell."""
+    if "GIT_PREFIX" in os.environ:
+        return top / os.environ["GIT_PREFIX"]
+    shell = Path(os.path.realpath(os.environ.get("PWD") or folder))
+    return shell if "PRE_COMMIT" in os.environ and shell.is_relative_to(top) else folder
 
 
-class Place:
-    """Where the user is, and what commands to copy have to know because of that."""
+def _lines(faults: Sequence[CommitFault], advice: _Advice) -> Iterator[str]:
+    """Return a line for each robot, then commands to copy."""
+    several = len({fault.config for fault in faults}) > 1
+    for fault in faults:
+        if several:
+            yield f"{fault.robot} ({advice.shown(fault.config)}): {_message(fault, advice)}"
+        elif not fault.needs_user:  # else its result has been shown
+            yield f"{fault.robot}: {_message(fault, advice)}"
+    for step, command in advice.steps(faults):
+        yield step
+        yield f"  {command}"
 
-    def __init__(self, top: Path, folder: Path, pending: Callable[[str], Collection[str]]) -> None:
-        """`top` is that of the repository, `folder` where the user types.
 
-        `pending` gives all files below a folder that `git add` would take with it; all by their path from the top.
-        """
-        self._top, self._folder, self._pending = top, folder, pending
+def _finding(fault: CommitFault, advice: _Advice) -> Diagnostic:
+    """Return the same of one robot, for programs."""
+    message = f"robot `{fault.robot}`: {_message(fault, advice)}"
+    hint = "; ".join(f"`{command}`" for _, command in advice.steps([fault]))
+    code = "out-of-step" if fault.result else "not-staged"
+    return Diagnostic(Severity.ERROR, code, message, advice.shown(fault.config), hint=hint)
+
+
+def _message(fault: CommitFault, advice: _Advice) -> str:
+    """Return what is wrong, as the rest of a line that names the robot."""
+    result = fault.result
+    if result is None:
+        number = len(fault.to_add)
+        return f"in step on disk, but {'1 file is' if number == 1 else f'{number} files are'} not staged"
+    if fault.needs_user:
+        return summary(result)
+    what = "what urdfsync recorded of it is out of date" if result.in_step else summary(result)
+    if not fault.unstaged:
+        return f"out of step: {what}"
+    files = ", ".join(map(advice.shown, fault.unstaged))
+    return f"out of step: {what}; {files} {'has' if len(fault.unstaged) == 1 else 'have'} changes that are not staged"
+
+
+class _Advice:
+    """Commands that put faults right, with paths as the user would type them."""
+
+    def __init__(self, index: Index, folder: Path) -> None:
+        """`folder` is where the user types."""
+        self._index, self._folder = index, folder
 
     def shown(self, path: Path | str) -> str:
-        """A path as the user would type it; a text is one of the repository."""
-        text = os.path.relpath(self._top / path, self._folder)
+        """Return a path as the user would type it; a text is a path from the top of the repository."""
+        text = os.path.relpath(self._index.top / path, self._folder)
         return f"./{text}" if text.startswith("-") else text
 
-    def add_command(self, verdicts: Sequence[Verdict], ignored: Collection[str]) -> str:
-        """The command that stages what verdicts name; `ignored` files have to be forced."""
-        paths = sorted({path for verdict in verdicts for path in verdict.add})
-        if not set(ignored).isdisjoint(paths):
-            return shlex.join(["git", "add", "-f", *map(self.shown, paths)])
-        folders = {folder for verdict in verdicts for folder in verdict.folders}
-        return shlex.join(["git", "add", *map(self.shown, self._folded(paths, folders))])
+    def steps(self, faults: Sequence[CommitFault]) -> Iterator[tuple[str, str]]:
+        """Return what to do, and the command for it."""
+        ready = [fault for fault in faults if fault.to_add and not fault.needs_build]
+        if ready:
+            yield "add to the commit:", self._add_command(ready)
+        waiting = [fault for fault in faults if fault.needs_build and not fault.needs_user]
+        if not waiting:
+            return
+        step, unstaged = (
+            "build, then add to the commit:",
+            sorted({path for fault in waiting for path in fault.unstaged}),
+        )
+        if unstaged:
+            files = shlex.join(map(self.shown, unstaged))
+            step = f"stage the changes (git add {files}) or put them aside (git stash push --keep-index), then build:"
+        yield step, f"{self._build_commands(waiting)} && {self._add_command(waiting)}"
 
-    def build_commands(self, verdicts: Sequence[Verdict]) -> str:
-        """The commands that build what verdicts name, one for each configuration."""
+    def _build_commands(self, faults: Sequence[CommitFault]) -> str:
+        """Return a command for each configuration."""
         commands = []
-        for file in dict.fromkeys(verdict.config for verdict in verdicts):
-            robots = [verdict.robot for verdict in verdicts if verdict.config == file]
-            near = next((f for f in (self._folder, *self._folder.parents) if (f / FILE_NAME).is_file()), None)
+        near = next((f for f in (self._folder, *self._folder.parents) if (f / FILE_NAME).is_file()), None)
+        for file in dict.fromkeys(fault.config for fault in faults):
+            robots = [fault.robot for fault in faults if fault.config == file]
             option = [] if near is not None and near / FILE_NAME == file else ["--config", self.shown(file)]
             commands.append(shlex.join(["urdfsync", "build", *robots, *option]))
         return " && ".join(commands)
 
-    def _folded(self, paths: Sequence[str], folders: Collection[str]) -> list[str]:
-        """The paths; if they are many, folders instead of those in which nothing else would be added."""
-        found = list(paths)
-        for folder in sorted(folders) if len(paths) > _FEW else ():
-            inside = {path for path in found if path.startswith(f"{folder}/")}
-            if len(inside) > 1 and inside.issuperset(self._pending(folder)):
-                found = [folder, *(path for path in found if path not in inside)]
-        return sorted(found)
-
-
-def lines(verdicts: Sequence[Verdict], place: Place, ignored: Collection[str]) -> Iterator[str]:
-    """Everything that there is to say of robots that are not in step, or not staged."""
-    several = len({verdict.config for verdict in verdicts}) > 1
-    for verdict in verdicts:
-        if several:
-            yield f"{verdict.robot} ({place.shown(verdict.config)}): {_fault(verdict, place)}"
-        elif not verdict.troubled:  # else its result has been shown
-            yield f"{verdict.robot}: {_fault(verdict, place)}"
-    for advice, command in _steps(verdicts, place, ignored):
-        yield advice
-        yield f"  {command}"
-
-
-def _steps(verdicts: Sequence[Verdict], place: Place, ignored: Collection[str]) -> Iterator[tuple[str, str]]:
-    """What to do, and the command for it."""
-    ready = [verdict for verdict in verdicts if verdict.add and not verdict.waits]
-    if ready:
-        yield "add to the commit:", place.add_command(ready, ignored)
-    waiting = [verdict for verdict in verdicts if verdict.waits and not verdict.troubled]
-    if not waiting:
-        return
-    hindering = sorted({path for verdict in waiting for path in verdict.hindered})
-    advice = "build, then add to the commit:"
-    if hindering:
-        files = shlex.join(map(place.shown, hindering))
-        advice = f"stage the changes (git add {files}) or put them aside (git stash push --keep-index), then build:"
-    yield advice, f"{place.build_commands(waiting)} && {place.add_command(waiting, ignored)}"
-
-
-def _fault(verdict: Verdict, place: Place) -> str:
-    """What is wrong, as the rest of a line that names the robot."""
-    result = verdict.result
-    if result is None:
-        number = len(verdict.add)
-        return f"in step on disk, but {counted(number, 'file')} {'is' if number == 1 else 'are'} not staged"
-    if verdict.troubled:
-        return summary(result)
-    what = "what urdfsync recorded of it is out of date" if result.in_step else summary(result)
-    if not verdict.hindered:
-        return f"out of step: {what}"
-    files = ", ".join(map(place.shown, verdict.hindered))
-    return f"out of step: {what}; {files} {'has' if len(verdict.hindered) == 1 else 'have'} changes that are not staged"
-
-
-def _finding(verdict: Verdict, place: Place, ignored: Collection[str]) -> Diagnostic:
-    """The same for programs."""
-    message = f"robot `{verdict.robot}`: {_fault(verdict, place)}"
-    hint = "; ".join(f"`{command}`" for _, command in _steps([verdict], place, ignored))
-    code = "out-of-step" if verdict.result else "not-staged"
-    return Diagnostic(Severity.ERROR, code, message, place.shown(verdict.config), hint=hint)
+    def _add_command(self, faults: Sequence[CommitFault]) -> str:
+        """Return the command that stages files; of many, folders instead of those in which nothing else is to add."""
+        paths, force = sorted({path for fault in faults for path in fault.to_add}), []
+        if self._index.ignored(path for path in paths if not self._index.tracks(path)):
+            force = ["-f"]
+        elif len(paths) > _FEW:
+            for folder in sorted({folder for fault in faults for folder in fault.folders}):
+                inside = {path for path in paths if path.startswith(f"{folder}/")}
+                if len(inside) > 1 and inside.issuperset(self._index.pending(folder)):
+                    paths = sorted({folder, *paths} - inside)
+        return shlex.join(["git", "add", *force, *map(self.shown, paths)])

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import msgspec
 
+from urdfsync import git
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Dependency
@@ -159,10 +160,8 @@ def _toplevel(folder: Path, name: str) -> str:
 
 
 def _git(folder: Path, *arguments: str, content: bytes = b"") -> subprocess.CompletedProcess[bytes]:
-    environment = {**os.environ, "LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0", "GIT_NO_REPLACE_OBJECTS": "1"}
-    command = ["git", "-C", str(folder), *arguments]
     try:
-        return subprocess.run(command, input=content, capture_output=True, env=environment, check=False)  # noqa: S603
+        return git.run(folder, "--no-replace-objects", *arguments, content=content)
     except FileNotFoundError:
         message, hint = "git is not installed, or not on PATH", "install it, or give --against a file"
         raise _error("no-git", message, hint=hint) from None
@@ -171,8 +170,7 @@ def _git(folder: Path, *arguments: str, content: bytes = b"") -> subprocess.Comp
 
 
 def _failed(done: subprocess.CompletedProcess[bytes]) -> SourceError:
-    said = done.stderr.decode(errors="replace").strip().partition("\n")[0].removeprefix("fatal: ")
-    return _error("git", f"git failed: {said}", hint="put that right, or give --against a file")
+    return _error("git", f"git failed: {git.reason(done)}", hint="put that right, or give --against a file")
 
 
 def _error(code: str, message: str, file: str = "", hint: str = "") -> SourceError:

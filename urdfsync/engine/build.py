@@ -84,6 +84,9 @@ class _Builder:
             changes=plan.changes,
             standoffs=plan.conflicts,
             drawing=plan.drawing,
+            renews_state=any(
+                change.path.parent == self._config.root / STATE_FOLDER / "robots" for change in plan.writes
+            ),
         )
 
     def _plan_and_write(self, robot: RobotConfig) -> Plan:

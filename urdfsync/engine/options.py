@@ -26,6 +26,8 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Render and compare everything, even if nothing changed."""
     dry: bool = False
     """Write nothing."""
+    compares_state: bool = False
+    """Find out in a dry run, too, whether a build would write to the recorded state: `Result.renews_state`."""
     draw: bool = False
     """Also draw the main model's diagram into the state folder."""
     package_paths: tuple[Path, ...] = ()

@@ -41,7 +41,7 @@ class Plan(msgspec.Struct, frozen=True):
     shared: tuple[SharedFile, ...] = ()
     """What to do with files around the package."""
     writes: tuple[Change, ...] = ()
-    """The files to write, the manifest last; none in a dry run."""
+    """The files to write, the manifest last; none in a dry run, unless it compares the recorded state."""
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
     bases: Mapping[str, str] = {}
@@ -135,7 +135,7 @@ def _plan_generation(inputs: Inputs, generation: Generation) -> Plan:
         diagnostics=_diagnostics(inputs, generation, decision),
         changes=changes if changes and (changes.changes or changes.generator) else None,
     )
-    if inputs.options.dry:
+    if inputs.options.dry and not inputs.options.compares_state:
         return plan
     writes, emptied = stage(inputs, generation, decision)
     bases, mentioned = stage_bases(inputs, generation, decision)

@@ -1,4 +1,4 @@
-"""What git has staged, and the mirror of it."""
+"""The index of git, and a checkout of it."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from support.git import NEEDS_GIT, Repository
 
 from urdfsync.diagnostics import SourceError
-from urdfsync.staging.mirror import Mirror
-from urdfsync.staging.staged import Index
+from urdfsync.hooks.checkout import index_checkout
+from urdfsync.hooks.index import Index
 
 pytestmark = NEEDS_GIT
 
@@ -36,14 +36,6 @@ def changed(folder: Path = Path()) -> set[str]:
     return set(Index(folder.absolute()).changed)
 
 
-def test_the_working_tree_of_a_fresh_commit_is_what_is_staged(repo: Repository) -> None:
-    index = Index(repo.folder)
-    assert index.top == repo.folder
-    assert index.changed == frozenset()
-    assert index.tracks("cad/tip \xfc.stl")
-    assert not index.tracks("cad")
-
-
 def test_contents_count_not_times(repo: Repository) -> None:
     os.utime("top.txt", (1, 1))
     assert changed() == set()
@@ -59,9 +51,9 @@ def test_line_endings_that_git_converts_are_no_change(repo: Repository) -> None:
     Path("out/Arm/package.mo").write_bytes(b"out/Arm/package.mo, committed\r\n")
     assert changed() == set()
     Path("out/Arm/package.mo").unlink()
-    with Mirror(Index(repo.folder)) as mirror:
-        mirror.bring(["out/Arm/package.mo"])
-        found = mirror.place(repo.folder / "out/Arm/package.mo").read_bytes()
+    with index_checkout(Index(repo.folder)) as checkout:
+        checkout.add(["out/Arm/package.mo"])
+        found = checkout.place(repo.folder / "out/Arm/package.mo").read_bytes()
     assert found == b"out/Arm/package.mo, committed\r\n", "as a checkout would write it"
 
 
@@ -72,25 +64,9 @@ def test_files_that_git_was_told_not_to_look_at_may_differ(repo: Repository) -> 
     Path("top.txt").write_text("other")
     Path("cad/arm.urdf").unlink()
     assert changed() == {"top.txt", "cad/arm.urdf"}
-    with Mirror(Index(repo.folder)) as mirror:
-        mirror.bring(["cad/arm.urdf"])
-        assert mirror.place(repo.folder / "cad/arm.urdf").read_text() == "cad/arm.urdf, committed\n"
-
-
-def test_files_that_are_only_meant_to_be_added_are_not_staged(repo: Repository) -> None:
-    Path("new.txt").write_text("new")
-    repo.git("add", "--intent-to-add", "new.txt")
-    index = Index(repo.folder)
-    assert not index.tracks("new.txt")
-    assert index.changed == frozenset()
-
-
-def test_the_index_of_a_partial_commit_is_another_one(repo: Repository, monkeypatch: pytest.MonkeyPatch) -> None:
-    Path("top.txt").write_text("staged")
-    repo.git("add", "top.txt")
-    monkeypatch.setenv("GIT_INDEX_FILE", ".git/other")
-    repo.git("read-tree", "HEAD")
-    assert changed() == {"top.txt"}
+    with index_checkout(Index(repo.folder)) as checkout:
+        checkout.add(["cad/arm.urdf"])
+        assert checkout.place(repo.folder / "cad/arm.urdf").read_text() == "cad/arm.urdf, committed\n"
 
 
 def test_a_further_working_tree_has_its_own_index(
@@ -102,20 +78,9 @@ def test_a_further_working_tree_has_its_own_index(
     monkeypatch.setenv("GIT_DIR", str(repo.folder / ".git/worktrees/second"))  # as git does for hooks
     index = Index(tmp_path / "second")
     assert (index.top, set(index.changed)) == (tmp_path / "second", {"top.txt"})
-    with Mirror(index) as mirror:
-        mirror.bring(index.changed)
-        assert mirror.place(tmp_path / "second/top.txt").read_text() == "top.txt, committed\n"
-
-
-def test_the_index_is_only_read(repo: Repository) -> None:
-    os.utime("top.txt", (1, 1))
-    before = Path(".git/index").read_bytes()
-    index = Index(repo.folder)
-    with Mirror(index) as mirror:
-        mirror.bring(["top.txt", "cad/arm.urdf"])
-        mirror.bring_folder("out/Arm")
-    assert Path(".git/index").read_bytes() == before
-    assert not Path(".git/index.lock").exists()
+    with index_checkout(index) as checkout:
+        checkout.add(index.changed)
+        assert checkout.place(tmp_path / "second/top.txt").read_text() == "top.txt, committed\n"
 
 
 def test_paths_of_the_repository(repo: Repository, tmp_path: Path) -> None:
@@ -136,9 +101,9 @@ def test_a_submodule_is_a_repository_of_its_own(repo: Repository, tmp_path: Path
     repo.commit()
     index = Index(repo.folder)
     assert index.path(repo.folder / "sub/cad/arm.urdf") is None
-    with Mirror(index) as mirror:
-        mirror.bring(["top.txt"])
-        assert (mirror.place(repo.folder) / "sub/cad/arm.urdf").is_file()
+    with index_checkout(index) as checkout:
+        checkout.add(["top.txt"])
+        assert (checkout.place(repo.folder) / "sub/cad/arm.urdf").is_file()
 
 
 def test_untracked_and_ignored_files(repo: Repository) -> None:
@@ -165,8 +130,8 @@ def test_a_filter_that_fails_is_an_error(repo: Repository) -> None:
     repo.git("config", "filter.bad.clean", "cat")
     repo.git("config", "filter.bad.required", "true")
     Path(".gitattributes").write_text("*.urdf filter=bad\n")
-    with Mirror(Index(repo.folder)) as mirror, pytest.raises(SourceError, match="git failed"):
-        Index(repo.folder).checkout(["cad/arm.urdf"], mirror.place(repo.folder))
+    with index_checkout(Index(repo.folder)) as checkout, pytest.raises(SourceError, match="git failed"):
+        Index(repo.folder).checkout(["cad/arm.urdf"], checkout.place(repo.folder))
 
 
 def test_a_mirror_has_what_is_staged_in_its_place(repo: Repository) -> None:
@@ -175,18 +140,18 @@ def test_a_mirror_has_what_is_staged_in_its_place(repo: Repository) -> None:
     Path("cad/arm.urdf").write_text("later")
     Path("out/Arm/Links/a.mo").unlink()
     Path("out/Arm/Links/new.mo").write_text("untracked")
-    with Mirror(Index(repo.folder)) as mirror:
-        mirror.bring(["cad/arm.urdf"])
-        mirror.bring_folder("out/Arm")
-        here = mirror.place(repo.folder)
+    with index_checkout(Index(repo.folder)) as checkout:
+        checkout.add(["cad/arm.urdf"])
+        checkout.add_folder(repo.folder / "out/Arm")
+        here = checkout.place(repo.folder)
         assert (here / "cad/arm.urdf").read_text() == "staged"
         assert sorted(path.name for path in (here / "out/Arm").rglob("*")) == ["Links", "a.mo", "package.mo"]
         assert not any(path.is_symlink() for path in (here / "out/Arm").rglob("*"))
         assert (here / "top.txt").is_symlink(), "nothing else is copied"
         assert (here.parent / "beside/mesh.stl").read_text() == "beside\n"
         assert not (here / ".git").exists()
-        assert mirror.real(here / "cad/arm.urdf") == repo.folder / "cad/arm.urdf"
-        assert mirror.real(repo.folder) == repo.folder
+        assert checkout.real(here / "cad/arm.urdf") == repo.folder / "cad/arm.urdf"
+        assert checkout.real(repo.folder) == repo.folder
     assert not here.exists()
     assert Path("cad/arm.urdf").read_text() == "later"
     assert Path("out/Arm/Links/new.mo").read_text() == "untracked"
@@ -196,9 +161,9 @@ def test_links_in_the_repository_lead_to_what_is_staged(repo: Repository) -> Non
     Path("latest.urdf").symlink_to("cad/arm.urdf")
     repo.git("add", ".")
     Path("cad/arm.urdf").write_text("later")
-    with Mirror(Index(repo.folder)) as mirror:
-        mirror.bring(["cad/arm.urdf"])
-        assert (mirror.place(repo.folder) / "latest.urdf").read_text() == "cad/arm.urdf, committed\n"
+    with index_checkout(Index(repo.folder)) as checkout:
+        checkout.add(["cad/arm.urdf"])
+        assert (checkout.place(repo.folder) / "latest.urdf").read_text() == "cad/arm.urdf, committed\n"
 
 
 CONTENTS = st.sampled_from([None, "one\n", "two\n"])
@@ -224,9 +189,9 @@ def test_a_mirrored_folder_is_what_a_checkout_gives(
             repo.git("add", "-A")
         if step < 1:
             repo.git("commit", "-q", "--allow-empty", "-m", "next")
-    with Mirror(Index(repo.folder)) as mirror:
-        mirror.bring_folder("f")
-        found = contents(mirror.place(repo.folder) / "f")
+    with index_checkout(Index(repo.folder)) as checkout:
+        checkout.add_folder(repo.folder / "f")
+        found = contents(checkout.place(repo.folder) / "f")
     out = tmp_path_factory.mktemp("out")
     repo.git("checkout-index", "--all", f"--prefix={out}/")
     assert found == contents(out / "f")

@@ -1,0 +1,248 @@
+"""Checks what is being committed: staged sources against staged outputs. Builds where that is wanted and safe.
+
+A robot is planned in the working tree if that has what is staged of it, else in a checkout of the index. A build
+writes only for robots whose sources are staged as they are, and whose files pre-commit has not stashed changes of.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Mapping, Sequence
+from pathlib import Path
+
+import msgspec
+
+from urdfsync import config as configuration
+from urdfsync import uptodate
+from urdfsync.config import FILE_NAME, Config, RobotConfig, shown
+from urdfsync.dependencies import Dependencies, record_dependencies
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.plan import plan_if_current
+from urdfsync.hook import STATES, answer_key, find_configurations
+from urdfsync.hooks.checkout import plan_index
+from urdfsync.hooks.index import Index
+from urdfsync.hooks.robot_files import RobotFiles
+from urdfsync.outcome import Exit, Result, exit_code
+from urdfsync.watching import stash
+
+_IN_STEP = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET)
+"""Actions on files that are as they should be."""
+
+
+class CommitFault(msgspec.Struct, frozen=True):
+    """What is wrong with one robot in what is being committed. Files are paths from the top of the repository."""
+
+    config: Path
+    robot: str
+    folders: tuple[str, ...]
+    """The folders of outputs: those of the package and of the recorded state."""
+    to_add: tuple[str, ...] = ()
+    """The files that have to be staged, after a build if one is needed."""
+    result: Result | None = None
+    """What a build did, or would do if it is a dry one; None if the working tree needs none."""
+    unstaged: tuple[str, ...] = ()
+    """Files with changes that are not staged, which keep a build from writing."""
+
+    @property
+    def needs_build(self) -> bool:
+        """Whether the package has to be built before files are staged."""
+        return self.result is not None and self.result.dry
+
+    @property
+    def needs_user(self) -> bool:
+        """Whether a build is not enough: it fails, or ends in a conflict."""
+        return self.result is not None and (self.result.failed or bool(self.result.conflicts))
+
+
+def check_index(
+    index: Index, options: BuildOptions, writing: bool, named: Sequence[Path]
+) -> tuple[list[CommitFault], list[Diagnostic]]:
+    """Check the configurations that are `named`, or all that git tracks; `writing` allows builds.
+
+    Returns the faults of robots, and findings about whole configurations. Raises UrdfsyncError if git fails.
+    """
+    files, diagnostics = _find_configurations(index, named)
+    stashed = _find_stashed(index)
+    faults: list[CommitFault] = []
+    for file in files:
+        started = uptodate.read_clocks()
+        try:
+            with record_dependencies() as dependencies:
+                found = _check_configuration(index, file, options, writing, stashed)
+        except UrdfsyncError as error:
+            diagnostics += error.diagnostics
+            continue
+        faults += found
+        if not found and not index.changed:
+            _save_answer(index, file, dependencies, started)
+    return faults, diagnostics
+
+
+def _save_answer(index: Index, file: Path, dependencies: Dependencies, started: tuple[int, int]) -> None:
+    """Save that a commit passes while all files that were read, and are tracked, stay as they are, and tracked."""
+    here, top = Path.cwd(), f"{index.top.as_posix()}/"
+    read = {(here / path).as_posix().removeprefix(top) for _, path in dependencies.entries}
+    key = answer_key(str(index.top), str(file))
+    uptodate.save_answer(str(file), key, sorted(filter(index.tracks, read)), dependencies, started)
+
+
+def _check_configuration(
+    index: Index, file: Path, options: BuildOptions, writing: bool, stashed: Collection[str]
+) -> list[CommitFault]:
+    """Return the faults of the robots of one configuration. Raises UrdfsyncError if that can't be read.
+
+    `stashed` are files of which pre-commit will bring back changes.
+    """
+    dry = msgspec.structs.replace(options, dry=True, compares_state=True)
+    config, staged, unstaged = _plan_differing(index, file, dry)
+    faults: list[CommitFault] = []
+    to_build: list[RobotConfig] = []
+    to_plan: list[tuple[RobotConfig, set[str]]] = []
+    """Robots, and the files that keep a build of them from writing."""
+    for robot in config.robots:
+        files, result, inputs = RobotFiles(index, config, robot), staged.get(robot.name), unstaged[robot.name]
+        if result is not None and not _needs_build(result):  # what is staged is in step, the working tree differs
+            faults += _fault(files, index.unstaged(files.untracked_sources()))
+        elif result is not None and inputs:  # a build of the working tree would not fit the staged source
+            faults += _fault(files, files.to_stage(result.actions), result, inputs)
+        elif (actions := _current_actions(config, robot, dry)) is not None:  # built already, perhaps not staged
+            add = index.unstaged(files.needed(_work(result) if result else actions))
+            faults += _fault(files, add, None if add else result)
+        else:
+            blocking = _find_blocking(index, files, writing, stashed, dry)
+            if writing and not blocking:
+                to_build.append(robot)
+            else:
+                to_plan.append((robot, blocking))
+    unplanned = [robot for robot, _ in to_plan if robot.name not in staged]
+    planned = staged | {result.robot: result for result in build(config, unplanned, dry)}
+    for robot, blocking in to_plan:
+        files, result = RobotFiles(index, config, robot), planned[robot.name]
+        if _needs_build(result):
+            faults += _fault(files, files.to_stage(result.actions), result, blocking)
+        else:
+            faults += _fault(files, index.unstaged(files.needed(result.actions)))
+    if to_build:
+        faults += _build(index, config, to_build, options, staged)
+    names = [robot.name for robot in config.robots]
+    return sorted(faults, key=lambda fault: names.index(fault.robot))
+
+
+def _plan_differing(
+    index: Index, file: Path, dry: BuildOptions
+) -> tuple[Config, dict[str, Result], dict[str, set[str]]]:
+    """Plan the robots of which the working tree does not have what is staged, in a checkout of the index.
+
+    Returns the staged configuration, and by robot the results and the inputs with changes that are not staged.
+    """
+    path = file.relative_to(index.top).as_posix()
+    if path in index.changed:
+        config, staged = plan_index(index, file, dry)
+        return config, staged, {robot.name: {path} for robot in config.robots}
+    config = configuration.load(file)
+    inputs: dict[str, set[str]] = {}
+    differing = []
+    for robot in config.robots:
+        files = RobotFiles(index, config, robot)
+        inputs[robot.name] = files.find_inputs(index.changed, dry)
+        if inputs[robot.name] or files.find_outputs(index.changed):
+            differing.append(robot.name)
+    return config, plan_index(index, file, dry, differing)[1] if differing else {}, inputs
+
+
+def _build(
+    index: Index, config: Config, robots: Sequence[RobotConfig], options: BuildOptions, staged: Mapping[str, Result]
+) -> list[CommitFault]:
+    """Build robots in the working tree; return what has to be staged then."""
+    faults: list[CommitFault] = []
+    results = list(build(config, robots, options))
+    now = Index(index.folder)
+    for robot, result in zip(robots, results, strict=True):
+        files, before = RobotFiles(now, config, robot), staged.get(robot.name)
+        add = now.unstaged(files.needed(_work(before) if before else result.actions))
+        if not all(map(index.tracks, files.state)):  # the robot may have had another name: its old state is gone
+            former = {path for path in now.changed - index.changed if path.rpartition("/")[0] in files.folders}
+            add = tuple(dict.fromkeys([*add, *sorted(former)]))
+        is_fine = exit_code([result]) is Exit.IN_STEP and not add
+        faults += _fault(files, add, before if is_fine else result)
+    return faults
+
+
+def _fault(
+    files: RobotFiles, to_add: Sequence[str], result: Result | None = None, unstaged: Collection[str] = ()
+) -> list[CommitFault]:
+    """Return one fault, or none if nothing is wrong."""
+    if not to_add and result is None:
+        return []
+    config, robot = files.config.file, files.robot.name
+    return [CommitFault(config, robot, files.folders, tuple(to_add), result, tuple(sorted(unstaged)))]
+
+
+def _needs_build(result: Result) -> bool:
+    """Return whether a build would change files or what is recorded of them."""
+    return not result.in_step or result.renews_state
+
+
+def _work(result: Result) -> list[Action]:
+    """Return the actions on files that are not as they should be."""
+    return [action for action in result.actions if action.kind not in _IN_STEP]
+
+
+def _current_actions(config: Config, robot: RobotConfig, dry: BuildOptions) -> Sequence[Action] | None:
+    """Return the actions of a build that has nothing to do in the working tree; None if it may have."""
+    try:
+        plan = plan_if_current(config, robot, dry)
+    except (UrdfsyncError, OSError):
+        return None  # the build reports it
+    return plan.actions if plan else None
+
+
+def _find_blocking(
+    index: Index, files: RobotFiles, writing: bool, stashed: Collection[str], dry: BuildOptions
+) -> set[str]:
+    """Return the stashed files that keep a build from writing: pre-commit could not bring back their changes.
+
+    If it can't, it takes all tracked files back to what is staged. A state that is not tracked would stay behind alone.
+    """
+    if not stashed:
+        return set()
+    found = files.find_inputs(stashed, dry)
+    if writing:
+        found |= files.find_outputs(stashed)
+        if any(map(index.below, index.paths([files.robot.folder]))):
+            found |= {path for path in files.state if not index.tracks(path)}
+    return found
+
+
+def _find_configurations(index: Index, named: Sequence[Path]) -> tuple[list[Path], list[Diagnostic]]:
+    """Return the configurations to check, and what is wrong with the choice."""
+    if not named:
+        found, lost_states = find_configurations(index.below(""))
+        return [index.top / path for path in found], [_lost_state(path) for path in lost_states[:1]]
+    files, diagnostics = [], []
+    for file in named:
+        path = index.path(file.absolute())
+        if path is not None and index.tracks(path):
+            files.append(index.top / path)
+        else:
+            message, hint = "git does not track this configuration", f"add it with `git add {file}`"
+            diagnostics.append(Diagnostic(Severity.ERROR, "untracked-config", message, shown(file), hint=hint))
+    return files, diagnostics
+
+
+def _lost_state(path: str) -> Diagnostic:
+    file = f"{path.rpartition(STATES)[0]}{FILE_NAME}"
+    message = f"its configuration {file} is not part of the commit"
+    hint = f"add it with `git add {file}`; if it has another name, give that to the hook as an argument"
+    return Diagnostic(Severity.ERROR, "untracked-config", message, path, hint=hint)
+
+
+def _find_stashed(index: Index) -> frozenset[str]:
+    """Return the files of which pre-commit has stashed changes, to bring them back after the hooks."""
+    store = stash.store(os.environ, Path.home())
+    holder = stash.Stash(store).holder(index.top)
+    patches = sorted(store.glob(f"patch*-{holder}")) if holder is not None else []
+    return frozenset(index.patched(patches[-1])) if patches else frozenset()
