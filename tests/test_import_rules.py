@@ -26,7 +26,7 @@ SHELL = (
         "planning",
         "config",
         "cli",
-        "watch",
+        "watch.daemon",
         "report",
         "files",
         "init",
@@ -105,16 +105,14 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "staging/worktree": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "staging/judging": ("urdfsync.report", "urdfsync.cli", *HEAVY),
     "config": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "watch": ("rich", "urdfsync.urdf", "urdfsync.report", "urdfsync.cli"),
-    "watching/events": ("watchdog", "rich", *IO),
-    "watching/standing": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
-    "watching/words": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
-    "watching/settling": ("urdfsync", "pathlib", "time", *IO, *HEAVY),
+    "watch/events": ("watchdog", "rich", *IO),
+    **{f"watch/{name}": ("pathlib", *SHELL_MODULES, *IO, *HEAVY) for name in ("status", "summary")},
+    "watch/debounce": ("urdfsync", "pathlib", "time", *IO, *HEAVY),
     **{
-        f"watching/{name}": ("rich", "watchdog", "urdfsync.report", "urdfsync.views", "urdfsync.cli")
-        for name in ("builder", "builds", "guard", "inbox", "reading", "robots", "runner", "samples", "scope", "stash")
+        f"watch/{name}": ("rich", "watchdog", "urdfsync.report", "urdfsync.views", "urdfsync.cli")
+        for name in ("build", "checks", "event_queue", "exec", "input_files", "paths", "precommit", "robots")
     },
-    "watching/checks": ("rich", "watchdog", "urdfsync.report", "urdfsync.views", "urdfsync.cli"),
+    "watch/daemon": ("rich", "urdfsync.urdf", "urdfsync.report", "urdfsync.views", "urdfsync.cli"),
     "checking/verdict": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "checking/words": ("pathlib", *SHELL_MODULES, *IO, *HEAVY),
     "checking/cache": (*(name for name in SHELL_MODULES if name != "urdfsync.state"), *HEAVY),
@@ -147,14 +145,14 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "checking/compilers/omc": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY, *EXTRAS),
     "checking/memory": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
     "checking/afterbuild": ("urdfsync.build", "urdfsync.report", "urdfsync.cli", *HEAVY),
-    "watching/observer": ("rich", "urdfsync.build", "urdfsync.report", "urdfsync.views", "urdfsync.cli"),
+    "watch/observer": ("rich", "urdfsync.build", "urdfsync.report", "urdfsync.views", "urdfsync.cli"),
     "check": ("rich",),
     "report": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf"),
     **{
         f"views/{name}": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf")
         for name in (
-            *("area", "builds", "chronicle", "comparisons", "conflicts", "diversion", "drafts", "hunks", "statuses"),
-            *("checks", "profiles", "terminal", "watching"),
+            *("builds", "comparisons", "conflicts", "drafts", "hunks", "statuses"),
+            *("checks", "profiles", "terminal"),
         )
     },
     "views/hooks": ("urdfsync.build", "urdfsync.cli", "urdfsync.urdf", *HEAVY),
@@ -230,8 +228,8 @@ PURE = (
         "checking/libraries/references",
         "checking/verdict",
         "checking/words",
-        "watching/standing",
-        "watching/words",
+        "watch/status",
+        "watch/summary",
         *(f"checking/diagnosis/{name}" for name in ("package", "layout", "complaints", "mentions", "problems")),
     ),
     *(
@@ -305,7 +303,7 @@ def test_the_domain_knows_the_contract_only(module: str) -> None:
     assert broken(all_imports(module), (*SHELL_MODULES, "urdfsync.plan", "urdfsync.manifest", "rich", "jinja2")) == []
 
 
-@pytest.mark.parametrize("module", [m for m in MODULES if m != "report" and not m.startswith("views/")])
+@pytest.mark.parametrize("module", [m for m in MODULES if m != "report" and not m.startswith(("views/", "watch/"))])
 def test_only_the_report_knows_rich(module: str) -> None:
     assert broken(all_imports(module), ("rich",)) == []
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from urdfsync.checking.verdict import Verdict
     from urdfsync.comparing.comparison import Comparison
     from urdfsync.domain import Deviation
-    from urdfsync.watching.events import Event
+    from urdfsync.watch.events import Event
 
 VERSION = 1
 """Version of the JSON documents and events; raised when a key changes its meaning or goes away."""
@@ -162,7 +162,7 @@ def event(found: Event, time: datetime.datetime) -> dict[str, Any]:
 
     Of a result's files those are left out of which nothing can be said but that they are as they should be.
     """
-    values: dict[str, Any] = {"version": VERSION, "event": type(found).__name__.lower(), "time": time.isoformat()}
+    values: dict[str, Any] = {"version": VERSION, "event": found.__struct_config__.tag, "time": time.isoformat()}
     for name, value in msgspec.structs.asdict(found).items():
         if isinstance(value, Result):
             inside = {key: part for key, part in robot(value).items() if key != "checked"}  # an event of its own

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from urdfsync.init import Draft
     from urdfsync.standalone import Record
     from urdfsync.views.checks import Checks
-    from urdfsync.views.watching import Watching
+    from urdfsync.watch.report import WatchReport
 
 _PATIENCE = 0.5
 """Seconds of work before a progress bar appears."""
@@ -190,11 +190,11 @@ class Report:
             sys.stderr.write(usage)
         self.problems(command, [found])
 
-    def watching(self) -> Watching:
+    def watching(self) -> WatchReport:
         """What shows the events of the daemon."""
-        from urdfsync.views.watching import watching
+        from urdfsync.watch.report import watch_report
 
-        return watching(as_json=self._json, quiet=self._quiet, verbose=self._verbose, config=self._config)
+        return watch_report(as_json=self._json, quiet=self._quiet, verbose=self._verbose, config=self._config)
 
     def draft(self, draft: Draft) -> None:
         """Show the configuration that `init` wrote."""

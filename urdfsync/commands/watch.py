@@ -16,11 +16,13 @@ from urdfsync.outcome import Exit
 from urdfsync.report import Report
 
 if TYPE_CHECKING:
-    from urdfsync.watch import Daemon
-    from urdfsync.watching.options import Options
+    from urdfsync.watch.daemon import Daemon, WatchOptions
 
 _CODES = "exit codes: 0 ended by SIGTERM or SIGHUP, 2 error, 4 watched already, 130 ended by SIGINT"
-_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
+_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
+"""Signals that end the daemon; the last one comes from its own timer."""
+_GRACE = 10.0
+"""Seconds after the first signal in which the work in hand has to end."""
 
 
 def add(commands: common.Commands) -> None:
@@ -59,44 +61,47 @@ def _duration(text: str) -> float:
 
 
 def _run(options: argparse.Namespace, report: Report) -> int:
-    from urdfsync.watch import Daemon  # not at the top: watchdog takes 45 ms
-    from urdfsync.watching import builder
-    from urdfsync.watching.guard import HeldError
+    from urdfsync.watch.build import internal_error  # not at the top: watchdog takes 45 ms
+    from urdfsync.watch.daemon import Daemon
+    from urdfsync.watch.single_instance import AlreadyWatchedError
 
     try:
         with report.watching() as listener:
             daemon = Daemon(_options(options, report), listener)
             with _signals(daemon) as received:
                 daemon.run()
-    except HeldError as error:
+    except AlreadyWatchedError as error:
         report.problems("watch", error.diagnostics, Exit.LOCKED)
         return Exit.LOCKED
     except (UrdfsyncError, OSError):
         raise
     except Exception as error:  # noqa: BLE001 - the last line of a daemon that nobody may be looking at
-        report.problems("watch", [builder.unexpected(error, "the daemon can't go on")])
+        report.problems("watch", [internal_error(error, "the daemon can't go on")])
         return Exit.ERROR
     return Exit.INTERRUPTED if received[0] == "SIGINT" else Exit.IN_STEP
 
 
-def _options(options: argparse.Namespace, report: Report) -> Options:
-    from urdfsync.watching.options import Options
-    from urdfsync.watching.settling import Times
+def _options(options: argparse.Namespace, report: Report) -> WatchOptions:
+    from urdfsync.watch.daemon import WatchOptions
+    from urdfsync.watch.debounce import Times
 
-    return Options(
+    return WatchOptions(
         file=options.config or config.find(config.working_folder()),
         robots=(*options.robots, *(options.robot or ())),
         times=Times(options.settle / 1000, options.sample / 1000, options.patience),
         rescan=max(options.rescan, 0.1),
         poll=options.poll,
         command=options.exec,
-        request=common.request(options, report),
+        build=common.request(options, report),
     )
 
 
 @contextlib.contextmanager
 def _signals(daemon: Daemon) -> Iterator[list[str]]:
-    """End the daemon when the process is told to: the first signal lets it finish its work, the second undoes that."""
+    """Stop the daemon when the process is told to end. The first signal lets it finish its work.
+
+    The second one interrupts the work, and so does the time: a source may be such that reading it never ends.
+    """
     received: list[str] = []
 
     def handle(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 - as signal calls it
@@ -104,12 +109,16 @@ def _signals(daemon: Daemon) -> Iterator[list[str]]:
         daemon.stop(received[0])
         if len(received) > 1:
             raise KeyboardInterrupt
+        if hasattr(signal, "setitimer"):  # else only a second signal helps
+            signal.setitimer(signal.ITIMER_REAL, _GRACE, _GRACE)
 
-    numbers = {name: number for name in _SIGNALS if (number := getattr(signal, name, None)) is not None}
-    heeded = {name: number for name, number in numbers.items() if signal.getsignal(number) is not signal.SIG_IGN}
-    before = {name: signal.signal(number, handle) for name, number in heeded.items()}  # `nohup` ignores SIGHUP
+    numbers = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
+    handled = [number for number in numbers if signal.getsignal(number) is not signal.SIG_IGN]  # `nohup` ignores SIGHUP
+    before = {number: signal.signal(number, handle) for number in handled}
     try:
         yield received
     finally:
-        for name, handler in before.items():
-            signal.signal(getattr(signal, name), handler)
+        if hasattr(signal, "setitimer"):
+            signal.setitimer(signal.ITIMER_REAL, 0)
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -16,7 +16,7 @@ from urdfsync.staging.judging import Judge
 from urdfsync.staging.staged import Index
 from urdfsync.staging.verdict import Verdict
 from urdfsync.views import hooks
-from urdfsync.watching import stash
+from urdfsync.watch import precommit
 
 _ROBOTS = f"{STATE_FOLDER}/robots/"
 
@@ -74,8 +74,8 @@ def _abandoned(path: str) -> Diagnostic:
 
 def _aside(index: Index) -> frozenset[str]:
     """The files of which pre-commit has stashed changes, to bring them back after us."""
-    store = stash.store(os.environ, Path.home())
-    holder = stash.Stash(store).holder(index.top)
+    store = precommit.store_folder(os.environ, Path.home())
+    holder = precommit.PrecommitStash(store).holder(index.top)
     patches = sorted(store.glob(f"patch*-{holder}")) if holder is not None else []
     return frozenset(index.patched(patches[-1])) if patches else frozenset()
 
