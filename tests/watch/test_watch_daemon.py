@@ -14,7 +14,7 @@ import pytest
 import watchdog.observers
 from support.daemon import LIMIT, Daemons
 
-from urdfsync import registry
+from urdfsync import cli, registry
 from urdfsync.engine.actions import Kind
 from urdfsync.outcome import Result
 from urdfsync.watch import build, events, observer
@@ -75,6 +75,28 @@ def test_a_bug_of_a_domain_is_one_error_and_the_daemon_goes_on(
     since = len(daemon.events)
     edit(project, "330", "331")
     assert daemon.wait(events.Built, since).recovered
+
+
+def test_a_source_with_crlf_that_is_built_is_not_parsed_again(
+    project: Path, start: Start, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The manifest has the hash of the text, whatever its line endings are."""
+    source = project / "ladder.json"
+    source.write_bytes(source.read_bytes().replace(b"\n", b"\r\n"))
+    assert cli.main(["build", "--quiet"]) == 0
+    domain, reads = registry.domain("rcnetwork"), list[int]()
+    real = type(domain).read
+
+    def read(self: Any, *arguments: Any, **options: Any) -> Any:
+        reads.append(len(daemon.events))
+        return real(self, *arguments, **options)
+
+    monkeypatch.setattr(type(domain), "read", read)
+    daemon = start()
+    daemon.wait(events.Built)
+    built = [type(event) for event in daemon.events].index(events.Built)
+    until(lambda: bool(reads))  # when it warms up
+    assert min(reads) > built
 
 
 def test_a_build_is_not_made_sure_of_during_a_pause(

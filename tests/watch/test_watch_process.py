@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
+import psutil
 import pytest
 from support.daemon import LIMIT, REPOSITORY, Watch, stopped
 from support.git import NEEDS_GIT, Repository
@@ -468,6 +469,38 @@ def test_a_signal_during_a_build_leaves_all_or_nothing(project: Path, start: Sta
         watch = start("--settle", "0", "--sample", "0")
         assert holds(project, ohm)
         assert not any(event.get("conflicts") for event in watch.events)
+
+
+ENDLESS = "<%- for a in range(99999) %><% for b in range(99999) %><% endfor %><% endfor -%>\n"
+"""Begin of a template that takes longer than anybody waits."""
+
+
+@pytest.mark.parametrize("robots", [1, 6], ids=["in the daemon", "in workers"])
+def test_a_job_that_never_ends_does_not_hold_a_signal_up(project: Path, start: Start, robots: int) -> None:
+    robot = CONFIG.format("ladder.json") + 'templates = "templates"\n'
+    others = [robot.replace("ladder]", f"ladder{n}]").replace('"Ladder"', f'"Ladder{n}"') for n in range(1, robots)]
+    (project / "urdfsync.toml").write_text("\n".join([robot, *others]))
+    template = project / "templates/element/model.mo.jinja"
+    template.parent.mkdir(parents=True)
+    own = (REPOSITORY / "tests/rcnetwork" / template.relative_to(project)).read_text()
+    template.write_text(own)
+    watch = start("--jobs", "2", robots=robots)
+    before, since = (project / RECORD).read_text(), watch.mark
+    (project / "new").write_text(ENDLESS + own)
+    (project / "new").rename(template)
+    for name in ("ladder", *(f"ladder{n}" for n in range(1, robots))):
+        watch.wait("building", lambda event, name=name: event["robot"] == name, since)
+    time.sleep(2)  # until it renders
+    helpers = psutil.Process(watch.process.pid).children(recursive=True)
+    begin = time.monotonic()
+    assert watch.stop() == 0
+    assert time.monotonic() - begin < (20 if robots == 1 else 8)
+    assert watch.events[-1]["event"] == "stopping"
+    assert watch.errors == ""
+    assert psutil.wait_procs(helpers, LIMIT)[1] == []
+    assert (project / RECORD).read_text() == before
+    template.write_text(own)
+    start(robots=robots)
 
 
 def test_a_second_daemon_says_who_was_first(project: Path, start: Start, rc_site: Path) -> None:

@@ -67,6 +67,30 @@ def test_what_commands_print_scrolls_above_the_status_and_stays() -> None:
     assert rows[1:] == ["one", "two", "", "100 %", "three red", "four", "after"]
 
 
+OUTLIVED = r"""
+import os, subprocess
+from pathlib import Path
+from urdfsync.report import Report
+from urdfsync.watch import events
+
+with Report().watching() as listener:
+    listener.show(events.Started(Path("urdfsync.toml"), ("arm",)))
+    command = "echo early >&2; sleep 1; seq 20000 >&2; echo late >&2; touch {}"
+    subprocess.Popen(command, shell=True)
+    listener.show(events.Stopping("SIGTERM"))
+os._exit(0)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of POSIX")
+def test_a_command_that_outlives_the_daemon_still_reaches_the_terminal(tmp_path: Path) -> None:
+    """It would die of SIGPIPE if the daemon's pipe had no reader any more."""
+    rows = seen(OUTLIVED.format(tmp_path / "done"))
+    assert (tmp_path / "done").exists()
+    assert rows[-2:] == ["20000", "late"]
+    assert "early" in rows
+
+
 def test_a_stream_that_is_no_terminal_is_left_alone() -> None:
     assert not is_possible(), "as pytest captures it"
     before = os.fstat(2).st_ino

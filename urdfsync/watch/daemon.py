@@ -126,7 +126,7 @@ class Daemon:
         self._watch_folders()
         for watched in self._robots:
             watched.is_announced = True
-            watched.debouncer.touch(time.monotonic())
+        self._touch(*self._robots)
 
     def _show(self, *found: events.Event) -> None:
         for event in found:
@@ -165,18 +165,23 @@ class Daemon:
         affected = self._robots.named(by_robot)
         if not all(watched.has_only_files(by_robot[watched.name]) for watched in affected):
             self._watch_folders()  # a folder or a link may have been replaced
-        for watched in affected:
-            changed = by_robot[watched.name]
-            if not watched.debouncer.is_idle or self._robots.has_changed_at(watched, changed):
-                watched.touch_outputs(changed)
-                self._touch(watched)
+        changed = [
+            watched
+            for watched in affected
+            if not watched.debouncer.is_idle or self._robots.has_changed_at(watched, by_robot[watched.name])
+        ]
+        for watched in changed:
+            watched.touch_outputs(by_robot[watched.name])
+        self._touch(*changed)
 
-    def _touch(self, watched: WatchedRobot) -> None:
-        """Let a robot settle, since something changed."""
-        if not watched.is_announced:
-            self._show(events.Settling(watched.name))
-            watched.is_announced = True
-        watched.debouncer.touch(time.monotonic())
+    def _touch(self, *robots: WatchedRobot) -> None:
+        """Let robots settle, since something changed; all from the same moment, so that they are built together."""
+        now = time.monotonic()
+        for watched in robots:
+            if not watched.is_announced:
+                self._show(events.Settling(watched.name))
+                watched.is_announced = True
+            watched.debouncer.touch(now)
 
     def _watch_folders(self) -> None:
         if self._options.poll:
@@ -219,10 +224,9 @@ class Daemon:
         due = [w for w in self._robots if w.debouncer.deadline is not None and w.debouncer.deadline <= now]
         if due and self._update_pause():
             return
-        ready = [watched for watched in due if self._settle(watched)]
+        ready = [watched for watched in due if self._settle(watched, now)]
         if ready and self._update_pause():  # reading may have taken a while
-            for watched in ready:
-                self._touch(watched)
+            self._touch(*ready)
         elif ready:
             self._build(ready)
         elif not self._is_warm and all(watched.debouncer.is_idle for watched in self._robots):
@@ -251,11 +255,11 @@ class Daemon:
                 self._config_errors = error.diagnostics
                 self._note(error.diagnostics)
 
-    def _settle(self, watched: WatchedRobot) -> bool:
+    def _settle(self, watched: WatchedRobot, now: float) -> bool:
         """Take the sample of a robot that is due. Returns whether the robot is to be built now."""
         debouncer, inputs = watched.debouncer, self._robots.inputs(watched)
         sample = inputs, self._robots.outputs(watched, watched.touched_outputs)
-        phase = debouncer.add_sample(sample, time.monotonic())
+        phase = debouncer.add_sample(sample, now)
         if phase is Phase.IDLE:
             self._give_up(watched)
         if phase is not Phase.SETTLED:
@@ -314,8 +318,7 @@ class Daemon:
                 return
             if self._update_pause():
                 break
-        for watched in robots:
-            self._touch(watched)
+        self._touch(*robots)
 
     def _build_once(self, robots: dict[str, WatchedRobot], options: BuildOptions) -> None:
         for result in build.build_robots(self._config, [watched.robot for watched in robots.values()], options):
@@ -406,9 +409,8 @@ class Daemon:
         """Look at the inputs of all robots."""
         self._next_poll = now + _POLL
         self._look_at_config()
-        for watched in self._robots:
-            if watched.debouncer.is_idle and not same_content(watched.built or {}, self._robots.inputs(watched)):
-                self._touch(watched)
+        idle = [watched for watched in self._robots if watched.debouncer.is_idle]
+        self._touch(*(w for w in idle if not same_content(w.built or {}, self._robots.inputs(w))))
 
     def _look_at_config(self) -> None:
         if self._config_debouncer.is_idle and self._config_has_changed():
@@ -422,8 +424,6 @@ class Daemon:
         has_resumed = holder is None and self._is_paused
         if has_resumed:
             self._show(events.Resumed())
-            for watched in self._robots:
-                if not watched.debouncer.is_idle:
-                    self._touch(watched)
+            self._touch(*(watched for watched in self._robots if not watched.debouncer.is_idle))
         self._is_paused = holder is not None
         return self._is_paused or has_resumed
