@@ -34,13 +34,6 @@ def seen(project: Path, one: RobotPaths) -> WatchedPaths:
     return find_watched_paths(str(project), str(project / "urdfsync.toml"), {"arm": one})
 
 
-def test_before_the_first_build(project: Path) -> None:
-    found = ladder(project)
-    assert names(project, found.inputs) == {"ladder.json"}
-    assert names(project, found.outputs) == {".urdfsync/robots/ladder.toml", ".urdfsync/robots/ladder.json"}
-    assert (found.built_hash, found.built_names) == ("", frozenset())
-
-
 def test_after_a_build_dependencies_and_outputs_are_known(project: Path) -> None:
     assert cli.main(["build", "--quiet"]) == 0
     found = ladder(project)
@@ -95,20 +88,6 @@ def test_elsewhere_folders_are_watched_up_to_the_nearest_common_one(tmp_path: Pa
     found = seen(project, bare(cad / "arm.urdf", project / "modelica/Arm"))
     assert found.folders == {str(folder) for folder in (project, tmp_path, tmp_path / "cad", cad)}
     assert found.robots_for(str(tmp_path / "a")) == set()
-
-
-def test_what_is_not_there_is_not_looked_for_above_the_configuration(tmp_path: Path) -> None:
-    project = tmp_path / "project"
-    project.mkdir()
-    source = project / "arm.urdf"
-    one = bare(source, project / "modelica/Arm")
-    one = RobotPaths(
-        str(source),
-        frozenset([str(source), str(tmp_path / "meshes/a.stl"), "/meshes/a.stl"]),
-        None,
-        *(frozenset(), one.package),
-    )
-    assert seen(project, one).folders == {str(project)}
 
 
 @pytest.mark.parametrize("root", ["/", "/project"])

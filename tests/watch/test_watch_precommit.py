@@ -38,14 +38,6 @@ def patch(tmp_path: Path, pid: int, moment: float | None = None) -> Path:
     return store
 
 
-def test_a_patch_of_a_living_process(tmp_path: Path, repository: Path, process: subprocess.Popen[bytes]) -> None:
-    store = patch(tmp_path, process.pid)
-    assert PrecommitStash(store).holder(repository) == process.pid
-    process.kill()
-    process.wait()
-    assert PrecommitStash(store).holder(repository) is None
-
-
 @linux
 def test_a_patch_counts_in_its_repository_only(
     tmp_path: Path, repository: Path, process: subprocess.Popen[bytes]

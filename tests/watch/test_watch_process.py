@@ -488,8 +488,7 @@ def test_a_job_that_never_ends_does_not_hold_a_signal_up(project: Path, start: S
     before, since = (project / RECORD).read_text(), watch.mark
     (project / "new").write_text(ENDLESS + own)
     (project / "new").rename(template)
-    for name in ("ladder", *(f"ladder{n}" for n in range(1, robots))):
-        watch.wait("building", lambda event, name=name: event["robot"] == name, since)
+    until(lambda: sum(event["event"] == "building" for event in watch.events[since:]) == robots, watch)
     time.sleep(2)  # until it renders
     helpers = psutil.Process(watch.process.pid).children(recursive=True)
     begin = time.monotonic()

@@ -190,16 +190,6 @@ def test_a_file_that_the_build_saw_missing_comes_back(bench: Bench) -> None:
     assert bench.changes() == {MODEL}
 
 
-def test_a_package_that_goes_as_a_whole_and_comes_back(bench: Bench) -> None:
-    package = bench.project / "modelica/Plant/Ladder"
-    files = {name for name in bench.outputs() if "Ladder/" in name}
-    package.rename(bench.project / "aside")
-    assert bench.has_changed_at("modelica/Plant/Ladder")
-    assert bench.changes() == files
-    (bench.project / "aside").rename(package)
-    assert not bench.has_changed_at("modelica/Plant/Ladder")
-
-
 def test_saves_right_after_the_build_has_looked(bench: Bench) -> None:
     """In the same tick of the clock, and of the same size, they leave all that the system says of a file."""
     path = bench.project / MODEL

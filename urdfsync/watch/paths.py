@@ -5,7 +5,6 @@ Paths are strings here, since there are thousands of them and they are looked at
 
 from __future__ import annotations
 
-import functools
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -29,7 +28,7 @@ CONFIG = ""
 """Stands for the configuration where a robot's name is expected."""
 
 
-class RobotPaths(msgspec.Struct, frozen=True, dict=True):
+class RobotPaths(msgspec.Struct, frozen=True):
     """The files of one robot, absolute, and what the last build recorded of its source."""
 
     source: str
@@ -46,7 +45,7 @@ class RobotPaths(msgspec.Struct, frozen=True, dict=True):
     built_names: frozenset[tuple[str, str]] = frozenset()
     """Kind and name of each element in the last build."""
 
-    @functools.cached_property
+    @property
     def output_folders(self) -> frozenset[str]:
         """Folders of the outputs."""
         return frozenset([path.rpartition(os.sep)[0] for path in self.outputs])
@@ -114,9 +113,7 @@ class WatchedPaths(msgspec.Struct, frozen=True):
     """Where changes of the paths of all robots show; without symbolic links, as events have none."""
 
     by_path: Mapping[str, set[str]] = {}
-    """Robots by each of their inputs, and by each folder and link on the way there."""
-    by_output_folder: Mapping[str, Sequence[tuple[str, str, frozenset[str]]]] = {}
-    """By folder, the robots with outputs in it, their name for the folder, and their outputs."""
+    """Robots by each of their files, and by each folder and link on the way there."""
     folders: frozenset[str] = frozenset()
     """Folders to watch, without those below."""
     trees: Mapping[str, set[str]] = {}
@@ -125,10 +122,6 @@ class WatchedPaths(msgspec.Struct, frozen=True):
     def robots_for(self, path: str) -> set[str]:
         """Return the robots to which a change of a path matters, and `CONFIG` for the configuration."""
         found = set(self.by_path.get(path, ()))
-        folder, _, name = path.rpartition(os.sep)
-        for robot, called, outputs in self.by_output_folder.get(folder, ()):
-            if f"{called}{os.sep}{name}" in outputs:
-                found.add(robot)
         for tree, robots in self.trees.items():
             if robots and path.startswith(f"{tree}{os.sep}"):
                 found |= robots
@@ -145,7 +138,6 @@ def find_watched_paths(root: str, config_file: str, robots: Mapping[str, RobotPa
     root = links.resolve(root)
     above = {root, *map(str, Path(root).parents)}
     by_path: dict[str, set[str]] = {}
-    outputs: dict[str, list[tuple[str, str, frozenset[str]]]] = {}
     trees: dict[str, set[str]] = {}
 
     def add(path: str, robot: str) -> str:
@@ -158,28 +150,25 @@ def find_watched_paths(root: str, config_file: str, robots: Mapping[str, RobotPa
     for name, robot in robots.items():
         for path in robot.inputs:
             add(path, name)
-        for folder in robot.output_folders:  # the outputs are no links: a build refuses those
-            outputs.setdefault(add(folder, name), []).append((name, folder, robot.outputs))
+        folders = {folder: add(folder, name) for folder in robot.output_folders}
+        for path in robot.outputs:  # thousands, and no links: a build refuses those
+            folder, _, file = path.rpartition(os.sep)
+            by_path.setdefault(f"{folders[folder]}{os.sep}{file}", set()).add(name)
         trees.setdefault(add(robot.package, name), set())
         if robot.templates:
             trees.setdefault(add(robot.templates, name), set()).add(name)
     trees = {folder: names for folder, names in trees.items() if os.path.isdir(folder)}  # noqa: PTH112
-    above.remove(root)
-    # a file that does not exist is not waited for in the folders above the configuration's
-    folders = {os.path.dirname(name) for name in by_path if os.path.dirname(name) not in above or os.path.exists(name)}  # noqa: PTH110, PTH120
-    folders |= {folder for folder, found in outputs.items() if folder not in above or _has_outputs(found)}
     inside = tuple(f"{tree}{os.sep}" for tree in trees)
-    alone = (f for f in folders if os.path.dirname(f) != f and not f"{f}{os.sep}".startswith(inside))  # noqa: PTH120
-    return WatchedPaths(by_path, outputs, frozenset(filter(os.path.isdir, alone)), trees)
-
-
-def _has_outputs(found: Iterable[tuple[str, str, frozenset[str]]]) -> bool:
-    """Return whether any of the outputs in one folder exists."""
-    return any(
-        path.rpartition(os.sep)[0] == folder and os.path.exists(path)  # noqa: PTH110
-        for _, folder, outputs in found
-        for path in outputs
-    )
+    above.remove(root)
+    watched: set[str] = set()
+    for path in by_path:
+        folder = os.path.dirname(path)  # noqa: PTH120
+        if folder in watched or f"{folder}{os.sep}".startswith(inside) or os.path.dirname(folder) == folder:  # noqa: PTH120
+            continue
+        # a file that does not exist is not waited for in the folders above the configuration's
+        if os.path.exists(path) if folder in above else os.path.isdir(folder):  # noqa: PTH110, PTH112
+            watched.add(folder)
+    return WatchedPaths(by_path, frozenset(watched), trees)
 
 
 class _Links:
