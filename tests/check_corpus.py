@@ -21,11 +21,10 @@ import msgspec
 from support.corpus import FOLDER
 
 import urdfsync
-from urdfsync import config, init
-from urdfsync.checking import checker
-from urdfsync.checking.libraries import library
-from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, Verdict
-from urdfsync.checking.wishes import Wishes
+from urdfsync import config
+from urdfsync.check import libraries, run
+from urdfsync.check.results import EFFORTS, MASSES, POSES, CheckOptions, CheckResult, largest
+from urdfsync.config import init
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Deviation, Quantity
 
@@ -62,32 +61,32 @@ def _check(files: Sequence[Path], options: argparse.Namespace, folder: Path) -> 
     readable = [file for file in files if not _refused(file, options.folder, folder)]
     if not readable:
         return 0
-    draft = init.draft(folder / config.FILE_NAME, readable, "urdf")
+    draft = init.make_draft(folder / config.FILE_NAME, readable, "urdf")
     text = draft.text.replace("[defaults]\n", f'[defaults]\napproach = ["{options.approach}"]\n')
     init.write(msgspec.structs.replace(draft, text=text))
     configuration = config.load(draft.file)
-    wishes = Wishes(physics=True, timeout=options.timeout, jobs=options.jobs)
+    check_options = CheckOptions(physics=True, timeout=options.timeout, jobs=options.jobs)
     bases = {
         guess.robot: str(next((o.value for o in guess.options if o.option == "base"), "")) for guess in draft.guesses
     }
     names = {robot.name: robot.source for robot in configuration.robots}
-    verdicts = []
-    for verdict in checker.check(configuration, configuration.robots, wishes, lambda *_: None):
-        name = names[verdict.robot].relative_to(options.folder.absolute()).as_posix()
-        _row([name, bases[verdict.robot], *_cells(verdict)])
-        verdicts.append(verdict)
-    return int(not all(_agrees(verdict) for verdict in verdicts))
+    results = []
+    for result in run.check_robots(configuration, configuration.robots, check_options, lambda *_: None):
+        name = names[result.robot].relative_to(options.folder.absolute()).as_posix()
+        _row([name, bases[result.robot], *_cells(result)])
+        results.append(result)
+    return int(not all(_agrees(result) for result in results))
 
 
-def _agrees(verdict: Verdict) -> bool:
+def _agrees(result: CheckResult) -> bool:
     """Whether the package compiles and is the robot; that it is not on disk does not matter here."""
-    return not verdict.failed and not verdict.gaps and verdict.generated is not None and verdict.generated.agrees
+    return not result.failed and not result.gaps and result.deviations is not None and not result.differs
 
 
 def _refused(file: Path, root: Path, folder: Path) -> bool:
     """Whether a file has errors; if so its row says which."""
     try:
-        init.draft(folder / config.FILE_NAME, [file], "urdf")
+        init.make_draft(folder / config.FILE_NAME, [file], "urdf")
     except SourceError as error:
         codes = ", ".join(sorted({found.code for found in error.diagnostics}))
         _row([file.relative_to(root).as_posix(), *[""] * (len(HEADER) - 2), f"refused: {codes}"])
@@ -95,23 +94,20 @@ def _refused(file: Path, root: Path, folder: Path) -> bool:
     return False
 
 
-def _cells(verdict: Verdict) -> Iterator[str]:
-    generated = verdict.generated
-    found = generated.deviations if generated else ()
-    yield str(sum(one.quantity is Quantity.POSITION for one in found)) if generated else ""
+def _cells(result: CheckResult) -> Iterator[str]:
+    found = result.deviations or ()
+    yield str(sum(one.quantity is Quantity.POSITION for one in found)) if found else ""
     yield (
-        str(sum(one.quantity is Quantity.EFFORT and one.element.startswith("joint") for one in found))
-        if generated
-        else ""
+        str(sum(one.quantity is Quantity.EFFORT and one.element.startswith("joint") for one in found)) if found else ""
     )
-    yield str(len(verdict.compiled))
-    yield f"{max((one.unknowns for one in verdict.compiled), default=0):,}"
+    yield str(len(result.compiled))
+    yield f"{max((one.unknowns for one in result.compiled), default=0):,}"
     for quantities in (POSES, EFFORTS, MASSES):
-        yield _error(generated.worst(quantities)) if generated else ""
-    yield f"{verdict.seconds:.0f}"
-    yield f"{verdict.megabytes:.0f}"
-    said = [one.message for one in verdict.diagnostics if one.severity == "error"]
-    yield "; ".join(["agrees" if _agrees(verdict) else "wrong", *said, *verdict.gaps, *verdict.notes])
+        yield _error(largest(found, quantities))
+    yield f"{result.seconds:.0f}"
+    yield f"{result.megabytes:.0f}"
+    said = [one.message for one in result.diagnostics if one.severity == "error"]
+    yield "; ".join(["agrees" if _agrees(result) else "wrong", *said, *result.gaps, *result.notes])
 
 
 def _error(worst: Deviation | None) -> str:
@@ -124,7 +120,7 @@ def _row(cells: Sequence[str]) -> None:
 
 def _versions() -> str:
     packages = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("rumoca", "pin"))
-    standard = library.standard(os.environ, Path.home()).version
+    standard = ".".join(map(str, libraries.find_standard_library(os.environ).version))
     today = datetime.datetime.now(tz=datetime.UTC).date()
     python = platform.python_version()
     return (

@@ -14,8 +14,7 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
-from urdfsync.checking.libraries import library
-from urdfsync.checking.libraries.library import LibraryError
+from urdfsync.check.libraries import LibraryError, find_standard_library
 
 REPOSITORY = Path(__file__).parents[1]
 RC_FOLDER = Path(__file__).parent / "rcnetwork"
@@ -108,7 +107,7 @@ def corpus() -> Path:
 def find_library() -> Path | None:
     """A folder that holds the Modelica Standard Library in a version that the embedded compiler takes."""
     try:
-        return library.standard(os.environ, _HOME).modelica.path.parent
+        return find_standard_library(os.environ).parts["Modelica"].parent
     except LibraryError:
         return None
 

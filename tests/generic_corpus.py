@@ -30,14 +30,14 @@ from support.functions import Functions
 from support.modelica import Array, Outcome, Run, Task, compile_task, execute
 from support.packages import Package, generate
 
-from urdfsync.checking.libraries import library
-from urdfsync.checking.verdict import EFFORTS, MASSES, POSES, Comparison
+from urdfsync.check.libraries import find_standard_library
+from urdfsync.check.results import EFFORTS, MASSES, POSES
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Target
 from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.physics import amended, motion
+from urdfsync.urdf.physics import completion, motion
 
 COUNTED = ("file", "moving joints", "axes", "links")
 FUNCTIONS = ("found", "mass", "inertias", "bias", "gravity", "jacobian", "places", "turns")
@@ -74,7 +74,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--most", type=int, default=1000, metavar="N")
     parser.add_argument("--repeats", type=int, default=1, metavar="N")
     options = parser.parse_args(arguments)
-    folder = library.standard(os.environ, Path.home()).modelica.path.parent
+    folder = find_standard_library(os.environ).parts["Modelica"].parent
     tables: Mapping[str, Callable[[Path, Iterable[Path]], bool]] = {
         "moves": _moves,
         "functions": _functions,
@@ -130,10 +130,10 @@ def _moved(standard: Path, file: Path) -> bool | None:
     return comparison.agrees
 
 
-def _compared(case: physics.Case, outcome: Outcome) -> Comparison:
+def _compared(case: physics.Case, outcome: Outcome) -> physics.Deviations:
     (run,) = outcome.runs
     series = {"time": run.times.tolist()} | {name: values.tolist() for name, values in run.values.items()}
-    return Comparison(tuple(case.experiment.compare(series)))
+    return physics.Deviations(tuple(case.experiment.compare(series)))
 
 
 def _functions(standard: Path, files: Iterable[Path]) -> bool:
@@ -286,10 +286,10 @@ def _written(file: Path) -> Iterator[str]:
 
 def _complete(file: Path) -> bytes:
     """The file as Pinocchio reads it, with inertias."""
-    content = amended.readable(file.read_bytes()).content
+    content = completion.completed_for_pinocchio(file.read_bytes()).content
     robot = read_robot(content, file.name, cross_check=False).robot
     assert robot is not None
-    return amended.with_inertias(content, KinematicTree.of(robot)).content
+    return completion.with_inertias(content, KinematicTree.of(robot)).content
 
 
 def _counts(skeleton: KinematicTree) -> Iterator[str]:

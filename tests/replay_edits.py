@@ -22,7 +22,7 @@ from support.replay import Fresh, Project
 from support.steps import Answer, Known, Step, plain
 
 from urdfsync.engine.actions import Kind
-from urdfsync.manifest import text_hash
+from urdfsync.state.manifest import text_hash
 from urdfsync.state.record import Choice
 
 EPISODE = 40

@@ -18,7 +18,7 @@ from pathlib import Path
 from support import replay
 from support.replay import Built, Fresh, Project, Stamps
 
-from urdfsync.difference import ChangeClass
+from urdfsync.domain import ChangeClass
 from urdfsync.outcome import Result
 from urdfsync.urdf.domain import DOMAIN
 

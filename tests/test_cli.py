@@ -18,9 +18,19 @@ import urdfsync
 from urdfsync import cli, config
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Exit
-from urdfsync.report import Report
+from urdfsync.output.console import Console
 
 Capture = pytest.CaptureFixture[str]
+
+NEXT = [
+    "",
+    "What to do next:",
+    f"  open {Path('modelica/Ladder/package.mo')} in OMEdit or Dymola",
+    "  urdfsync library  says how they find the library UrdfSync",
+    "  urdfsync watch    builds whenever a source changes",
+    "  urdfsync check    compiles the package",
+]
+"""What follows the first build of a package."""
 
 
 @pytest.fixture
@@ -43,7 +53,7 @@ def document(capsys: Capture) -> dict[str, Any]:
     streams = capsys.readouterr()
     assert streams.err == ""
     loaded: dict[str, Any] = json.loads(streams.out)
-    assert loaded["version"] == 1
+    assert loaded["version"] == 2
     return loaded
 
 
@@ -52,7 +62,7 @@ def document(capsys: Capture) -> dict[str, Any]:
 
 def test_build_in_words(project: Path, capsys: Capture) -> None:
     assert cli.main(["build"]) == 0
-    assert capsys.readouterr().out == "ladder: 14 files written\n"
+    assert capsys.readouterr().out.splitlines() == ["ladder: 14 files written", *NEXT]
     assert cli.main(["build"]) == 0
     assert capsys.readouterr().out == "ladder: in step, 14 files\n"
 
@@ -121,7 +131,10 @@ def test_explain_names_each_file_on_one_line(edited: Path, capsys: Capture) -> N
     folder = Path("modelica/Ladder")
     assert f"  keep       {folder / 'Ladder.mo'}  you edited it; there is nothing new for it" in lines
     assert f"  restore    {folder / 'Elements' / 'R1.mo'}  it was deleted; written again" in lines
-    assert len(lines) == 15
+    assert lines[-1] == "  12 unchanged files; --verbose names each"
+    assert len(lines) == 4
+    assert cli.main(["build", "--explain", "--verbose", "--dry-run"]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == 15
 
 
 def test_long_paths_are_not_wrapped(project: Path, capsys: Capture) -> None:
@@ -188,7 +201,7 @@ def test_ros_package_path_is_searched(project: Path, tmp_path: Path, monkeypatch
 def test_svg(project: Path, capsys: Capture) -> None:
     assert cli.main(["build", "--svg"]) == 0
     drawing = Path(".urdfsync/svg/ladder.svg")
-    assert capsys.readouterr().out.splitlines() == ["ladder: 14 files written", f"  diagram: {drawing}"]
+    assert capsys.readouterr().out.splitlines() == ["ladder: 14 files written", f"  diagram: {drawing}", *NEXT]
     assert drawing.exists()
     assert cli.main(["build", "--svg"]) == 0
     assert capsys.readouterr().out.splitlines() == ["ladder: in step, 14 files", f"  diagram: {drawing}"]
@@ -380,7 +393,7 @@ def test_text_of_others_can_not_command_a_terminal(monkeypatch: pytest.MonkeyPat
     errors = Terminal()
     monkeypatch.setattr(sys, "stderr", errors)
     found = Diagnostic(Severity.ERROR, "x", f"it says `{EVIL}`", f"{EVIL}.urdf", 3, hint=f"not {EVIL}")
-    Report().problems("build", [found])
+    Console().fail("build", [found], Exit.ERROR)
     safe = "a\\x1b[31m\\x07\\u202eb\\x9b2J\\ud800"
     assert errors.getvalue() == f"{safe}.urdf:3: error: it says `{safe}`; not {safe} [x]\n"
 
@@ -396,11 +409,11 @@ def test_arguments_can_not_command_a_terminal(project: Path, capsys: Capture) ->
 
 def test_many_findings_of_one_kind_are_folded(capsys: Capture) -> None:
     many = [Diagnostic(Severity.WARNING, "mesh-not-found", f"mesh {n} not found", "a.urdf", n) for n in range(1, 10)]
-    Report().problems("build", many)
+    Console().fail("build", many, Exit.ERROR)
     lines = capsys.readouterr().err.splitlines()
     assert lines[:4] == [f"a.urdf:{n}: warning: mesh {n} not found [mesh-not-found]" for n in range(1, 5)]
     assert lines[4:] == ["and 5 more like these [mesh-not-found]; --verbose shows them"]
-    Report(verbose=True).problems("build", many)
+    Console(verbose=True).fail("build", many, Exit.ERROR)
     assert len(capsys.readouterr().err.splitlines()) == 9
 
 
@@ -409,10 +422,10 @@ def test_a_progress_bar_appears_only_if_work_takes_long(monkeypatch: pytest.Monk
     monkeypatch.setattr(time, "monotonic", lambda: next(clock))
     screen = Terminal()
     monkeypatch.setattr(sys, "stderr", screen)
-    shown = Report()
+    shown = Console()
     shown.progress("arm", 0, 3)
     assert screen.getvalue() == ""
     monkeypatch.setattr(time, "monotonic", lambda: 1.0)
     shown.progress("arm: meshes", 1, 3)
     assert "arm: meshes" in screen.getvalue()
-    shown.finish("build", Exit.IN_STEP)
+    shown.end("build", Exit.IN_STEP)

@@ -20,9 +20,8 @@ from support.packages import RENDERER, read
 from support.replay import Project
 
 from urdfsync import cli
-from urdfsync.classfiles import StoredClasses
-from urdfsync.difference import Effect, Version
-from urdfsync.domain import Order, Snapshot, Target
+from urdfsync.domain import Effect, Order, Snapshot, Target, Version
+from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.scopes import Node, Scopes
 from urdfsync.modelica.unresolved import unresolved
 from urdfsync.urdf.domain import DOMAIN
@@ -35,7 +34,7 @@ FILES = ("package.mo", "Bot.mo", "BotRun.mo")
 pytestmark = pytest.mark.slow
 
 Key = tuple[str, str]
-"""Kind (`link` or `joint`) and name of an element of the URDF."""
+"""UnresolvedKind (`link` or `joint`) and name of an element of the URDF."""
 
 
 # --- what a version offers, from its generated text ---------------------------------------------------------------

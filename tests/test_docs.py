@@ -8,11 +8,9 @@ from pathlib import Path
 import pytest
 
 from urdfsync import cli
-from urdfsync.checking.cache import LIMIT
-from urdfsync.checking.edits import MANY
-from urdfsync.checking.libraries.library import NEXT, OLDEST, dotted
-from urdfsync.checking.verdict import TOLERANCE
-from urdfsync.checking.wishes import Wishes
+from urdfsync.check.cache import LIMIT
+from urdfsync.check.libraries import NEXT, OLDEST
+from urdfsync.check.results import MOST_SINGLE_EDITS, TOLERANCE, CheckOptions
 from urdfsync.domain import Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
@@ -38,6 +36,19 @@ def test_links_between_pages_lead_somewhere(page: Path) -> None:
     assert [target for target in targets if "://" not in target and not (page.parent / target).exists()] == []
 
 
+def test_commands_install_what_there_is() -> None:
+    """urdfsync has no release: it comes from a clone or a git address, and its extras as packages of their own."""
+    files = [*PAGES, REPOSITORY / ".pre-commit-hooks.yaml", *sorted((REPOSITORY / "urdfsync").rglob("*.py"))]
+    files += sorted((REPOSITORY / "modelica/UrdfSync").rglob("*.mo"))
+    for file in files:
+        text = file.read_text(encoding="utf-8")
+        assert re.findall(r"urdfsync\[|rev: *v?\d", text) == [], file
+        for command in re.findall(r"pip install ([^`#\n]*)", text):
+            names = [name.strip("'\"") for name in command.split("&&")[0].split() if not name.startswith("-")]
+            wanted = "." in names or any(name.startswith(".[") for name in names)
+            assert wanted or file.name in ("speed.md", "extras.py"), f"{file}: pip install {command}"
+
+
 @pytest.mark.parametrize(("command", "page"), [("watch", "watch"), ("check", "checking")])
 def test_every_option_is_documented(command: str, page: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main([command, "--help"]) == 0
@@ -49,14 +60,15 @@ def test_every_option_is_documented(command: str, page: str, capsys: pytest.Capt
 
 def test_numbers_of_the_check_are_those_in_use() -> None:
     page = (REPOSITORY / "docs/checking.md").read_text(encoding="utf-8")
-    wishes = Wishes()
+    defaults = CheckOptions()
     assert f"no more than {TOLERANCE:.0e} of the largest value" in page
     assert f"It stays below {LIMIT / 2**30:.0f} GiB" in page
-    assert f"| `--timeout S` | {wishes.timeout:.0f} |" in page
-    assert f"| `--wait S` | {wishes.wait:.0f} |" in page
-    assert f"has to be {dotted(OLDEST)}.0 or later, below {dotted(NEXT)}." in page
-    assert MANY == 6
+    oldest, following = (".".join(map(str, version)) for version in (OLDEST, NEXT))
+    assert f"has to be {oldest}.0 or later, below {following}." in page
+    assert MOST_SINGLE_EDITS == 6
     assert "Up to six edited files are tried one by one" in page
+    assert f"| `--timeout S` | {defaults.timeout:.0f} |" in page
+    assert f"| `--wait S` | {defaults.wait:.0f} |" in page
 
 
 def test_every_option_of_a_robot_is_documented() -> None:

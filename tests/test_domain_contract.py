@@ -11,11 +11,10 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import config, modelfile, registry
-from urdfsync.changes import compare
+from urdfsync import config, registry
 from urdfsync.config import Keys
 from urdfsync.diagnostics import Severity
-from urdfsync.difference import Version
+from urdfsync.diff.changes import compare
 from urdfsync.domain import (
     Artifact,
     Dependency,
@@ -27,10 +26,12 @@ from urdfsync.domain import (
     Snapshot,
     Target,
     Templates,
+    Version,
 )
 from urdfsync.engine import generate
 from urdfsync.files import digest, templates_digest
 from urdfsync.modelica.names import is_identifier, within
+from urdfsync.state import modelfile
 
 URDF = b"""<robot name="two &quot;links&quot;">
   <link name="base link"/>

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import os
+import re
 import shutil
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
@@ -26,13 +27,12 @@ Contents = Mapping[str, bytes]
 
 
 def contents(folder: Path) -> Contents:
-    """Every file below a folder but for the lock; links count with where they lead to."""
+    """Every file below a folder but for the lock and kept bases; links count with where they lead to."""
     files = [path for path in sorted(folder.rglob("*")) if path.is_symlink() or path.is_file()]
     found = {
         p.relative_to(folder).as_posix(): os.fsencode(p.readlink()) if p.is_symlink() else p.read_bytes() for p in files
     }
-    found.pop(".urdfsync/lock", None)
-    return found
+    return {name: content for name, content in found.items() if not re.search(r"\.urdfsync/(lock$|base/)", name)}
 
 
 @pytest.fixture
@@ -215,11 +215,10 @@ DENIED = [
     (MODEL, 0o000, f"{MODEL}: error: "),
     (".urdfsync/journal", 0o500, ".urdfsync/journal/prepare.json: error: "),
     (".urdfsync", 0o000, ".urdfsync"),
-    (".urdfsync/undo", 0o500, ".urdfsync/undo: error: "),
+    (".urdfsync/base/ladder", 0o500, ".urdfsync/base/ladder: error: "),
     (".urdfsync/robots", 0o500, ".urdfsync/robots/"),
     (".urdfsync/robots", 0o000, ".urdfsync/robots"),
     (MANIFEST, 0o000, f"{MANIFEST}: error: "),
-    (".urdfsync/lock", 0o000, ".urdfsync/lock"),
     ("ladder.json", 0o000, "urdfsync.toml:2: error: robot `ladder`: the source ladder.json can't be read: "),
     ("urdfsync.toml", 0o000, "urdfsync.toml: error: the configuration can't be read: "),
 ]

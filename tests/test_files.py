@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from urdfsync.diagnostics import OutputError
-from urdfsync.files import Tree, digest, failure, templates_digest, text_digest
+from urdfsync.files import Tree, digest, failure, put, templates_digest, text_digest
 
 
 def test_line_endings_are_normalised_in_texts_only() -> None:
@@ -91,3 +91,12 @@ def test_a_file_that_a_template_may_include_counts_whatever_its_name(tmp_path: P
     before = templates_digest([tmp_path])
     (tmp_path / "header.txt").write_text("new")
     assert templates_digest([tmp_path]) != before
+
+
+def test_what_is_put_in_a_place_follows_no_link(tmp_path: Path) -> None:
+    victim, place = tmp_path / "victim", tmp_path / "place"
+    victim.write_bytes(b"precious")
+    place.symlink_to(victim)
+    put(place, b"new")
+    assert (victim.read_bytes(), place.read_bytes(), place.is_symlink()) == (b"precious", b"new", False)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["place", "victim"]

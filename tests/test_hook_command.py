@@ -15,7 +15,7 @@ from support.networks import edit, resistor
 
 from urdfsync import cli, hook
 from urdfsync.staging import committing
-from urdfsync.state.lock import Lock
+from urdfsync.state.lock import build_lock
 
 pytestmark = NEEDS_GIT
 
@@ -434,7 +434,7 @@ def test_outside_of_a_repository(project: Path, capsys: Capture, monkeypatch: py
 def test_another_build_is_running(repo: Repository, capsys: Capture) -> None:
     resistor(120)
     repo.git("add", "ladder.json")
-    with Lock(repo.folder / ".urdfsync/lock", wait=0) as lock:
+    with build_lock(repo.folder, repo.folder / ".urdfsync", wait=0) as lock:
         lock.acquire()
         assert "is building here" in said(capsys, "build", "--wait", "0", code=4)[0]
 

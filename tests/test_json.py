@@ -15,18 +15,17 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import cli, config, documents
-from urdfsync.checking.verdict import Comparison, Compiled, Standing, Verdict
-from urdfsync.checking.verdict import Effect as VerdictEffect
+from urdfsync import cli, config
+from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect
+from urdfsync.commands.status import FileStatus
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.documents import VERSION
 from urdfsync.domain import Deviation, Quantity, Role
 from urdfsync.engine.actions import Kind
 from urdfsync.outcome import Checked, Result
+from urdfsync.output.console import JSON_VERSION
 from urdfsync.profiling import OTHER, STAGES
-from urdfsync.status import FileStatus
 from urdfsync.watch import events
-from urdfsync.watch.report import JsonReport
+from urdfsync.watch.report import JsonReport, event_values
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
 BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, CHECK, CLEARED, RESOLVE, INIT, RECORD, LIBRARY = (
@@ -212,7 +211,7 @@ def test_the_other_events_look_as_shown() -> None:
         events.Resumed(),
     )
     times = [datetime.datetime.fromisoformat(event["time"]) for event in OTHERS]
-    shown = [documents.event(event, time) for event, time in zip(others, times, strict=True)]
+    shown = [event_values(event, time) for event, time in zip(others, times, strict=True)]
     assert json.loads(json.dumps(shown)) == OTHERS
     kinds = {kind.__struct_config__.tag for kind in events.Event.__subclasses__()}
     assert kinds == {event["event"] for event in (*SESSION, *OTHERS, BUILT)}
@@ -233,17 +232,17 @@ def test_resolve(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert all((folder / conflict[name]).is_file() for name in ("base", "generated", "merge"))
 
 
-def checked() -> Verdict:
+def checked() -> CheckResult:
     """An arm of which somebody edited the joint, and a link of which the simulation tells nothing."""
     hand = Deviation(Quantity.POSITION, "link tip", math.inf, 0.5, 0.5, "m")
     swing = Deviation(Quantity.EFFORT, "joint hold", 0.025, 1.25, 1.25, "N·m")
     exact = msgspec.structs.replace(swing, difference=2.5e-16)
-    return Verdict(
+    return CheckResult(
         "arm",
         "Arm",
-        compiled=(Compiled("Arm", 0, 0), Compiled("ArmRun", 412, 2)),
-        generated=Comparison((hand, exact)),
-        effects=(VerdictEffect(("Joints/Hold_joint.mo",), (swing,), ("joint hold",)),),
+        compiled=(CompiledModel("Arm", 0, 0), CompiledModel("ArmRun", 412, 2)),
+        deviations=(hand, exact),
+        effects=(EditEffect(("Joints/Hold_joint.mo",), (swing,), ("joint hold",)),),
         notes=('link "tip" has made-up inertias, because the file gives no mass at all',),
         unchecked=("limits (they change no motion) are not compared",),
         gaps=("`Spring` was not compiled by itself, because its file does not parse",),
@@ -256,14 +255,14 @@ def checked() -> Verdict:
 
 def test_check(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     cli.main(["init", "arm.urdf"])
-    monkeypatch.setattr("urdfsync.checking.checker.check", lambda *_: iter([checked()]))
+    monkeypatch.setattr("urdfsync.check.run.check_robots", lambda *_: iter([checked()]))
     document = printed(capsys, folder, "check", "--physics")
     assert document == CHECK
     assert json.loads(json.dumps(document, allow_nan=False)) == CHECK
 
 
 def test_clear_cache(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("urdfsync.checking.cache.Cache.clear", lambda _: 48_123_904)
+    monkeypatch.setattr("urdfsync.check.cache.UserCache.clear", lambda _: 48_123_904)
     assert printed(capsys, folder, "check", "--clear-cache") == CLEARED
 
 
@@ -286,9 +285,9 @@ def test_a_profile(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_values_that_are_one_of_a_few_are_all_named() -> None:
-    few = (*Kind, *Role, *FileStatus, *Checked, *Standing, *Quantity)
+    few = (*Kind, *Role, *FileStatus, *Checked, *CheckStatus, *Quantity)
     assert {f"`{kind}`" for kind in few} <= set(re.findall(r"`[\w -]+`", PAGE))
-    assert f"`version` is {VERSION}" in PAGE
+    assert f"`version` is {JSON_VERSION}" in PAGE
 
 
 @pytest.mark.parametrize("arguments", [[], ["biuld"], ["build", "--svg", "--check"], ["check", "--jobs", "0"]])

@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from urdfsync import cli
-from urdfsync.manifest import text_hash
-from urdfsync.state import bases
+from urdfsync.state.manifest import text_hash
+from urdfsync.state.store import Store
 
 BEFORE = Path(__file__).parent / "golden" / "before"
 Files = dict[str, bytes]
@@ -46,9 +46,7 @@ def start(root: Path) -> Path:
     shutil.copytree(BEFORE / "robots", root / ".urdfsync" / "robots")
     for robot in ("Arm", "Cart"):
         texts = [path.read_text() for path in sorted((root / "modelica" / robot).rglob("*.mo"))]
-        place = root / ".urdfsync" / "base" / f"{robot.lower()}.json.gz"
-        place.parent.mkdir(exist_ok=True)
-        place.write_bytes(bases.dumps((text_hash(text), text) for text in texts))
+        Store(root).bases(robot.lower()).add({text_hash(text): text for text in texts})
     return root
 
 

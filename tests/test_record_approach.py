@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.checking.subject import Subject
+from urdfsync.check.package import CheckedPackage
 from urdfsync.config import load
-from urdfsync.difference import ChangeClass
+from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -55,7 +55,7 @@ class Project:
     def models(self) -> tuple[str, ...]:
         """What a check would compile."""
         config = load(self.file)
-        return tuple(Subject(config, config.robots[0], BuildOptions(dry=True)).models)
+        return tuple(CheckedPackage(config, config.robots[0], BuildOptions(dry=True)).models)
 
 
 @pytest.fixture

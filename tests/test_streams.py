@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 import shlex
@@ -13,7 +12,6 @@ from pathlib import Path
 import pytest
 
 import urdfsync
-from urdfsync import streams
 
 MESH = '<visual><geometry><mesh filename="gone.stl"/></geometry></visual>'
 URDF = f'<robot name="arm"><link name="base">{MESH}</link></robot>'
@@ -102,36 +100,3 @@ def test_characters_that_an_encoding_lacks_are_escaped(folder: Path, encoding: s
     assert "\\u8155.urdf does not exist" in done.stdout
     done = shell(folder, "urdfsync build --json", PYTHONIOENCODING=encoding)
     assert "腕.urdf does not exist" in json.loads(done.stdout)["robots"][0]["diagnostics"][0]["message"]
-
-
-class Broken(io.StringIO):
-    def __init__(self, error: OSError) -> None:
-        super().__init__()
-        self._error = error
-
-    def write(self, text: str) -> int:
-        raise self._error
-
-
-@pytest.mark.parametrize(
-    ("error", "trouble"),
-    [(BrokenPipeError(32, "Broken pipe"), ""), (OSError(28, "No space left on device"), "No space left on device")],
-)
-def test_only_trouble_that_matters_is_told(error: OSError, trouble: str) -> None:
-    stream = streams.Stream(Broken(error))
-    assert stream.trouble == ""
-    assert stream.write("text") == 4
-    assert stream.error is error
-    assert stream.trouble == trouble
-
-
-def test_the_streams_are_put_back(monkeypatch: pytest.MonkeyPatch) -> None:
-    mine = io.StringIO()
-    monkeypatch.setattr(sys, "stdout", mine)
-    monkeypatch.setattr(sys, "stderr", None)
-    with streams.safe_streams() as output:
-        sys.stdout.write("one")
-        sys.stderr.write("nobody reads this")
-        assert output.error is None
-    assert (sys.stdout, sys.stderr) == (mine, None)
-    assert mine.getvalue() == "one"

@@ -11,7 +11,7 @@ import platformdirs
 import pytest
 
 from urdfsync import template_cache
-from urdfsync.checking.cache import Cache
+from urdfsync.check.cache import UserCache
 from urdfsync.render import Renderer, _Environment
 
 needs_owners = pytest.mark.skipif(not hasattr(os, "getuid"), reason="needs owners and modes of files")
@@ -174,7 +174,7 @@ def test_a_relative_folder_is_not_used(tmp_path: Path, templates: Path, monkeypa
 
 def test_it_is_a_part_of_the_cache_of_checks(home: Path, templates: Path) -> None:
     render(templates)
-    cache = Cache.of_user()
+    cache = UserCache.default()
     assert cached(home)[0].parent == cache.templates
     assert cache.clear() > 0
     assert not cache.templates.exists()

@@ -19,9 +19,10 @@ from hypothesis import strategies as st
 from support import answers
 from support.answers import save, saved
 
-from urdfsync import cli, dependencies, report, streams, uptodate
+from urdfsync import cli, dependencies, streams, uptodate
 from urdfsync.__main__ import main as program
-from urdfsync.checking import afterbuild
+from urdfsync.check import afterbuild
+from urdfsync.output import console
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]
@@ -64,12 +65,6 @@ def test_what_was_said_is_said_again(folder: Path, command: list[str], capsys: C
     assert uptodate.print_answer(command) == 0
     assert capsys.readouterr() == said
     assert "stray-state" in said.out + said.err or command[-1] == "-q"
-
-
-def test_commands_share_a_file(folder: Path) -> None:
-    for command in (BUILD, CHECK, STATUS):
-        save(*command)
-    assert all(saved(*command) is not None for command in (BUILD, CHECK, STATUS))
 
 
 def test_a_check_says_nothing_of_a_build(folder: Path) -> None:
@@ -117,7 +112,7 @@ def test_a_build_that_wrote_saves_no_answer(folder: Path) -> None:
 
 
 def test_builds_with_checks_are_not_said_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(afterbuild, "checked", lambda config, request, results: results)
+    monkeypatch.setattr(afterbuild, "with_checks", lambda config, request, results: results)
     Path("urdfsync.toml").write_text('[defaults]\non_build = "check"\n' + Path("urdfsync.toml").read_text()[11:])
     assert cli.main(BUILD) == 0
     time.sleep(0.1)
@@ -197,7 +192,7 @@ EDITS: dict[str, Edit] = {
     "a class that is a folder": lambda folder: (folder / LEG).rename(folder / "modelica/Leg/Links/package2.mo"),
     "a folder that is a class": _delete("modelica/Lab/Arm/Links/Base/package.mo"),
     "another stray state": _write(".urdfsync/robots/other.toml"),
-    "bases that are lost": _delete(".urdfsync/base/leg.json.gz"),
+    "bases that are lost": lambda folder: shutil.rmtree(folder / ".urdfsync/base/leg"),
     "an interrupted build": _write(".urdfsync/journal/apply.json"),
     "a file that may not be read": lambda folder: (folder / URDF).chmod(0),
     "a linked folder": _link("modelica/Leg"),
@@ -399,7 +394,7 @@ def _as_on_fat(status: os.stat_result) -> os.stat_result:
 
 
 def test_a_progress_bar_is_not_saved(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(report, "_PATIENCE", 0.0)
+    monkeypatch.setattr(console, "_BAR_AFTER", 0.0)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     save(*BUILD)
     assert "━" in capsys.readouterr().err, "there was one"
@@ -427,7 +422,6 @@ PATHS = (
         ".urdfsync/robots/leg.json",
         ".urdfsync/robots/leg.toml",
         ".urdfsync/robots/gone.toml",
-        ".urdfsync/base/leg.json.gz",
     ),
     *("ros/a/package.xml", "ros/group/arm_meshes/package.xml", ".urdfsync/journal/prepare.json"),
 )
@@ -502,7 +496,7 @@ def _bring(path: Path, what: str, how: str, old: bool, first: State) -> None:
 def _full(command: list[str]) -> list[str] | None:
     """What the command says if it is carried out, in the form of a saved answer; None unless it succeeds."""
     said: streams.Transcript = []
-    with streams.safe_streams(said):
+    with streams.SafeStreams(said):
         code = cli._main(command)
     return [text for pair in said if pair[1] for text in pair] if code == 0 else None
 

@@ -9,14 +9,13 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from urdfsync import wording
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
-from urdfsync.difference import ChangeClass
-from urdfsync.domain import Role
+from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
+from urdfsync.output.phrases import change_lines
 
 SAMPLES = Path(__file__).parents[1] / "modelica" / "UrdfSync" / "Resources" / "robots"
 CONFIGURATION = """
@@ -130,6 +129,29 @@ def test_a_robot_whose_meshes_were_never_there_has_no_broken_path(arm: Path) -> 
         assert b"UrdfSync.Visualizers.Mesh" not in text
 
 
+def test_missing_meshes_are_one_warning_for_each_package_and_a_note_from_the_second_build_on(arm: Path) -> None:
+    shutil.rmtree(arm / "ws/src/six_axis_arm/meshes")
+    source = arm / "ws/src/six_axis_arm/six_axis_arm.urdf"
+    text = source.read_text()
+    source.write_text(text.replace("package://six_axis_arm/meshes/carousel.obj", "package://turntable/carousel.obj"))
+
+    def told(full: bool = False) -> list[str]:
+        return [str(found).partition(": ")[2] for found in run(arm, full=full).diagnostics]
+
+    warnings = [
+        "warning: 6 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) not found; left out; "
+        "add the folder that holds the folder `six_axis_arm` to `package_paths` [mesh-not-found]",
+        "warning: mesh `package://turntable/carousel.obj` not found; left out; "
+        "add the folder that holds the folder `turntable` to `package_paths` [mesh-not-found]",
+    ]
+    note = "note: 7 meshes left out; `urdfsync build --full` says which, and why [left-out]"
+    assert told() == warnings
+    source.write_text(source.read_text().replace('<mass value="', '<mass value="1'))
+    assert told() == [note]
+    assert told() == [note]
+    assert told(full=True) == warnings
+
+
 def test_a_mesh_that_changes_renews_its_copy_and_the_records_with_its_numbers_only(arm: Path) -> None:
     run(arm)
     mesh = arm / "ws/src/six_axis_arm/meshes/carousel.obj"
@@ -204,7 +226,7 @@ def test_a_build_says_what_changed_since_the_last_one(arm: Path) -> None:
     change(arm, 'upper="1.222" effort="130" velocity="5"', 'upper="1.3" effort="143" velocity="5.0000001"')
     result = run(arm)
     assert result.changes is not None
-    assert wording.changes(result.changes) == [
+    assert change_lines(result.changes) == [
         "joint elbow / limit / effort: 130 → 143 N·m (+10 %)",
         "joint elbow / limit / upper: 1.222 → 1.3 rad (70.02° → 74.48°)",
         "joint elbow / limit / velocity: 5 → 5.0000001 rad/s (rounding)",
@@ -219,7 +241,7 @@ def test_what_is_not_modelled_is_told_and_writes_nothing(arm: Path) -> None:
     change(arm, '<transmission name="turret_transmission"', '<transmission name="gear"')
     result = run(arm)
     assert result.changes is not None
-    assert wording.changes(result.changes) == [
+    assert change_lines(result.changes) == [
         "robot / transmission gear: added (not modelled)",
         "robot / transmission turret_transmission: removed (not modelled)",
     ]
@@ -231,11 +253,11 @@ def test_a_rename_and_a_template_are_told_as_such(arm: Path) -> None:
     change(arm, '<joint name="elbow"', '<joint name="knee"')
     renamed = run(arm).changes
     assert renamed is not None
-    assert wording.changes(renamed) == ["joint elbow: renamed to knee"]
+    assert change_lines(renamed) == ["joint elbow: renamed to knee"]
     (arm / "urdfsync.toml").write_text(CONFIGURATION + "collisions = false\n")
     other = run(arm).changes
     assert other is not None
-    assert wording.changes(other)[0] == "a template, an option or urdfsync itself changed"
+    assert change_lines(other)[0] == "a template, an option or urdfsync itself changed"
 
 
 CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller"/>
@@ -270,7 +292,7 @@ def test_a_drive_that_comes_is_a_structural_change(cart: Path) -> None:
     (cart / "cart.urdf").write_text(CART.replace('"t">', '"t"><joint name="caster"/>'))
     result = run(cart)
     assert result.changes is not None
-    assert "joint caster / drive: passive → driven" in wording.changes(result.changes)
+    assert "joint caster / drive: passive → driven" in change_lines(result.changes)
     assert result.changes.change_class is ChangeClass.STRUCTURAL
 
 

@@ -8,7 +8,10 @@ def main() -> int:
     try:
         from urdfsync import uptodate  # here, so that Ctrl-C during the import leaves no traceback
 
-        code = uptodate.print_answer(sys.argv[1:])
+        try:
+            code = uptodate.print_answer(sys.argv[1:])
+        except Exception:  # noqa: BLE001 - whatever it is: the command does its work without
+            code = None
         if code is None:
             from urdfsync import cli  # 30 ms, which a command without work does not have
 

@@ -1,90 +1,153 @@
-"""The command line: arguments to calls to an exit code."""
+"""The command line: arguments to a call of one command, and whatever becomes of it to an exit code."""
 
 from __future__ import annotations
 
+import contextlib
 import importlib
+import os
+import signal
 import sys
-from collections.abc import Callable, Sequence
+import tempfile
+import threading
+import traceback
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from types import FrameType
 
 from urdfsync import __version__, profiling, streams, uptodate
-from urdfsync.commands import common
+from urdfsync.commands import arguments
 from urdfsync.dependencies import mark_incomplete, record_dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.outcome import Exit
-from urdfsync.report import Report, unwritten
+from urdfsync.output.console import Console
 
 _COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "record", "hook", "library")
 """In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command; returns the exit code. Whatever a user can cause is one line, never a traceback."""
-    given = sys.argv[1:] if arguments is None else list(arguments)
-    started = uptodate.PROGRAM_START if arguments is None else uptodate.read_clocks()
-    config_file = uptodate.find_config(given) if given and given[0] in uptodate.COMMANDS else None
-    if config_file is None or not (sys.stdout and sys.stderr):
-        return _run(given)
-    key, transcript = uptodate.answer_key(given, config_file), streams.Transcript()
-    with record_dependencies() as dependencies:
-        code = _run(given, transcript)
-    if code == 0:
-        answer = [text for entry in transcript if entry[1] for text in entry]
-        uptodate.save_answer(config_file, key, answer, dependencies, started)
+def main(given: Sequence[str] | None = None) -> int:
+    """Run a command; returns the exit code. Whatever happens is told in one line, never by a traceback alone."""
+    started = uptodate.PROGRAM_START if given is None else uptodate.read_clocks()
+    given = sys.argv[1:] if given is None else list(given)
+    try:
+        config_file = uptodate.find_config(given) if given and given[0] in uptodate.COMMANDS else None
+        if config_file is None or not (sys.stdout and sys.stderr):
+            return _run(given)
+        key, transcript = uptodate.answer_key(given, config_file), streams.Transcript()
+        with record_dependencies() as dependencies:
+            code = _run(given, transcript)
+        if code == Exit.IN_STEP:
+            answer = [text for entry in transcript if entry[1] for text in entry]
+            uptodate.save_answer(config_file, key, answer, dependencies, started)
+    except Exception as error:  # noqa: BLE001 - of what looks for answers and saves them
+        Console().fail("", [unforeseen(error)], Exit.ERROR)
+        return Exit.ERROR
     return code
 
 
-def _run(arguments: list[str], transcript: streams.Transcript | None = None) -> int:
-    with streams.safe_streams(transcript) as output:
-        code = _main(arguments)
-        return unwritten(output) if output.trouble else code
+def _run(given: list[str], transcript: streams.Transcript | None = None) -> int:
+    with streams.SafeStreams(transcript) as output, _terminated_as_interrupted():
+        code = _main(given)
+        return tell_unwritten(output) if output.trouble else code
 
 
-def _main(arguments: list[str]) -> int:
+def tell_unwritten(output: streams.Stream) -> int:
+    """Say that not all of the output could be written; returns the exit code."""
+    found = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {output.trouble}")
+    Console().fail("", [found], Exit.ERROR)
+    return Exit.ERROR
+
+
+def _main(given: list[str]) -> int:
+    """Run a command. This is the one place that turns exceptions into exit codes."""
+    command = next((argument for argument in given if argument in _COMMANDS), "")
+    console = Console(as_json="--json" in given)
     try:
-        options = _parser(arguments).parse_args(arguments)
-    except SystemExit as stop:
+        args = _parser(given).parse_args(given)
+        console = Console(as_json=args.json, quiet=args.quiet, verbose=args.verbose, config=str(args.config or ""))
+        with _measured(given) if getattr(args, "profile", False) else contextlib.nullcontext():
+            return int(args.run(args, console))
+    except SystemExit as stop:  # --help and --version
         return stop.code if isinstance(stop.code, int) else Exit.ERROR
-    except common.UsageError as error:
-        command = next((argument for argument in arguments if argument in _COMMANDS), "")
-        found = Diagnostic(Severity.ERROR, "usage", str(error), hint=f"`{error.program} --help` says more")
-        Report("--json" in arguments).bad_usage(command, error.usage, found)
-        return Exit.ERROR
-    explain = getattr(options, "explain", False)
-    report = Report(options.json, options.quiet, options.verbose, explain, str(options.config or ""))
-    try:
-        if getattr(options, "profile", False):
-            return _profiled(arguments, lambda: int(options.run(options, report)))
-        return int(options.run(options, report))
+    except arguments.UsageError as error:
+        if not console.json:
+            sys.stderr.write(error.usage)
+        found, code = error.diagnostics, Exit.ERROR
     except UrdfsyncError as error:
-        report.problems(options.command, error.diagnostics)
-        return Exit.ERROR
+        found, code = error.diagnostics, Exit.LOCKED if error.is_locked else Exit.ERROR
     except OSError as error:
-        found = Diagnostic(Severity.ERROR, "system", error.strerror or str(error), str(error.filename or ""))
-        report.problems(options.command, [found])
-        return Exit.ERROR
+        message, place = error.strerror or str(error), os.fsdecode(error.filename or "")
+        found, code = (Diagnostic(Severity.ERROR, "system", message, place),), Exit.ERROR
     except KeyboardInterrupt:
-        found = Diagnostic(Severity.ERROR, "interrupted", "interrupted; run the command again to finish the work")
-        report.problems(options.command, [found], Exit.INTERRUPTED)
-        return Exit.INTERRUPTED
+        message = "interrupted; run the command again to finish the work"
+        found, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED
+    except Exception as error:  # noqa: BLE001 - Python would exit with 1, which says that a package is out of step
+        found, code = (unforeseen(error, show=console.verbose and not console.json),), Exit.ERROR
+    console.fail(command, found, code)
+    return code
 
 
-def _profiled(arguments: Sequence[str], run: Callable[[], int]) -> int:
-    """Run a command, and measure it; also how long a stamp takes that would have answered."""
+def unforeseen(error: Exception, *, show: bool = False) -> Diagnostic:
+    """A finding for an exception that nothing was prepared for.
+
+    Its traceback goes to a file in the folder for temporary files, or to the error stream if `show` asks for it.
+    """
+    if isinstance(error, MemoryError):
+        message = "there is not enough memory"
+    else:
+        frame = traceback.extract_tb(error.__traceback__)[-1]
+        message = f"{type(error).__name__} in {Path(frame.filename).name}, line {frame.lineno}: {error}".rstrip(": ")
+    trace = "".join(traceback.format_exception(error))
+    hint = "this is a mistake in urdfsync: please report it with the traceback"
+    if show:
+        sys.stderr.write(trace)
+        hint += " above"
+    else:
+        try:
+            number, path = tempfile.mkstemp(prefix="urdfsync-", suffix=".traceback.txt")
+            with open(number, "w", encoding="utf-8", errors="backslashreplace") as file:  # noqa: PTH123 - open already
+                file.write(trace)
+            hint += f" in {path}"
+        except OSError:
+            hint += ", which --verbose shows"
+    return Diagnostic(Severity.ERROR, "internal", message, hint=hint)
+
+
+@contextlib.contextmanager
+def _terminated_as_interrupted() -> Iterator[None]:
+    """Let SIGTERM end a command as Ctrl-C does, with its state in order; `watch` has handlers of its own."""
+
+    def interrupt(_number: int, _frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
+        yield
+        return
+    signal.signal(signal.SIGTERM, interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+@contextlib.contextmanager
+def _measured(given: Sequence[str]) -> Iterator[None]:
+    """Measure a command; also how long a stamp takes that would have answered."""
     mark_incomplete()  # times can't be said again
     with profiling.measured(since=uptodate.PROGRAM_START[0]) as profile:
         with profiling.stage("stamp"):
-            plain = [argument for argument in arguments if argument != "--profile"]
+            plain = [argument for argument in given if argument != "--profile"]
             profile.stamp = uptodate.has_answer(plain) if plain[0] in uptodate.COMMANDS else None
-        return run()
+        yield
 
 
-def _parser(arguments: Sequence[str]) -> common.Parser:
+def _parser(given: Sequence[str]) -> arguments.Parser:
     """The parser of a command, if one comes first; else that of all."""
-    names = arguments[:1] if arguments and arguments[0] in _COMMANDS else _COMMANDS
-    parser = common.Parser(
+    names = given[:1] if given and given[0] in _COMMANDS else _COMMANDS
+    parser = arguments.Parser(
         prog="urdfsync",
         description="Keeps Modelica models in step with URDF files, and leaves alone what you edited.",
-        epilog=f"Begin with `urdfsync init robot.urdf`, then `urdfsync build`.\n\n{common.CODES}",
+        epilog=f"Begin with `urdfsync init robot.urdf`, then `urdfsync build`.\n\n{arguments.CODES}",
     )
     parser.add_argument("--version", action="version", version=f"urdfsync {__version__}")
     commands = parser.add_subparsers(title="commands", dest="command", metavar="COMMAND", required=True)

@@ -6,12 +6,11 @@ named by `depend_on`, or makes the record incomplete (`mark_incomplete`).
 
 from __future__ import annotations
 
-import contextlib
 import errno
 import os
 import stat
-from collections.abc import Iterable, Iterator
-from contextvars import ContextVar
+from collections.abc import Iterator
+from contextvars import ContextVar, Token
 
 Stat = tuple[int, int, int, int, int, int]
 """Mode, inode, device, size in bytes, and the times of change of content and of status in ns. Only ever compared."""
@@ -22,38 +21,42 @@ _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
 """Errors that say that nothing is at a path; the same as for pathlib."""
 
 
-LSTAT, STAT, LSTAT_TYPE, STAT_TYPE = CHECKS = "lstat", "stat", "lstat type", "stat type"
+LSTAT, STAT, LSTAT_TYPE, STAT_TYPE = "lstat", "stat", "lstat type", "stat type"
 """How a path is checked: by all of its `Stat`, or by its file type alone (0 for nothing there); links themselves with
 `os.lstat`, what they lead to with `os.stat`."""
+Entries = dict[tuple[str, str], tuple[int, ...]]
+"""Checks and paths with what was found: a `Stat`, or a tuple of the file type."""
 
 
 class Dependencies:
-    """The paths that were read."""
+    """The paths that this thread reads through this module inside a `with` block."""
 
     def __init__(self) -> None:
-        self.entries: dict[str, dict[str, tuple[int, ...]]] = {check: {} for check in CHECKS}
-        """For each of `CHECKS` the paths with what was found: a `Stat`, or a tuple of the file type."""
+        self._token: Token[Dependencies | None] | None = None
+        self.entries: Entries = {}
         self.complete = True
         """Whether the answer depends on nothing else, and no path changed or failed while it was read."""
 
+    def __enter__(self) -> Dependencies:
+        self._token = _current.set(self)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._token is not None:
+            _current.reset(self._token)
+
     def add(self, check: str, path: str | os.PathLike[str], found: tuple[int, ...]) -> None:
         """Record what was found at a path, before its content is read."""
-        if self.entries[check].setdefault(os.fspath(path), found) != found:
+        if self.entries.setdefault((check, os.fspath(path)), found) != found:
             self.complete = False  # it changed between two reads
 
 
 _current: ContextVar[Dependencies | None] = ContextVar("dependencies", default=None)
 
 
-@contextlib.contextmanager
-def record_dependencies() -> Iterator[Dependencies]:
-    """Record all that this thread reads through this module inside the block."""
-    dependencies = Dependencies()
-    token = _current.set(dependencies)
-    try:
-        yield dependencies
-    finally:
-        _current.reset(token)
+def record_dependencies() -> Dependencies:
+    """Record all that this thread reads through this module inside a `with` block."""
+    return Dependencies()
 
 
 def mark_incomplete() -> None:
@@ -67,12 +70,13 @@ def stat_of(status: os.stat_result) -> Stat:
     return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
 
 
-def check_paths(check: str, paths: Iterable[str]) -> list[tuple[int, ...]]:
-    """What is at each path now, in the form of `Dependencies.entries`. Raises OSError."""
-    status = os.lstat if check in (LSTAT, LSTAT_TYPE) else os.stat
-    if check in (LSTAT, STAT):  # written out, since there are thousands of paths
-        return [(s.st_mode, s.st_ino, s.st_dev, s.st_size, s.st_mtime_ns, s.st_ctime_ns) for s in map(status, paths)]
-    return [(_file_type(path, follow=status is os.stat),) for path in paths]
+def check_path(check: str, path: str) -> tuple[int, ...]:
+    """What is at a path now, in the form of `Entries`. Raises OSError."""
+    if check == LSTAT:
+        return stat_of(os.lstat(path))
+    if check == STAT:
+        return stat_of(os.stat(path))
+    return (_file_type(path, follow=check == STAT_TYPE),)
 
 
 def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
@@ -141,8 +145,10 @@ def list_folder(folder: str | os.PathLike[str]) -> list[str]:
 def depend_on(path: str | os.PathLike[str]) -> None:
     """Record a file that is about to be read by other means, or a folder that is about to be listed."""
     if (dependencies := _current.get()) is not None:
-        with contextlib.suppress(OSError):  # the reader meets the same error, and reports it
+        try:
             _add(dependencies, path)
+        except OSError:
+            return  # the reader meets the same error, and reports it
 
 
 def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
@@ -150,9 +156,10 @@ def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
     waiting = [os.fspath(folder)]
     while waiting:
         current = waiting.pop()
-        names: list[str] = []
-        with contextlib.suppress(OSError):  # the folder is missing, or can't be read
+        try:
             names = list_folder(current)
+        except OSError:
+            continue  # the folder is missing, or can't be read
         for path in [f"{current}{os.sep}{name}" for name in names]:
             found = file_type(path)
             if found == stat.S_IFREG:

@@ -42,6 +42,9 @@ class Diagnostic(msgspec.Struct, frozen=True):
 class UrdfsyncError(Exception):
     """Base of all errors that a user can cause; carries the diagnostics that explain it."""
 
+    is_locked = False
+    """Whether another process is at work on the same: exit code 4 instead of 2."""
+
     def __init__(self, *diagnostics: Diagnostic) -> None:
         super().__init__("\n".join(map(str, diagnostics)))
         self.diagnostics = diagnostics

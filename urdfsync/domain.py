@@ -16,7 +16,6 @@ from typing import Any, NamedTuple, Protocol, TypeAlias
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.difference import ChangeClass, Difference, Effect, ElementKey, Kind, Meaning, Version
 
 Snapshot: TypeAlias = Mapping[str, Any]
 """A model as plain data: mappings with string keys, lists, strings, numbers, booleans, None.
@@ -25,6 +24,9 @@ It is what comes back from JSON with sorted keys, so that what is made of it now
 keyed by element name, does not depend on the order of elements in the source, and holds all that artifacts are made
 from. Nobody changes it: versions of a model may share what they have in common.
 """
+
+ElementKey: TypeAlias = tuple[str, str]
+"""Kind and name of an element in the domain's words, for example `("link", "base_link")`."""
 
 
 class Role(enum.StrEnum):
@@ -102,6 +104,78 @@ class Import(msgspec.Struct, frozen=True):
     converter: int | None
     """`Domain.converter` at the time of the import; None for an older copy, which was not made from these bytes."""
     facts: Mapping[str, Any]
+
+
+class ChangeKind(enum.StrEnum):
+    """What happened to a value or an element."""
+
+    ADDED = "added"
+    REMOVED = "removed"
+    CHANGED = "changed"
+    RENAMED = "renamed"
+
+
+class ChangeClass(enum.StrEnum):
+    """How far a change reaches, least first."""
+
+    NONE = "none"
+    """Nothing differs."""
+    UNMODELLED = "unmodelled"
+    """Nothing in the package says it."""
+    PARAMETER = "parameter"
+    """Records and imported files say it."""
+    STRUCTURAL = "structural"
+    """Models, packages or their order say it."""
+    GENERATOR = "generator"
+    """What turns the model into files is another: template, option or revision."""
+
+    @property
+    def rank(self) -> int:
+        """Place in this order, from 0."""
+        return list(ChangeClass).index(self)
+
+
+class Version(msgspec.Struct, frozen=True):
+    """A model as a build sees it."""
+
+    snapshot: Snapshot
+    imports: Mapping[str, Import] | None = None
+    """The files that the model refers to, if found; None if nobody looked, and then each counts as found."""
+    generator: str = ""
+    """Fingerprint of what turns it into files."""
+    options: Any = None
+    """The domain's options that it was built with; None if they are not known, or those of the other version."""
+
+
+class Difference(msgspec.Struct, frozen=True):
+    """One place at which two versions differ; `old` is None for what was added, `new` for what was removed."""
+
+    path: tuple[str | int, ...]
+    """Keys and indices (from 0) from the snapshot to the value; `("imports", key)` for an imported file."""
+    kind: ChangeKind
+    old: Any
+    new: Any
+
+
+class Meaning(msgspec.Struct, frozen=True):
+    """A difference in the domain's words."""
+
+    path: tuple[str, ...]
+    """For example `("joint elbow", "origin", "xyz[2]")`; begins with the element."""
+    change_class: ChangeClass
+    unit: str = ""
+    """Unit of both values, or `old → new` if they differ; empty for what has none."""
+
+
+class Effect(msgspec.Struct, frozen=True):
+    """A property of the whole model in both versions; None where it does not exist."""
+
+    path: tuple[str, ...]
+    old: Any
+    new: Any
+    unit: str = ""
+    hint: str = ""
+    """What to do about it, if there is anything."""
 
 
 class Reading(msgspec.Struct, frozen=True):
@@ -338,7 +412,7 @@ class Domain(Protocol):
         for difference in differences:
             kind, *path = map(str, difference.path)
             words = (f"{kind.removesuffix('s')} {path[0]}", *path[1:]) if path else (kind,)
-            is_value = difference.kind is Kind.CHANGED
+            is_value = difference.kind is ChangeKind.CHANGED
             meanings.append(Meaning(words, ChangeClass.PARAMETER if is_value else ChangeClass.STRUCTURAL))
         return meanings
 

@@ -43,9 +43,10 @@ def normalised(content: bytes) -> bytes:
 
 def put(file: Path, content: bytes) -> None:
     """Write a file that is in no package and no state, as a whole or not at all. Raises OSError."""
-    temporary = file.with_name(f".{file.name}-{os.getpid()}{TEMPORARY}")
+    temporary = file.with_name(f".{file.name}-{os.urandom(8).hex()}{TEMPORARY}")
     try:
-        temporary.write_bytes(content)
+        with temporary.open("xb") as new:  # follows no link that somebody left there
+            new.write(content)
         temporary.replace(file)
     finally:
         with contextlib.suppress(OSError):  # what could not be made can't be removed

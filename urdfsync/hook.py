@@ -27,8 +27,11 @@ def main() -> int:
 def run(arguments: Sequence[str]) -> int:
     """Run the hook; returns the exit code."""
     given = list(arguments)
-    if given in _MODES and (_is_answered() or _nothing_to_do()):
-        return 0
+    try:
+        if given in _MODES and (_is_answered() or _nothing_to_do()):
+            return 0
+    except Exception:  # noqa: BLE001, S110 - whatever it is: the command meets it again, and says it
+        pass
     from urdfsync import cli  # not at the top: this takes longer than all the rest
 
     return cli.main(["hook", *given])

@@ -13,7 +13,7 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.actions import CONFLICTS, Action, Actions, Kind
 
 if TYPE_CHECKING:
-    from urdfsync.changes import Changes
+    from urdfsync.diff.changes import Changes
     from urdfsync.engine.conflicts import Conflict
 
 
@@ -71,9 +71,20 @@ class Result(msgspec.Struct, frozen=True):
 
     @property
     def in_step(self) -> bool:
-        """Whether every file is what it should be, edits apart."""
+        """Whether every file was what it should be before the build, edits apart."""
         fine = {Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
         return not self.failed and all(action.kind in fine for action in self.actions.decided)
+
+    @property
+    def is_in_step_now(self) -> bool:
+        """The same of the time after it: a build that wrote has brought all in step but for conflicts."""
+        return self.in_step if self.dry else not self.failed and not self.conflicts
+
+    @property
+    def is_first(self) -> bool:
+        """Whether no build has written any file of the package before."""
+        new = any(action.kind is Kind.CREATE for action in self.actions)
+        return new and all(action.base is None for action in self.actions)
 
 
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:

@@ -2,19 +2,19 @@
 
 `.urdfsync/stamp` holds the saved answers of `build`, `status` and the hook, a list of all paths that they depended on,
 and a hash of what the system said of these paths. A file in any other state is no answer, and the command runs.
-The check comes before all else that a command does, so this module imports only what loads in a fraction of a ms.
+The check comes before all else that a command does, so this module imports only what loads in a fraction of a ms:
+contextlib would take 1 of 12.
 """
 
 from __future__ import annotations
 
-import contextlib
 import os
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from urdfsync import __version__, streams
-from urdfsync.dependencies import CHECKS, LSTAT, STAT, Dependencies, Stat, check_paths, stat_of
+from urdfsync.dependencies import LSTAT, STAT, Dependencies, Entries, check_path, stat_of
 
 COMMANDS = ("build", "status")
 CONFIGURATION = "urdfsync.toml"
@@ -38,10 +38,10 @@ the largest difference allowed between the clocks of two file systems, one of wh
 
 
 class SavedAnswers:
-    """The content of the file: paths by their check, the hash of what was found there, answers by their key."""
+    """The content of the file: checks and paths, the hash of what they found, answers by their key."""
 
-    def __init__(self, paths: dict[str, list[str]], found: int, answers: dict[str, list[str]]) -> None:
-        self.paths, self.found, self.answers = paths, found, answers
+    def __init__(self, checks: list[tuple[str, str]], found: int, answers: dict[str, list[str]]) -> None:
+        self.checks, self.found, self.answers = checks, found, answers
 
     @classmethod
     def parse(cls, text: str, inode: int, written: int) -> SavedAnswers:
@@ -50,32 +50,34 @@ class SavedAnswers:
         Raises ValueError unless this program wrote it in this very file, and all of it: a copy, such as a committed
         one, comes from somebody else.
         """
-        head, *sections, end = [section.split("\0") for section in text.split("\0\0")]
+        head, checks, *answers, end = [section.split("\0") for section in text.split("\0\0")]
         *expected, found = head
-        if expected != [_FORMAT, str(inode), str(written), _program()] or end != [str(len(sections))]:
+        if expected != [_FORMAT, str(inode), str(written), _program()] or end != [str(len(answers))]:
             raise ValueError("no answers of this program")
-        paths = {check: [path for path in section if path] for check, section in zip(CHECKS, sections, strict=False)}
-        return cls(paths, int(found), {key: answer for key, *answer in sections[len(CHECKS) :]})
+        pairs = list(zip(checks[::2], checks[1::2], strict=True))
+        return cls(pairs, int(found), {key: answer for key, *answer in answers})
 
     def dumps(self, inode: int, written: int) -> str:
         """The text of a file with this inode and time. Raises ValueError for texts that it can't hold."""
-        sections = [*self.paths.values(), *([key, *answer] for key, answer in self.answers.items())]
-        head, end = [_FORMAT, str(inode), str(written), _program(), str(self.found)], [str(len(sections))]
-        if any(not text or "\0" in text for section in (head, *sections) for text in section):
+        head = [_FORMAT, str(inode), str(written), _program(), str(self.found)]
+        checks = [text for pair in self.checks for text in pair]
+        answers = [[key, *answer] for key, answer in self.answers.items()]
+        sections = [head, checks, *answers, [str(len(answers))]]
+        if any(not text or "\0" in text for section in sections for text in section):
             raise ValueError("a text is empty, or has the separator in it")
-        return "\0\0".join("\0".join(section) for section in (head, *sections, end))
+        return "\0\0".join("\0".join(section) for section in sections)
 
     def hold(self) -> bool:
         """Whether nothing that the answers depended on has changed."""
         try:
-            return _hash({check: check_paths(check, paths) for check, paths in self.paths.items()}) == self.found
-        except (OSError, ValueError, LookupError):
+            return _hash([check_path(check, path) for check, path in self.checks]) == self.found
+        except (OSError, ValueError):
             return False
 
 
-def _hash(found: dict[str, list[tuple[int, ...]]]) -> int:
+def _hash(found: Iterable[tuple[int, ...]]) -> int:
     """A hash of what was found at all paths; Python gives tuples of integers the same one in each process."""
-    return hash(tuple([tuple(found[check]) for check in CHECKS]))
+    return hash(tuple(found))
 
 
 def _program() -> str:
@@ -85,8 +87,11 @@ def _program() -> str:
 
 
 def find_config(arguments: list[str]) -> str | None:
-    """The absolute path of the configuration that a command is about; None if there is none. Raises OSError."""
-    folder = os.getcwd()
+    """The absolute path of the configuration that a command is about; None if there is none."""
+    try:
+        folder = os.getcwd()
+    except FileNotFoundError:
+        return None  # somebody has deleted it, and the command reports it
     for number, argument in enumerate(arguments, start=1):
         if argument == "--config":
             return os.path.join(folder, *arguments[number : number + 1])
@@ -134,20 +139,17 @@ def print_answer(arguments: list[str]) -> int | None:
     """Print the saved answer of a command. Returns the exit code; None if there is none, so that the command runs."""
     if not arguments or arguments[0] not in COMMANDS or sys.stdout is None or sys.stderr is None:
         return None
-    try:
-        config_file = find_config(arguments)
-        answer = find_answer(config_file, answer_key(arguments, config_file)) if config_file else None
-    except OSError:
-        return None  # the command reports it
+    config_file = find_config(arguments)
+    answer = find_answer(config_file, answer_key(arguments, config_file)) if config_file else None
     if answer is None:
         return None
-    with streams.safe_streams() as output:
+    with streams.SafeStreams() as output:
         for name, text in zip(answer[::2], answer[1::2], strict=True):
             (output if name == streams.OUTPUT else sys.stderr).write(text)
         if output.trouble:
-            from urdfsync import report  # 30 ms, and hardly ever needed
+            from urdfsync import cli  # 30 ms, and hardly ever needed
 
-            return report.unwritten(output)
+            return cli.tell_unwritten(output)
     return 0
 
 
@@ -160,14 +162,15 @@ def save_answer(
     """
     from pathlib import PurePath  # 10 ms, which the check does without
 
-    recorded = _absolute(dependencies)
-    has_read = dependencies.complete and str(PurePath(config_file)) in recorded[STAT]  # `--help` reads no configuration
+    here = os.getcwd()
+    recorded = {(check, os.path.join(here, path)): found for (check, path), found in dependencies.entries.items()}
+    has_read = dependencies.complete and (STAT, str(PurePath(config_file))) in recorded  # not so for `--help`
     if not has_read or sum(map(len, answer)) > _MAX_CHARACTERS:
         return
-    recorded[STAT].update(_module_files())
+    recorded.update(_module_files())
     folder = os.path.join(os.path.dirname(config_file), _FOLDER)
     clock, elapsed = read_clock(folder), elapsed_since(started)
-    stats = [*recorded[LSTAT].values(), *recorded[STAT].values()]
+    stats = [found for (check, _), found in recorded.items() if check in (LSTAT, STAT)]
     if clock is None or any(is_racy(found, clock, elapsed) for found in stats):
         return
     saved = _merged(read_answers(config_file), recorded, {key: answer})
@@ -177,67 +180,57 @@ def save_answer(
         return  # the next command runs, as this one did
 
 
-def _absolute(dependencies: Dependencies) -> dict[str, dict[str, tuple[int, ...]]]:
-    here = os.getcwd()
-    return {
-        check: {os.path.join(here, path): found for path, found in entries.items()}
-        for check, entries in dependencies.entries.items()
-    }
-
-
-def _module_files() -> dict[str, Stat]:
+def _module_files() -> Entries:
     """The files of all modules in use: somebody may be working on urdfsync. Those of Python go by its version."""
-    found = {}
+    found: Entries = {}
     for name, module in list(sys.modules.items()):
         file = getattr(module, "__file__", None)
         if file and name.partition(".")[0] not in sys.stdlib_module_names and os.path.isfile(file):
-            found[os.path.abspath(file)] = stat_of(os.stat(file))
+            found[STAT, os.path.abspath(file)] = stat_of(os.stat(file))
     return found
 
 
-def _merged(
-    saved: SavedAnswers | None, recorded: dict[str, dict[str, tuple[int, ...]]], answers: dict[str, list[str]]
-) -> SavedAnswers:
+def _merged(saved: SavedAnswers | None, recorded: Entries, answers: dict[str, list[str]]) -> SavedAnswers:
     """New answers, together with the saved ones if these hold and depend on nothing that has changed meanwhile."""
     if saved and len(saved.answers) < _MAX_ANSWERS:
-        before: dict[str, dict[str, tuple[int, ...]]] = {}
-        with contextlib.suppress(OSError):
-            before = {c: dict(zip(paths, check_paths(c, paths), strict=True)) for c, paths in saved.paths.items()}
-        holds = before and _hash({c: [*entries.values()] for c, entries in before.items()}) == saved.found
-        if holds and all(before[c].get(path, found) == found for c in CHECKS for path, found in recorded[c].items()):
-            recorded = {check: before[check] | recorded[check] for check in CHECKS}
-            answers = saved.answers | answers
-    found = _hash({check: [*entries.values()] for check, entries in recorded.items()})
-    return SavedAnswers({check: [*entries] for check, entries in recorded.items()}, found, answers)
+        try:
+            before = {(check, path): check_path(check, path) for check, path in saved.checks}
+        except OSError:
+            before = {}
+        holds = before and _hash(before.values()) == saved.found
+        if holds and all(before.get(pair, found) == found for pair, found in recorded.items()):
+            recorded, answers = before | recorded, saved.answers | answers
+    return SavedAnswers([*recorded], _hash(recorded.values()), answers)
 
 
 def _write(folder: str, saved: SavedAnswers) -> None:
     """Write the file, bound to its inode and time. Raises OSError, or ValueError for texts that it can't hold."""
     temporary = os.path.join(folder, ".stamp.urdfsync-tmp")
-    with _created(temporary) as file:
+    file = _create(temporary)
+    try:
         status = os.fstat(file)
         os.write(file, saved.dumps(status.st_ino, status.st_mtime_ns).encode("utf-8", "surrogateescape"))
         os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
         os.replace(temporary, os.path.join(folder, _NAME))
+    finally:
+        os.close(file)
+        _remove(temporary)
 
 
-@contextlib.contextmanager
-def _created(path: str) -> Iterator[int]:
-    """A new file in a state folder, which is removed at the end if it is there still. Raises OSError.
+def _create(path: str) -> int:
+    """Create and open a file in a state folder. Raises OSError.
 
     No link is followed: a repository may have committed some that lead elsewhere.
     """
     if os.path.islink(os.path.dirname(path)):
         raise NotADirectoryError
-    with contextlib.suppress(FileNotFoundError):
-        os.unlink(path)  # left by a process that was killed
-    file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
-    try:
-        yield file
-    finally:
-        os.close(file)
-        with contextlib.suppress(FileNotFoundError):
-            os.unlink(path)
+    _remove(path)  # left by a process that was killed
+    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+
+
+def _remove(path: str) -> None:
+    if os.path.lexists(path):
+        os.unlink(path)
 
 
 # Racy files: those that may have changed after they were read, and show the same stat values. The rule is git's.
@@ -259,18 +252,25 @@ def read_clock(folder: str | os.PathLike[str]) -> Clock | None:
     """Read the clock of a folder's file system from a file created there; None if that is not possible."""
     if not HAS_CHANGE_TIMES:
         return None
+    path = os.path.join(folder, ".clock.urdfsync-tmp")
     try:
-        with _created(os.path.join(folder, ".clock.urdfsync-tmp")) as file:
-            created = os.fstat(file)
-            os.utime(file, ns=(0, 0))  # FAT and sshfs let this set the time of change of the status, too
-            return Clock(created, os.fstat(file).st_ctime_ns >= created.st_ctime_ns, frozenset(_tmpfs_devices()))
+        file = _create(path)
     except OSError:
         return None
+    try:
+        created = os.fstat(file)
+        os.utime(file, ns=(0, 0))  # FAT and sshfs let this set the time of change of the status, too
+        return Clock(created, os.fstat(file).st_ctime_ns >= created.st_ctime_ns, frozenset(_tmpfs_devices()))
+    finally:
+        os.close(file)
+        _remove(path)
 
 
 def _tmpfs_devices() -> Iterator[int]:
-    """The devices of all tmpfs file systems; none where there is no Linux. See proc_pid_mountinfo(5)."""
-    with contextlib.suppress(FileNotFoundError), open("/proc/self/mountinfo", errors="surrogateescape") as file:
+    """The devices of all tmpfs file systems, on Linux. See proc_pid_mountinfo(5)."""
+    if sys.platform != "linux":
+        return
+    with open("/proc/self/mountinfo", errors="surrogateescape") as file:
         for line in file:
             fields, _, kind = line.partition(" - ")
             if kind.startswith("tmpfs "):

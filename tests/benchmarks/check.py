@@ -18,7 +18,7 @@ from support.corpus import REPOSITORY
 from benchmarks.measuring import Cost, Quantity, UnexpectedError, measure, variables
 from benchmarks.study import Figures, Row, Study
 from benchmarks.tools import NOTHING, Tools
-from urdfsync.checking.libraries import library
+from urdfsync.check import libraries
 
 ROBOT = "six_axis_arm"
 _PAUSE = 0.05
@@ -28,8 +28,8 @@ _TIMES = 3
 def studies(tools: Tools) -> Iterator[Study | Figures]:
     """What is measured."""
     try:
-        library.standard(os.environ, library.home())
-    except library.LibraryError:
+        libraries.find_standard_library(os.environ)
+    except libraries.LibraryError:
         tools.say("there is no Modelica Standard Library: check is left out")
         return
     command = tools.urdfsync("check", ROBOT, "--config", str(REPOSITORY / "urdfsync.toml"))

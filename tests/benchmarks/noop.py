@@ -26,7 +26,7 @@ ROWS = (
     Row(f"build, {ONE}", f"doit, {ONE}", 0.2),
     Row(f"build, {ONE}", f"dvc status, {ONE}", 0.05),
     Row(f"build, {ONE}", f"ninja, {ONE}"),
-    Row(f"build, {MANY}", EMPTY, 3.0),
+    Row(f"build, {MANY}", EMPTY, 3.5),
     Row(f"build, {MANY}", f"{GIT}, {MANY}", 3.0),
     *(Row(f"build, {outputs}", EMPTY, None, Quantity.CPU) for outputs in (ONE, MANY)),
     Row(f"build without a stamp, {ONE}", EMPTY),

@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from random import Random
 
-import msgspec
 import pytest
 
 from urdfsync import config, uptodate
@@ -115,7 +114,7 @@ def _an_older_record(project: Path, random: Random) -> None:
 
 
 def _bases(project: Path, random: Random) -> None:
-    path = project / ".urdfsync/base/ladder.json.gz"
+    path = random.choice(sorted((project / ".urdfsync/base/ladder").iterdir()))
     path.unlink() if random.random() < 0.5 else path.write_bytes(path.read_bytes()[:-9])
 
 
@@ -135,8 +134,7 @@ def _planned(project: Path, memory: Cache | None) -> Plan | tuple[str, ...]:
         work = plan_robot(loaded, loaded.robots[0], BuildOptions(cache=memory))
     except UrdfsyncError as error:
         return tuple(map(str, error.diagnostics))
-    writes = tuple(msgspec.structs.replace(change, content=change.read()) for change in work.writes)
-    return msgspec.structs.replace(work, writes=writes)
+    return work
 
 
 def _built(project: Path, memory: Cache) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfsync.engine.dangling import lost_names, words
+from urdfsync.engine.dangling import code_words, lost_names
 
 ROBOT = """\
 within Plant;
@@ -66,6 +66,6 @@ def test_a_name_that_nothing_has_now_is_no_new_name() -> None:
 
 
 def test_words_are_those_outside_of_strings_and_comments() -> None:
-    found = words('model A "one" // two\n  /* three */ B.four five = six; end A;')
+    found = code_words('model A "one" // two\n  /* three */ B.four five = six; end A;')
     assert {"B", "four", "five", "six"} <= found
     assert found.isdisjoint({"one", "two", "three"})

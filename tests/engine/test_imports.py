@@ -13,8 +13,8 @@ from urdfsync.domain import Dependency
 from urdfsync.engine import imports
 from urdfsync.engine.imports import Imported, Recorded
 from urdfsync.files import digest
-from urdfsync.manifest import DependencyRecord
-from urdfsync.modelfile import ConversionFacts
+from urdfsync.state.manifest import DependencyRecord
+from urdfsync.state.modelfile import ConversionFacts
 
 pytestmark = pytest.mark.usefixtures("rc_domain")
 

@@ -15,7 +15,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from urdfsync import changes
+from urdfsync.diff import changes
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Kind
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
@@ -87,7 +87,7 @@ class Project:
         before, now = package(self._last.values()), package(self.parts.values())
         renames = {("part", old.name): self.parts[key].name for key, old in self._last.items() if key in self.parts}
         old = {path: (file.owner, template(path)) for path, file in before.items() if path in records}
-        renamed = changes.moves(old, {path: (file.owner, template(path)) for path, file in now.items()}, renames)
+        renamed = changes.moved_files(old, {path: (file.owner, template(path)) for path, file in now.items()}, renames)
         targets = {path: renamed.get(path, path) for path in records}
         return renamed_files(self.recorded, targets, now)
 

@@ -21,8 +21,7 @@ from support.modelica import Run, Task, execute
 from support.packages import read
 from support.replay import Project
 
-from urdfsync.difference import ElementKey
-from urdfsync.domain import Target
+from urdfsync.domain import ElementKey, Target
 from urdfsync.outcome import Result
 from urdfsync.urdf.domain import DOMAIN
 

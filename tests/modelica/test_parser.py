@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import random
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from urdfsync.merge.tokens import tokens
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import Class, Component, Connection, Declared, Extends, Import, Modifier, Name, declared
 
@@ -25,6 +27,68 @@ package Arm
     replaceable Plant.Friction friction[2](d = 1);
   end Joint;
   type Angle = Real(unit = "rad");
+end Arm;
+"""
+
+
+ARM = """\
+within Plant;
+model Arm "An arm"
+  extends Icons.Robot;
+  import SI = Modelica.Units.SI;
+  import Modelica.Math.{sin, cos};
+
+  replaceable package Medium = Water(p = 1) constrainedby Fluid "What is in it";
+
+  parameter SI.Mass m[2](each min = 0) = {1.2, 0.8} "Masses"
+    annotation (Dialog(group = "Inertia", enable = not massless));
+
+  final parameter Boolean massless = m[end] <= -1e-9 or false;
+
+  Body body(m = m[1], redeclare model Shape = Box(a = 1), color = {0, 0, 255}) if not massless "The body";
+
+  Real x, y(start = if massless then 0 elseif m[1] > 1 then -1 else x.^2 .+ sum(k * m[k] for k in 1:2));
+
+  type Mode = enumeration(off "No torque", on);
+
+  function gain
+    input Real u;
+    output Real y;
+  external "C" y = gain(u) annotation (Library = "m");
+  end gain;
+
+  block Delay = Blocks.Delay(redeclare each Real u[3], final T = 1);
+
+initial equation
+  x = 0;
+
+equation
+  connect(body.frame_a, body.frame_b) annotation (Line(points = {{0, 0}, {1, 1}}));
+  der(x) + y = [1, 2; 3, 4] * x[:, 1];
+  if massless then
+    x = 1;
+  else
+    for i in 1:2, j loop
+      assert(m[i] > 0, "Mass " + String(i), AssertionLevel.warning);
+    end for;
+  end if;
+  when {initial(), time > 1} then
+    reinit(x, pre(y));
+  elsewhen sample(0, 1) then
+    reinit(x, 0);
+  end when "Restart";
+
+algorithm
+  (x, , y) := f(m, scale = function g(a = 1));
+  while x > 0 loop
+    x := x - 1;
+    break;
+  end while;
+  x := x - 1;
+  x := x - 1;
+  annotation (choices(choice = 1, choice = 2), Documentation(info = "<html>
+---
+</html>"));
 end Arm;
 """
 
@@ -148,6 +212,58 @@ def test_what_is_taken_away_from_a_base_class() -> None:
     assert base.arguments == (Modifier(name("c", 2), is_break=True),)
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        pytest.param("body.frame_b)", "body.frame_b", "lacks `)` before `annotation` (line 32)", id="unbalanced"),
+        pytest.param("(each min = 0)", "(each min = 0]", "lacks `,` or `)` before `]` (line 9)", id="crossing"),
+        pytest.param("{1, 1}}", "{1, 1}", "lacks `,` or `}` before `)` (line 32)", id="braces"),
+        pytest.param('"Masses"', '"Masses', "has a string without an end (line 57)", id="string"),
+        pytest.param("m[2]", "/* m[2]", "has a comment without an end (line 9)", id="comment"),
+        pytest.param("x, y", "'x, y", "has a quoted name without an end (line 16)", id="quoted name"),
+        pytest.param("end Arm", "end Leg", "ends `Arm` with `end Leg` (line 58)", id="another name"),
+        pytest.param("  end gain;\n", "", "lacks `end gain` before `end` (line 57)", id="no end"),
+        pytest.param("end Arm;\n", "end Arm;\nend Arm;\n", "has an `end` too many (line 59)", id="end twice"),
+        pytest.param("end Arm;\n", "", "lacks `end Arm` before its end (line 58)", id="cut off"),
+        pytest.param("end while", "end for", "lacks `end while` before `end` (line 52)", id="end of another block"),
+        pytest.param("  end if;\n", "", "lacks `end if` before `algorithm` (line 46)", id="block without end"),
+        pytest.param("Real u;\n", "Real u\n", "lacks `;` before `output` (line 22)", id="semicolon"),
+        pytest.param("  x = 0;", "  x = 0", "lacks `;` before `equation` (line 31)", id="semicolon of an equation"),
+        pytest.param("0.8}", "0.8, }", "lacks an expression before `}` (line 9)", id="comma too many"),
+        pytest.param("m[1], redeclare", "m[1] redeclare", "lacks `,` or `)` before `redeclare` (line 14)", id="comma"),
+        pytest.param("  import SI", "  Real Mode;\n  import SI", "declares `Mode` twice (line 19)", id="names"),
+        pytest.param("x, y(", "x, x, y(", "declares `x` twice (line 16)", id="names of one declaration"),
+        pytest.param(
+            "Robot;", "Robot;\n extends Icons.Robot(a = 1);", "extends `Icons.Robot` twice (line 4)", id="bases"
+        ),
+        pytest.param("a = 1)", "a = 1, a = 2)", "sets `a` twice (line 14)", id="modifiers"),
+        pytest.param(
+            "equation\n  c",
+            "equation\n  connect(b, a);\n  connect(a, b);\n  c",
+            "connects `a` and `b` twice (line 33)",
+            id="ends",
+        ),
+        pytest.param(
+            "  x = 1;\n",
+            "  x = 1;\n    y = 2;\n    x = 1;\n",
+            "has the equation `x = 1` twice (line 37)",
+            id="equations",
+        ),
+        pytest.param("(x, , y) :=", "(x, , y) =", "lacks `:=` before `=` (line 48)", id="equation in an algorithm"),
+        pytest.param("end Arm", "Real z;\nend Arm", "goes on after the annotation of `Arm` (line 58)", id="after all"),
+        pytest.param(
+            "(each min = 0)", f"(min = {50 * '('}0{50 * ')'})", "nests more than 50 deep (line 9)", id="depth"
+        ),
+    ],
+)
+def test_faults_have_a_reason_and_a_line(old: str, new: str, reason: str) -> None:
+    assert parse(ARM).faults == ()
+    text = ARM.replace(old, new, 1)
+    assert text != ARM
+    first = parse(text).faults[0]
+    assert f"{first.reason} (line {first.line})" == reason
+
+
 def test_the_library_can_be_read() -> None:
     files = list(LIBRARY.rglob("*.mo"))
     assert len(files) > 200
@@ -181,3 +297,38 @@ def test_no_damage_is_too_much(data: st.DataObject) -> None:
 @given(st.text(max_size=60))
 def test_any_text_can_be_read(text: str) -> None:
     parse(text)
+
+
+def damaged(rng: random.Random, text: str, other: str) -> str:
+    """A text with lines taken from another one, lines lost, doubled or moved, and single tokens lost or swapped."""
+    lines, pool = text.splitlines(keepends=True), other.splitlines(keepends=True)
+    for _ in range(rng.randint(0, 3)):
+        place, size = rng.randrange(len(lines) + 1), rng.randint(1, 4)
+        some, start = lines[place : place + size], rng.randrange(len(pool))
+        lines[place : place + size] = rng.choice([[], 2 * some, some + pool[start : start + size], some[::-1]])
+    parts = tokens("".join(lines)) or [""]
+    for _ in range(rng.randint(0, 2)):
+        one, two = rng.randrange(len(parts)), rng.randrange(len(parts))
+        parts[one], parts[two] = rng.choice([("", parts[two]), (parts[two], parts[two]), (parts[two], parts[one])])
+    return "".join(parts)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(4))
+def test_a_text_has_a_fault_where_a_compiler_refuses_it(seed: int) -> None:
+    rumoca = pytest.importorskip("rumoca")
+    rng = random.Random(seed)
+    files = [text for path in sorted(LIBRARY.rglob("*.mo")) if len(text := path.read_text("utf-8")) < 4000]
+    refused = 0
+    for _ in range(100):
+        text = damaged(rng, *rng.sample(files, 2))
+        try:
+            is_refused = bool(rumoca.validate_source(text))
+        except rumoca.RumocaError:
+            is_refused = True
+        refused += is_refused
+        found = parse(text).faults
+        syntax = [fault for fault in found if not fault.reason.endswith(" twice")]
+        # the compiler's parser takes some of what stands there twice
+        assert bool(syntax) <= is_refused <= bool(found), text
+    assert 20 < refused < 95, "the cases are worth comparing"

@@ -2,7 +2,7 @@
 
 Base and axes move as prescribed; the first and the last instant must agree to 1e-10. Mimic joints, damping and
 dry friction are part of it. A robot in whose file some moving joint carries no mass gets made-up inertias, for both
-sides, and `made-up` in its name; `amended` are files that Pinocchio would not read (see `urdf.physics.amended`).
+sides, and `made-up` in its name; `amended` are files that Pinocchio would not read (see `urdf.physics.completion`).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from support.marks import LONG
 from urdfsync.modelica.names import class_name
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.physics import amended
+from urdfsync.urdf.physics import completion
 
 CHOSEN = ("robotics-toolbox-al5d_robot", "random-schunk_pg70", "oems-turtlebot3_burger")
 """Axes that turn, that slide and follow, and that turn without end: the others are compared in the long run."""
@@ -53,8 +53,8 @@ def _notes(file: str) -> list[str]:
     content = (corpus.FOLDER / file).read_bytes()
     robot = read_robot(content, file, cross_check=False).robot
     assert robot is not None
-    made_up = amended.with_inertias(content, KinematicTree.of(robot)).notes
-    return ["amended"] * len(amended.readable(content).notes) + ["made-up"] * len(made_up)
+    made_up = completion.with_inertias(content, KinematicTree.of(robot)).notes
+    return ["amended"] * len(completion.completed_for_pinocchio(content).notes) + ["made-up"] * len(made_up)
 
 
 @pytest.mark.parametrize("file", _cases())

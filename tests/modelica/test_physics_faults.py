@@ -11,7 +11,7 @@ from support import physics
 from support.physics import changed, replaced
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
-from urdfsync.checking.verdict import TOLERANCE, Comparison
+from urdfsync.check.results import TOLERANCE
 from urdfsync.domain import Quantity
 
 pytestmark = pytest.mark.slow
@@ -102,7 +102,7 @@ def test_another_mesh_is_no_other_physics(modelica_library: Path, tmp_path: Path
     assert comparison.agrees, comparison.worst()
 
 
-def deviating(comparison: Comparison) -> dict[str, set[Quantity]]:
+def deviating(comparison: physics.Deviations) -> dict[str, set[Quantity]]:
     """The quantities that differ, by element."""
     found: dict[str, set[Quantity]] = {}
     for one in comparison.deviations:

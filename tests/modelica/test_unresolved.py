@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.checking.libraries import library
-from urdfsync.classfiles import StoredClasses
+from urdfsync.check import libraries
+from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.scopes import UNKNOWN, Element, Missing, Node, Scopes, Stored, Unknown
 from urdfsync.modelica.syntax import Name
-from urdfsync.modelica.unresolved import Kind, Unresolved, unresolved
+from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
 REPOSITORY = Path(__file__).parents[2]
 
@@ -219,13 +219,13 @@ def test_nothing_is_said_of_what_cannot_be_told(body: str) -> None:
 
 def test_a_redeclaration_inside_of_a_modifier_is_told_apart() -> None:
     (one,) = found(PLANT, USER, "model Mine\n extends Plant.Test(crane(redeclare User.Telescope boom));\nend Mine;\n")
-    assert (one.kind, one.owner, one.name, one.line) == (Kind.NESTED_REDECLARE, "Plant.Crane", "boom", 2)
+    assert (one.kind, one.owner, one.name, one.line) == (UnresolvedKind.NESTED_REDECLARE, "Plant.Crane", "boom", 2)
     assert told("Plant.Crane crane(redeclare User.Telescope boom);") == []
     assert [
         one.kind for one in found(PLANT, USER, "model M\n Plant.Test t(crane(redeclare Nowhere boom));\nend M;")
     ] == [
-        Kind.NESTED_REDECLARE,
-        Kind.CLASS,
+        UnresolvedKind.NESTED_REDECLARE,
+        UnresolvedKind.CLASS,
     ]
 
 
@@ -260,10 +260,10 @@ def stored_below(sources: StoredClasses, name: tuple[str, ...]) -> Iterator[tupl
 
 
 def faults_in(top: str) -> list[str]:
-    places = [REPOSITORY / "modelica", *library.folders(os.environ, library.home())]
-    if library.find(top, places) is None:
+    places = [REPOSITORY / "modelica", *libraries.library_folders(os.environ)]
+    if libraries.find_library(top, places) is None:
         pytest.skip(f"there is no library {top}")
-    sources = StoredClasses("None", Path("None"), {}, {}, lambda name: library.find(name, places))
+    sources = StoredClasses("None", Path("None"), {}, {}, lambda name: libraries.find_library(name, places))
     scopes, count, faults = Scopes(sources), 0, []
     for name in stored_below(sources, (top,)):
         node = scopes.node(name)
@@ -287,10 +287,10 @@ def test_nothing_is_missing_in_the_standard_library() -> None:
 @pytest.mark.slow
 def test_every_use_in_a_generated_package_can_be_told() -> None:
     """Each name in its equations means something, and nothing once it is misspelled: no lookup ends in the unknown."""
-    places = [REPOSITORY / "modelica", *library.folders(os.environ, library.home())]
-    if library.find("Modelica", places) is None:
+    places = [REPOSITORY / "modelica", *libraries.library_folders(os.environ)]
+    if libraries.find_library("Modelica", places) is None:
         pytest.skip("there is no Modelica Standard Library")
-    sources = StoredClasses("None", Path("None"), {}, {}, lambda name: library.find(name, places))
+    sources = StoredClasses("None", Path("None"), {}, {}, lambda name: libraries.find_library(name, places))
     scopes, count = Scopes(sources), 0
     for stored in stored_below(sources, ("UrdfSync", "Examples", "SixAxisArm")):
         node = scopes.node(stored)

@@ -17,19 +17,24 @@ from typing import Any
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
-from urdfsync.difference import ChangeClass, Difference, Effect, ElementKey, Meaning, Version
 from urdfsync.domain import (
     Artifact,
+    ChangeClass,
     Conversion,
     Dependency,
+    Difference,
+    Effect,
+    ElementKey,
     Import,
     Lookup,
+    Meaning,
     Order,
     Proposal,
     Reading,
     Role,
     Snapshot,
     Target,
+    Version,
 )
 
 GROUND = "ground"

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import shutil
+import stat
 import subprocess
 import sys
 import time
@@ -18,13 +21,14 @@ from urdfsync.diagnostics import OutputError
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Exit, Result, exit_code
-from urdfsync.state.lock import Lock, LockedError
+from urdfsync.state.lock import Lock, LockedError, _try, build_lock
 
 HOLD = """
 import sys
 from pathlib import Path
-from urdfsync.state.lock import Lock
-with Lock(Path(sys.argv[1]), 0) as lock:
+from urdfsync.state.lock import Lock, build_lock
+path = Path(sys.argv[1])
+with build_lock(path, path / ".urdfsync", 0) if path.is_dir() else Lock(path, 0) as lock:
     lock.acquire()
     print("held", flush=True)
     sys.stdin.read()
@@ -33,7 +37,7 @@ with Lock(Path(sys.argv[1]), 0) as lock:
 
 @contextmanager
 def holder(path: Path) -> Iterator[subprocess.Popen[str]]:
-    """Another process that holds the lock."""
+    """Another process that holds the lock of a file, or of the builds below a folder."""
     environment = os.environ | {"PYTHONPATH": str(Path(urdfsync.__file__).parents[1])}
     command = [sys.executable, "-c", HOLD, str(path)]
     pipe = subprocess.PIPE
@@ -122,10 +126,10 @@ def test_readers_wait_for_writers_only(path: Path) -> None:
 
 
 def test_without_a_lock_file_there_is_no_writer_to_wait_for(path: Path) -> None:
-    lock = Lock(path, 0)
-    lock.acquire(shared=True)
-    assert not lock.held
-    lock.release()
+    reader = Lock(path, 0)
+    reader.acquire(shared=True)
+    assert not reader.held
+    reader.release()
     assert not path.exists(), "who only reads makes no file"
 
 
@@ -147,8 +151,7 @@ def run(project: Path, **request: object) -> Result:
 def test_a_build_with_something_to_write_waits_and_then_gives_up(
     project: Path, snapshot_of: Callable[[Path], dict[str, tuple[int, bytes]]]
 ) -> None:
-    lock = project / ".urdfsync/lock"
-    with holder(lock) as process:
+    with holder(project) as process:
         before = snapshot_of(project)
         result = run(project)
         assert [found.code for found in result.diagnostics] == ["locked"]
@@ -157,7 +160,7 @@ def test_a_build_with_something_to_write_waits_and_then_gives_up(
         assert snapshot_of(project) == before
         assert not run(project, dry=True).failed
     assert not run(project).failed
-    with holder(lock):
+    with holder(project):
         assert run(project).in_step, "to find that nothing is to be done takes no lock"
 
 
@@ -165,11 +168,11 @@ def test_a_dry_run_waits_for_a_build_that_is_writing(project: Path) -> None:
     journal = project / ".urdfsync/journal/apply.json"
     journal.parent.mkdir(parents=True)
     journal.write_text("{}")
-    with holder(project / ".urdfsync/lock"):
+    with holder(project):
         (found,) = run(project, dry=True).diagnostics
         assert found.code == "locked"
     (found,) = run(project, dry=True).diagnostics
-    assert (found.code, found.hint) == ("interrupted", "run `urdfsync build`, which finishes or undoes it")
+    assert (found.code, found.hint) == ("interrupted", "run `urdfsync build`, which finishes it")
 
 
 @pytest.mark.parametrize("arguments", [["status"], ["build", "--check"], ["build", "--dry-run"]])
@@ -187,16 +190,61 @@ def test_the_lock_belongs_to_the_whole_command(project: Path) -> None:
     with (project / "urdfsync.toml").open("a") as file:
         file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
     loaded = config.load(project / "urdfsync.toml")
-    with holder(project / ".urdfsync/lock"):
+    with holder(project):
         results = list(build(loaded, loaded.robots, BuildOptions(wait=0)))
     assert [result.locked for result in results] == [True, True]
     results = []
     for result in build(loaded, loaded.robots, BuildOptions()):
         results.append(result)
         with pytest.raises(LockedError):
-            Lock(project / ".urdfsync/lock", 0).acquire()
+            build_lock(project, project / ".urdfsync", 0).acquire()
     assert exit_code(results) is Exit.IN_STEP
-    Lock(project / ".urdfsync/lock", 0).acquire()
+    build_lock(project, project / ".urdfsync", 0).acquire()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="an open file can't be deleted there")
+def test_a_lock_whose_file_is_deleted_is_still_held(project: Path) -> None:
+    """As by `git clean -fdX`."""
+    with holder(project):
+        shutil.rmtree(project / ".urdfsync")
+        (found,) = run(project).diagnostics
+        assert (found.code, found.message.split(" is ")[0]) == ("locked", "another process")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no links, no pipes")
+@pytest.mark.parametrize("kind", ["link", "pipe", "folder", "linked state"])
+def test_what_stands_in_the_place_of_the_lock_file_is_left_alone(project: Path, tmp_path: Path, kind: str) -> None:
+    """It only says who builds."""
+    outside, place = tmp_path / "outside", project / ".urdfsync/lock"
+    outside.mkdir()
+    if kind == "linked state":
+        (project / ".urdfsync").symlink_to(outside)
+    else:
+        place.parent.mkdir()
+        actions = {"link": lambda: place.symlink_to(outside / "lock"), "pipe": lambda: os.mkfifo(place)}
+        actions.get(kind, place.mkdir)()
+    with build_lock(project, project / ".urdfsync", 0) as one, build_lock(project, project / ".urdfsync", 0) as other:
+        one.acquire()
+        with pytest.raises(LockedError, match="another process"):
+            other.acquire()
+    assert list(outside.iterdir()) == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no locks of folders there anyway")
+def test_where_no_folder_can_be_locked_a_file_is(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As on NFS."""
+
+    def refuse(descriptor: int, shared: bool) -> None:
+        if stat.S_ISDIR(os.fstat(descriptor).st_mode):
+            raise OSError(errno.EBADF, os.strerror(errno.EBADF))
+        _try(descriptor, shared)
+
+    monkeypatch.setattr("urdfsync.state.lock._try", refuse)
+    with build_lock(project, project / ".urdfsync", 0) as one, build_lock(project, project / ".urdfsync", 0) as other:
+        one.acquire()
+        with pytest.raises(LockedError, match=f"process {os.getpid()} is building"):
+            other.acquire()
+    assert not run(project).failed
 
 
 def test_three_builds_at_once_equal_one(project: Path, rc_site: Path) -> None:

@@ -12,13 +12,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync import modelfile
 from urdfsync.diagnostics import StateError
 from urdfsync.domain import Import, Role
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.renames import OnDisk
 from urdfsync.engine.rules import decide_file
-from urdfsync.manifest import (
+from urdfsync.state import modelfile
+from urdfsync.state.manifest import (
     DependencyRecord,
     Generator,
     Manifest,
@@ -26,7 +26,7 @@ from urdfsync.manifest import (
     dumps,
     text_hash,
 )
-from urdfsync.modelfile import ConversionFacts
+from urdfsync.state.modelfile import ConversionFacts
 from urdfsync.state.record import FileRecord
 from urdfsync.state.repair import Recovered, choose, rebuilt, recover, sides
 

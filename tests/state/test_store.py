@@ -7,13 +7,12 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from urdfsync import manifest, modelfile
 from urdfsync.diagnostics import OutputError, StateError
 from urdfsync.files import digest, text_digest
-from urdfsync.manifest import Generator, Manifest, Source
-from urdfsync.state import bases
+from urdfsync.state import manifest, modelfile
+from urdfsync.state.manifest import Generator, Manifest, Source
 from urdfsync.state.store import Store
-from urdfsync.state.transactions import Change
+from urdfsync.state.transaction import Change
 
 MODEL = modelfile.dumps(modelfile.of({"name": "arm"}, {}))
 MANIFEST = Manifest(
@@ -31,12 +30,11 @@ def write(*changes: Change) -> None:
     for change in changes:
         there = change.path.read_bytes() if change.path.exists() else None
         assert change.old == (None if there is None else digest(there))
-        content = change.read()
-        if content is None:
+        if change.content is None:
             change.path.unlink()
         else:
             change.path.parent.mkdir(parents=True, exist_ok=True)
-            change.path.write_bytes(content)
+            change.path.write_bytes(change.content)
 
 
 def files(root: Path) -> set[str]:
@@ -48,7 +46,7 @@ def built(tmp_path: Path) -> Path:
     """A folder with the state of robot `arm`."""
     store = Store(tmp_path)
     store.load("arm")
-    write(*store.changes("arm", TEXT, MODEL, None), *store.keep_bases("arm", bases.dumps({"1": "a"}.items()), None))
+    write(*store.changes("arm", TEXT, MODEL, None))
     return tmp_path
 
 
@@ -80,7 +78,6 @@ def test_what_is_there_is_not_written_again(built: Path) -> None:
     store = Store(built)
     store.load("arm")
     assert list(store.changes("arm", TEXT, MODEL, None)) == []
-    assert list(store.keep_bases("arm", bases.dumps({"1": "a"}.items()), None)) == []
     assert [change.path.name for change in store.changes("arm", TEXT + "# more\n", None, None)] == ["arm.toml"]
 
 
@@ -157,17 +154,18 @@ def test_a_robot_with_another_name_takes_everything_with_it(built: Path) -> None
     store = Store(built)
     assert store.load("leg") is None
     store.load("arm")
-    write(*store.keep_bases("leg", bases.dumps({"1": "a"}.items()), "arm"), *store.changes("leg", TEXT, MODEL, "arm"))
-    assert files(built) == {"robots/leg.toml", "robots/leg.json", "base/leg.json.gz"}
+    write(*store.changes("leg", TEXT, MODEL, "arm"))
+    assert files(built) == {"robots/leg.toml", "robots/leg.json"}
 
 
 def test_bases(built: Path) -> None:
     text = "record A\nend A;\n"
     hash_ = text_digest(text.encode())
     store = Store(built)
+    assert not store.has_bases("arm")
+    store.bases("arm").add({hash_: text})
     assert store.has_bases("arm")
     assert not store.has_bases("leg")
-    write(*store.keep_bases("arm", bases.dumps({hash_: text}.items()), None))
     assert Store(built).bases("arm").get(hash_) == text
     assert Store(built).bases("leg").get(hash_) is None
 
@@ -197,7 +195,7 @@ def test_conflicts_of_a_robot_with_another_name_go(tmp_path: Path) -> None:
 def test_version_control_is_told_once_and_by_nobody_else(tmp_path: Path) -> None:
     (change,) = Store(tmp_path).ignoring()
     assert change.path == tmp_path / ".urdfsync" / ".gitignore"
-    assert b"!/robots/" in (change.read() or b"")
+    assert b"!/robots/" in (change.content or b"")
     write(change)
     change.path.write_text("# the user's\n")
     assert Store(tmp_path).ignoring() == []

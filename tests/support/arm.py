@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from support.corpus import REPOSITORY
-from urdfsync.checking.diagnosis.package import Package
-from urdfsync.checking.workspace import package_texts
+from urdfsync.check.files import PackageFiles, package_texts
 
 FOLDER = REPOSITORY / "modelica" / "UrdfSync" / "Examples" / "SixAxisArm"
 NAME = "UrdfSync.Examples.SixAxisArm"
@@ -56,7 +55,7 @@ def line(words: str, path: str = ELBOW) -> int:
     return text(path)[: text(path).index(words)].count("\n") + 1
 
 
-def package(edits: Mapping[str, str | bytes | None] | None = None, name: str = NAME) -> Package:
+def package(edits: Mapping[str, str | bytes | None] | None = None, name: str = NAME) -> PackageFiles:
     """The package with some files edited, added, or, with None, deleted."""
     files: dict[str, bytes] = dict(texts())
     for path, content in (edits or {}).items():
@@ -64,8 +63,4 @@ def package(edits: Mapping[str, str | bytes | None] | None = None, name: str = N
         if content is not None:
             files[path] = content.encode() if isinstance(content, str) else content
     edited = [path for path in files if path in texts() and files[path] != texts()[path]]
-    return Package(name, DISK, files, _shown, OWNERS, edited)
-
-
-def _shown(path: Path) -> str:
-    return path.relative_to(HOME).as_posix() if path.is_relative_to(HOME) else path.as_posix()
+    return PackageFiles(name, DISK, files, OWNERS, edited)

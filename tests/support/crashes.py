@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import gc
+import json
 import os
 import shutil
 import signal
@@ -17,10 +18,14 @@ from urdfsync import config
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
-from urdfsync.state import operations
+from urdfsync.state import file_operations
 from urdfsync.state.store import Store
 
-NAMES = ("make_folder", "remove_folder", "write", "keep", "exchange", "replace", "place", "remove", "sync")
+NAMES = (
+    *("make_folder", "remove_folder", "write", "write_bound", "exchange", "complete_exchange", "replace", "place"),
+    *("remove", "sync"),
+)
+WRITES = ("write", "write_bound")
 ALL = "URDFSYNC_CRASHES"
 """Environment variable that asks for all, if it is set to anything."""
 
@@ -36,7 +41,7 @@ class Operation:
     @property
     def kind(self) -> tuple[str, ...]:
         """What is the same for all operations that differ in the file only."""
-        places = ("journal", "undo", "robots") if self.paths[-1:] else ()
+        places = ("journal", "base", "robots") if self.paths[-1:] else ()
         return (self.name, *(next((p for p in places if p in path.parts), path.suffix) for path in self.paths))
 
 
@@ -47,7 +52,7 @@ Hook = Callable[[Operation], None]
 def before_each(hook: Hook) -> Iterator[None]:
     """Call `hook` before each operation."""
     count = 0
-    real = {name: getattr(operations, name) for name in NAMES}
+    real = {name: getattr(file_operations, name) for name in NAMES}
 
     def wrapped(name: str) -> Callable[..., Any]:
         def call(*arguments: Any) -> Any:
@@ -60,11 +65,11 @@ def before_each(hook: Hook) -> Iterator[None]:
 
     try:
         for name in NAMES:
-            setattr(operations, name, wrapped(name))
+            setattr(file_operations, name, wrapped(name))
         yield
     finally:
         for name, function in real.items():
-            setattr(operations, name, function)
+            setattr(file_operations, name, function)
 
 
 def run(project: Path, **request: Any) -> Result:
@@ -103,7 +108,7 @@ def killed(project: Path, number: int, half: bool = False, earlier: Hook = lambd
     def hook(operation: Operation) -> None:
         earlier(operation)
         if operation.number == number:
-            if half and operation.name == "write":
+            if half and operation.name in WRITES:
                 operation.paths[0].write_bytes(b'{"robot": "cut sh')
             os.kill(os.getpid(), signal.SIGKILL)
 
@@ -130,26 +135,35 @@ def copy(project: Path, to: Path) -> Path:
     """The project at a place where nothing is left of another one."""
     if to.exists():
         shutil.rmtree(to)
-    return shutil.copytree(project, to)
+    shutil.copytree(project, to)
+    for journal in (to / ".urdfsync/journal").glob("*.json"):
+        bind(journal)
+    return to
+
+
+def bind(journal: Path) -> None:
+    """Let a copy of a journal be one that was written in its place."""
+    with contextlib.suppress(ValueError):  # cut short
+        status, text = journal.stat(), json.loads(journal.read_bytes())
+        journal.write_text(json.dumps({**text, "inode": status.st_ino, "written": status.st_mtime_ns}))
+        os.utime(journal, ns=(status.st_mtime_ns, status.st_mtime_ns))
 
 
 def contents(project: Path) -> Mapping[str, bytes | None]:
-    """All files and folders of a project, but for the lock and empty folders of the journal; folders have no content.
+    """All files and folders of a project, but for the lock and an empty journal; folders have no content.
 
     Of the kept bases, those count that the recorded files need: others may be left of an earlier build.
     """
     found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
-    found.pop(".urdfsync/lock", None)
-    for folder in (".urdfsync/journal", ".urdfsync/undo"):
-        if not any(name.startswith(f"{folder}/") for name in found):
-            found.pop(folder, None)
-    contents = {name: path.read_bytes() if path.is_file() else None for name, path in sorted(found.items())}
-    return contents | {name: _needed(project, path) for name, path in found.items() if path.suffix == ".gz"}
+    left_out = (".urdfsync/lock", ".urdfsync/journal", ".urdfsync/base")
+    names = [name for name in found if name not in left_out and not name.startswith(".urdfsync/base/")]
+    contents = {name: found[name].read_bytes() if found[name].is_file() else None for name in sorted(names)}
+    return contents | {f".urdfsync/base/{robot}": _needed(project, robot) for robot in Store(project).names()}
 
 
-def _needed(project: Path, file: Path) -> bytes:
-    """The bases in a file that the manifest needs, by their hashes."""
-    store, robot = Store(project), file.name.removesuffix(".json.gz")
+def _needed(project: Path, robot: str) -> bytes:
+    """The bases that a manifest needs, by their hashes."""
+    store = Store(project)
     state, bases = store.load(robot), store.bases(robot)
     needed = {record.base for record in state.manifest.files.values() if record.base} if state else set()
     return repr([(digest, bases.get(digest)) for digest in sorted(needed)]).encode()

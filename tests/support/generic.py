@@ -19,7 +19,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reading import read
-from urdfsync.urdf.physics.reference import Reference, State
+from urdfsync.urdf.physics.reference import Configuration, Reference
 
 FORMS = ("GenericRobot", "ArticulatedRobot")
 """The two formulations."""
@@ -129,7 +129,7 @@ def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, 
     return np.concatenate([p, place, axes.ravel()]) if base else np.asarray(p)
 
 
-def at_rest(robot: Robot, p: Array, v: Array) -> State:
+def at_rest(robot: Robot, p: Array, v: Array) -> Configuration:
     """The state with these positions and speeds of the axes, the base at rest at the origin."""
     reference = robot.reference
     state = reference.state(0, [Course(*pair, 0.0) for pair in zip(p, v, strict=True)], {})

@@ -11,18 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from support.corpus import REPOSITORY
-from urdfsync.checking.cache import Cache
-from urdfsync.checking.compilers import tasks
-from urdfsync.checking.compilers.compiler import CompilerError
-from urdfsync.checking.compilers.rumoca import Rumoca
-from urdfsync.checking.libraries import library as libraries
-from urdfsync.checking.libraries import slim
-from urdfsync.checking.process import Limits
+from urdfsync.check import libraries as modelica_libraries
+from urdfsync.check.cache import UserCache
+from urdfsync.check.compilers import compiler
+from urdfsync.check.compilers.compiler import CompileJob, CompilerError, CompileResult, CompileTask, Simulation
 
 Array = NDArray[np.float64]
 
 URDFSYNC = REPOSITORY / "modelica" / "UrdfSync"
-CACHE = Cache(Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "urdfsync-tests")
+CACHE = UserCache(Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "urdfsync-tests")
 """Stays from run to run, since the compiler's first look at a library takes seconds; may be deleted."""
 
 
@@ -73,41 +70,40 @@ class Outcome:
     """Peak of the process so far."""
 
 
-def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task], timeout: float = 1800) -> list[Outcome]:
+def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> list[Outcome]:
     """Compile and run tasks in a child process, with the standard library, UrdfSync and the folders `packages`.
 
     A child that dies gives outcomes with its last words as the error.
     """
-    roots = (*standard(library), str(URDFSYNC), *map(str, packages))
+    roots = (standard(library), str(URDFSYNC), *map(str, packages))
     CACHE.trim()
     try:
-        outcomes = Rumoca(CACHE).compile(tasks.Job(roots, tuple(map(_task, todo))), Limits(timeout))
+        results = list(compiler.run_job("rumoca", CompileJob(roots, tuple(map(_task, todo))), CACHE))
     except CompilerError as error:
         return [Outcome(str(error), 0, (), 0, 0, 0) for _ in todo]
-    return [_outcome(outcome) for outcome in outcomes]
+    return [_outcome(result) for result in results]
 
 
-def standard(library: Path) -> tuple[str, ...]:
-    """The roots for the part of the standard library in the folder `library` that robots need."""
-    return slim.Copies(libraries.standard(os.environ, Path.home(), library), CACHE).roots(())
+def standard(library: Path) -> str:
+    """The folder with the part of the standard library in the folder `library` that robots need."""
+    found = modelica_libraries.find_standard_library(os.environ, library)
+    return str(modelica_libraries.standard_library_copy(found, (), CACHE))
 
 
 def compile_task(model: str, *libraries: str) -> Task:
     """Compile a model of a package by its full name; `libraries` are what it needs beside those of all packages."""
-    task = tasks.compiling(model, ("Modelica", "UrdfSync", *libraries))
+    task = compiler.compile_task(model, ("Modelica", "UrdfSync", *libraries))
     return Task(task.source, task.model)
 
 
-def _task(task: Task) -> tasks.Task:
-    runs = tuple(tasks.Simulation(run.stop, run.step, run.parameters, run.tolerance) for run in task.runs)
-    return tasks.Task(task.model, task.source, runs, tuple(task.values))
+def _task(task: Task) -> CompileTask:
+    runs = tuple(Simulation(run.stop, run.step, run.parameters, run.tolerance) for run in task.runs)
+    return CompileTask(task.model, task.source, runs, tuple(task.values))
 
 
-def _outcome(outcome: tasks.Outcome) -> Outcome:
-    runs = tuple(map(_series, outcome.runs))
-    return Outcome(outcome.problem, outcome.unknowns, runs, outcome.seconds, outcome.compiling, outcome.megabytes)
-
-
-def _series(run: tasks.Series) -> Series:
-    values = {name: np.array(series) for name, series in run.values.items()}
-    return Series(run.problem, values.pop("time", np.array([])), values)
+def _outcome(result: CompileResult) -> Outcome:
+    runs = []
+    for run in result.runs:
+        values = {name: np.array(series) for name, series in run.values.items()}
+        runs.append(Series(run.problem, values.pop("time", np.array([])), values))
+    return Outcome(result.problem, result.unknowns, tuple(runs), result.seconds, result.compiling, result.megabytes)

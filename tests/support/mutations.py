@@ -7,8 +7,7 @@ from collections.abc import Callable, Mapping
 from random import Random
 from typing import Any
 
-from urdfsync.difference import Version
-from urdfsync.domain import Import
+from urdfsync.domain import Import, Version
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.robot import Mesh
 

@@ -9,13 +9,13 @@ from typing import Any
 
 from support.modelica import Run, Task, execute
 from support.packages import Package, generate
-from urdfsync.checking.verdict import Comparison
-from urdfsync.domain import Experiment, Target
+from urdfsync.check.results import agrees, largest
+from urdfsync.domain import Deviation, Experiment, Quantity, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.physics import motion, probe, variables
+from urdfsync.urdf.physics import motion, probe
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Instant, Reference
 
@@ -26,6 +26,22 @@ class Case:
 
     experiment: Experiment
     package: Package
+
+
+@dataclasses.dataclass(frozen=True)
+class Deviations:
+    """How far a package is from the reference, element by element."""
+
+    deviations: tuple[Deviation, ...]
+
+    @property
+    def agrees(self) -> bool:
+        """Whether all differences are within the tolerance."""
+        return all(map(agrees, self.deviations))
+
+    def worst(self, quantities: Sequence[Quantity] = tuple(Quantity)) -> Deviation | None:
+        """The one that is greatest against its kind; None if nothing of these quantities was compared."""
+        return largest(self.deviations, quantities)
 
 
 def prepare(source: bytes | Path, name: str = "Bot", *, complete: bool = True, **options: Any) -> Case:
@@ -55,7 +71,7 @@ def replaced(old: str, new: str) -> Callable[[str], str]:
     return change
 
 
-def compare(library: Path, folder: Path, cases: Iterable[Case]) -> list[Comparison]:
+def compare(library: Path, folder: Path, cases: Iterable[Case]) -> list[Deviations]:
     """Simulate the probes of packages with names of their own, below `folder`, and compare."""
     cases = list(cases)
     folders = [case.package.write(folder) for case in cases]
@@ -67,7 +83,7 @@ def compare(library: Path, folder: Path, cases: Iterable[Case]) -> list[Comparis
         (run,) = outcome.runs
         assert not run.error, run.error
         series = {"time": run.times.tolist()} | {name: values.tolist() for name, values in run.values.items()}
-        results.append(Comparison(tuple(case.experiment.compare(series))))
+        results.append(Deviations(tuple(case.experiment.compare(series))))
     return results
 
 
@@ -92,9 +108,9 @@ def pinocchio_series(urdf: str) -> dict[str, list[float]]:
 def _values(skeleton: KinematicTree, instant: Instant) -> dict[str, float]:
     """What Pinocchio says, by the names of the probe's values."""
     mass, centre = instant.mass_and_centre()
-    called = variables.variables(skeleton, Target("Bot", "Bot"), Options())
+    names = probe.robot_variables(skeleton, Target("Bot", "Bot"), Options())
     pairs: list[tuple[Sequence[str], Any]] = [
-        (probe.effort_names(skeleton, called), instant.efforts),
+        (tuple(names.efforts(skeleton).values()), instant.efforts),
         (probe.FORCE, -instant.force),
         (probe.TORQUE, -instant.torque),
         (probe.MASS, [mass]),
@@ -102,8 +118,7 @@ def _values(skeleton: KinematicTree, instant: Instant) -> dict[str, float]:
     ]
     for link in skeleton.links:
         frame, (linear, angular) = instant.frame(link.name), instant.acceleration(link.name)
-        pairs.append((called.axes(link.name), frame.axes.T.ravel()))
-        parts = {variables.PLACE: frame.place, variables.VELOCITY: frame.velocity, variables.ROTATION: frame.turning}
-        for part, values in (parts | {variables.ACCELERATION: linear, variables.ANGULAR: angular}).items():
-            pairs.append((called.vector(link.name, part), values))
-    return {name: value for names, values in pairs for name, value in zip(names, values, strict=True)}
+        pairs += [(names.axes[link.name], frame.axes.T.ravel()), (names.places[link.name], frame.place)]
+        parts = {"v_0": frame.velocity, "w_a": frame.turning, "a_0": linear, "z_a": angular}
+        pairs += [(names.of_body(link.name, part), values) for part, values in parts.items()]
+    return {name: value for called, values in pairs for name, value in zip(called, values, strict=True)}

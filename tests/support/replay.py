@@ -22,7 +22,7 @@ from urdfsync import config, render
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
-from urdfsync.state import operations
+from urdfsync.state import file_operations
 from urdfsync.state.store import State, Store
 
 PACKAGE = "modelica/Bot"
@@ -63,7 +63,7 @@ def in_haste() -> Iterator[None]:
     compiled = functools.cache(render.Renderer)
     with (
         mock.patch.object(render, "Renderer", lambda folders: compiled(tuple(folders))),
-        mock.patch.object(operations, "sync"),
+        mock.patch.object(file_operations, "sync"),
     ):
         yield
 

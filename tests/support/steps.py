@@ -14,7 +14,7 @@ from support.replay import Files, Project
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.conflicts import Conflict
-from urdfsync.manifest import text_hash
+from urdfsync.state.manifest import text_hash
 from urdfsync.state.record import Choice
 
 CONFLICTS = ".urdfsync/conflicts/bot"

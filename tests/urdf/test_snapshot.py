@@ -164,18 +164,6 @@ def test_the_order_of_elements_and_attributes_makes_no_difference(seed: int) -> 
     assert json.dumps(to_snapshot(read(shuffled))) == json.dumps(to_snapshot(read(ARM)))
 
 
-def test_only_a_joint_that_something_drives_says_so() -> None:
-    transmission = '<transmission><joint name="j"/></transmission></robot>'
-    joints = [to_snapshot(read(text))["joints"]["j"] for text in (ARM, ARM.replace("</robot>", transmission))]
-    assert joints[1] == {**joints[0], "actuated": True}
-    assert "actuated" not in joints[0]
-
-
-def test_the_order_of_visuals_is_kept() -> None:
-    link = Link("a", visuals=(Visual(Sphere(2.0)), Visual(Sphere(1.0))))
-    assert from_snapshot(to_snapshot(Robot("r", (link,)))).links == (link,)
-
-
 @pytest.mark.parametrize(
     "text",
     [

@@ -14,17 +14,17 @@ import psutil
 import pytest
 from support.daemon import LIMIT, REPOSITORY, Daemons, Watch
 
-from urdfsync.checking import afterbuild
-from urdfsync.checking.verdict import Compiled, Verdict
+from urdfsync.check import run
+from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.engine.options import BuildOptions, Progress
+from urdfsync.engine.options import Progress
 from urdfsync.outcome import Checked
 from urdfsync.watch import events
 
-RIGHT = Verdict("ladder", "Ladder", compiled=(Compiled("Ladder", 12, 3),), seconds=2.5)
+RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12, 3),), seconds=2.5)
 BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)
-WRONG = Verdict("ladder", "Ladder", diagnostics=(BROKEN,))
+WRONG = CheckResult("ladder", "Ladder", diagnostics=(BROKEN,))
 RECORD = Path("modelica/Ladder/Elements/R2Parameters.mo")
 MODEL = Path("modelica/Ladder/Elements/R2.mo")
 
@@ -38,8 +38,8 @@ class Compiler:
         self.saw: list[str] = []
 
     def __call__(
-        self, config: Config, robots: Sequence[RobotConfig], request: BuildOptions, tell: Progress
-    ) -> Iterator[Verdict]:
+        self, config: Config, robots: Sequence[RobotConfig], options: CheckOptions, tell: Progress
+    ) -> Iterator[CheckResult]:
         self.saw.append(RECORD.read_text())
         wrong = "Foo" in MODEL.read_text()
         while True:
@@ -57,7 +57,7 @@ def start(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Start]:
     running = []
 
     def begin(compiler: Compiler) -> Daemons:
-        monkeypatch.setattr(afterbuild, "on_disk", compiler)
+        monkeypatch.setattr(run, "check_robots", compiler)
         running.append(Daemons())
         return running[-1]
 
@@ -174,7 +174,7 @@ def compilers(watch: Watch) -> list[psutil.Process]:
     while time.monotonic() < deadline and not any(event["event"] == "checked" for event in watch.events):
         with contextlib.suppress(psutil.NoSuchProcess):
             found = psutil.Process(watch.process.pid).children(recursive=True)
-            if any("urdfsync.checking.compilers.worker" in process.cmdline() for process in found):
+            if any("urdfsync.check.compilers.rumoca" in process.cmdline() for process in found):
                 return found
         time.sleep(0.05)
     raise AssertionError(watch.said)

@@ -9,11 +9,10 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.difference import ChangeClass
-from urdfsync.difference import Kind as Event
-from urdfsync.domain import Role
+from urdfsync.diff.changes import Change, Changes
+from urdfsync.domain import ChangeClass, Role
+from urdfsync.domain import ChangeKind as Event
 from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Checked, Result
 from urdfsync.watch import events
@@ -92,7 +91,7 @@ def test_a_verbose_build_lists_changes_and_files() -> None:
     assert told(UPDATED, verbose=True) == [
         "14:03:12  arm  link elbow: mass 1.2 → 1.35 kg (+12.5 %), 1 record written",
         "  link elbow / mass: 1.2 → 1.35 kg (+12.5 %)",
-        f"  update     {ELBOW}  what it is made from changed",
+        f"  update     {ELBOW}  link elbow: mass 1.2 → 1.35 kg (+12.5 %)",
     ]
 
 

@@ -15,11 +15,10 @@ from typing import Any
 import pytest
 from support.screen import Screen
 
-from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.difference import ChangeClass
-from urdfsync.difference import Kind as Event
-from urdfsync.domain import Role
+from urdfsync.diff.changes import Change, Changes
+from urdfsync.domain import ChangeClass, Role
+from urdfsync.domain import ChangeKind as Event
 from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Result
 from urdfsync.watch import events, report
@@ -252,7 +251,7 @@ def test_programs_get_a_line_of_json_at_once(monkeypatch: pytest.MonkeyPatch) ->
         (line,) = stream.flushed.splitlines()
         programs.show(built("arm", Kind.UPDATE, Kind.UNCHANGED))
     event = json.loads(line)
-    assert (event["version"], event["event"], event["robot"]) == (1, "waiting", "arm")
+    assert (event["version"], event["event"], event["robot"]) == (2, "waiting", "arm")
     assert event["time"] == "2026-03-04T14:03:12+01:00"
     assert event["diagnostics"][0]["message"] == "this is no XML"
     event = json.loads(stream.flushed.splitlines()[1])

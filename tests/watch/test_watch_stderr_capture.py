@@ -17,14 +17,14 @@ REPOSITORY = Path(__file__).parents[2]
 PROGRAM = r"""
 import os
 from pathlib import Path
-from urdfsync.report import Report
 from urdfsync.watch import events
+from urdfsync.watch.report import watch_report
 
 def opened():
     return [number for number in range(50) if os.path.exists(f"/dev/fd/{number}")]
 
 before = opened()
-with Report().watching() as listener:
+with watch_report() as listener:
     listener.show(events.Started(Path("urdfsync.toml"), ("arm", "cart")))
     os.system(r"exec >&2; printf 'one\r\ntwo\n\n 10 %%\r100 %%\n\033[2Jthree\033[31m red\033[0m\nfour'")
 assert opened() == before
@@ -70,10 +70,10 @@ def test_what_commands_print_scrolls_above_the_status_and_stays() -> None:
 OUTLIVED = r"""
 import os, subprocess
 from pathlib import Path
-from urdfsync.report import Report
 from urdfsync.watch import events
+from urdfsync.watch.report import watch_report
 
-with Report().watching() as listener:
+with watch_report() as listener:
     listener.show(events.Started(Path("urdfsync.toml"), ("arm",)))
     command = "echo early >&2; sleep 1; seq 20000 >&2; echo late >&2; touch {}"
     subprocess.Popen(command, shell=True)

@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from urdfsync.changes import Change, Changes
-from urdfsync.difference import ChangeClass
-from urdfsync.difference import Kind as Event
-from urdfsync.domain import Role
+from urdfsync.diff.changes import Change, Changes
+from urdfsync.domain import ChangeClass, Role
+from urdfsync.domain import ChangeKind as Event
 from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Result
 from urdfsync.watch.summary import build_summary

@@ -3,47 +3,89 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 
-from urdfsync import advice
-from urdfsync.commands import common
-from urdfsync.commands.building import built
-from urdfsync.outcome import exit_code
-from urdfsync.report import Report
+from urdfsync import dependencies
+from urdfsync.commands import arguments
+from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.outcome import Exit, Result, exit_code
+from urdfsync.output.console import Console, StyledLine, line
+from urdfsync.output.results import show_results
+
+_NEXT_COMMANDS = {
+    "library": "says how they find the library UrdfSync",
+    "watch": "builds whenever a source changes",
+    "check": "compiles the package",
+}
 
 
-def add(commands: common.Commands) -> None:
+def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
     parser = commands.add_parser(
         "build",
         help="bring the packages in step with their sources",
         description="Bring Modelica packages in step with their sources. Files that you edited are never overwritten.",
-        epilog=f"example: urdfsync build arm --dry-run --explain\n\n{common.CODES}",
+        epilog=f"example: urdfsync build arm --dry-run --explain\n\n{arguments.CODES}",
     )
-    common.add_robots(parser)
+    arguments.add_robots(parser)
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
-    common.add_wait(parser)
-    common.add_jobs(parser)
-    common.add_profile(parser)
+    arguments.add_wait(parser)
+    arguments.add_jobs(parser)
+    arguments.add_profile(parser)
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
     parser.add_argument("--repair", action="store_true", help="make a state again that has merge markers or is damaged")
-    parser.add_argument("--explain", action="store_true", help="list each file, what happens to it and why")
-    parser.set_defaults(run=_run)
-    common.add_common(parser)
+    parser.add_argument(
+        "--explain", action="store_true", help="list each file that is not just unchanged, what happens to it and why"
+    )
+    parser.set_defaults(run=run)
+    arguments.add_common(parser)
 
 
-def _run(options: argparse.Namespace, report: Report) -> int:
-    configuration = common.configuration(options)
-    robots = configuration.select([*options.robots, *(options.robot or [])])
-    report.warnings(advice.warnings(configuration, robots))
-    dry = options.dry_run or options.check
-    request = common.request(options, report, full=options.full, dry=dry, draw=options.svg, repair=options.repair)
-    results = []
-    for result in built(configuration, robots, request):
-        report.result(result)
-        results.append(result)
-    code = exit_code(results, options.check)
-    report.finish("build", code)
+def run(args: argparse.Namespace, console: Console) -> Exit:
+    """Build the robots, one after the other, and show each as soon as it is built."""
+    configuration = arguments.configuration(args)
+    robots = arguments.select_robots(args, configuration, console)
+    dry = args.dry_run or args.check
+    request = arguments.request(args, console, full=args.full, dry=dry, draw=args.svg, repair=args.repair)
+    results = show_results(console, build_and_check(configuration, robots, request), explain=args.explain)
+    if not console.json and not console.quiet:
+        console.print(_next_steps(results))
+    code = exit_code(results, args.check)
+    console.end("build", code)
     return code
+
+
+def build_and_check(config: Config, robots: Sequence[RobotConfig], request: BuildOptions) -> Iterator[Result]:
+    """Build robots, and check the packages of those with `on_build = "check"`; a dry run checks nothing."""
+    results = build(config, robots, request)
+    if request.dry or not any(robot.checking for robot in robots):
+        return results
+    dependencies.mark_incomplete()  # checks look at more
+    from urdfsync.check import afterbuild  # most configurations have no use for it
+
+    return afterbuild.with_checks(config, request, results)
+
+
+def _next_steps(results: Sequence[Result]) -> Iterator[StyledLine]:
+    """What to do with packages that were built for the first time."""
+    new = [result for result in results if result.is_first and not result.dry and not result.failed]
+    if not new:
+        return
+    files = " or ".join(dict.fromkeys(shown(_top_package(result)) for result in new[:3]))
+    yield line(("", ""))
+    yield line(("What to do next:", "bold"))
+    yield line(("  open ", ""), (files, "bold"), (" in OMEdit or Dymola", ""))
+    for command, what in _NEXT_COMMANDS.items():
+        yield line((f"  urdfsync {command:<9}", "bold"), (what, ""))
+
+
+def _top_package(result: Result) -> Path:
+    """The file that a Modelica tool opens: of the outermost package around the robot's."""
+    depth = result.package.count(".")
+    return (result.folder.parents[depth - 1] if depth else result.folder) / "package.mo"

@@ -6,20 +6,22 @@ import argparse
 import functools
 import math
 import os
+import sys
+from collections.abc import Iterable, Sequence
 
-from urdfsync import advice, config
-from urdfsync.checking.wishes import Wishes
-from urdfsync.commands import common
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync import config
+from urdfsync.check.results import CheckOptions, CheckResult
+from urdfsync.commands import arguments
 from urdfsync.outcome import Exit
-from urdfsync.report import Report
+from urdfsync.output.console import Console, line, rich_console
+from urdfsync.output.phrases import byte_size
 
-_DEFAULTS = Wishes()
-_WISHES = ("robot", "physics", "strict", "tool", "jobs", "timeout", "memory", "wait")
+_DEFAULTS = CheckOptions()
+_CHECK_OPTIONS = ("robot", "physics", "strict", "tool", "jobs", "timeout", "memory", "wait")
 """What only a check has a use for."""
 
 
-def add(commands: common.Commands) -> None:
+def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
     parser = commands.add_parser(
         "check",
@@ -31,13 +33,16 @@ def add(commands: common.Commands) -> None:
         "          urdfsync check --physics --strict --timeout 60 --json\n\n"
         "exit codes: 0 right, 1 differs, out of step or not built, 2 error, 130 interrupted",
     )
-    common.add_robots(parser)
+    arguments.add_robots(parser)
     parser.add_argument("--physics", action="store_true", help="compare poses, torques and masses with a reference")
     parser.add_argument(
         "--strict", action="store_true", help="what comes from an edit, or could not be checked, counts as a difference"
     )
     parser.add_argument(
-        "--tool", choices=("rumoca", "omc"), default=_DEFAULTS.tool, help="what compiles (rumoca); omc: OpenModelica"
+        "--tool",
+        choices=("rumoca", "omc"),
+        default=_DEFAULTS.compiler,
+        help="what compiles (rumoca); omc: OpenModelica",
     )
     limits = parser.add_argument_group("limits")
     limits.add_argument(
@@ -52,9 +57,9 @@ def add(commands: common.Commands) -> None:
     )
     limits.add_argument("--memory", type=_amount, metavar="GB", help="memory for all together (default: what is free)")
     parser.add_argument("--clear-cache", action="store_true", help="empty the user's cache of checks, and do no more")
-    common.add_wait(parser)
-    parser.set_defaults(run=functools.partial(_run, parser))
-    common.add_common(parser)
+    arguments.add_wait(parser)
+    parser.set_defaults(run=functools.partial(run, parser))
+    arguments.add_common(parser)
 
 
 def _count(text: str) -> int:
@@ -73,48 +78,66 @@ def _amount(text: str) -> float:
     return number
 
 
-def _run(parser: common.Parser, options: argparse.Namespace, report: Report) -> int:
-    if options.clear_cache:
-        return _clear_cache(parser, options, report)
-    from urdfsync.checking import checker  # not at the top: no other command needs it
-    from urdfsync.checking.verdict import exit_code
+def run(parser: arguments.Parser, args: argparse.Namespace, console: Console) -> Exit:
+    """Check the packages of the robots, and show each as soon as it is checked."""
+    if args.clear_cache:
+        return _clear_cache(parser, args, console)
+    from urdfsync.check.results import exit_code
+    from urdfsync.check.run import check_robots  # not at the top: no other command needs it
 
-    configuration = common.configuration(options)
-    robots = configuration.select([*options.robots, *(options.robot or [])])
-    report.warnings(advice.warnings(configuration, robots))
-    wishes = Wishes(
-        physics=options.physics,
-        strict=options.strict,
-        tool=options.tool,
-        jobs=options.jobs,
-        timeout=options.timeout,
-        memory=options.memory,
-        wait=options.wait,
+    configuration = arguments.configuration(args)
+    robots = arguments.select_robots(args, configuration, console)
+    options = CheckOptions(
+        physics=args.physics,
+        strict=args.strict,
+        compiler=args.tool,
+        jobs=args.jobs,
+        timeout=args.timeout,
+        memory=args.memory,
+        wait=args.wait,
         package_paths=config.ros_package_path(os.environ),
     )
     names = [robot.name for robot in robots]
-    verdicts = []
-    for verdict in checker.check(configuration, robots, wishes, report.progress):
-        report.verdict(verdict, options.strict, names)
-        verdicts.append(verdict)
-    code = exit_code(verdicts, options.strict)
-    report.finish("check", code)
+    results = show_results(console, check_robots(configuration, robots, options, console.progress), names, args.strict)
+    code = exit_code(results, args.strict)
+    console.end("check", code)
     return code
 
 
-def _clear_cache(parser: common.Parser, options: argparse.Namespace, report: Report) -> int:
-    """Empty the cache. Nothing else may be asked for: a check fills it again."""
-    if options.robots or any(getattr(options, name) != parser.get_default(name) for name in _WISHES):
-        error = Diagnostic(
-            Severity.ERROR,
-            "usage",
-            "--clear-cache goes without robots and without options of a check",
-            hint="it empties the cache of all robots, and checks none",
-        )
-        report.bad_usage("check", parser.format_usage(), error)
-        return Exit.ERROR
-    from urdfsync.checking.cache import Cache
+def show_results(
+    console: Console, found: Iterable[CheckResult], robots: Sequence[str], strict: bool
+) -> list[CheckResult]:
+    """Show each result as it comes, then what holds for all, as far as the command comes; returns them."""
+    from urdfsync.check.report import CheckReport, to_json
 
-    report.waiting("emptying the cache")
-    report.cleared(Cache.of_user().clear())
+    report = CheckReport(rich_console(sys.stdout), robots, strict=strict, verbose=console.verbose, quiet=console.quiet)
+    results: list[CheckResult] = []
+    try:
+        for result in found:
+            results.append(result)
+            if console.json:
+                console.add_robot(to_json(result, strict))
+            else:
+                console.print(report.lines(result))
+                console.findings(result.diagnostics)
+    finally:
+        if results and not console.json:
+            console.print(report.end())
+    return results
+
+
+def _clear_cache(parser: arguments.Parser, args: argparse.Namespace, console: Console) -> Exit:
+    """Empty the cache. Nothing else may be asked for: a check fills it again."""
+    if args.robots or any(getattr(args, name) != parser.get_default(name) for name in _CHECK_OPTIONS):
+        message = "--clear-cache goes without robots and without options of a check"
+        raise arguments.UsageError(parser, message, "it empties the cache of all robots, and checks none")
+    from urdfsync.check.cache import UserCache
+
+    console.waiting("emptying the cache")
+    freed = UserCache.default().clear()
+    console.stop_progress()
+    if console.json:
+        console.write_json("check", Exit.IN_STEP, {"freed": freed})
+    elif not console.quiet:
+        console.print([line((f"cache emptied, {byte_size(freed)} freed" if freed else "the cache was empty", ""))])
     return Exit.IN_STEP

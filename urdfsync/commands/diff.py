@@ -3,21 +3,51 @@
 from __future__ import annotations
 
 import argparse
+import os
+import sys
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import msgspec
 
 from urdfsync import config
-from urdfsync.commands import common
-from urdfsync.comparing.comparison import exit_code
+from urdfsync.commands import arguments
 from urdfsync.config import Config
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
-from urdfsync.report import Report
+from urdfsync.diff.outline import OutlineEntry, OutlineRow, Tone, effect_rows, outline
+from urdfsync.engine.actions import CONFLICTS, Action, Kind
+from urdfsync.outcome import Exit
+from urdfsync.output.console import Console, has_marks, line, rich_console, text
+from urdfsync.output.json_values import action_values, change_values, finding_values
+from urdfsync.output.phrases import GENERATOR, change_classes, counted, error_count
+from urdfsync.output.phrases import summary as build_summary
 
 if TYPE_CHECKING:
-    from urdfsync.comparing.subjects import Subject
+    from rich.console import Console as RichConsole
+    from rich.text import Text
+    from rich.tree import Tree
+
+    from urdfsync.diff.comparison import Comparison
+
+_ADVICE = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
+_TONES = {Tone.ADDED: "green", Tone.REMOVED: "red", Tone.RENAMED: "cyan", Tone.QUIET: "dim"}
+_WIDEST = 44
+"""Columns for labels at most; the values of longer ones go to the next line."""
+_VALUES = 40
+"""Columns for values at most; longer ones push what is said of them to the right."""
+_FILES = 12
+"""So many files are listed at most, unless somebody asks."""
+_WORD = 9
+"""Columns for the word that says what happens to a file."""
+_EFFECTS = 8
+"""So many effects are shown at most, unless somebody asks."""
+_SILENT = frozenset({Kind.UNCHANGED, Kind.KEEP, Kind.FORGET})
+_KINDS = {Kind.CREATE: "green", Kind.RESTORE: "green", Kind.UPDATE: "default", Kind.DELETE: "red", Kind.ADOPT: "green"}
 
 
-def add(commands: common.Commands) -> None:
+def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
     parser = commands.add_parser(
         "diff",
@@ -31,34 +61,39 @@ def add(commands: common.Commands) -> None:
     )
     parser.add_argument("source", nargs="?", default="", metavar="SOURCE", help="a source or a robot (default: all)")
     parser.add_argument("--against", metavar="VERSION", help="the older version: a file or a git revision")
-    common.add_robot_option(parser)
-    common.add_wait(parser)
-    common.add_profile(parser)
-    parser.set_defaults(run=_run)
-    common.add_common(parser)
+    arguments.add_robot_option(parser)
+    arguments.add_wait(parser)
+    arguments.add_profile(parser)
+    parser.set_defaults(run=run)
+    arguments.add_common(parser)
 
 
-def _run(options: argparse.Namespace, report: Report) -> int:
-    from urdfsync.comparing import differ, subjects
+def run(args: argparse.Namespace, console: Console) -> Exit:
+    """Show what changed in each source."""
+    from urdfsync.diff import comparison  # imports all that a build needs: for other commands' parsers it is not loaded
 
     folder = config.working_folder()
-    configuration = _configuration(options, folder)
-    found = subjects.find(options.source, configuration, options.robot or [], folder)
-    _check(found, options.against, configuration, folder)
-    comparisons = []
-    for comparison in differ.compare(found, options.against, configuration, common.request(options, report), folder):
-        report.comparison(comparison)
-        comparisons.append(comparison)
-    code = exit_code(comparisons)
-    report.finish("diff", code)
+    configuration = _configuration(args, folder)
+    sources = comparison.find_sources(args.source, configuration, args.robot or [], folder)
+    comparison.check_sources(sources, args.against, configuration, folder)
+    found = []
+    request = arguments.request(args, console)
+    for one in comparison.compare_sources(sources, args.against, configuration, request, folder):
+        if console.json:
+            console.add_robot(_to_json(one))
+        else:
+            _show(one, console)
+        found.append(one)
+    code = comparison.exit_code(found)
+    console.end("diff", code)
     return code
 
 
 def _configuration(options: argparse.Namespace, folder: Path) -> Config | None:
-    """The configuration; None if there is none and none is needed. Raises ConfigError."""
+    """Return the configuration; None if there is none and none is needed. Raises ConfigError."""
     named = options.config or options.robot or not options.source
     if named or any((place / config.FILE_NAME).is_file() for place in (folder, *folder.parents)):
-        return common.configuration(options)
+        return arguments.configuration(options)
     if options.against is not None:
         return None
     message = f"no {config.FILE_NAME} in {folder} or a folder above it, so there is no last build to compare with"
@@ -66,14 +101,192 @@ def _configuration(options: argparse.Namespace, folder: Path) -> Config | None:
     raise ConfigError(Diagnostic(Severity.ERROR, "no-config", message, hint=hint))
 
 
-def _check(found: list[Subject], against: str | None, configuration: Config | None, folder: Path) -> None:
-    """Raise ConfigError for what can't be compared."""
-    alone = [subject for subject in found if subject.robot is None]
-    if alone and against is None and configuration is not None:
-        message = f"{alone[0].name} was never built: it is no robot's source"
-        hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
-        place = config.shown(configuration.file)
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-robot", message, place, hint=hint))
-    if against is not None and (folder / against).is_file() and len({subject.source for subject in found}) > 1:
-        message = f"one file can't be the older version of {len(found)} sources"
-        raise ConfigError(Diagnostic(Severity.ERROR, "one-file", message, hint="name the source to compare it with"))
+def _to_json(found: Comparison) -> dict[str, Any]:
+    """Return a comparison as docs/json.md describes it."""
+    result = found.result
+    return {
+        "name": result.robot,
+        "source": found.source,
+        "against": found.against,
+        "built": not found.missing,
+        "failed": result.failed,
+        "locked": result.locked,
+        "in_step": found.in_step,
+        "summary": _summary(found),
+        "class": found.change_class,
+        "changes": [change_values(one) for one in found.changes.changes] if found.changes else [],
+        "effects": [
+            {"effect": " / ".join(one.path), "old": one.old, "new": one.new, "unit": one.unit, "hint": one.hint}
+            for one in found.effects
+        ],
+        "actions": [
+            {**action_values(one, result.changes), "edited": one.path in found.edited} for one in result.actions
+        ],
+        "diagnostics": [finding_values(diagnostic) for diagnostic in result.diagnostics],
+    }
+
+
+def _summary(found: Comparison) -> str:
+    """Return what changed since the older version, as the rest of a line that names the robot."""
+    if found.result.failed:
+        return f"{error_count(found.result.diagnostics)}, so nothing can be compared"
+    if found.missing:
+        return found.missing
+    since = f"since {'the last build' if found.against is None else found.against}"
+    if found.changes is None:
+        return f"nothing changed {since}{'' if found.in_step else ', but files are not as they should be'}"
+    what = change_classes(found.changes) if found.changes.changes else GENERATOR
+    return f"{what} {since}{', only by rounding' if found.changes.noise else ''}"
+
+
+# --- text ---------------------------------------------------------------------------------------------------------
+
+
+def _show(found: Comparison, console: Console) -> None:
+    """Print what there is to say about one source: a tree of changes by element, effects on the model, files."""
+    console.findings(found.result.diagnostics)
+    if console.quiet and not found.result.conflicts:
+        return
+    screen = rich_console(sys.stderr if found.result.failed else sys.stdout)
+    if found.in_step and found.changes is None:
+        mark = [("✓ ", "green")] if has_marks(screen.file) else []
+        console.print([line(*mark, (found.result.robot, "bold"), (f": {_summary(found)}", ""))])
+        return
+    console.stop_progress()
+    if not screen.is_terminal:
+        screen.width = 10_000  # lines of a pipe are never broken
+    screen.print(_tree(found, screen, console.verbose))
+    for row in (*_effects(found, screen, console.verbose), *_files(found, screen, console.verbose)):
+        screen.print(row)
+
+
+def _tree(found: Comparison, console: RichConsole, verbose: bool) -> Tree:
+    """Return the robot with its changes by element."""
+    from rich.tree import Tree
+
+    mark, style = ("✓", "green") if found.in_step else ("~", "yellow")
+    marks = [(f"{mark} ", style)] if has_marks(console.file) else []
+    headline = text(*marks, (found.result.robot, "bold"), (f": {_summary(found)}", ""))
+    tree = Tree(headline, guide_style="dim")
+    if found.changes is None:
+        return tree
+    if found.changes.generator:
+        tree.add(text(("urdfsync", "bold"), ("  a template, an option or the program itself changed", "")))
+    shown = outline(found.changes, everything=verbose)
+    columns = _Columns([row for entry in shown.entries for row in entry.rows], console, guides=8)
+    # a first row without a label stands beside the names of its elements
+    titles = _Columns([_titled(entry) for entry in shown.entries if not entry.rows[0].label], console, guides=4)
+    for entry in shown.entries:
+        is_quiet = all(row.tone is Tone.QUIET for row in entry.rows)
+        style, rows = "dim" if is_quiet else "bold", entry.rows
+        if rows[0].label:
+            branch = tree.add(text((entry.title, style)))
+        else:
+            branch, rows = tree.add(titles.line(_titled(entry), style=style)), rows[1:]
+        for row in rows:
+            branch.add(columns.line(row))
+    if shown.condensed:
+        tree.add(text(("numbers are counted; --verbose shows each", "dim")))
+    return tree
+
+
+def _titled(entry: OutlineEntry) -> OutlineRow:
+    """Return the first row of an entry with the names of its elements."""
+    return msgspec.structs.replace(entry.rows[0], label=entry.title)
+
+
+class _Columns:
+    """Rows below each other: labels, values, and how new values stand to old ones."""
+
+    def __init__(self, rows: Sequence[OutlineRow], console: RichConsole, guides: int) -> None:
+        """Columns that suit these rows; `guides` is the width of what stands before them."""
+        self._total = console.width - guides
+        widest = min(_WIDEST, self._total // 3)
+        fitting = [len(row.label) for row in rows if len(row.label) <= widest]
+        self._label = max(fitting, default=widest if rows else 0)
+        value = max((_value(row).cell_len for row in rows if row.relation), default=0)
+        self._value = min(value, _VALUES, max(self._total - self._label - 18, 12))
+
+    def line(self, row: OutlineRow, margin: str = "", style: str = "") -> Text:
+        """Return the row; what does not fit goes to further lines, below the values; `margin` stands before them."""
+        from rich.console import Console as RichConsole
+
+        line = text((f"{row.label:<{self._label}}  ", style or ("dim" if row.tone is Tone.QUIET else "")))
+        indent = "\n" + margin + " " * (self._label + 2)
+        room = self._total - self._label - 2
+        if len(row.label) > self._label:
+            line.append(indent)
+        pieces = [_value(row)]
+        if pieces[0].cell_len > room:  # broken at the arrow first
+            new = _value(msgspec.structs.replace(row, old=""))
+            parts = [text((row.old, "dim")), text(("→ ", "dim")).append_text(new)] if row.old else [new]
+            pieces = [piece for part in parts for piece in part.wrap(RichConsole(width=room), room)]
+        for count, piece in enumerate(pieces):
+            line.append(indent if count else "").append_text(piece)
+        if row.relation:
+            relation, last = text((row.relation, "dim")), pieces[-1].cell_len
+            gap = max(self._value - last, 0) + 2
+            line.append(" " * gap if last + gap + relation.cell_len <= room else indent).append_text(relation)
+        return line
+
+
+def _value(row: OutlineRow) -> Text:
+    style = _TONES.get(row.tone, "")
+    if not row.old:
+        return text((row.new, style))
+    return text((row.old, style or "dim"), (" → ", "dim"), (row.new, style))
+
+
+def _effects(found: Comparison, console: RichConsole, verbose: bool) -> Iterator[Text]:
+    """Yield the properties of the whole model that differ."""
+    rows = effect_rows(found.effects)
+    shown = rows if verbose or len(rows) <= _EFFECTS else rows[: _EFFECTS - 1]
+    columns = _Columns(shown, console, guides=2)
+    if shown:
+        yield from (text(("", "")), text(("Effects", "bold")))
+    yield from (text(("  ", "")).append_text(columns.line(row, "  ")) for row in shown)
+    if len(shown) < len(rows):
+        yield _more(len(rows) - len(shown), "effect")
+
+
+def _files(found: Comparison, console: RichConsole, verbose: bool) -> Iterator[Text]:
+    """Yield the files that are concerned, edited ones first."""
+    result = found.result
+    actions = [action for action in result.actions if action.kind not in _SILENT]
+    if found.in_step or not actions:
+        return
+    heading = f"A build: {build_summary(result)}"
+    if found.against is not None:
+        kinds = Counter(action.kind for action in result.actions)
+        heading = f"{counted(len(result.actions), 'file')} of the package"
+        heading += " differs" if len(result.actions) == 1 else " differ"
+        if len(kinds) > 1:
+            parts = (f"{kinds[kind]} to {kind}" for kind in (Kind.UPDATE, Kind.CREATE, Kind.DELETE) if kinds[kind])
+            heading += f": {', '.join(parts)}"
+    yield from (text(("", "")), text((heading, "bold")))
+    actions.sort(key=lambda action: (action.path not in found.edited, action.path.rpartition("/")))
+    urgent = sum(action.path in found.edited for action in actions)
+    few = actions if verbose or len(actions) <= _FILES else actions[: max(_FILES - 1, urgent)]
+    yield from (_file(found, action, console) for action in few)
+    if len(few) < len(actions):
+        yield _more(len(actions) - len(few), "file")
+    if any(action.kind in CONFLICTS for action in actions):
+        yield text((_ADVICE, "dim"))
+
+
+def _file(found: Comparison, action: Action, console: RichConsole) -> Text:
+    """Return what happens to a file, and why if it is one that the user edited."""
+    word = "waiting" if action.held else action.kind.value.removeprefix("unowned-")
+    style = "bold red" if action.kind in CONFLICTS else "yellow" if action.held else _KINDS.get(action.kind, "yellow")
+    path = config.shown(Path(os.path.normpath(found.result.root / action.path)))
+    line = text((f"  {word:<{_WORD}} ", style), (path, ""))
+    if action.path in found.edited:
+        told = msgspec.structs.replace(action, held=False).reason  # the word says already that it waits
+        reason = text(("you edited it" if found.against else told, "yellow"))
+        fits = line.cell_len + 2 + reason.cell_len <= console.width
+        line.append("  " if fits else "\n" + " " * (_WORD + 3)).append_text(reason)
+    return line
+
+
+def _more(count: int, noun: str) -> Text:
+    return text((f"  … and {count} more {noun}{'s' if count > 1 else ''}; --verbose shows them", "dim"))

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import os
+import shlex
+import sys
 
 from urdfsync import config
-from urdfsync.commands import common
+from urdfsync.commands import arguments
 from urdfsync.outcome import Exit
-from urdfsync.report import Report
+from urdfsync.output.console import Console, line
 
 
-def add(commands: common.Commands) -> None:
+def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
     parser = commands.add_parser(
         "library",
@@ -19,10 +22,21 @@ def add(commands: common.Commands) -> None:
         "Into a pipe or a file goes the line alone.",
         epilog='example: eval "$(urdfsync library)"',
     )
-    parser.set_defaults(run=_run)
-    common.add_common(parser)
+    parser.set_defaults(run=run)
+    arguments.add_common(parser)
 
 
-def _run(_options: argparse.Namespace, report: Report) -> int:
-    report.library(config.library_folder())
+def run(_args: argparse.Namespace, console: Console) -> Exit:
+    """Print the folder and the line for the shell; to `eval`, only the latter."""
+    folder = str(config.library_folder())
+    if os.name == "nt":
+        command = f"set MODELICAPATH={folder};%MODELICAPATH%"
+    else:
+        command = f'export MODELICAPATH={shlex.quote(folder)}"${{MODELICAPATH:+:$MODELICAPATH}}"'
+    if console.json:
+        console.write_json("library", Exit.IN_STEP, {"folder": folder, "line": command})
+    elif sys.stdout.isatty():
+        console.print([line((folder, "")), line((command, ""))])
+    else:
+        sys.stdout.write(f"{command}\n")  # as it is: a shell reads it
     return Exit.IN_STEP

@@ -1,16 +1,27 @@
-"""`urdfsync record`: writes the whole robot as one record, without a project."""
+"""`urdfsync record`: writes the whole robot as one record, without a configuration, a package or a state."""
 
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
-from urdfsync.commands import common
+import msgspec
+
+from urdfsync import config, registry
+from urdfsync.commands import arguments
+from urdfsync.config import shown
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError
+from urdfsync.domain import Target, Templates
+from urdfsync.files import kind_of, normalised, put, templates_digest
+from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
 from urdfsync.outcome import Exit
-from urdfsync.report import Report
+from urdfsync.output.console import Console, line
+
+_SUFFIX = "Parameters"
 
 
-def add(commands: common.Commands) -> None:
+def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
     parser = commands.add_parser(
         "record",
@@ -31,16 +42,102 @@ def add(commands: common.Commands) -> None:
     )
     parser.add_argument("--within", default="", metavar="PACKAGE", help="the package that FILE is in (default: none)")
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="what the source is (default: %(default)s)")
-    parser.set_defaults(run=_run)
-    common.add_common(parser)
+    parser.set_defaults(run=run)
+    arguments.add_common(parser)
 
 
-def _run(options: argparse.Namespace, report: Report) -> int:
-    from urdfsync import standalone  # no other command needs it
-
-    file = None if options.output == Path("-") else options.output
-    record = standalone.make(options.source, options.domain, options.class_, options.within, file)
-    report.warnings(record.diagnostics)
-    written = standalone.write(record, options.source, file, options.force) if file is not None else None
-    report.record(record, file, written)
+def run(args: argparse.Namespace, console: Console) -> Exit:
+    """Write the record to its file or to the standard output."""
+    file = None if args.output == Path("-") else args.output
+    domain = registry.domain(args.domain)
+    target = Target(_package(args.within), _record_class(args.source, args.class_, file))
+    record, diagnostics = _render(args.source, domain.name, target)
+    console.warnings(diagnostics)
+    values = {"class": target.name, "within": target.package}
+    if file is None:
+        if console.json:
+            console.write_json("record", Exit.IN_STEP, values | {"text": record})
+            return Exit.IN_STEP
+        if hasattr(sys.stdout, "reconfigure") and not sys.stdout.isatty():
+            sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # a file is what Modelica tools read
+        sys.stdout.write(record)
+        return Exit.IN_STEP
+    is_written = _write(record, args.source, file, force=args.force)
+    if console.json:
+        console.write_json("record", Exit.IN_STEP, values | {"file": str(file), "written": is_written})
+    elif not console.quiet:
+        console.print([line((f"{file} {'written' if is_written else 'unchanged'}: record {target.name}", ""))])
     return Exit.IN_STEP
+
+
+def _render(source: Path, domain_name: str, target: Target) -> tuple[str, tuple[Diagnostic, ...]]:
+    """The text of the record, and what there is to say about its source. Raises SourceError or ConfigError."""
+    from urdfsync.engine import source as sources
+    from urdfsync.engine.generate import Package
+
+    domain, file = registry.domain(domain_name), shown(source)
+    try:
+        content = source.read_bytes()
+    except OSError as error:
+        message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
+        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, file, hint=hint)) from None
+    snapshot, reading = sources.read(domain, domain.options(), content, file)
+    reading = msgspec.structs.replace(reading, snapshot=snapshot)
+    found = domain.record(reading, file, target, domain.options())
+    if found is None:
+        message = f"the domain `{domain.name}` has no record of a whole model"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-record", message, hint="use `urdfsync build`"))
+    folders = (config.templates_folder(domain),)
+    generated = Package([found.artifact], Templates(folders, templates_digest(folders)))
+    diagnostics = sorted([*reading.diagnostics, *found.diagnostics], key=lambda diagnostic: diagnostic.line)
+    return generated.content(found.artifact.path).decode(), tuple(diagnostics)
+
+
+def _write(record: str, source: Path, file: Path, *, force: bool) -> bool:
+    """Write the record, as a whole or not at all; return whether that was necessary.
+
+    A file that holds something else is replaced with `force` only, the source never. Raises OutputError for that, and
+    for what can't be written.
+    """
+    content = record.encode()
+    try:
+        if file.exists():
+            if not file.is_file():
+                raise _problem(
+                    "output-in-the-way", f"{kind_of(file.stat().st_mode)} is in its place", file, "name a file"
+                )
+            if normalised(file.read_bytes()) == content:
+                return False
+            if file.samefile(source):
+                raise _problem("output-is-source", "the record would replace its source", file, "name another file")
+            if not force:
+                hint = "name another one, or replace it with --force"
+                raise _problem("file-exists", "the file exists, and holds something else", file, hint)
+        put(file.resolve(), content)
+    except OSError as error:
+        hint = "check that its folder exists and may be written to, and that there is space on the disk"
+        raise _problem("output-not-writable", f"it can't be written: {error.strerror}", file, hint) from None
+    return True
+
+
+def _record_class(source: Path, chosen: str, file: Path | None) -> str:
+    """The class: the chosen one, else that of the file if its name can be a class, else one after the source."""
+    if chosen and not is_class_name(chosen):
+        hint = "choose a name with a capital first that neither Modelica nor urdfsync has a use for"
+        raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", f"{chosen!r} can't be a class", hint=hint))
+    stem = file.stem if file is not None else ""
+    if chosen or is_class_name(stem):
+        return chosen or stem
+    return class_name(source.name.partition(".")[0]) + _SUFFIX
+
+
+def _package(within: str) -> str:
+    for part in within.split(".") if within else ():
+        if not is_identifier(part) or not is_package_name(part):
+            message, hint = f"{within!r} can't be a package", "name one like Plant.Robots"
+            raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", message, hint=hint))
+    return within
+
+
+def _problem(code: str, message: str, file: Path, hint: str) -> OutputError:
+    return OutputError(Diagnostic(Severity.ERROR, code, message, shown(file), hint=hint))

@@ -10,10 +10,9 @@ from types import FrameType
 from typing import TYPE_CHECKING
 
 from urdfsync import config
-from urdfsync.commands import common
-from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.commands import arguments
 from urdfsync.outcome import Exit
-from urdfsync.report import Report
+from urdfsync.output.console import Console
 
 if TYPE_CHECKING:
     from urdfsync.watch.daemon import Daemon, WatchOptions
@@ -25,7 +24,7 @@ _GRACE = 10.0
 """Seconds after the first signal in which the work in hand has to end."""
 
 
-def add(commands: common.Commands) -> None:
+def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
     parser = commands.add_parser(
         "watch",
@@ -33,7 +32,7 @@ def add(commands: common.Commands) -> None:
         description="Build whenever a source or anything else that matters has changed and settled, until interrupted.",
         epilog=f"example: urdfsync watch --exec 'make fmu'\n\n{_CODES}",
     )
-    common.add_robots(parser)
+    arguments.add_robots(parser)
     times = parser.add_argument_group("times")
     _add_time(times, "--settle", "MS", 300, "build after so long without an event, in milliseconds")
     _add_time(times, "--sample", "MS", 200, "and after two equal samples so far apart, in milliseconds")
@@ -43,10 +42,10 @@ def add(commands: common.Commands) -> None:
     parser.add_argument(
         "--exec", metavar="CMD", default="", help="shell command to run after a build that changed files"
     )
-    common.add_wait(parser)
-    common.add_jobs(parser)
-    parser.set_defaults(run=_run)
-    common.add_common(parser)
+    arguments.add_wait(parser)
+    arguments.add_jobs(parser)
+    parser.set_defaults(run=run)
+    arguments.add_common(parser)
 
 
 def _add_time(group: argparse._ArgumentGroup, name: str, unit: str, default: float, text: str) -> None:
@@ -60,39 +59,31 @@ def _duration(text: str) -> float:
     return number
 
 
-def _run(options: argparse.Namespace, report: Report) -> int:
-    from urdfsync.watch.build import internal_error  # not at the top: watchdog takes 45 ms
-    from urdfsync.watch.daemon import Daemon
-    from urdfsync.watch.single_instance import AlreadyWatchedError
+def run(args: argparse.Namespace, console: Console) -> Exit:
+    """Run the daemon until a signal ends it."""
+    from urdfsync.watch.daemon import Daemon  # not at the top: watchdog takes 45 ms
+    from urdfsync.watch.report import watch_report
 
-    try:
-        with report.watching() as listener:
-            daemon = Daemon(_options(options, report), listener)
-            with _signals(daemon) as received:
-                daemon.run()
-    except AlreadyWatchedError as error:
-        report.problems("watch", error.diagnostics, Exit.LOCKED)
-        return Exit.LOCKED
-    except (UrdfsyncError, OSError):
-        raise
-    except Exception as error:  # noqa: BLE001 - the last line of a daemon that nobody may be looking at
-        report.problems("watch", [internal_error(error, "the daemon can't go on")])
-        return Exit.ERROR
+    report = watch_report(as_json=console.json, quiet=console.quiet, verbose=console.verbose, config=console.config)
+    with report as listener:
+        daemon = Daemon(_options(args, console), listener)
+        with _signals(daemon) as received:
+            daemon.run()
     return Exit.INTERRUPTED if received[0] == "SIGINT" else Exit.IN_STEP
 
 
-def _options(options: argparse.Namespace, report: Report) -> WatchOptions:
+def _options(args: argparse.Namespace, console: Console) -> WatchOptions:
     from urdfsync.watch.daemon import WatchOptions
     from urdfsync.watch.debounce import Times
 
     return WatchOptions(
-        file=options.config or config.find(config.working_folder()),
-        robots=(*options.robots, *(options.robot or ())),
-        times=Times(options.settle / 1000, options.sample / 1000, options.patience),
-        rescan=max(options.rescan, 0.1),
-        poll=options.poll,
-        command=options.exec,
-        build=common.request(options, report),
+        file=args.config or config.find(config.working_folder()),
+        robots=(*args.robots, *(args.robot or ())),
+        times=Times(args.settle / 1000, args.sample / 1000, args.patience),
+        rescan=max(args.rescan, 0.1),
+        poll=args.poll,
+        command=args.exec,
+        build=arguments.request(args, console),
     )
 
 

@@ -21,10 +21,9 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.plan import Plan, plan_robot
 from urdfsync.outcome import Result
-from urdfsync.state.batch import SavedError
-from urdfsync.state.lock import Lock, LockedError
+from urdfsync.state.lock import Lock, LockedError, build_lock
 from urdfsync.state.store import Store
-from urdfsync.state.transactions import Transactions, UnfinishedError
+from urdfsync.state.transaction import Transactions, UnfinishedError
 
 if TYPE_CHECKING:
     from urdfsync.engine.pool import Pool
@@ -37,7 +36,7 @@ _ATTEMPTS = 5
 def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
     """Build robots one after the other; one that fails does not stop the others."""
     with contextlib.ExitStack() as stack:
-        lock = stack.enter_context(Lock(config.root / STATE_FOLDER / "lock", options.wait, shown))
+        lock = stack.enter_context(build_lock(config.root, config.root / STATE_FOLDER, options.wait, shown))
         pool = None
         if options.executor or (len(robots) > 1 and (options.jobs or machine.cores()) > 1):
             from urdfsync.engine.pool import Pool  # multiprocessing takes 15 ms to import
@@ -59,7 +58,8 @@ class _Builder:
 
     def __init__(self, config: Config, options: BuildOptions, lock: Lock, pool: Pool | None) -> None:
         self._config, self._options, self._lock, self._pool = config, options, lock, pool
-        self._transactions = Transactions(config.root, config.root / STATE_FOLDER, shown)
+        outputs = list(dict.fromkeys(robot.output for robot in config.robots))
+        self._transactions = Transactions(config.root, config.root / STATE_FOLDER, shown, outputs)
         self.notes: list[Diagnostic] = []
         """Findings that belong to no robot of this command."""
 
@@ -92,7 +92,7 @@ class _Builder:
         for _ in range(_ATTEMPTS):
             self._recover()
             plan = self._pool.plan(robot) if self._pool else plan_robot(self._config, robot, self._options)
-            if self._options.dry or not (plan.writes or any(action.writes for action in plan.actions)):
+            if self._options.dry or not (plan.writes or plan.bases or any(action.writes for action in plan.actions)):
                 if not self._options.dry or self._is_current(plan):
                     return plan
                 continue
@@ -101,20 +101,32 @@ class _Builder:
                 self._lock.acquire(waiting=self._wait)
             if not self._is_current(plan):
                 continue
-            files = PackageFiles(self._config, robot)
-            shared = [change for file in plan.shared if (change := file.change(files)) is not None]
-            ignoring = Store(self._config.root, shown).ignoring()
-            try:
-                self._transactions.apply(robot.name, [*shared, *ignoring, *plan.writes], plan.emptied)
-            except SavedError as error:
-                saved = error.path
-                continue
-            if self._options.cache:
-                self._options.cache.invalidate(robot.name)
-            return plan
+            overtaken = self._write(robot, plan)
+            if not overtaken:
+                return plan
+            saved = overtaken[0]
         message = "it changes all the time while urdfsync builds"
         hint = "close what writes to it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
+
+    def _write(self, robot: RobotConfig, plan: Plan) -> tuple[Path, ...]:
+        """Carry out a plan. Returns the files that somebody saved in between."""
+        files, store = PackageFiles(self._config, robot), Store(self._config.root, shown)
+        shared = [change for file in plan.shared if (change := file.change(files)) is not None]
+        changes = [*shared, *store.ignoring(), *plan.writes]
+        if self._options.cache:
+            self._options.cache.invalidate(robot.name)
+        bases = store.bases(robot.name)
+        bases.add(plan.bases)
+        if not changes:
+            return ()
+        applied = self._transactions.apply(robot.name, changes, plan.emptied)
+        self.notes += applied.diagnostics
+        if plan.mentioned is not None and not applied.overtaken:
+            bases.prune(plan.mentioned)
+            if plan.former_name:
+                store.bases(plan.former_name).prune(())
+        return applied.overtaken
 
     @profiling.stage("looking")
     def _is_current(self, plan: Plan) -> bool:
@@ -132,17 +144,15 @@ class _Builder:
         if not self._transactions.pending():
             return
         if self._options.dry:
-            with Lock(self._config.root / STATE_FOLDER / "lock", self._options.wait, shown) as lock:
+            with build_lock(self._config.root, self._config.root / STATE_FOLDER, self._options.wait, shown) as lock:
                 lock.acquire(shared=True, waiting=self._wait)
             if self._transactions.pending():
-                message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes or undoes it"
+                message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
                 place = shown(self._config.root / STATE_FOLDER)
                 raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, place, hint=hint))
             return
         self._lock.acquire(waiting=self._wait)
-        robots = self._config.robots
-        note = self._transactions.recover([robot.output for robot in robots], [robot.folder for robot in robots])
-        self.notes += [note] if note else []
+        self.notes += self._transactions.recover(self._options.repair)
 
     def _wait(self) -> None:
         self._options.progress("waiting for another build", 0, 1)

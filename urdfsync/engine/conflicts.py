@@ -10,7 +10,6 @@ import msgspec
 
 from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.merge import Merge, merge
-from urdfsync.merging.soundness import flaw
 from urdfsync.state.record import Choice
 
 
@@ -63,12 +62,8 @@ def conflict_files(conflict: Conflict, folder: str) -> ConflictFiles:
 
 def find_conflict(action: Action, base: str | None, mine: str, generated: str) -> Conflict:
     """Merge the texts of a file; a merge that is no sound Modelica is rejected."""
-    merged, rejected = None if base is None else merge(base, mine, generated), ""
-    is_merged = merged is not None and merged.text not in (None, mine)
-    if merged and merged.text is not None and is_merged and action.path.endswith(".mo"):
-        reason = flaw(merged.text, (mine, generated))
-        if reason:
-            merged, rejected = msgspec.structs.replace(merged, text=None), f"the merge {reason}"
+    merged = None if base is None else merge(base, mine, generated, is_modelica=action.path.endswith(".mo"))
+    rejected = f"the merge {merged.flaw}" if merged and merged.flaw else ""
     return Conflict(action.path, action.owner, base, mine, generated, merged, action.origin, rejected)
 
 

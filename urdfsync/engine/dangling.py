@@ -10,27 +10,26 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.classfiles import StoredClasses
 from urdfsync.config import library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.engine.actions import Action
-from urdfsync.engine.actions import Kind as ActionKind
+from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.inputs import Inputs
+from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.scopes import Element, Node, Scopes, Type
 from urdfsync.modelica.syntax import declared
-from urdfsync.modelica.unresolved import Kind, Unresolved, unresolved
+from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 from urdfsync.state.record import RecordState as State
 
 Name: TypeAlias = tuple[str, ...]
 
 
-_EDITED = frozenset({ActionKind.KEEP, ActionKind.INCLUDED, ActionKind.MERGE, ActionKind.MOVE})
+_EDITED = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
 """What happens to files that are as the user wants them."""
 _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
-_KEPT = frozenset({ActionKind.NEEDED, ActionKind.ORPHAN})
+_KEPT = frozenset({Kind.NEEDED, Kind.ORPHAN})
 """What happens to files that stay although they are no longer generated."""
 
 
@@ -68,7 +67,7 @@ class DanglingNames:
         return isinstance(node, Node) and isinstance(self._generated.part((Type(node),), path[-1]), Element)
 
     def users_texts(self, actions: Iterable[Action], written: Mapping[str, str]) -> UsersTexts:
-        """The texts to look at after these actions; `written` are texts that files are about to get."""
+        """Return the texts to look at after these actions; `written` are texts that files are about to get."""
         disk, folder, known = self._inputs.files, self._inputs.folder, {action.path: action for action in actions}
         kept = [path for path, action in known.items() if action.kind in _KEPT]
         edited = {path for path, action in known.items() if action.kind in _EDITED and not action.held}
@@ -77,13 +76,13 @@ class DanglingNames:
         return UsersTexts(
             {key: written.get(key) or disk.any_text(key) for key in sorted(edited | own)},
             {key: disk.any_text(key) for key in kept},
-            frozenset(key for key in kept if known[key].kind is ActionKind.ORPHAN),
+            frozenset(key for key in kept if known[key].kind is Kind.ORPHAN),
             disk.users_files({folder, before}),
         )
 
     def first_use(self, key: str, text: str, lost: Mapping[str, str]) -> tuple[str, int] | None:
-        """The first lost name in a text for a file of the package, with its line; None if there is none."""
-        if lost.keys().isdisjoint(words(text)):
+        """Return the first lost name in a text for a file of the package, with its line; None if there is none."""
+        if lost.keys().isdisjoint(code_words(text)):
             return None
         scopes = Scopes(self._planned({key: text}, {}))
         uses = self._uses(self._class_name(key), text, scopes, lost, lost)
@@ -122,7 +121,7 @@ class DanglingNames:
         return found
 
     def _asked(self, texts: UsersTexts, sources: StoredClasses) -> list[tuple[Name, Path, str]]:
-        """The classes of the user's to look at: full name, file, and the text if it is one of the package."""
+        """Return the classes of the user's to look at: full name, file, and the text if it is one of the package."""
         own = [(self._class_name(key), self._inputs.files.path(key), text) for key, text in texts.own.items()]
         return own + [(name, Path(one.file), "") for name, one in sources.users.items()]
 
@@ -196,7 +195,7 @@ def lost_names(
 def find_uses(
     name: Name, text: str, scopes: Scopes, lost: Collection[str], doubtful: Collection[str]
 ) -> list[Unresolved]:
-    """The places in a stored class that use lost names and mean nothing, in their order.
+    """Return the places in a stored class that use lost names and mean nothing, in their order.
 
     `name` is the full name of the class, `text` that of its file. Where a class on the way can't be read, `doubtful`
     names count as meaning nothing; in a text that is no Modelica, lost ones wherever they stand.
@@ -204,13 +203,13 @@ def find_uses(
     node = scopes.node(name)
     if not isinstance(node, Node):
         tokens = (token for token in lex(text)[0] if token.text in lost)
-        return [Unresolved(Kind.ELEMENT, token.text, token.text, "", token.line) for token in tokens]
-    found = (one for one in unresolved(node, scopes, doubtful) if one.kind is not Kind.NESTED_REDECLARE)
+        return [Unresolved(UnresolvedKind.ELEMENT, token.text, token.text, "", token.line) for token in tokens]
+    found = (one for one in unresolved(node, scopes, doubtful) if one.kind is not UnresolvedKind.NESTED_REDECLARE)
     return sorted((one for one in found if one.part in lost), key=lambda one: one.line)
 
 
-def words(text: str) -> set[str]:
-    """All names and keywords in a text, without those in strings and comments, and without the classes in it.
+def code_words(text: str) -> set[str]:
+    """Return all names and keywords in a text, without those in strings and comments, and without the classes in it.
 
     An edited file whose element has another name may still declare its class by the old one. The text need not parse.
     """
@@ -219,7 +218,7 @@ def words(text: str) -> set[str]:
 
 
 def _declared(texts: Mapping[str, str]) -> set[Name]:
-    """The full names, below the package, of all that texts declare."""
+    """Return the full names, below the package, of all that texts declare."""
     found: set[Name] = set()
     for path, text in texts.items():
         folder = tuple(path.split("/")[:-1])
@@ -229,7 +228,7 @@ def _declared(texts: Mapping[str, str]) -> set[Name]:
 
 
 def _new_name(name: str, known: Collection[str], renamed: Mapping[str, str]) -> str:
-    """What is called like a name but for the identifier of its element; the longest such identifier counts."""
+    """Return the new name of what had a name, by the new identifier of its element; the longest old one counts."""
     for old, new in sorted(renamed.items(), key=lambda pair: -len(pair[0])):
         if name.lower().startswith(old.lower()):
             first = new[:1].upper() if name[:1].isupper() else new[:1].lower()

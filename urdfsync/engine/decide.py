@@ -20,10 +20,10 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.engine.rules import DesiredFile, decide, hold, keep_needed, records_after, remembered_choices
 from urdfsync.files import digest, text_digest
-from urdfsync.manifest import Manifest
 from urdfsync.modelica.literals import numbers_only
+from urdfsync.state.manifest import Manifest
 from urdfsync.state.record import FileRecord
-from urdfsync.state.transactions import Change
+from urdfsync.state.transaction import Change
 
 _GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
 """Actions on files that are not generated any more."""
@@ -166,7 +166,7 @@ def _mentioned_records(
     leaving = [a.path for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in moved]
     if not leaving:
         return frozenset()
-    from urdfsync.engine.dangling import words  # hardly any build takes a record away
+    from urdfsync.engine.dangling import code_words  # hardly any build takes a record away
 
     known = {action.path: action.kind for action in actions}
     edited = [path for path, kind in known.items() if kind in USERS]
@@ -174,7 +174,7 @@ def _mentioned_records(
     texts = [merged.get(key) or files.any_text(key) for key in (*edited, *sorted(own))]
     around = files.users_files({inputs.folder, inputs.old_folder})
     texts += [content.decode(errors="replace") for content in around.values()]
-    used = {word for text in texts for word in words(text)}
+    used = {word for text in texts for word in code_words(text)}
     return frozenset(path for path in leaving if path.rpartition("/")[2].removesuffix(".mo") in used)
 
 

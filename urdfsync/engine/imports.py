@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +16,8 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
 from urdfsync.engine import ros_packages as packages
 from urdfsync.files import digest
-from urdfsync.manifest import DependencyRecord
-from urdfsync.modelfile import ConversionFacts
+from urdfsync.state.manifest import DependencyRecord
+from urdfsync.state.modelfile import ConversionFacts
 
 _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
@@ -92,21 +92,45 @@ def bring_in(
 ) -> Imported:
     """Import every dependency; `source` is how diagnostics name the file that refers to them.
 
-    A conversion of the last build serves again if it has the same input, unless `again`. Raises
-    StateError if a copy must serve of which the recorded facts are lost.
+    A conversion of the last build serves again if it has the same input, unless `again`. What the last build did not
+    find either is no warning again, but a note. Raises StateError if a copy must serve of which the recorded facts are
+    lost.
     """
     result = Imported()
+    missing: list[tuple[Dependency, Diagnostic]] = []
+    known: list[Dependency] = []
     for count, dependency in enumerate(dependencies):
         progress(count, len(dependencies))
         found = _find(dependency)
         if found is None:
-            _keep(dependency, recorded, result, _not_found(dependency, source))
+            record = recorded.records.get(dependency.key)
+            was_missing = record is not None and record.target_hash is None and record.unreadable is None
+            trouble = _keep(dependency, recorded, result, _not_found([dependency], source))
+            if was_missing and not again:
+                known.append(dependency)
+            else:
+                missing.append((dependency, trouble))
             continue
         if dependency.guessed:
             result.diagnostics.append(_doubt(dependency, source))
         if again or not _serve(domain, dependency, digest(found[1]), recorded, result):
             _convert(domain, dependency, found, recorded, source, result)
+    result.diagnostics += [*_merge_alike(missing, source), *reminder(known, result.records, source)]
     return result
+
+
+def _merge_alike(missing: Sequence[tuple[Dependency, Diagnostic]], source: str) -> Iterator[Diagnostic]:
+    """One warning for all files of a package, whose hint is the same."""
+    groups: dict[tuple[str, str, str], list[tuple[Dependency, Diagnostic]]] = {}
+    for dependency, trouble in missing:
+        groups.setdefault((trouble.code, trouble.hint, dependency.noun), []).append((dependency, trouble))
+    for group in groups.values():
+        first = min((trouble for _, trouble in group), key=lambda trouble: trouble.line)
+        if len(group) > 1:
+            message = _not_found([dependency for dependency, _ in group], source).message
+            end = "the imported copies are kept" if first.code.endswith("-kept") else "left out"
+            first = msgspec.structs.replace(first, message=f"{message}; {end}")
+        yield first
 
 
 def find_dependencies(
@@ -206,7 +230,7 @@ def _refuse(
     trouble: Diagnostic,
 ) -> None:
     """Do without a file that can't be read, and remember it, so that it is tried again only if it changes."""
-    _keep(dependency, recorded, result, trouble)
+    result.diagnostics.append(_keep(dependency, recorded, result, trouble))
     seen = {"unreadable": digest(content), "unreadable_by": domain.converter}
     result.records[dependency.key] = msgspec.structs.replace(result.records[dependency.key], **seen)
 
@@ -217,12 +241,17 @@ def _pointer(dependency: Dependency, source: str) -> Diagnostic:
     return Diagnostic(Severity.WARNING, "unreadable", message, source, hint=hint)
 
 
-def _not_found(dependency: Dependency, source: str) -> Diagnostic:
-    message = f"{dependency.noun} `{dependency.uri}` not found"
-    hint = "add the folder that holds it to `package_paths`"
-    uri = dependency.uri.strip()
+def _not_found(dependencies: Sequence[Dependency], source: str) -> Diagnostic:
+    """What to say of files that have the same noun and are missing for the same reason."""
+    first = dependencies[0]
+    one = len(dependencies) == 1
+    what = (
+        f"{first.noun} `{first.uri}`" if one else f"{len(dependencies)} {_plural(first.noun)} (such as `{first.uri}`)"
+    )
+    message, hint = f"{what} not found", "add the folder that holds it to `package_paths`"
+    uri = first.uri.strip()
     if uri.lower().startswith(("http:", "https:", "ftp:")):
-        message = f"{dependency.noun} `{dependency.uri}` is on the network, where urdfsync does not look"
+        message = f"{what} {'is' if one else 'are'} on the network, where urdfsync does not look"
         hint = "download it, and let the source refer to the file"
     elif re.match(_ABSOLUTE, uri, re.IGNORECASE):
         hint = "put it there, or let the source refer to it by a package or a relative path"
@@ -240,10 +269,10 @@ def _doubt(dependency: Dependency, source: str) -> Diagnostic:
     return Diagnostic(Severity.WARNING, code, message, source, dependency.line, hint=hint)
 
 
-def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble: Diagnostic) -> None:
+def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble: Diagnostic) -> Diagnostic:
     """Without the source, the copy that an earlier build made serves; without a copy there is nothing.
 
-    `trouble` says what is wrong with the source; what follows from it is added.
+    `trouble` says what is wrong with the source. Returns it as a warning, with what follows from it.
     """
     trouble = msgspec.structs.replace(
         trouble, severity=Severity.WARNING, code=f"{dependency.noun}-{trouble.code}", line=dependency.line
@@ -252,8 +281,7 @@ def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble:
     copy = recorded.copy(record.target) if record and record.target_hash else None
     if record is None or copy is None:
         result.records[dependency.key] = DependencyRecord(dependency.uri, dependency.target)
-        result.diagnostics.append(msgspec.structs.replace(trouble, message=f"{trouble.message}; left out"))
-        return
+        return msgspec.structs.replace(trouble, message=f"{trouble.message}; left out")
     facts = recorded.facts.get(dependency.key)
     if facts is None or facts.source_hash != record.source_hash or record.source_hash is None:
         message = f"{trouble.message}, and what is recorded of its imported copy is lost"
@@ -268,7 +296,7 @@ def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble:
         result.hashes_only.add(dependency.target)
     _add(dependency, Import(dependency.target, record.source_hash, written, converter, facts.facts), result)
     message = f"{trouble.message}; the imported copy is kept"
-    result.diagnostics.append(msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint=""))
+    return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint="")
 
 
 def _add(dependency: Dependency, entry: Import, result: Imported) -> None:

@@ -11,20 +11,19 @@ from typing import Any
 
 import msgspec
 
-from urdfsync import manifest, registry
+from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
-from urdfsync.difference import Version
-from urdfsync.domain import Dependency, Domain, Import, Lookup, Role, Snapshot, Templates
+from urdfsync.domain import Dependency, Domain, Import, Lookup, Role, Snapshot, Templates, Version
 from urdfsync.engine import imports, orphans, parents, source
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import Parents
 from urdfsync.files import digest, text_digest
-from urdfsync.manifest import Generator, Manifest
-from urdfsync.modelfile import Model
-from urdfsync.state import repair
-from urdfsync.state.bases import Bases
+from urdfsync.state import manifest, repair
+from urdfsync.state.bases import BaseStore
+from urdfsync.state.manifest import Generator, Manifest
+from urdfsync.state.modelfile import Model
 from urdfsync.state.store import State, Store
 
 NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
@@ -58,7 +57,7 @@ class Inputs:
         """The manifest of the last build; None if there was none."""
         return self.state.manifest if self.state else None
 
-    @property
+    @cached_property
     def folder(self) -> str:
         """Key of the package's folder."""
         return self.files.key(self.robot.folder)
@@ -85,7 +84,7 @@ class Inputs:
         return key.removeprefix(f"{self.old_folder}/")
 
     @cached_property
-    def bases(self) -> Bases:
+    def bases(self) -> BaseStore:
         """The texts that urdfsync wrote last, as far as they are stored."""
         return self.store.bases(self.former_name or self.robot.name)
 

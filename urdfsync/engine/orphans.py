@@ -10,7 +10,7 @@ from urdfsync.config import Config, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import DELETES, Action
 from urdfsync.engine.package_files import PackageFiles
-from urdfsync.manifest import Manifest
+from urdfsync.state.manifest import Manifest
 from urdfsync.state.store import Store
 
 _FEW = 3

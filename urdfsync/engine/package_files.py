@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 from urdfsync import dependencies
-from urdfsync.classfiles import modelica_files, related
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.renames import OnDisk
-from urdfsync.files import Tree, digest, text_digest
+from urdfsync.files import Tree, digest, placed, text_digest
+from urdfsync.modelica.files import files_that_use, modelica_files
 
 
 class FileState(NamedTuple):
@@ -37,6 +37,7 @@ class PackageFiles:
     def __init__(self, config: Config, robot: RobotConfig, known: FileStates | None = None) -> None:
         """`known` are states that hold as long as a file has the same stat values."""
         self.root, self._output = config.root, robot.output
+        self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
         self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
         self._known = known or {}
         self.states: dict[str, FileState | None] = {}
@@ -48,11 +49,11 @@ class PackageFiles:
 
     def path(self, key: str) -> Path:
         """Return the absolute path of a file."""
-        return Path(os.path.normpath(self.root / key))
+        return Path(self._place(key))
 
     def is_inside(self, key: str) -> bool:
         """Return whether urdfsync may touch the file: it is below the output folder or the configuration's."""
-        return self._tree(str(self.path(key))) is not None
+        return self._tree(self._place(key)) is not None
 
     def read(self, key: str) -> bytes | None:
         """Return a file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
@@ -67,9 +68,9 @@ class PackageFiles:
         """Return a file as text; bytes that are not UTF-8 survive `encode`."""
         content = self.read(key)
         if content is None:
-            self.states.setdefault(str(self.path(key)), None)
+            self.states.setdefault(self._place(key), None)
             return None
-        self.states.setdefault(str(self.path(key)), state_of(dependencies.NO_STAT, content))
+        self.states.setdefault(self._place(key), state_of(dependencies.NO_STAT, content))
         return content.decode(errors="surrogateescape")
 
     def any_text(self, key: str) -> str:
@@ -94,19 +95,19 @@ class PackageFiles:
 
     def on_disk(self, key: str, role: Role) -> OnDisk:
         """Return what is at a path: imported files count by their bytes, others by their text."""
-        state = self.state(str(self.path(key)))
+        state = self.state(self._place(key))
         if state is not None:
             return OnDisk(state.sha256 if role is Role.IMPORT else state.text_sha256)
         return OnDisk(is_folder=self._is_class_folder(key))
 
     def old_hash(self, key: str) -> str | None:
         """Return the SHA-256 (hex) of the bytes that were first seen at a path; None if that was no file."""
-        state = self.state(str(self.path(key)))
+        state = self.state(self._place(key))
         return state.sha256 if state else None
 
     def has_carriage_returns(self, key: str) -> bool:
         """Return whether the file that was first seen at a path has carriage returns."""
-        state = self.state(str(self.path(key)))
+        state = self.state(self._place(key))
         return state is not None and state.sha256 != state.text_sha256
 
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
@@ -135,17 +136,20 @@ class PackageFiles:
             if packages.isdisjoint(path.parents):
                 with contextlib.suppress(OSError):
                     found[path] = dependencies.read_file(path)
-        return related(found, [package.name for package in packages])
+        return files_that_use(found, [package.name for package in packages])
 
     def _is_class_folder(self, key: str) -> bool:
         """Return whether the class of a missing file has a folder of its own."""
         if not key.endswith(".mo") or key.endswith("/package.mo"):
             return False
-        path = str(self.path(key))
+        path = self._place(key)
         tree = self._tree(path)
         if tree is not None and not tree.check_folder(path.rpartition(os.sep)[0]):
             return False
         return dependencies.is_file(f"{path.removesuffix('.mo')}{os.sep}package.mo")
+
+    def _place(self, key: str) -> str:
+        return placed(self._prefix, key)
 
     def _tree(self, path: str) -> Tree | None:
         return next((tree for tree in self._trees if tree.covers(path)), None)

@@ -5,14 +5,15 @@ What `build` writes, a dry run shows and a hook judges is one and the same plan.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
 
-from urdfsync import dependencies, manifest, profiling, uptodate
-from urdfsync.changes import Changes
+from urdfsync import dependencies, profiling, uptodate
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.diff.changes import Changes
 from urdfsync.domain import Target
 from urdfsync.engine import imports, orphans, outdated
 from urdfsync.engine.actions import Actions
@@ -23,11 +24,11 @@ from urdfsync.engine.inputs import NO_MODEL, Inputs, inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import FileState
 from urdfsync.engine.rules import DesiredFile
-from urdfsync.engine.stage import draw, stage
-from urdfsync.state import repair
+from urdfsync.engine.stage import draw, stage, stage_bases
+from urdfsync.state import manifest, repair
 from urdfsync.state.record import RecordState
 from urdfsync.state.store import Witness
-from urdfsync.state.transactions import Change
+from urdfsync.state.transaction import Change
 
 
 class Plan(msgspec.Struct, frozen=True):
@@ -43,6 +44,12 @@ class Plan(msgspec.Struct, frozen=True):
     """The files to write, the manifest last; none in a dry run."""
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
+    bases: Mapping[str, str] = {}
+    """Texts to keep as bases that are not kept yet, by their hashes."""
+    mentioned: frozenset[str] | None = None
+    """Hashes of all bases that the manifest mentions then; None if others may be needed as well."""
+    former_name: str | None = None
+    """The name that the robot had in the last build, if it has another one now."""
     diagnostics: tuple[Diagnostic, ...] = ()
     drawing: Path | None = None
     """Path of the main model's diagram."""
@@ -131,11 +138,21 @@ def _plan_generation(inputs: Inputs, generation: Generation) -> Plan:
     if inputs.options.dry:
         return plan
     writes, emptied = stage(inputs, generation, decision)
+    bases, mentioned = stage_bases(inputs, generation, decision)
     drawing = None
     if (picture := draw(inputs, generation)) is not None:
         drawing = inputs.store.drawing(inputs.robot.name, picture)[0]
     witness = inputs.store.witness()
-    return msgspec.structs.replace(plan, witness=witness, writes=tuple(writes), emptied=tuple(emptied), drawing=drawing)
+    return msgspec.structs.replace(
+        plan,
+        witness=witness,
+        writes=tuple(writes),
+        emptied=tuple(emptied),
+        bases=bases,
+        mentioned=mentioned,
+        former_name=inputs.former_name,
+        drawing=drawing,
+    )
 
 
 def _diagnostics(inputs: Inputs, generation: Generation, decision: Decision) -> tuple[Diagnostic, ...]:

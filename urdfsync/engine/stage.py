@@ -1,4 +1,4 @@
-"""The writes of one robot's build: files, conflict files, bases, model, and the manifest as the last one."""
+"""The writes of one robot's build: files, conflict files, model, and the manifest as the last one; and its bases."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import manifest, modelfile, profiling
+from urdfsync import profiling
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role, Snapshot
@@ -17,11 +17,11 @@ from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import encode
-from urdfsync.manifest import Manifest
-from urdfsync.state import bases
+from urdfsync.state import manifest, modelfile
+from urdfsync.state.manifest import Manifest
 from urdfsync.state.record import RecordState
 from urdfsync.state.store import State
-from urdfsync.state.transactions import Change
+from urdfsync.state.transaction import Change
 
 _OLDER_BASE = (RecordState.CONFLICT, RecordState.WAITING, RecordState.ORPHAN)
 """States of files whose base is older than the recorded model, which can't give it back."""
@@ -29,21 +29,16 @@ _OLDER_BASE = (RecordState.CONFLICT, RecordState.WAITING, RecordState.ORPHAN)
 
 @profiling.stage("recording")
 def stage(inputs: Inputs, generation: Generation, decision: Decision) -> tuple[list[Change], list[Path]]:
-    """Return the writes, the manifest last, and the folders that are empty then, innermost first.
-
-    The bases are stored at once: they are safe to lose, and safe to have.
-    """
+    """Return the writes, the manifest last, and the folders that are empty then, innermost first."""
     store, name, former = inputs.store, inputs.robot.name, inputs.former_name
     changes = list(_file_changes(inputs, generation, decision))
     changes += store.conflicts(name, dict(_conflict_files(inputs, decision)), former)
     if (drawing := draw(inputs, generation)) is not None:
         changes += store.drawing(name, drawing)[1]
-    moves = inputs.recorded is not None and inputs.recorded.folder != inputs.folder
-    if moves and any(action.held for action in decision.actions):
+    if _must_stay(inputs, decision):
         # The package can't move yet: its record stays, with the choices that the user made meanwhile.
         changes += store.changes(name, manifest.dumps(_with_choices(inputs, decision)), None, None)
     else:
-        changes += store.keep_bases(name, bases.dumps(_bases(inputs, generation, decision).items()), former)
         changes += store.changes(name, *_recorded_texts(inputs, generation, decision), former)
     return changes, _emptied_folders(inputs, changes)
 
@@ -157,16 +152,32 @@ def _older_bases(inputs: Inputs, generation: Generation, decision: Decision) -> 
     return texts
 
 
-def _bases(inputs: Inputs, generation: Generation, decision: Decision) -> Mapping[str, str]:
-    """Return the bases to store, by hash: those of all files, as far as they are not lost."""
-    found: dict[str, str] = {}
+def stage_bases(
+    inputs: Inputs, generation: Generation, decision: Decision
+) -> tuple[dict[str, str], frozenset[str] | None]:
+    """Return the bases that are not kept yet, as far as they are not lost, and the hashes of all.
+
+    None for the latter if the record of the package's old folder stays, with its bases.
+    """
+    if _must_stay(inputs, decision):
+        return {}, None
+    kept, new, mentioned = inputs.store.bases(inputs.robot.name), dict[str, str](), set[str]()
     for key, record in decision.files.items():
-        if record.role is Role.IMPORT or record.base is None or record.base in found:
+        if record.role is Role.IMPORT or record.base is None:
+            continue
+        mentioned.add(record.base)
+        if record.base in kept or record.base in new:
             continue
         text = inputs.bases.get(record.base) or _base(inputs, generation, record.origin or key, record.base)
         if text is not None:
-            found[record.base] = text
-    return found
+            new[record.base] = text
+    return new, frozenset(mentioned)
+
+
+def _must_stay(inputs: Inputs, decision: Decision) -> bool:
+    """Whether the package can't move to its new folder yet."""
+    moves = inputs.recorded is not None and inputs.recorded.folder != inputs.folder
+    return moves and any(action.held for action in decision.actions)
 
 
 def _base(inputs: Inputs, generation: Generation, key: str, sha256: str) -> str | None:

@@ -20,6 +20,8 @@ _TOKEN = re.compile(
 _COMMENT = re.compile(r"/\*.*?\*/|//.*", re.DOTALL)
 _STRING = re.compile(r'"(?:[^"\\]|\\.)*"', re.DOTALL)
 
+_MARKER = re.compile(r"(<{7}|\|{7}|={7}|>{7})(\s|$)")
+
 
 class Fault(NamedTuple):
     """Something wrong in a text: words that continue a sentence (`lacks ; before x`), and the line, from 1."""
@@ -36,7 +38,7 @@ class Token(NamedTuple):
 
 
 def lex(text: str) -> tuple[list[Token], list[Fault]]:
-    """The tokens of a text without blanks and comments, and what has no end. An empty token ends the list."""
+    """Return the tokens of a text without blanks and comments, and what has no end. An empty token ends the list."""
     found, faults = [], []
     line = 1
     for match in _TOKEN.finditer(text.removeprefix("\ufeff")):
@@ -52,6 +54,15 @@ def lex(text: str) -> tuple[list[Token], list[Fault]]:
         line += word.count("\n")
     found.append(Token("", line))
     return found, faults
+
+
+def find_markers(text: str) -> list[Fault]:
+    """Return the lines that look like conflict markers; they may also stand in a documentation."""
+    return [
+        Fault(f"has the conflict marker `{marker[1]}`", number)
+        for number, line in enumerate(text.split("\n"), start=1)
+        if (marker := _MARKER.match(line))
+    ]
 
 
 def is_identifier(token: str) -> bool:

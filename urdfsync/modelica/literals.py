@@ -27,7 +27,7 @@ _LARGEST_INTEGER = 2**31 - 1  # what every Modelica tool takes without a decimal
 
 
 def real(value: float | None, absent: str = INFINITY) -> str:
-    """The shortest Modelica Real literal that reads back as the same number; `absent` for None.
+    """Return the shortest Modelica Real literal that reads back as the same number; `absent` for None.
 
     Zero has no sign. Raises ValueError for numbers that have no literal.
     """
@@ -42,7 +42,7 @@ def real(value: float | None, absent: str = INFINITY) -> str:
 
 
 def vector(values: Iterable[float]) -> str:
-    """A Modelica array constructor; must not be empty, since `{}` is not Modelica."""
+    """Return a Modelica array constructor; must not be empty, since `{}` is not Modelica."""
     items = ", ".join(map(real, values))
     if not items:
         raise ValueError("an empty array has no Modelica literal")
@@ -50,14 +50,14 @@ def vector(values: Iterable[float]) -> str:
 
 
 def matrix(rows: Sequence[Sequence[float]], columns: int) -> str:
-    """A Modelica matrix `[a, b; c, d]`, or an empty one with `columns` columns."""
+    """Return a Modelica matrix `[a, b; c, d]`, or an empty one with `columns` columns."""
     if not rows:
         return f"fill(0, 0, {columns})"
     return "[" + "; ".join(", ".join(map(real, row)) for row in rows) + "]"
 
 
 def string(value: str) -> str:
-    """A Modelica string literal, quotes included; control characters become spaces."""
+    """Return a Modelica string literal, quotes included; control characters become spaces."""
     if value.isprintable():
         escaped = value.replace("\\", "\\\\").replace('"', '\\"')
         return f'"{escaped}"'
@@ -71,7 +71,7 @@ def html(value: str) -> str:
 
 
 def capitalize_first(value: str) -> str:
-    """The text with its first letter as a capital."""
+    """Return the text with its first letter as a capital."""
     return value[:1].upper() + value[1:]
 
 

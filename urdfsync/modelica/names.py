@@ -63,13 +63,13 @@ def is_package_name(name: str) -> bool:
 
 
 def class_name(text: str, fallback: str = "Robot") -> str:
-    """A class name in capitals-first style made from any text: `my-robot v2` becomes `MyRobotV2`."""
+    """Return a class name in capitals-first style made from any text: `my-robot v2` becomes `MyRobotV2`."""
     words = re.findall(r"[A-Za-z0-9]+", text)
     name = "".join(word[0].upper() + word[1:] for word in words)
     return name if is_class_name(name) else fallback + name
 
 
 def within(package: str) -> str:
-    """The `within` clause of the class with this full name, for the first line of its file."""
+    """Return the `within` clause of the class with this full name, for the first line of its file."""
     parent = package.rpartition(".")[0]
     return f"within {parent};" if parent else "within;"

@@ -1,28 +1,36 @@
 """Read Modelica text into syntax values, and say what is missing in it or there twice.
 
 The grammar is the concrete syntax of the language specification 3.6 (appendix A). It is generous where that costs
-nothing: it does not ask which kind of class may have what. Elements and equations are read one by one, so that one
-that is no Modelica does not hide what is wrong with another one.
+nothing: it does not ask which kind of class may have what, nor for the precedence of operators. Elements and equations
+are read one by one, so that one that is no Modelica does not hide what is wrong with another one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from functools import partial
+import re
+from collections.abc import Callable, Iterable, Iterator
 
 import msgspec
 
-from urdfsync.modelica.expressions import CALLED, ExpressionReader
-from urdfsync.modelica.lexer import Fault, is_identifier
-from urdfsync.modelica.reader import SECTIONS, short
+from urdfsync.modelica.lexer import Fault, is_identifier, lex
 from urdfsync.modelica.syntax import Class, Component, Connection, Extends, Import, Modifier, Name, StoredText
 
+_DEEPEST = 50
+"""How many brackets, classes and blocks are read within each other: deeper ones would exhaust Python's stack."""
+_LONGEST = 60
+"""Characters of what is quoted from a text."""
+
+_SECTIONS = frozenset({"equation", "algorithm", "public", "protected"})
+_BLOCK_ENDS = frozenset({"end", "else", "elseif", "elsewhen", "", *_SECTIONS})
 _CLASSES = frozenset("class model record block connector type package function operator".split())
 _CLASS_PREFIXES = ("encapsulated",), ("partial",), ("expandable", "pure", "impure")
 _ELEMENT_PREFIXES = ("redeclare",), ("final",), ("inner",), ("outer",), ("replaceable",)
 _ARGUMENT_PREFIXES = ("each",), ("final",)
 _TYPE_PREFIXES = ("flow", "stream"), ("discrete", "parameter", "constant"), ("input", "output")
-_BLOCK_ENDS = frozenset({"end", "else", "elseif", "elsewhen", "", *SECTIONS})
+_ARITHMETIC = frozenset("+-*/^")
+_OPERATORS = frozenset("or and < <= > >= == <> :".split()) | _ARITHMETIC
+_CALLED = frozenset({"assert", "der", "initial", "pure"})
+"""Keywords that are called like functions."""
 _REPEATABLE = frozenset(
     "choice derivative file from inverse noDerivative noneFromVersion normallyConstant zeroDerivative".split()
 )
@@ -33,11 +41,19 @@ def parse(text: str) -> StoredText:
     """Read a text that should be a file of Modelica; whatever can't be read of it is left out."""
     parser = _Parser(text)
     parser.document()
-    return StoredText(tuple(parser.faults), parser.within, parser.within_line, tuple(parser.classes))
+    return StoredText(tuple(parser.faults), parser.within, parser.within_line, tuple(parser.body.classes))
+
+
+class _FaultError(Exception):
+    """Ends the reading of an element or equation."""
+
+    def __init__(self, reason: str, line: int) -> None:
+        super().__init__(reason)
+        self.fault = Fault(reason, line)
 
 
 class _Body(msgspec.Struct):
-    """What has been read of a class so far; lists for the fields of `Class`."""
+    """The parts of a class that have been read so far: lists for the fields of `Class`."""
 
     imports: list[Import] = msgspec.field(default_factory=list)
     extends: list[Extends] = msgspec.field(default_factory=list)
@@ -47,105 +63,324 @@ class _Body(msgspec.Struct):
     uses: list[Name] = msgspec.field(default_factory=list)
 
 
-class _Parser(ExpressionReader):
-    """Reads classes, elements and equations. All methods but `document` raise FaultError where something is missing."""
+class _Parser:
+    """Reads one text from the first token to the last.
+
+    A method reads what it is named for. It raises _FaultError where something is missing; `_each` catches that, and
+    goes on behind the element or equation.
+    """
 
     def __init__(self, text: str) -> None:
-        super().__init__(text)
-        self._open: tuple[str, ...] = ()
-        """Names of the classes around this place."""
-        self._body = _Body()
-        """The class around this place."""
+        self.tokens, self.faults = lex(text)
+        self.at = 0
         self.within: str | None = None
         self.within_line = 0
+        self.body = _Body()
+        """Of the class around this place."""
+        self._open: tuple[str, ...] = ()
+        """Names of the classes around this place."""
+        self._uses: list[Name] = []
+        """Names that were read and do not belong to any syntax value yet."""
+        self._depth = self._subscript_depth = 0
+
+    # --- tokens ---------------------------------------------------------------------------------------------------
 
     @property
-    def classes(self) -> list[Class]:
-        """The classes of the file, once it has been read."""
-        return self._body.classes
+    def word(self) -> str:
+        """The token that comes now; empty behind the last one."""
+        return self.tokens[self.at].text
+
+    @property
+    def line(self) -> int:
+        """The line of that token."""
+        return self.tokens[self.at].line
+
+    @property
+    def following(self) -> str:
+        """The token after that."""
+        return self.tokens[min(self.at + 1, len(self.tokens) - 1)].text
+
+    def _step(self) -> str:
+        word = self.word
+        self.at += bool(word)
+        return word
+
+    def _accept(self, *words: str) -> str:
+        """Go on if the token is one of these, and return it; else return an empty text."""
+        return self._step() if self.word in words else ""
+
+    def _expect(self, word: str) -> None:
+        if not self._accept(word):
+            raise self._lack(f"`{word}`")
+
+    def _identifier(self) -> str:
+        if not is_identifier(self.word):
+            raise self._lack("a name")
+        return self._step()
+
+    def _lack(self, what: str) -> _FaultError:
+        before = "a string" if self.word[:1] == '"' else f"`{_short(self.word)}`" if self.word else "its end"
+        return _FaultError(f"lacks {what} before {before}", self.line)
+
+    def _once(self, seen: set[str], key: str, reason: str) -> None:
+        """Note a fault if the key is in `seen`; else put it there."""
+        if key in seen:
+            self.faults.append(Fault(reason, self.tokens[self.at - 1].line))
+        seen.add(key)
+
+    def _since(self, start: int) -> str:
+        """Return the tokens since the one with the number `start`, with blanks where they would run together."""
+        text = " ".join(token.text for token in self.tokens[start : self.at])
+        return re.sub(r" ?([.()\[\]]) ?", r"\1", text)
+
+    def _taken(self, start: int) -> tuple[Name, ...]:
+        """Take the names that were read since there were `start` of them."""
+        names = tuple(self._uses[start:])
+        del self._uses[start:]
+        return names
+
+    def _enter(self) -> None:
+        if self._depth == _DEEPEST:
+            raise _FaultError(f"nests more than {_DEEPEST} deep", self.line)
+        self._depth += 1
+
+    def _leave(self) -> None:
+        self._depth -= 1
+
+    def _each(self, read: Callable[..., None], *arguments: object) -> None:
+        """Read one element or equation and its semicolon; if something is wrong with it, go on behind it."""
+        start, uses = self.at, len(self._uses)
+        state = self._depth, self._subscript_depth, self._open, self.body
+        try:
+            self._enter()
+            read(*arguments)
+            self._leave()
+            self._expect(";")
+        except _FaultError as error:
+            self.faults.append(error.fault)
+            self._depth, self._subscript_depth, self._open, self.body = state
+            del self._uses[uses:]
+            while self.word not in (";", "end", "", *_SECTIONS):
+                self._step()
+            if self.word == ";" or self.at == start:
+                self._step()
+
+    def _list(self, opening: str = "(", closing: str = ")") -> Iterator[None]:
+        """Yield before each item of a list in brackets, with commas between its items; it may be empty."""
+        self._expect(opening)
+        self._enter()
+        if self.word != closing:
+            yield
+            while self._accept(","):
+                yield
+        self._leave()
+        if not self._accept(closing):
+            raise self._lack(f"`,` or `{closing}`")
+
+    # --- names and expressions ------------------------------------------------------------------------------------
+
+    def _name(self, *, has_subscripts: bool = False) -> Name:
+        line, is_global = self.line, bool(self._accept("."))
+        parts: list[str] = []
+        while not parts or (self.word == "." and is_identifier(self.following) and self._step()):
+            parts.append(self._identifier())
+            if has_subscripts:
+                self._subscripts()
+        return Name(tuple(parts), line, is_global)
+
+    def _reference(self) -> None:
+        """A reference to a component or function."""
+        name = self._name(has_subscripts=True)
+        self._uses.append(name._replace(is_called=self.word == "("))
+
+    def _subscripts(self) -> None:
+        """Subscripts or the sizes of an array, if there are any."""
+        if self.word == "[":
+            self._subscript_depth += 1
+            for _ in self._list("[", "]"):
+                if not (self.word == ":" and self.following in (",", "]") and self._step()):
+                    self._expression()
+            self._subscript_depth -= 1
+
+    def _expression(self) -> None:
+        while self._accept("if"):
+            self._enter()
+            self._expression()
+            self._expect("then")
+            self._expression()
+            while self._accept("elseif"):
+                self._expression()
+                self._expect("then")
+                self._expression()
+            self._leave()
+            self._expect("else")
+        operator = "or"  # a sign may stand at the beginning, as behind any operator that is no arithmetic one
+        while operator:
+            if operator not in _ARITHMETIC:
+                self._accept("not")
+                if self.word == "." and self.following in ("+", "-"):
+                    self._step()
+                self._accept("+", "-")
+            self._operand()
+            if self.word == "." and self.following in _ARITHMETIC:
+                self._step()
+            operator = self._accept(*_OPERATORS)
+
+    def _operand(self) -> None:
+        word = self.word
+        is_literal = word[:1] == '"' or word[:1].isdecimal() or word in ("true", "false")
+        if is_literal or (word == "end" and self._subscript_depth):
+            self._step()
+        elif word == "(":
+            self._group()
+        elif self._accept("["):
+            self._enter()
+            self._expression()
+            while self._accept(",", ";"):
+                self._expression()
+            self._leave()
+            self._expect("]")
+        elif word == "{":
+            for _ in self._list("{", "}"):
+                self._item()
+        elif self._accept(*_CALLED):
+            self._call()
+        elif is_identifier(word) or word == ".":
+            self._reference()
+            if self.word == "(":
+                self._call()
+        else:
+            raise self._lack("an expression")
+
+    def _group(self) -> None:
+        """An expression in parentheses, or the outputs of a function, some of which may be left out."""
+        self._expect("(")
+        self._enter()
+        while self.word != ")":
+            if not self._accept(","):
+                self._expression()
+                if self.word != ")":
+                    self._expect(",")
+        self._leave()
+        self._expect(")")
+        self._subscripts()
+
+    def _item(self) -> None:
+        """An expression, possibly with the indices of a reduction."""
+        start = len(self._uses)
+        self._expression()
+        if self._accept("for"):
+            self._forget(self._indices(), start)
+
+    def _call(self) -> None:
+        """The arguments of a function."""
+        names: set[str] = set()
+        for _ in self._list():
+            if is_identifier(self.word) and self.following == "=":
+                name = self._identifier()
+                self._once(names, name, f"sets `{name}` twice")
+                self._step()
+            elif names:
+                raise self._lack("the name of an argument")
+            if self._accept("function"):
+                self._uses.append(self._name()._replace(is_called=True))
+                self._call()
+            else:
+                self._item()
+
+    def _indices(self) -> set[str]:
+        """The indices of a loop or of a reduction; returns their names."""
+        found: set[str] = set()
+        while not found or self._accept(","):
+            found.add(self._identifier())
+            if self._accept("in"):
+                self._expression()
+        return found
+
+    def _forget(self, indices: set[str], start: int) -> None:
+        """Drop the names of indices from those that were read since there were `start` of them."""
+        self._uses[start:] = [name for name in self._uses[start:] if name.is_global or name.parts[0] not in indices]
+
+    # --- classes --------------------------------------------------------------------------------------------------
 
     def document(self) -> None:
         """A whole file."""
         if self.word == "within":
-            self.each(self._within)
+            self._each(self._within)
         names: set[str] = set()
         while self.word:
-            self.each(partial(self._stored, names))
+            self._each(self._stored_class, names)
 
     def _within(self) -> None:
         self.within_line = self.line
-        self.expect("within")
-        self.within = str(self.name()) if self.word != ";" else ""
+        self._expect("within")
+        self.within = str(self._name()) if self.word != ";" else ""
 
-    def _stored(self, names: set[str]) -> None:
+    def _stored_class(self, names: set[str]) -> None:
         prefixes = self._prefixes((("final",),))
         if self.word == "end":
-            raise self.fault("has an `end` too many")
+            raise _FaultError("has an `end` too many", self.line)
         if not self._is_class():
-            raise self.lack("a class")
-        self._body.classes.append(self._class(names, prefixes))
-
-    # --- classes --------------------------------------------------------------------------------------------------
+            raise self._lack("a class")
+        self.body.classes.append(self._class(names, prefixes))
 
     def _is_class(self) -> bool:
         return self.word in _CLASSES or any(self.word in prefixes for prefixes in _CLASS_PREFIXES)
 
     def _prefixes(self, groups: Iterable[tuple[str, ...]]) -> set[str]:
         """At most one of each group, in order."""
-        return {found for prefixes in groups if (found := self.accept(*prefixes))}
+        return {found for prefixes in groups if (found := self._accept(*prefixes))}
 
     def _class(self, names: set[str], prefixes: set[str]) -> Class:
-        """A class; `names` are those declared before in the class around it, `prefixes` what was read already."""
+        """A class; `names` are those declared before in the class around it, `prefixes` those read already."""
         prefixes |= self._prefixes(_CLASS_PREFIXES)
-        kind = self.accept(*_CLASSES)
+        kind = self._accept(*_CLASSES)
         if not kind:
-            raise self.lack("the kind of class")
+            raise self._lack("the kind of class")
         if kind == "operator":
-            kind = " ".join(filter(None, (kind, self.accept("record", "function"))))
-        is_extension = bool(self.accept("extends"))
-        line, text = self.line, self.identifier()
-        name = Name((text,), line)
-        self.once(names, text, f"declares `{text}` twice")
-        found = Class(name, kind, frozenset(prefixes), is_extension=is_extension)
-        if not is_extension and self.accept("="):
+            kind = " ".join(filter(None, (kind, self._accept("record", "function"))))
+        is_extension = bool(self._accept("extends"))
+        line, text = self.line, self._identifier()
+        self._once(names, text, f"declares `{text}` twice")
+        found = Class(Name((text,), line), kind, frozenset(prefixes), is_extension=is_extension)
+        if not is_extension and self._accept("="):
             return self._short_class(found)
         arguments = self._arguments() if is_extension and self.word == "(" else ()
-        self.description()
+        self._description()
         around, self._open = self._open, (*self._open, text)
-        outer, self._body = self._body, _Body()
-        try:
-            self._composition()
-            self._end_class(text)
-            parts = msgspec.structs.asdict(self._body)
-        finally:
-            self._open, self._body = around, outer
-        return msgspec.structs.replace(found, arguments=arguments, **{key: tuple(parts[key]) for key in parts})
+        outer, self.body = self.body, _Body()
+        self._composition()
+        is_other_end = is_identifier(self.following) and self.following not in self._open
+        if self.word != "end" or not (is_other_end or self.following == text):
+            raise self._lack(f"`end {text}`")
+        self._step()
+        if (end := self._step()) != text:
+            self.faults.append(Fault(f"ends `{text}` with `end {end}`", self.tokens[self.at - 1].line))
+        parts = {field: tuple(values) for field, values in msgspec.structs.asdict(self.body).items()}
+        self._open, self.body = around, outer
+        return msgspec.structs.replace(found, arguments=arguments, **parts)
 
     def _short_class(self, found: Class) -> Class:
-        if self.accept("enumeration"):
-            literals: dict[str, None] = {}
+        if self._accept("enumeration"):
+            literals: list[str] = []
             seen: set[str] = set()
-            self.listed(partial(self._literal, literals, seen))
-            found = msgspec.structs.replace(found, literals=tuple(literals))
-        elif self.accept("der"):
-            self.listed(self.name)
+            for _ in self._list():
+                if not self._accept(":"):
+                    literals.append(self._identifier())
+                    self._once(seen, literals[-1], f"declares `{literals[-1]}` twice")
+                    self._comment()
+            found = msgspec.structs.replace(found, literals=tuple(dict.fromkeys(literals)))
+        elif self._accept("der"):
+            for _ in self._list():
+                self._name()
             found = msgspec.structs.replace(found, is_derivative=True)
         else:
-            start = len(self.uses)
+            start = len(self._uses)
             name, _ = self._type()
-            del self.uses[start:]
-            arguments = self._arguments() if self.word == "(" else ()
-            found = msgspec.structs.replace(found, alias=Extends(name, arguments))
+            del self._uses[start:]
+            found = msgspec.structs.replace(found, alias=Extends(name, self._arguments() if self.word == "(" else ()))
         self._comment()
         return found
-
-    def _literal(self, literals: dict[str, None], seen: set[str]) -> None:
-        if self.accept(":"):
-            return
-        name = self.identifier()
-        self.once(seen, name, f"declares `{name}` twice")
-        literals[name] = None
-        self._comment()
 
     def _composition(self) -> None:
         """Elements, equations and algorithms up to the class's `end`."""
@@ -154,118 +389,102 @@ class _Parser(ExpressionReader):
         section = "public"
         while (word := self.word) not in ("end", ""):
             if word == "initial" and self.following in ("equation", "algorithm"):
-                self.step()
-            if found := self.accept(*SECTIONS):
+                self._step()
+            if found := self._accept(*_SECTIONS):
                 section = found
             elif section in ("public", "protected") or word == "external":
-                self.each(partial(self._element, names))
+                self._each(self._element, names)
             else:
-                start = len(self.uses)
-                self.each(partial(self._equation, equations if section == "equation" else None))
-                self._body.uses += self.taken(start)
+                start = len(self._uses)
+                self._each(self._equation, equations if section == "equation" else None)
+                self.body.uses += self._taken(start)
             if word == "annotation" and self.word not in ("end", ""):
                 self.faults.append(Fault(f"goes on after the annotation of `{self._open[-1]}`", self.line))
-
-    def _end_class(self, name: str) -> None:
-        other = is_identifier(self.following) and self.following not in self._open
-        if self.word != "end" or not (other or self.following == name):
-            raise self.lack(f"`end {name}`")
-        self.step()
-        found = self.step()
-        if found != name:
-            self.faults.append(Fault(f"ends `{name}` with `end {found}`", self.found[self.at - 1].line))
 
     # --- elements -------------------------------------------------------------------------------------------------
 
     def _element(self, names: set[str]) -> None:
-        if self.accept("annotation"):
-            self._unread_arguments()
-        elif self.accept("import"):
-            self._body.imports.append(self._import())
-        elif self.accept("extends"):
-            parent = self._base()
-            self.once(names, f"extends {parent.type}", f"extends `{parent.type}` twice")
-            self._body.extends.append(parent)
+        if self.word == "annotation":
             self._annotation()
-        elif self.accept("external"):
-            start = len(self.uses)
+        elif self._accept("import"):
+            self._import()
+        elif self._accept("extends"):
+            parent = self._base()
+            self._once(names, f"extends {parent.type}", f"extends `{parent.type}` twice")
+            self.body.extends.append(parent)
+            self._annotation()
+        elif self._accept("external"):
             self._external()
-            self._body.uses += self.taken(start)
         else:
             prefixes = self._prefixes(_ELEMENT_PREFIXES)
             if self._is_class():
                 found = self._class(names, prefixes)
-                self._body.classes.append(msgspec.structs.replace(found, constraint=self._constraint()))
+                self.body.classes.append(msgspec.structs.replace(found, constraint=self._constraint()))
             else:
-                components = self._components(names, prefixes)
-                constraint = self._constraint()
-                self._body.components += [msgspec.structs.replace(one, constraint=constraint) for one in components]
+                self._components(names, prefixes)
 
     def _base(self) -> Extends:
         """A class with its modifiers."""
-        name = self.name()
+        name = self._name()
         return Extends(name, self._arguments() if self.word == "(" else ())
 
-    def _import(self) -> Import:
+    def _import(self) -> None:
         alias = ""
         if self.following == "=":
-            alias = self.identifier()
-            self.step()
-        name = self.name()
+            alias = self._identifier()
+            self._step()
+        name = self._name()
         members: list[tuple[str, str]] = []
         is_everything = False
-        if self.accept("."):
+        if self._accept("."):
             if self.word == "{":
-                self.listed(lambda: members.append(self._imported()), "{", "}")
+                for _ in self._list("{", "}"):
+                    short = self._identifier()
+                    members.append((short, self._identifier() if self._accept("=") else short))
             else:
-                self.expect("*")
+                self._expect("*")
                 is_everything = True
         self._comment()
-        return Import(name, alias, tuple(members), is_everything)
-
-    def _imported(self) -> tuple[str, str]:
-        alias = self.identifier()
-        return alias, self.identifier() if self.accept("=") else alias
+        self.body.imports.append(Import(name, alias, tuple(members), is_everything))
 
     def _external(self) -> None:
-        self.description()
+        self._description()
+        start = len(self._uses)
         if self.word not in (";", "annotation"):
-            start = len(self.uses)
-            self.expression()
-            if self.accept("="):
-                self.expression()
-            # the function of the other language has a name of its own
-            self.uses[start:] = [name for name in self.uses[start:] if not name.is_called]
+            self._expression()
+            if self._accept("="):
+                self._expression()
+        # the function of the other language has a name of its own
+        self.body.uses += [name for name in self._taken(start) if not name.is_called]
         self._comment()
 
-    def _components(self, names: set[str], prefixes: set[str]) -> list[Component]:
-        start = len(self.uses)
+    def _components(self, names: set[str], prefixes: set[str]) -> None:
+        start = len(self._uses)
         kind, more = self._type()
-        sizes = self.taken(start)
-        found = []
-        while True:
-            start = len(self.uses)
-            line, text = self.line, self.identifier()
-            self.once(names, text, f"declares `{text}` twice")
-            self.subscripts()
+        sizes = self._taken(start)
+        found: list[Component] = []
+        while not found or self._accept(","):
+            line, text = self.line, self._identifier()
+            self._once(names, text, f"declares `{text}` twice")
+            self._subscripts()
             arguments = self._modification()
-            if self.accept("if"):
-                self.expression()
-            uses = (*sizes, *self.taken(start))
+            if self._accept("if"):
+                self._expression()
+            uses = (*sizes, *self._taken(start))
             found.append(Component(Name((text,), line), kind, frozenset(prefixes | more), arguments, uses))
             self._comment()
-            if not self.accept(","):
-                return found
+        constraint = self._constraint()
+        self.body.components += [msgspec.structs.replace(one, constraint=constraint) for one in found]
 
     def _type(self) -> tuple[Name, set[str]]:
-        """Read a type, and its prefixes."""
+        """A type; returns it with its prefixes."""
         prefixes = self._prefixes(_TYPE_PREFIXES)
-        name = self.name()
-        self.subscripts()
+        name = self._name()
+        self._subscripts()
         return name, prefixes
 
     def _constraint(self) -> Extends | None:
-        if not self.accept("constrainedby"):
+        if not self._accept("constrainedby"):
             return None
         found = self._base()
         self._comment()
@@ -273,141 +492,135 @@ class _Parser(ExpressionReader):
 
     def _comment(self) -> None:
         """A description, an annotation, both or none."""
-        self.description()
+        self._description()
         self._annotation()
 
-    def _annotation(self) -> None:
-        if self.accept("annotation"):
-            self._unread_arguments()
+    def _description(self) -> None:
+        """A description string, if there is one."""
+        if self.word[:1] == '"':
+            self._step()
+            while self._accept("+"):
+                if self.word[:1] != '"':
+                    raise self._lack("a string")
+                self._step()
 
-    def _unread_arguments(self) -> None:
-        """The arguments of an annotation, in which names have meanings of their own."""
-        start = len(self.uses)
-        self._arguments()
-        del self.uses[start:]
+    def _annotation(self) -> None:
+        """An annotation, if there is one; names have meanings of their own in it."""
+        if self._accept("annotation"):
+            start = len(self._uses)
+            self._arguments()
+            del self._uses[start:]
 
     # --- modifiers ------------------------------------------------------------------------------------------------
 
     def _modification(self) -> tuple[Modifier, ...]:
-        """Modifiers in parentheses and a value, whose names are added to `uses`; both may be missing."""
+        """Modifiers in parentheses and a value, whose names are added to `_uses`; both may be missing."""
         arguments = self._arguments() if self.word == "(" else ()
-        if self.accept("=", ":=") and not self.accept("break"):
-            self.expression()
+        if self._accept("=", ":=") and not self._accept("break"):
+            self._expression()
         return arguments
 
     def _arguments(self) -> tuple[Modifier, ...]:
         names: set[str] = set()
-        found: list[Modifier] = []
-        self.deeper(lambda: self.listed(partial(self._argument, names, found)))
-        return tuple(found)
+        return tuple(found for _ in self._list() if (found := self._argument(names)))
 
-    def _argument(self, names: set[str], found: list[Modifier]) -> None:
-        is_redeclared = bool(self.accept("redeclare"))
+    def _argument(self, names: set[str]) -> Modifier | None:
+        """One modifier; None for a connection that is taken away."""
+        is_redeclared = bool(self._accept("redeclare"))
         prefixes = self._prefixes(_ARGUMENT_PREFIXES)
-        declares = bool(self.accept("replaceable")) or is_redeclared
-        if self.accept("break"):
-            self._break(found)
-            return
+        declares = bool(self._accept("replaceable")) or is_redeclared
+        start = len(self._uses)
+        if self._accept("break"):
+            if not self._accept("connect"):
+                return Modifier(self._name(), is_break=True)
+            self._expression()
+            del self._uses[start:]
+            return None
         if declares and self._is_class():
             definition = self._class(names, prefixes)
-            modifier = Modifier(definition.name, is_redeclared=is_redeclared, definition=definition)
+            found = Modifier(definition.name, is_redeclared=is_redeclared, definition=definition)
         else:
-            start = len(self.uses)
             kind = self._type()[0] if declares else None
-            name = self.name()
+            name = self._name()
             if str(name) not in _REPEATABLE:
-                self.once(names, str(name), f"sets `{name}` twice")
+                self._once(names, str(name), f"sets `{name}` twice")
             if declares:
-                self.subscripts()
+                self._subscripts()
             arguments = self._modification()
-            modifier = Modifier(name, arguments, self.taken(start), is_redeclared, kind)
-            self.description()
+            found = Modifier(name, arguments, self._taken(start), is_redeclared, kind)
+            self._description()
             if declares:
                 self._annotation()
-        found.append(msgspec.structs.replace(modifier, constraint=self._constraint()))
-
-    def _break(self, found: list[Modifier]) -> None:
-        """What is taken away of a base class: a component, or a connection."""
-        start = len(self.uses)
-        if self.accept("connect"):
-            self.expression()
-            del self.uses[start:]
-        else:
-            found.append(Modifier(self.name(), is_break=True))
+        return msgspec.structs.replace(found, constraint=self._constraint())
 
     # --- equations and statements ---------------------------------------------------------------------------------
 
     def _equation(self, seen: set[str] | None) -> None:
-        """An equation or a statement; those of algorithms may be repeated, so that there is nothing to see."""
-        start = self.at
-        match self.word:
-            case "if" | "when" | "for" | "while" as kind:
-                self.step()
-                self._block(kind, repeats=seen is None)
-            case "annotation":
-                self.step()
-                self._unread_arguments()
-                return
-            case "break" | "return" if seen is None:
-                self.step()
-            case "connect" if seen is not None:
-                self.step()
-                self._connect(seen)
-            case _:
-                self._simple("=" if seen is not None else ":=")
-                if seen is not None:
-                    text = self.since(start)
-                    self.once(seen, text, f"has the equation `{short(text)}` twice")
+        """An equation, or a statement if `seen` is None: statements may be repeated."""
+        start, word = self.at, self.word
+        if word == "annotation":
+            self._annotation()
+            return
+        if self._accept("if", "when", "for", "while"):
+            self._block(word, repeats=seen is None)
+        elif seen is None and self._accept("break", "return"):
+            pass
+        elif seen is not None and self._accept("connect"):
+            self._connect(seen)
+        else:
+            sign = ":=" if seen is None else "="
+            self._expression()
+            if self._accept(sign):
+                self._expression()
+            elif not (is_identifier(word) or word in _CALLED or word == ".") or self.tokens[self.at - 1].text != ")":
+                raise self._lack(f"`{sign}`")
+            if seen is not None:
+                text = self._since(start)
+                self._once(seen, text, f"has the equation `{_short(text)}` twice")
         self._comment()
 
-    def _simple(self, sign: str) -> None:
-        """An equation or an assignment, by its sign, or the call of a function."""
-        first = self.word
-        self.expression()
-        if self.accept(sign):
-            self.expression()
-        elif not (is_identifier(first) or first in CALLED or first == ".") or self.found[self.at - 1].text != ")":
-            raise self.lack(f"`{sign}`")
-
     def _connect(self, seen: set[str]) -> None:
-        self.expect("(")
-        first, one = self._end()
-        self.expect(",")
-        second, other = self._end()
-        self.expect(")")
-        self._body.connections.append(Connection(one, other))
-        first, second = sorted((first, second))
-        self.once(seen, f"connect {first} {second}", f"connects `{first}` and `{second}` twice")
-
-    def _end(self) -> tuple[str, Name]:
-        """One end of a connection: its text with subscripts, and its name."""
-        start = self.at
-        self.reference()
-        return self.since(start), self.uses[-1]  # the names in its subscripts come before
+        texts: list[str] = []
+        names: list[Name] = []
+        for mark in ("(", ","):
+            self._expect(mark)
+            start = self.at
+            self._reference()
+            texts.append(self._since(start))
+            names.append(self._uses[-1])  # the names in its subscripts come before
+        self._expect(")")
+        self.body.connections.append(Connection(*names))
+        first, second = sorted(texts)
+        self._once(seen, f"connect {first} {second}", f"connects `{first}` and `{second}` twice")
 
     def _block(self, kind: str, *, repeats: bool) -> None:
-        start = len(self.uses)
+        start = len(self._uses)
         indices: set[str] = set()
         if kind == "for":
-            indices = self.indices()
+            indices = self._indices()
         else:
-            self.expression()
-        self.expect("loop" if kind in ("for", "while") else "then")
+            self._expression()
+        self._expect("loop" if kind in ("for", "while") else "then")
         self._equations(repeats=repeats)
         more = {"if": "elseif", "when": "elsewhen"}.get(kind)
-        while more and self.accept(more):
-            self.expression()
-            self.expect("then")
+        while more and self._accept(more):
+            self._expression()
+            self._expect("then")
             self._equations(repeats=repeats)
-        if kind == "if" and self.accept("else"):
+        if kind == "if" and self._accept("else"):
             self._equations(repeats=repeats)
         if (self.word, self.following) != ("end", kind):
-            raise self.lack(f"`end {kind}`")
-        self.step()
-        self.step()
-        self.forget(indices, start)
+            raise self._lack(f"`end {kind}`")
+        self._step()
+        self._step()
+        self._forget(indices, start)
 
     def _equations(self, *, repeats: bool) -> None:
         seen: set[str] | None = None if repeats else set()
         while self.word not in _BLOCK_ENDS:
-            self.each(partial(self._equation, seen))
+            self._each(self._equation, seen)
+
+
+def _short(text: str) -> str:
+    """Return a piece of a text as a sentence can quote it."""
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"

@@ -138,7 +138,7 @@ class Scopes:
     # --- classes at their places ----------------------------------------------------------------------------------
 
     def node(self, name: Sequence[str]) -> Node | Unknown | None:
-        """The class with this full name, not an inherited one."""
+        """Return the class with this full name, not an inherited one."""
         found = self._top(name[0]) if name else None
         for part in name[1:]:
             if not isinstance(found, Node):
@@ -169,7 +169,7 @@ class Scopes:
     # --- lookup ---------------------------------------------------------------------------------------------------
 
     def lookup(self, name: Name, scope: Node | None) -> Element | Missing | Unknown:
-        """What a name means that is used in a class; of None, in a file outside of all classes."""
+        """Return the meaning of a name that is used in a class; of None, in a file outside of all classes."""
         if self._depth > _DEEPEST:
             return UNKNOWN
         self._depth += 1
@@ -184,7 +184,7 @@ class Scopes:
         return found
 
     def lookup_base(self, name: Name, node: Node) -> Element | Missing | Unknown:
-        """What a name means after `extends` in a class: nothing that the class inherits."""
+        """Return the meaning of a name after `extends` in a class: nothing that the class inherits."""
         outer = node in self._resolving
         self._resolving.add(node)
         try:
@@ -194,7 +194,7 @@ class Scopes:
                 self._resolving.discard(node)
 
     def part(self, types: Types, name: str) -> Element | Missing | Unknown:
-        """What a name means in something that may have any of these types."""
+        """Return the meaning of a name in something that may have any of these types."""
         every = [UNKNOWN if one is UNKNOWN else self._member(one, name) for one in types]
         found = [one for one in every if isinstance(one, Element)]
         unknown: Types = (UNKNOWN,) if UNKNOWN in every else ()
@@ -204,21 +204,21 @@ class Scopes:
         return UNKNOWN if unknown else Missing(name, types)
 
     def types_of(self, used: Extends, scope: Node | None) -> Types:
-        """The classes that a name stands for, with the modifiers beside it."""
+        """Return the classes that a name stands for, with the modifiers beside it."""
         found = self.lookup(used.type, scope)
         if not isinstance(found, Element) or isinstance(found.declaration, Component):
             return (UNKNOWN,)
         return _modified(found.types, [Scoped(used.arguments, scope)] if used.arguments else [])
 
     def types_in(self, component: Component, scope: Node) -> Types:
-        """The types that a component may have by its own declaration, in a class."""
+        """Return the types that a component may have by its own declaration, in a class."""
         types = self.types_of(Extends(component.type, component.arguments), scope)
         if component.constraint:
             types += _modified(self.types_of(component.constraint, scope), [Scoped(component.arguments, scope)])
         return types
 
     def bases(self, node: Node) -> Types:
-        """The classes that a class extends or stands for."""
+        """Return the classes that a class extends or stands for."""
         if node.bases is not None:
             return node.bases
         if node in self._resolving:
@@ -306,7 +306,7 @@ class Scopes:
     # --- elements of a class --------------------------------------------------------------------------------------
 
     def _member(self, type_: Type, name: str) -> Element | Unknown | None:
-        """An element of a class, its own or an inherited one, with the modifiers that concern it."""
+        """Return an element of a class, its own or an inherited one, with the modifiers that concern it."""
         if isinstance(type_.node, str):
             return _predefined(type_.node, name)
         if self._depth > _DEEPEST:
@@ -385,7 +385,7 @@ def _modified(types: Types, modifiers: Sequence[Scoped]) -> Types:
 
 
 def _nested(modifiers: Iterable[Scoped], name: str) -> tuple[Scoped, ...]:
-    """What modifiers of a class say of one of its elements."""
+    """Return those parts of a class's modifiers that concern one of its elements."""
     return tuple(
         Scoped(one.arguments, scope)
         for arguments, scope in modifiers
@@ -401,7 +401,7 @@ def _predefined(type_: str, name: str) -> Element | Unknown | None:
 
 
 def _imported(used: Import) -> list[str]:
-    """The names that an import clause makes known, but for one that imports everything."""
+    """Return the names that an import clause makes known, but for one that imports everything."""
     if used.members:
         return [alias for alias, _ in used.members]
     return [] if used.is_everything else [used.alias or used.name.parts[-1]]

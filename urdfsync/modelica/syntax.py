@@ -137,7 +137,7 @@ class Declared(NamedTuple):
 
 
 def declared(classes: tuple[Class, ...], around: tuple[str, ...] = ()) -> Iterator[Declared]:
-    """All classes and components that are declared in classes, a class before its parts."""
+    """Yield all classes and components that are declared in classes, a class before its parts."""
     for one in classes:
         path = (*around, one.name.parts[0])
         yield Declared(path, one.name.line)

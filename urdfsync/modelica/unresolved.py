@@ -14,7 +14,7 @@ _RATHER_ALIKE, _ALIKE = 0.6, 0.75
 """Likeness (see `difflib`) of a misspelled name; what may be the name of a library has to be more alike."""
 
 
-class Kind(enum.Enum):
+class UnresolvedKind(enum.Enum):
     """What is wrong with a name."""
 
     CLASS = "class"
@@ -30,7 +30,7 @@ class Kind(enum.Enum):
 class Unresolved(NamedTuple):
     """One place at which something is wrong with a name."""
 
-    kind: Kind
+    kind: UnresolvedKind
     name: str
     """The name as it is written, with dots."""
     part: str
@@ -55,7 +55,7 @@ class Unresolved(NamedTuple):
 
 
 def unresolved(node: Node, scopes: Scopes, doubtful: Collection[str] = ()) -> Iterator[Unresolved]:
-    """All that is wrong with names in a class and in the classes inside of it.
+    """Yield all that is wrong with names in a class and in the classes inside of it.
 
     Nothing is said of what can't be told, nor of what seems to be in a library that is not at hand, unless a part of it
     is one of the `doubtful` names.
@@ -75,11 +75,11 @@ class _Walk:
         if definition.is_extension:
             yield from self._arguments(definition.arguments, scopes.bases(node)[:1], node)
         for base in definition.extends:
-            yield from self._missing(base.type, scopes.lookup_base(base.type, node), node, Kind.CLASS)
+            yield from self._missing(base.type, scopes.lookup_base(base.type, node), node, UnresolvedKind.CLASS)
             yield from self._arguments(base.arguments, scopes.types_of(base, node), node)
         for one in definition.imports:
             found = scopes.lookup(one.name._replace(is_global=True), None)
-            yield from self._missing(one.name, found, None, Kind.CLASS)
+            yield from self._missing(one.name, found, None, UnresolvedKind.CLASS)
         for component in definition.components:
             yield from self._component(component, node)
         ends = {end for connection in definition.connections for end in connection}
@@ -91,7 +91,7 @@ class _Walk:
                 yield from self._class(child)
 
     def _used(self, used: Extends, scope: Node | None) -> Iterator[Unresolved]:
-        """A class with modifiers."""
+        """Yield what is wrong with a class that is used, and with the modifiers beside it."""
         yield from self._type(used.type, scope)
         yield from self._arguments(used.arguments, self._scopes.types_of(used, scope), scope)
 
@@ -105,25 +105,25 @@ class _Walk:
             yield from self._use(name, node)
 
     def _type(self, name: Name, scope: Node | None) -> Iterator[Unresolved]:
-        yield from self._missing(name, self._scopes.lookup(name, scope), scope, Kind.CLASS)
+        yield from self._missing(name, self._scopes.lookup(name, scope), scope, UnresolvedKind.CLASS)
 
     def _use(self, name: Name, scope: Node | None, *, is_part: bool = False) -> Iterator[Unresolved]:
-        kind = Kind.FUNCTION if name.is_called else Kind.ELEMENT
+        kind = UnresolvedKind.FUNCTION if name.is_called else UnresolvedKind.ELEMENT
         yield from self._missing(name, self._scopes.lookup(name, scope), scope, kind, is_part=is_part)
 
     def _arguments(
         self, arguments: tuple[Modifier, ...], types: Types, scope: Node | None, depth: int = 0
     ) -> Iterator[Unresolved]:
-        """Modifiers of something that may have one of these types; without any, nothing is said of their names."""
+        """Yield what is wrong with modifiers of something that may have one of these types; without any, names pass."""
         for one in arguments:
             found = self._scopes.part(types or (UNKNOWN,), one.name.parts[0])
             part = Name(one.name.parts[:1], one.name.line)
             redeclares = one.is_redeclared or one.is_break
             if types:
-                yield from self._missing(part, found, scope, Kind.ELEMENT, is_part=redeclares)
+                yield from self._missing(part, found, scope, UnresolvedKind.ELEMENT, is_part=redeclares)
             if depth and one.is_redeclared and isinstance(found, Element):
                 owner = next((str(type_) for type_ in types if type_ is not UNKNOWN), "")
-                yield Unresolved(Kind.NESTED_REDECLARE, str(one.name), str(one.name), owner, one.name.line)
+                yield Unresolved(UnresolvedKind.NESTED_REDECLARE, str(one.name), str(one.name), owner, one.name.line)
             yield from self._redeclared(one, scope)
             if isinstance(found, Element):
                 yield from self._arguments(one.arguments, found.types, scope, depth + 1)
@@ -131,7 +131,7 @@ class _Walk:
                 yield from self._use(name, scope)
 
     def _redeclared(self, modifier: Modifier, scope: Node | None) -> Iterator[Unresolved]:
-        """The new type of what is redeclared."""
+        """Yield what is wrong with the new type of what is redeclared."""
         if modifier.type is not None:
             yield from self._type(modifier.type, scope)
         if modifier.definition is not None and modifier.definition.alias is not None:
@@ -145,7 +145,7 @@ class _Walk:
         return set(types) == {UNKNOWN} and top != () and self._scopes.node(top) is None
 
     def _unclear(self, name: Name, scope: Node | None) -> tuple[str, ...]:
-        """The parts of a name whose meaning can't be told, without what is inside of such a component."""
+        """Return the parts of a name whose meaning can't be told, without what is inside of such a component."""
         for count in range(1, len(name.parts)):
             found = self._scopes.lookup(name._replace(parts=name.parts[:count]), scope)
             if not isinstance(found, Element):
@@ -155,7 +155,7 @@ class _Walk:
         return name.parts[-1:]
 
     def _missing(
-        self, name: Name, found: object, scope: Node | None, kind: Kind, *, is_part: bool = False
+        self, name: Name, found: object, scope: Node | None, kind: UnresolvedKind, *, is_part: bool = False
     ) -> Iterator[Unresolved]:
         if found is UNKNOWN and not self._doubtful.isdisjoint(name.parts):
             part = next((part for part in self._unclear(name, scope) if part in self._doubtful), "")
@@ -171,9 +171,11 @@ class _Walk:
         else:
             known = self._scopes.names_around(scope)
             owner, is_field = str(scope) if scope else "", False
-        if kind is Kind.FUNCTION and len(name.parts) > 1 and found.part != name.parts[-1]:
-            kind = Kind.ELEMENT  # a component on the way to the function
-        candidates = {key for key, is_class in known.items() if is_class or kind is not Kind.CLASS} - {found.part}
+        if kind is UnresolvedKind.FUNCTION and len(name.parts) > 1 and found.part != name.parts[-1]:
+            kind = UnresolvedKind.ELEMENT  # a component on the way to the function
+        candidates = {key for key, is_class in known.items() if is_class or kind is not UnresolvedKind.CLASS} - {
+            found.part
+        }
         is_library = not found.types and len(name.parts) > 1 and found.part[:1].isupper()
         near = nearest(found.part, sorted(candidates), _ALIKE if is_library else _RATHER_ALIKE)
         meant = Name((near,), name.line)
@@ -185,5 +187,5 @@ class _Walk:
 
 
 def first_type(element: Element) -> Type | None:
-    """The first class that is known of an element."""
+    """Return the first class that is known of an element."""
     return next((one for one in element.types if one is not UNKNOWN), None)

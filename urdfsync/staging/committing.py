@@ -1,33 +1,29 @@
-"""A commit as a whole: which configurations it concerns, how they are judged, and what is said of them."""
+"""A commit as a whole: which configurations it concerns, and how they are judged."""
 
 from __future__ import annotations
 
 import os
-import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
-from urdfsync.config import FILE_NAME, STATE_FOLDER, shown, working_folder
+from urdfsync.config import FILE_NAME, STATE_FOLDER, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Exit, exit_code
-from urdfsync.report import Report
 from urdfsync.staging.judging import Judge
 from urdfsync.staging.staged import Index
 from urdfsync.staging.verdict import Verdict
-from urdfsync.views import hooks
 from urdfsync.watch import precommit
 
 _ROBOTS = f"{STATE_FOLDER}/robots/"
 
 
-def run(request: BuildOptions, writing: bool, named: Sequence[Path], report: Report, as_json: bool) -> Exit:
+def judge(
+    index: Index, folder: Path, request: BuildOptions, writing: bool, named: Sequence[Path]
+) -> tuple[list[Verdict], list[Diagnostic]]:
     """Judge the configurations that are `named`, or all that git tracks; `writing` brings packages in step.
 
-    Raises UrdfsyncError if git can't be asked.
+    Returns the faults of robots, and those of configurations. Raises UrdfsyncError if git can't be asked.
     """
-    folder = working_folder()
-    index = Index(folder)
     paths, diagnostics = _configurations(index, named)
     judge = Judge(index, folder, request, writing, _aside(index))
     verdicts: list[Verdict] = []
@@ -36,15 +32,7 @@ def run(request: BuildOptions, writing: bool, named: Sequence[Path], report: Rep
             verdicts += judge.verdicts(path)
         except UrdfsyncError as error:
             diagnostics += error.diagnostics
-    code = exit_code([verdict.result for verdict in verdicts if verdict.result])
-    code = Exit.ERROR if diagnostics else code or (Exit.OUT_OF_STEP if verdicts else Exit.IN_STEP)
-    for verdict in verdicts:
-        if verdict.result and (as_json or verdict.troubled):
-            report.result(verdict.result)
-    if verdicts:
-        diagnostics += _show(verdicts, Index(folder), folder, as_json)
-    report.problems("hook", diagnostics, code)
-    return code
+    return verdicts, diagnostics
 
 
 def _configurations(index: Index, named: Sequence[Path]) -> tuple[list[str], list[Diagnostic]]:
@@ -78,27 +66,3 @@ def _aside(index: Index) -> frozenset[str]:
     holder = precommit.PrecommitStash(store).holder(index.top)
     patches = sorted(store.glob(f"patch*-{holder}")) if holder is not None else []
     return frozenset(index.patched(patches[-1])) if patches else frozenset()
-
-
-def _show(verdicts: Sequence[Verdict], index: Index, folder: Path, as_json: bool) -> list[Diagnostic]:
-    """Show the verdicts to people; for programs, give them as findings."""
-    ignored = index.ignored({path for verdict in verdicts for path in verdict.add if not index.tracks(path)})
-    place = hooks.Place(index.top, _typing(index.top, folder, os.environ), index.pending)
-    if not as_json:
-        sys.stdout.writelines(f"{line}\n" for line in hooks.lines(verdicts, place, ignored))
-        return []
-    found = []
-    for verdict in verdicts:
-        message = f"robot `{verdict.robot}`: {hooks.words(verdict, place)}"
-        hint = "; ".join(f"`{command}`" for _, command in hooks.steps([verdict], place, ignored))
-        code = "out-of-step" if verdict.result else "not-staged"
-        found.append(Diagnostic(Severity.ERROR, code, message, place.shown(verdict.config), hint=hint))
-    return found
-
-
-def _typing(top: Path, folder: Path, environment: Mapping[str, str]) -> Path:
-    """The folder in which the user has called git or pre-commit, as far as these tell."""
-    if "GIT_PREFIX" in environment:
-        return top / environment["GIT_PREFIX"]
-    shell = Path(os.path.realpath(environment.get("PWD") or folder))
-    return shell if "PRE_COMMIT" in environment and shell.is_relative_to(top) else folder

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 import sys
@@ -17,6 +18,8 @@ from urdfsync.files import failure
 _PAUSE = 0.05
 """Seconds between two attempts."""
 _BUSY = {errno.EACCES, errno.EAGAIN, errno.EWOULDBLOCK, errno.EDEADLK}
+_NO_FOLDER_LOCKS = {errno.EBADF, errno.EINVAL, errno.EISDIR, errno.ENOTSUP}
+"""What NFS says: it locks bytes, for which a file must be open for writing, and no folder can be."""
 
 if sys.platform == "win32":
     import msvcrt
@@ -33,25 +36,16 @@ else:
         fcntl.flock(descriptor, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
 
 
-def _sign(descriptor: int) -> None:
-    """Leave the number of this process in the file, unless it is there: a daemon locks again and again."""
-    number = f"{os.getpid()}\n".encode()
-    os.lseek(descriptor, 0, os.SEEK_SET)
-    if os.read(descriptor, len(number) + 1) != number:
-        os.lseek(descriptor, 0, os.SEEK_SET)
-        os.ftruncate(descriptor, 0)
-        os.write(descriptor, number)
-
-
 class LockedError(UrdfsyncError):
     """Another process holds the lock for too long."""
 
 
 class Lock:
-    """A lock file, which stays where it is and holds the number of the process that had the lock last."""
+    """A lock on a file, which then holds the number of the process that had the lock last."""
 
-    def __init__(self, path: Path, wait: float, shown: Callable[[Path], str] = str) -> None:
-        self._path, self._wait, self._shown = path, wait, shown
+    def __init__(self, path: Path, wait: float, shown: Callable[[Path], str] = str, folder: Path | None = None) -> None:
+        """`wait` is in seconds. With a `folder`, that is locked, and the file only says by whom: see `build_lock`."""
+        self._path, self._wait, self._shown, self._folder = path, wait, shown, folder
         self._descriptor: int | None = None
         self._expired = False
 
@@ -63,10 +57,10 @@ class Lock:
     def acquire(self, shared: bool = False, waiting: Callable[[], None] = lambda: None) -> None:
         """Take the lock, unless it is held already; `shared` waits for writers only. Calls `waiting` on and on.
 
-        Where no lock file is, no writer holds it, so that `shared` takes nothing.
+        Where there is no file to lock, no writer holds it, so that `shared` takes nothing.
 
-        Raises LockedError after `wait` seconds, and at once if that has happened before; OutputError if
-        the file can't be used.
+        Raises LockedError after `wait` seconds, and at once if that has happened before; OutputError if the file or
+        folder can't be locked.
         """
         if self.held:
             return
@@ -78,10 +72,19 @@ class Lock:
             raise failure(error, self._shown(self._path)) from None
         try:
             self._wait_for(descriptor, shared, waiting)
+            if not shared:
+                self._sign()
+        except OSError as error:
+            os.close(descriptor)
+            if self._folder is None or error.errno not in _NO_FOLDER_LOCKS:
+                raise failure(error, self._shown(self._folder or self._path), "it can't be locked") from None
+            self._folder = None  # the same for all processes here
+            self.acquire(shared, waiting)
         except BaseException:
             os.close(descriptor)
             raise
-        self._descriptor = descriptor
+        else:
+            self._descriptor = descriptor
 
     def release(self) -> None:
         """Let the lock go, if it is held."""
@@ -98,10 +101,12 @@ class Lock:
         self.release()
 
     def _open(self, shared: bool) -> int:
+        if self._folder is not None:
+            return os.open(self._folder, os.O_RDONLY)
         if shared:
-            return os.open(self._path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))
+            return self._open_file(os.O_RDONLY)
         self._path.parent.mkdir(exist_ok=True)
-        return os.open(self._path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
+        return self._open_file(os.O_RDWR | os.O_CREAT)
 
     def _wait_for(self, descriptor: int, shared: bool, waiting: Callable[[], None]) -> None:
         end = time.monotonic() + (0 if self._expired else self._wait)
@@ -110,21 +115,54 @@ class Lock:
                 _try(descriptor, shared)
             except OSError as error:
                 if error.errno not in _BUSY:
-                    raise failure(error, self._shown(self._path), "it can't be locked") from None
+                    raise
             else:
-                break
+                return
             if time.monotonic() >= end:
                 self._expired = True
-                raise self._locked(descriptor)
+                raise self._locked()
             waiting()
             time.sleep(_PAUSE)
-        if not shared:
-            _sign(descriptor)
 
-    def _locked(self, descriptor: int) -> LockedError:
-        os.lseek(descriptor, 0, os.SEEK_SET)
-        holder = os.read(descriptor, 20).decode(errors="replace").strip()
-        who = f"process {holder}" if holder.isdecimal() else "another process"
+    def _sign(self) -> None:
+        """Leave the number of this process in the file, unless it is there: a daemon locks again and again."""
+        number = f"{os.getpid()}\n".encode()
+        with contextlib.suppress(OSError):  # the number is for people only
+            self._path.parent.mkdir(exist_ok=True)
+            descriptor = self._open_file(os.O_RDWR | os.O_CREAT)
+            try:
+                if os.read(descriptor, len(number) + 1) != number:
+                    os.lseek(descriptor, 0, os.SEEK_SET)
+                    os.ftruncate(descriptor, 0)
+                    os.write(descriptor, number)
+            finally:
+                os.close(descriptor)
+
+    def _locked(self) -> LockedError:
+        who = "another process"
+        with contextlib.suppress(OSError):
+            descriptor = self._open_file(os.O_RDONLY)
+            try:
+                holder = os.read(descriptor, 20).decode(errors="replace").strip()
+            finally:
+                os.close(descriptor)
+            who = f"process {holder}" if holder.isdecimal() else who
         message = f"{who} is building here, and did not finish within {self._wait:g} s"
         hint = "wait for it or end it, then build again"
         return LockedError(Diagnostic(Severity.ERROR, "locked", message, self._shown(self._path), hint=hint))
+
+    def _open_file(self, flags: int) -> int:
+        """Open the file itself: a link is not followed, and a pipe in its place is not waited for."""
+        if self._path.parent.is_symlink():
+            raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(self._path.parent))
+        flags |= getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+        return os.open(self._path, flags, 0o666)
+
+
+def build_lock(root: Path, folder: Path, wait: float, shown: Callable[[Path], str] = str) -> Lock:
+    """The lock of all who write below a configuration's folder, `root`; `folder` is the state folder.
+
+    The root itself is locked. A file in the state folder is lost to `git clean -fdX` while it is held, and the next
+    process would lock a new one. Windows has no locks of folders, but does not delete a file that is open.
+    """
+    return Lock(folder / "lock", wait, shown, None if sys.platform == "win32" else root)

@@ -14,12 +14,12 @@ from typing import NamedTuple, TypeVar
 
 import msgspec
 
-from urdfsync import manifest, modelfile
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Role
-from urdfsync.manifest import FORMAT, DependencyRecord, Manifest
 from urdfsync.merge import split_lines
-from urdfsync.modelfile import ConversionFacts, Model
+from urdfsync.state import manifest, modelfile
+from urdfsync.state.manifest import FORMAT, DependencyRecord, Manifest
+from urdfsync.state.modelfile import ConversionFacts, Model
 from urdfsync.state.record import FileRecord
 
 _DEEPEST = 3

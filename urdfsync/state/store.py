@@ -8,22 +8,21 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync import manifest, modelfile
 from urdfsync.config import STATE_FOLDER
-from urdfsync.dependencies import is_file, list_folder
+from urdfsync.dependencies import is_folder, list_folder
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree, digest
-from urdfsync.manifest import Manifest
-from urdfsync.modelfile import Model
-from urdfsync.state.bases import Bases
-from urdfsync.state.transactions import Change
+from urdfsync.state import manifest, modelfile
+from urdfsync.state.bases import BaseStore
+from urdfsync.state.manifest import Manifest
+from urdfsync.state.modelfile import Model
+from urdfsync.state.transaction import Change
 
 _IGNORE = """\
 # Written by urdfsync. robots/ belongs into version control, everything else is safe to lose.
 /*
 !/.gitignore
 !/robots/
-.*-tmp
 """
 
 Witness: TypeAlias = Mapping[Path, str | None]
@@ -60,14 +59,11 @@ class Store:
 
     def load(self, robot: str) -> State | None:
         """The robot's state, None if it was never built. Raises StateError or OutputError if it can't be used."""
-        path, _ = self.paths(robot)
-        if self._bytes(path) is None:
-            return None
-        return self._loaded(robot)
-
-    def _loaded(self, robot: str) -> State:
         path, beside = self.paths(robot)
-        recorded = manifest.loads(self._read(path) or "", self._shown(path))
+        text = self._read(path)
+        if text is None:
+            return None
+        recorded = manifest.loads(text, self._shown(path))
         content = self._read(beside)
         if content is None:
             return State(recorded, None, intact=False)
@@ -92,19 +88,11 @@ class Store:
 
     def has_bases(self, robot: str) -> bool:
         """Whether the texts that were written last are kept."""
-        return is_file(self._base_file(robot))
+        return is_folder(self._base_folder(robot))
 
-    def bases(self, robot: str) -> Bases:
+    def bases(self, robot: str) -> BaseStore:
         """The texts that were written last, as far as they are kept."""
-        content = self._bytes(self._base_file(robot)) or b""
-        return Bases.loads(content)
-
-    def keep_bases(self, robot: str, content: bytes, former: str | None) -> Iterator[Change]:
-        """How the texts that are written now are kept, see `bases.dumps`; `former` as in `changes`."""
-        if former and self._bytes(self._base_file(former)) is not None:
-            yield self._change(self._base_file(former), None)
-        if self._bytes(self._base_file(robot)) != content:
-            yield self._change(self._base_file(robot), content)
+        return BaseStore(self._base_folder(robot), self._shown)
 
     def conflicts(self, robot: str, contents: Mapping[str, bytes], former: str | None) -> list[Change]:
         """How files get to the robot's folder of conflicts, by their path below it, and how all others go."""
@@ -144,8 +132,8 @@ class Store:
         folder = self.folder / "robots"
         return folder / f"{robot}.toml", folder / f"{robot}.json"
 
-    def _base_file(self, robot: str) -> Path:
-        return self.folder / "base" / f"{robot}.json.gz"
+    def _base_folder(self, robot: str) -> Path:
+        return self.folder / "base" / robot
 
     def _change(self, path: Path, content: bytes | None) -> Change:
         return Change(path, content, self._hash(path) if path in self._seen else None)

@@ -7,20 +7,24 @@ from pathlib import Path
 from typing import Any
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.difference import Difference, Effect, ElementKey, Meaning, Version
 from urdfsync.domain import (
     Artifact,
     Conversion,
     Dependency,
+    Difference,
+    Effect,
+    ElementKey,
     Experiment,
     Import,
     Lookup,
+    Meaning,
     Order,
     Proposal,
     Reading,
     Snapshot,
     Standalone,
     Target,
+    Version,
 )
 from urdfsync.urdf import names
 from urdfsync.urdf.options import Options
@@ -101,37 +105,37 @@ class UrdfDomain:
 
     def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf import changes
+        from urdfsync.urdf.diff.renames import find_renames
 
-        return changes.renames(old, new)
+        return find_renames(old, new)
 
     def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf import changes
+        from urdfsync.urdf.diff.comparable import comparable
 
-        return changes.comparable(snapshot, renames)
+        return comparable(snapshot, renames)
 
     def describe(
         self, differences: Sequence[Difference], old: Version, new: Version, options: Options
     ) -> Sequence[Meaning | None]:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf import changes
+        from urdfsync.urdf.diff.meanings import describe
 
-        return changes.describe(differences, old, new, options)
+        return describe(differences, old, new, options)
 
     def effects(self, old: Version, new: Version) -> Sequence[Effect]:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf import changes
+        from urdfsync.urdf.diff.effects import effects
 
-        return changes.effects(old, new)
+        return effects(old, new)
 
     def interface(
         self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Options
     ) -> Sequence[Effect]:
         """See `urdfsync.domain.Domain`."""
-        from urdfsync.urdf import changes
+        from urdfsync.urdf.diff.interface import interface
 
-        return changes.interface(old, new, renames, target, options)
+        return interface(old, new, renames, target, options)
 
     def option_for(self, path: str, target: Target, options: Options) -> str:
         """See `urdfsync.domain.Domain`."""

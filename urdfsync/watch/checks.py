@@ -6,8 +6,8 @@ import threading
 from types import TracebackType
 from typing import Self
 
-from urdfsync.checking import afterbuild
-from urdfsync.checking.afterbuild import Findings, Inspector, is_general
+from urdfsync.check import run
+from urdfsync.check.afterbuild import BuildCheck, BuildChecker, is_general
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.options import BuildOptions
@@ -60,21 +60,21 @@ class CheckQueue:
         """Check the package of a robot as it is now, unless such a check runs or its result is known."""
         if not robot.checking:
             return []
-        inspector = self._inspector()
-        fingerprint = inspector.fingerprint(robot)
+        checker = self._checker()
+        key = checker.cache.key(robot)
         pending = self._pending(robot.name)
         if pending is not None:
-            if fingerprint is not None and pending.fingerprint == fingerprint:
+            if key is not None and pending.key == key:
                 return []
             self._cancel(pending)
-        last_fingerprint, last = self._last.get(robot.name, (None, None))
-        if last is not None and fingerprint is not None and last_fingerprint == fingerprint:
+        last_key, last = self._last.get(robot.name, (None, None))
+        if last is not None and key is not None and last_key == key:
             return [last] if pending is not None else []
-        if found := inspector.recall(robot, fingerprint):
-            event = self._note(CheckJob(robot, fingerprint), found)
+        if found := checker.known(robot, key):
+            event = self._note(CheckJob(robot, key), found)
             was_right = pending is None and (last is None or last.checked is Checked.RIGHT)
             return [] if was_right and found.checked is Checked.RIGHT else [event]
-        self._waiting[robot.name] = CheckJob(robot, fingerprint)
+        self._waiting[robot.name] = CheckJob(robot, key)
         return self._start_next()
 
     def finish(self, ended: CheckEnded) -> list[events.Event]:
@@ -84,8 +84,8 @@ class CheckQueue:
             return self._start_next()
         return [self._note(ended.job, ended.found), *self._start_next()]
 
-    def _inspector(self) -> Inspector:
-        return Inspector(self._config, self._options, afterbuild.on_disk)
+    def _checker(self) -> BuildChecker:
+        return BuildChecker(self._config, self._options, run.check_robots)
 
     def _pending(self, name: str) -> CheckJob | None:
         running = self._running
@@ -105,30 +105,30 @@ class CheckQueue:
             return []
         name, job = next(iter(self._waiting.items()))
         self._running = self._waiting.pop(name)
-        arguments = job, self._inspector()
+        arguments = job, self._checker()
         self._thread = threading.Thread(target=self._run, args=arguments, name=f"check of {name}", daemon=True)
         self._thread.start()
         return [events.Checking(name)]
 
-    def _run(self, job: CheckJob, inspector: Inspector) -> None:
+    def _run(self, job: CheckJob, checker: BuildChecker) -> None:
         def cancel_here(what: str, done: int, total: int) -> None:  # noqa: ARG001 - the signature of `Progress`
             if job.is_cancelled:
                 raise CancelledError
 
         found = None
         try:
-            found = next(inspector.inspect([job.robot], cancel_here))
+            found = next(checker.check([job.robot], cancel_here))
         except CancelledError:
             pass
         except Exception as error:  # noqa: BLE001 - a bug that one robot meets must not end the checks of all
-            found = Findings(Checked.WRONG, (internal_error(error, "it can't be checked"),))
+            found = BuildCheck(Checked.WRONG, (internal_error(error, "it can't be checked"),))
         finally:
             self._queue.put(CheckEnded(job, found))
 
-    def _note(self, job: CheckJob, found: Findings) -> events.CheckDone:
+    def _note(self, job: CheckJob, found: BuildCheck) -> events.CheckDone:
         """Keep what was found; findings about the machine are told once."""
         new = tuple(one for one in found.diagnostics if one not in self._told)
         self._told.update(one for one in new if is_general(one))
         event = events.CheckDone(job.robot.name, found.checked, round(found.seconds, 3), new)
-        self._last[job.robot.name] = job.fingerprint, event
+        self._last[job.robot.name] = job.key, event
         return event

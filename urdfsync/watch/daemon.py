@@ -18,8 +18,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import advice, config
-from urdfsync.config import Config, shown
+from urdfsync import config
+from urdfsync.config import Config, shown, warnings
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.cache import Cache
@@ -121,8 +121,7 @@ class Daemon:
         self._checks.use(loaded)
         self._robots.use(loaded, robots)
         self._show(events.Started(loaded.file, tuple(robot.name for robot in robots), again))
-        if warnings := tuple(advice.warnings(loaded, robots)):
-            self._show(events.Noted(warnings))
+        self._note(tuple(warnings.find_warnings(loaded, robots)))
         self._watch_folders()
         for watched in self._robots:
             watched.is_announced = True

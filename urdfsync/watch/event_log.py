@@ -12,14 +12,16 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
-from urdfsync import wording
 from urdfsync.config import shown
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.actions import CONFLICTS, Actions, Kind
 from urdfsync.outcome import Checked, Result
-from urdfsync.views import builds, conflicts, terminal
-from urdfsync.views.terminal import text
-from urdfsync.watch import events, summary
+from urdfsync.output.conflicts import Extent, conflict_lines
+from urdfsync.output.console import findings, text
+from urdfsync.output.phrases import check_result, counted, summary
+from urdfsync.output.results import result_lines
+from urdfsync.watch import events
+from urdfsync.watch.summary import build_summary
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -44,7 +46,7 @@ class EventLog:
     def __init__(self, console: Console, *, quiet: bool = False, verbose: bool = False, config: str = "") -> None:
         """`console` is where conflicts are going to be shown; `config` the configuration as the user named it."""
         self._console, self._quiet, self._verbose = console, quiet, verbose
-        self._look = conflicts.Look(verbose, quiet, 0, config)
+        self._extent = Extent(verbose, quiet, 0, config)
         self._told: dict[tuple[str, str], Collection[Hashable]] = {}
         self._column = 0
 
@@ -54,7 +56,7 @@ class EventLog:
             case events.Built():
                 yield from self._built(event, clock)
             case events.Failed(result, again) if self._verbose or not again:
-                yield Line(self._line(clock, result.robot, wording.summary(result), "bold red"), error=True)
+                yield Line(self._line(clock, result.robot, summary(result), "bold red"), error=True)
                 yield from self._findings(result.diagnostics)
             case events.CheckDone():
                 yield from self._checked(event, clock)
@@ -83,10 +85,10 @@ class EventLog:
             return
         again = "in step again" if not result.conflicts and (event.recovered or had) else ""
         speaks = event.files or event.recovered or result.changes or not known
-        did = [summary.build_summary(result, known=known)] if speaks else []
+        did = [build_summary(result, known=known)] if speaks else []
         did = list(filter(None, did)) + ([again] if again else [])
         if not did and (self._verbose or left):
-            did = [wording.summary(result)]
+            did = [summary(result)]
         if did:
             yield Line(self._line(clock, result.robot, ", ".join(did), "yellow" if result.conflicts else ""))
             yield from self._details(result, known=known, left=left)
@@ -97,7 +99,7 @@ class EventLog:
         keys = frozenset((one.code, one.message, one.file) for one in event.diagnostics)
         before = self._told.get((event.robot, "check"))
         known = not self._is_new(event.robot, "check", keys if wrong else ())
-        said = wording.checked(event.checked, event.diagnostics)
+        said = check_result(event.checked, event.diagnostics)
         took = f" ({event.seconds:.1f} s)" if event.seconds else ""
         if wrong and known and self._quiet:
             return
@@ -116,10 +118,10 @@ class EventLog:
             hidden = (CONFLICTS if known else frozenset()) | (frozenset() if left else _LEFT)
             seen = [action for action in result.actions if action.kind not in hidden]
             result = msgspec.structs.replace(result, actions=Actions(seen), changes=None)
-        lines = builds.lines(result, self._console.file, quiet=self._quiet, verbose=self._verbose)
+        lines = result_lines(result, quiet=self._quiet, verbose=self._verbose)
         yield from (Line(line.__rich__()) for line in itertools.islice(lines, 1, None))
         if result.conflicts:
-            yield from map(Line, conflicts.lines(result, self._console, self._look))
+            yield from map(Line, conflict_lines(result, self._console, self._extent))
 
     def _fresh(self, event: events.Built) -> Sequence[Diagnostic]:
         """Return the findings that the robot's last build did not have, wherever their lines are now.
@@ -141,15 +143,9 @@ class EventLog:
 
     def _findings(self, diagnostics: Sequence[Diagnostic], clock: str = "") -> Iterator[Line]:
         """Yield findings as all commands show them; with a time of day if there is no line of a build above them."""
-        if self._quiet:
-            diagnostics = [found for found in diagnostics if found.severity is Severity.ERROR]
-        findings, more = (diagnostics, {}) if self._verbose else wording.folded(diagnostics)
-        for found in findings:
+        for found in findings(diagnostics, quiet=self._quiet, verbose=self._verbose):
             time = text((f"{clock}  " if clock else "", "dim"))
-            yield Line(time.append_text(terminal.finding(found).__rich__()), error=True)
-        for code, number in more.items():
-            said = f"and {number} more like these [{code}]; --verbose shows them"
-            yield Line(text((said, "dim")), error=True)
+            yield Line(time.append_text(found.__rich__()), error=True)
 
     def _line(self, clock: str, robot: str, said: str, style: str) -> Text:
         name = f"{robot:<{self._column}}  " if robot else ""
@@ -161,7 +157,7 @@ def _plain(event: events.Event) -> tuple[str, str, bool]:
     match event:
         case events.Started(config, robots, again):
             what = "configuration read again, " if again else ""
-            return "", f"{what}watching {wording.counted(len(robots), 'robot')} of {shown(config)}", True
+            return "", f"{what}watching {counted(len(robots), 'robot')} of {shown(config)}", True
         case events.Settling(robot):
             return robot, "changed, settling", False
         case events.Unchanged(robot):

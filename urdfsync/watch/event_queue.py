@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.checking.afterbuild import Findings
+from urdfsync.check.afterbuild import BuildCheck
 from urdfsync.config import RobotConfig
 from urdfsync.watch.paths import WatchedPaths
 
@@ -28,7 +28,7 @@ class CheckJob(msgspec.Struct, eq=False):
     """One check of a package."""
 
     robot: RobotConfig
-    fingerprint: str | None
+    key: str | None
     """Of all that the check rests on; None if some of it can't be read."""
     is_cancelled: bool = False
 
@@ -37,7 +37,7 @@ class CheckEnded(msgspec.Struct, frozen=True):
     """A check has ended; without findings if it was cancelled."""
 
     job: CheckJob
-    found: Findings | None
+    found: BuildCheck | None
 
 
 class Stop(msgspec.Struct, frozen=True):

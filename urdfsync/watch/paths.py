@@ -16,7 +16,6 @@ from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Dependency, Lookup
 from urdfsync.engine import parents
-from urdfsync.engine.cache import Cache
 from urdfsync.engine.imports import find_dependencies
 from urdfsync.files import placed
 from urdfsync.state.store import State, Store
@@ -56,11 +55,9 @@ class RobotPaths(msgspec.Struct, frozen=True):
         yield from all_files_below(self.templates) if self.templates else ()
 
 
-def find_robot_paths(
-    config: Config, robot: RobotConfig, package_paths: Sequence[Path], cache: Cache | None = None
-) -> RobotPaths:
+def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path]) -> RobotPaths:
     """Return the paths of a robot as far as the last build recorded them."""
-    state = _recorded(config, robot, cache)
+    state = _recorded(config, robot)
     outputs = {*parents.files(robot), *map(str, Store(config.root).paths(robot.name))}
     inputs = {str(robot.source)}
     recorded: Mapping[str, Iterable[str]] = {}
@@ -80,12 +77,9 @@ def find_robot_paths(
     )
 
 
-def _recorded(config: Config, robot: RobotConfig, cache: Cache | None) -> State | None:
-    store = Store(config.root, shown)
+def _recorded(config: Config, robot: RobotConfig) -> State | None:
     try:
-        if cache is None:
-            return store.load(robot.name)
-        return cache.get("state", store.texts(robot.name), lambda: store.load(robot.name))
+        return Store(config.root, shown).load(robot.name)
     except (UrdfsyncError, OSError):  # the build tells it
         return None
 

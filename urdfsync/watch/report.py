@@ -7,11 +7,17 @@ import json
 import sys
 import time
 from collections.abc import Sequence
+from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Protocol, Self
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
-from urdfsync import documents
-from urdfsync.views.terminal import has_marks, text
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.engine.actions import Kind
+from urdfsync.outcome import Result
+from urdfsync.output.console import JSON_VERSION, has_marks, text
+from urdfsync.output.json_values import finding_values, result_values
 from urdfsync.watch import events
 from urdfsync.watch.event_log import NAME_WIDTH, EventLog
 from urdfsync.watch.status import Activity, StatusTable
@@ -49,7 +55,7 @@ class WatchReport(events.Listener, Protocol):
     ) -> None: ...
 
 
-def watch_report(*, as_json: bool, quiet: bool = False, verbose: bool = False, config: str = "") -> WatchReport:
+def watch_report(*, as_json: bool = False, quiet: bool = False, verbose: bool = False, config: str = "") -> WatchReport:
     """Return the report that the options ask for; `config` is the configuration as the user named it."""
     return JsonReport() if as_json else TextReport(quiet=quiet, verbose=verbose, config=config)
 
@@ -57,6 +63,31 @@ def watch_report(*, as_json: bool, quiet: bool = False, verbose: bool = False, c
 def now() -> datetime.datetime:
     """Return the time, with the local offset."""
     return datetime.datetime.now().astimezone()
+
+
+def event_values(event: events.Event, time: datetime.datetime) -> dict[str, Any]:
+    """Return an event as JSON values: its fields under their names, a result as `result_values` has it.
+
+    Of a result's files those are left out that are just unchanged, and its check is an event of its own.
+    """
+    tag = event.__struct_config__.tag
+    values: dict[str, Any] = {"version": JSON_VERSION, "event": tag, "time": time.isoformat()}
+    for name, value in msgspec.structs.asdict(event).items():
+        if isinstance(value, Result):
+            inside = {key: part for key, part in result_values(value).items() if key != "checked"}
+            actions = [action for action in inside["actions"] if action["action"] != Kind.UNCHANGED]
+            values |= {"robot": inside.pop("name"), **inside, "actions": actions}
+        else:
+            values[name] = _plain(value)
+    return values
+
+
+def _plain(value: object) -> Any:
+    if isinstance(value, tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, Diagnostic):
+        return finding_values(value)
+    return str(value) if isinstance(value, Path) else value
 
 
 class JsonReport:
@@ -72,7 +103,7 @@ class JsonReport:
 
     def show(self, event: events.Event) -> None:
         """Print an event."""
-        sys.stdout.write(json.dumps(documents.event(event, now())) + "\n")
+        sys.stdout.write(json.dumps(event_values(event, now())) + "\n")
         sys.stdout.flush()
 
     def progress(self, what: str, done: int, total: int) -> None:

@@ -162,7 +162,7 @@ class WatchedRobots:
         return {path for path, state in now.items() if _content(seen.get(path, _IN_THE_WAY)) != _content(state)}
 
     def _find_paths(self, robot: RobotConfig) -> RobotPaths:
-        return find_robot_paths(self._config, robot, self._package_paths, self._cache)
+        return find_robot_paths(self._config, robot, self._package_paths)
 
 
 def _read_output(files: PackageFiles, path: str, seen: FileState | None) -> FileState | None:

@@ -13,6 +13,8 @@ from urdfsync.state.lock import Lock, LockedError
 class AlreadyWatchedError(UrdfsyncError):
     """Another daemon watches this configuration."""
 
+    is_locked = True
+
 
 class SingleInstance:
     """Holds the lock within its context."""

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from types import FrameType
 from typing import IO, TYPE_CHECKING, Any
 
-from urdfsync.views import terminal
+from urdfsync.output.console import rich_console
 
 if TYPE_CHECKING:
     from rich.text import Text
@@ -29,7 +29,7 @@ class StatusArea:
 
     def __init__(self, stream: IO[str], *, status: bool = True) -> None:
         """`status` says whether one is wanted."""
-        self.console = terminal.console(stream)
+        self.console = rich_console(stream)
         self._stream = stream
         self.has_status = status and stream.isatty() and not self.console.is_dumb_terminal
         self._status: Sequence[Text] = ()

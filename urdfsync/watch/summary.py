@@ -6,15 +6,15 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from urdfsync import wording
-from urdfsync.comparing import outline
-from urdfsync.comparing.outline import Entry, Row, Tone
+from urdfsync.diff import outline
+from urdfsync.diff.outline import OutlineEntry, OutlineRow, Tone
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.outcome import Result
+from urdfsync.output.phrases import action_counts, counted
 
 if TYPE_CHECKING:
-    from urdfsync.changes import Changes
+    from urdfsync.diff.changes import Changes
 
 _MAX_ROWS = 2
 """Rows of an outline that are spelled out."""
@@ -52,7 +52,7 @@ def _written(actions: Sequence[Action]) -> list[str]:
         return []
     roles = {action.role for action in written}
     noun = _NOUNS.get(roles.pop(), "file") if len(roles) == 1 else "file"
-    return [f"{wording.counted(len(written), noun)} written"]
+    return [f"{counted(len(written), noun)} written"]
 
 
 def _other_actions(result: Result) -> Iterator[str]:
@@ -63,7 +63,7 @@ def _other_actions(result: Result) -> Iterator[str]:
         if 0 < len(found) <= _MAX_NAMES:
             silent.add(kind)
             yield from map(_action, found)
-    yield from wording.deeds(result, silent)
+    yield from action_counts(result, silent)
 
 
 def _action(action: Action) -> str:
@@ -80,9 +80,9 @@ def _action(action: Action) -> str:
 
 def _conflicts(result: Result, *, known: bool) -> Iterator[str]:
     if result.conflicts:
-        yield wording.counted(len(result.conflicts), "conflict") + (" as before" if known else "")
+        yield counted(len(result.conflicts), "conflict") + (" as before" if known else "")
         if held := sum(action.held for action in result.actions.decided):
-            yield f"{wording.counted(held, 'change')} waiting for that"
+            yield f"{counted(held, 'change')} waiting for that"
 
 
 def _changes(found: Changes) -> str:
@@ -101,12 +101,12 @@ def _changes(found: Changes) -> str:
     parts = [_element(entry) for entry in named] if few else []
     if rest:
         elements = len({change.element for change in rest})
-        count = wording.counted(len(rest), "more change" if parts else "change")
-        parts.append(f"{count} in {wording.counted(elements, 'element')}")
+        count = counted(len(rest), "more change" if parts else "change")
+        parts.append(f"{count} in {counted(elements, 'element')}")
     return ", ".join(parts)
 
 
-def _entry(entry: Entry) -> str:
+def _entry(entry: OutlineEntry) -> str:
     """Return such as `link elbow: mass 1.2 → 1.35 kg (+12.5 %)`, `link tool added`."""
     if entry.rows[0].tone in _ELEMENT and not entry.rows[0].label:
         more = ", ".join(map(_row, entry.rows[1:]))
@@ -114,18 +114,18 @@ def _entry(entry: Entry) -> str:
     return f"{entry.title}: {', '.join(map(_row, entry.rows))}"
 
 
-def _element(entry: Entry) -> str:
+def _element(entry: OutlineEntry) -> str:
     """Return an element that comes, goes or is renamed, without its values."""
     return f"{entry.title} {entry.rows[0].new.partition(':')[0]}"
 
 
-def _row(row: Row) -> str:
+def _row(row: OutlineRow) -> str:
     relation = f" ({row.relation})" if row.relation else ""
     value = f"{row.old} → {row.new}" if row.old else row.new
     return f"{_label(row)} {value}{relation}".strip()
 
 
-def _label(row: Row) -> str:
+def _label(row: OutlineRow) -> str:
     """Return where a value is. The group of a number is left out if the name says enough, as in `mass`."""
     words = row.label.split(" / ")
     if len(words) == 2 and _PLAIN_NUMBER.fullmatch(row.old) and not _INDEX.search(row.label):

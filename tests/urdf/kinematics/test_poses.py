@@ -9,15 +9,14 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 import pinocchio as pin
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from support.trees import AXES, NUMBERS, ORIGINS, SCALAR, robots
+from support.trees import NUMBERS, ORIGINS, SCALAR, robots
 
 from urdfsync.urdf.kinematics.poses import (
     IDENTITY,
     Pose,
-    compose,
     link_poses,
     lowest_point,
     motion,
@@ -99,13 +98,6 @@ def test_link_poses_are_those_of_pinocchio(robot: Robot, values: list[float]) ->
     for link, found in poses.items():
         expected = data.oMf[model.getFrameId(link, pin.FrameType.BODY)].homogeneous
         assert np.abs(homogeneous(found) - expected).max() < 1e-12 * max(1, np.abs(expected).max()), link
-
-
-@given(ORIGINS, ORIGINS)
-def test_poses_compose_as_matrices_do(outer: Origin, inner: Origin) -> None:
-    product = homogeneous(pose(outer)) @ homogeneous(pose(inner))
-    assert np.abs(homogeneous(compose(pose(outer), pose(inner))) - product).max() < 1e-13
-    assert compose(IDENTITY, pose(inner)) == pose(inner)
 
 
 def test_rpy_turns_about_fixed_axes_x_first() -> None:
@@ -235,12 +227,3 @@ def test_absurd_numbers_still_give_finite_positions(
     leader = Joint("a", "revolute", "l0", "l1", limit=Limit(1e300, 1e305))
     follower = Joint("b", kind, "l1", "l2", limit=Limit(end, end + 1), mimic=Mimic("a", multiplier, offset))
     assert all(map(math.isfinite, start_positions(chain(leader, follower)).values()))
-
-
-@given(AXES, NUMBERS)
-def test_a_turn_about_an_axis_leaves_the_axis_alone(axis: Vector, angle: float) -> None:
-    assume(angle)
-    rotation, shift = motion(Joint("j", "continuous", "a", "b", axis=axis), angle)
-    assert np.array(rotation) @ axis == pytest.approx(axis, abs=1e-14)
-    assert shift == (0, 0, 0)
-    assert np.trace(rotation) == pytest.approx(1 + 2 * math.cos(angle), abs=1e-14)

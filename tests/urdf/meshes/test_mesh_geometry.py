@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.urdf.meshes.geometry import Array, bounds, placed, support_points
+from urdfsync.urdf.meshes.geometry import Array, bounds, support_points
 
 coordinates = st.integers(-1000, 1000).map(lambda number: number / 100)
 clouds = st.lists(st.tuples(coordinates, coordinates, coordinates), min_size=1, max_size=60).map(np.array)
@@ -22,21 +22,6 @@ def _rims(radius: float, width: float, segments: int, phase: float = 0.0) -> Arr
     angles = [phase + 2 * math.pi * n / segments for n in range(segments)]
     rims = [(radius * math.cos(a), y, radius * math.sin(a)) for a in angles for y in (-width / 2, width / 2)]
     return np.array([*rims, (0.0, -width / 2, 0.0), (0.0, width / 2, 0.0)])
-
-
-def test_mirroring_turns_the_corners_around() -> None:
-    triangle = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]])
-    assert placed(triangle, np.diag([1.0, 1, 2, 1])).tolist() == triangle.tolist()
-    assert placed(triangle, np.diag([1.0, 1, -1, 1])).tolist() == triangle[:, ::-1].tolist()
-
-
-def test_placing_rotates_and_moves() -> None:
-    pose = np.array([[0.0, -1, 0, 10], [1, 0, 0, 20], [0, 0, 1, 30], [0, 0, 0, 1]])
-    assert placed(np.array([[[1.0, 2, 3]] * 3]), pose)[0, 0].tolist() == [8, 21, 33]
-
-
-def test_bounds_are_least_and_greatest_coordinates() -> None:
-    assert bounds(np.array([[1.0, 5, -3], [2, 4, -6]])) == [[1, 4, -6], [2, 5, -3]]
 
 
 @pytest.mark.parametrize("segments", [36, 48, 72, 100, 360, 20000])

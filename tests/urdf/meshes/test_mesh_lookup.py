@@ -11,7 +11,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from urdfsync.domain import Lookup
-from urdfsync.urdf.meshes.lookup import as_is, candidates, dependencies, key, mesh, suffix, target
+from urdfsync.urdf.meshes.lookup import as_is, candidates, dependencies, key, mesh, target
 from urdfsync.urdf.robot import Box, Collision, Link, Mesh, Robot, Visual
 
 LOOKUP = Lookup(Path("/ws/src/arm/urdf/arm.urdf"), (Path("/opt/robots"), Path("/opt/gripper")))
@@ -139,10 +139,6 @@ def test_uri_that_names_no_file_has_no_candidates(uri: str) -> None:
     assert candidates(uri, LOOKUP) == ()
 
 
-def test_encoded_control_character_is_not_decoded() -> None:
-    assert [path.name for path in candidates("/data/a%00.stl", LOOKUP)] == ["a%00.stl"]
-
-
 def test_folders_above_the_source_may_have_names_that_are_not_utf_8() -> None:
     assert candidates("a.stl", Lookup(Path("/ws/\udcff/arm.urdf")))[0] == Path("/ws/\udcff/a.stl")
 
@@ -228,10 +224,6 @@ def test_target_is_the_same_for_ever() -> None:
     assert target(Mesh("package://arm/meshes/base.dae")) == "Resources/base_44199b6a.stl"
 
 
-def test_suffix_is_that_of_the_file_name() -> None:
-    assert [suffix(uri) for uri in ("a.b/c.STL", "a.b/c", "c.tar.obj", ".stl", "")] == [".stl", "", ".obj", "", ""]
-
-
 def _robot(*meshes: tuple[Mesh, Mesh]) -> Robot:
     links = [
         Link(f"l{n}", visuals=(Visual(Box((1, 1, 1))), Visual(v)), collisions=(Collision(c),))
@@ -265,7 +257,3 @@ def test_order_of_links_does_not_matter_and_lines_may_be_unknown() -> None:
     turned = Robot("r", robot.links[::-1])
     assert dependencies(robot, LOOKUP, {}) == dependencies(turned, LOOKUP, {})
     assert {d.line for d in dependencies(robot, LOOKUP, {})} == {0}
-
-
-def test_robot_without_meshes_depends_on_nothing() -> None:
-    assert dependencies(Robot("r", (Link("l", visuals=(Visual(Box((1, 1, 1))),)),)), LOOKUP, {}) == ()

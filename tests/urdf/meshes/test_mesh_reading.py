@@ -6,6 +6,7 @@ import base64
 import itertools
 import json
 import logging
+import subprocess
 import sys
 
 import numpy as np
@@ -148,12 +149,31 @@ def test_what_cannot_be_read_is_said(suffix: str, content: bytes, reason: str) -
         read_mesh(suffix, content)
 
 
-@pytest.mark.parametrize(("suffix", "module"), [(".stl", "trimesh"), (".dae", "collada")])
+@pytest.mark.parametrize(("suffix", "module"), [(".ply", "trimesh"), (".dae", "collada")])
 def test_missing_library_is_said(suffix: str, module: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, module, None)
     content = next(content for name, content in FORMATS.items() if name.endswith(suffix))
     with pytest.raises(MeshError, match=f"a Python package is missing .*{module}"):
         read_mesh(suffix, content)
+
+
+def test_stl_and_obj_load_no_library_for_meshes() -> None:
+    files = [(_suffix(name), FORMATS[name]) for name in FORMATS if name.endswith((".stl", ".obj"))]
+    program = (
+        "import sys; from urdfsync.urdf.meshes.reading import read_mesh;"
+        "from urdfsync.urdf.meshes import convert;"
+        f"assert all(len(read_mesh(*file)) == 12 for file in {files!r});"
+        "assert not {'trimesh', 'collada'} & sys.modules.keys()"
+    )
+    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
+
+
+NAMED = b"solid vertex 1 2 3\n  facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1 -1e-3\n"
+
+
+def test_an_ascii_stl_may_have_several_solids_and_any_names() -> None:
+    solid = NAMED + b"endloop\nendfacet\nendsolid vertex 1 2 3\n"
+    assert read_mesh(".stl", solid * 2).tolist() == [[[0, 0, 0], [1, 0, 0], [0, 1, -1e-3]]] * 2
 
 
 def test_log_of_trimesh_is_silent_only_while_a_mesh_is_read() -> None:

@@ -19,7 +19,7 @@ from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.robot import Box, Collision, Cylinder, Geometry, Inertia, Joint, Link, Mesh, Origin, Sphere, Visual
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
-CORPUS = Path(os.environ.get("URDFSYNC_CORPUS", Path(__file__).parents[3] / "shared" / "corpus"))
+CORPUS = Path(os.environ.get("URDFSYNC_CORPUS", Path(__file__).parents[4] / "shared" / "corpus"))
 FILES = sorted(path.relative_to(CORPUS).as_posix() for path in CORPUS.rglob("*.urdf") if path.is_file())
 ROBOTS = [file for file in FILES if file.startswith("robots/")]
 

@@ -15,7 +15,6 @@ from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.robot import (
     Box,
     Calibration,
-    Capsule,
     Collision,
     Cylinder,
     Dynamics,
@@ -149,12 +148,6 @@ def test_the_line_is_where_a_start_tag_begins_even_in_long_files() -> None:
     reading = read(f'<robot name="r">{blank}<link\n name="a"\n/><link name="a"/></robot>')
     assert reading.lines["link a"] == 70_001
     assert [(d.code, d.line) for d in reading.diagnostics] == [("duplicate-link", 70_003)]
-
-
-def test_tags_in_a_document_type_are_none() -> None:
-    reading = read('<!DOCTYPE robot SYSTEM "<link>">\n<robot name="r">\n<link name="a"/></robot>')
-    assert reading.robot == Robot("r", (Link("a"),))
-    assert reading.lines == {"robot": 2, "link a": 3}
 
 
 def test_the_first_of_two_elements_that_are_called_the_same_has_the_line() -> None:
@@ -501,11 +494,6 @@ def test_shapes_are_counted_without_those_that_are_left_out() -> None:
     assert reading.robot is not None
     assert reading.robot.links[0].visuals == (Visual(Sphere(1.0)),)
     assert reading.lines["link a / visual 1 / sphere"] == 4
-
-
-def test_a_capsule() -> None:
-    (link,) = robot_of(in_visual('<geometry><capsule radius="1" length="2"/></geometry>')).links
-    assert link.visuals[0].geometry == Capsule(1.0, 2.0)
 
 
 SPHERE = '<geometry><sphere radius="1"/></geometry>'

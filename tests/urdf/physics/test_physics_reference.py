@@ -14,7 +14,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.reading import read
-from urdfsync.urdf.physics.reference import Frame, Instant, Reference, Relative, State
+from urdfsync.urdf.physics.reference import Configuration, FrameMotion, FreeJointState, Instant, Reference
 from urdfsync.urdf.robot import Joint
 
 Array = NDArray[np.float64]
@@ -53,7 +53,7 @@ class Bot:
         self.reference = Reference(read(urdf.encode(), "robot.urdf"), names(self.axes), names(self.free))
         self.starts = {j.name: self.reference.start(j.name, motion.free_start(j)) for j in self.free}
 
-    def state(self, time: float = 0.0) -> State:
+    def state(self, time: float = 0.0) -> Configuration:
         return self.reference.state(time, [motion.axis_course(joint) for joint in self.axes], self.starts)
 
     def instant(self, time: float = 0.0) -> Instant:
@@ -130,9 +130,9 @@ def test_velocities_are_derivatives_of_places(urdf: str) -> None:
         assert frame.turning == pytest.approx(turning, abs=1e-8)
 
 
-def moved(start: Relative, time: float) -> Relative:
+def moved(start: FreeJointState, time: float) -> FreeJointState:
     axes = pin.exp3(start.turning * time) @ start.axes
-    return Relative(start.place + start.velocity * time, axes, start.velocity, start.turning)
+    return FreeJointState(start.place + start.velocity * time, axes, start.velocity, start.turning)
 
 
 def links_of(bot: Bot) -> list[str]:
@@ -142,7 +142,7 @@ def links_of(bot: Bot) -> list[str]:
 def test_a_state_is_found_again_from_the_frames_of_links() -> None:
     bot = Bot(FREE)
     state, instant = bot.state(), bot.instant()
-    frames: dict[str, Relative | Frame] = {joint.name: instant.frame(joint.child) for joint in bot.free}
+    frames: dict[str, FreeJointState | FrameMotion] = {joint.name: instant.frame(joint.child) for joint in bot.free}
     again = bot.reference.state(0.0, [motion.axis_course(joint) for joint in bot.axes], frames)
     assert again.q == pytest.approx(state.q, abs=1e-12)
     assert again.v == pytest.approx(state.v, abs=1e-12)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -15,70 +14,23 @@ from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.physics import amended, motion, probe
-from urdfsync.urdf.physics.coverage import unchecked
-from urdfsync.urdf.physics.measured import Measured
+from urdfsync.urdf.physics import completion, motion
+from urdfsync.urdf.physics.probe import FORCE, MASS, MOMENT, TORQUE, RobotVariables, probe, robot_variables
 from urdfsync.urdf.physics.reading import Array, pinocchio, read
-from urdfsync.urdf.physics.reference import Frame, Reference, State
-from urdfsync.urdf.physics.variables import variables
+from urdfsync.urdf.physics.reference import Configuration, FrameMotion, Instant, Reference
 from urdfsync.urdf.robot import Robot
 
+Series: TypeAlias = Mapping[str, Sequence[float]]
+
 _FIRST, _LAST = 0, -1
-_SOLVER = 1e-6
-"""Relative difference between two simulations of free joints that the steps of a solver may account for."""
+_SOLVER_ERROR = 1e-6  # relative difference between two simulations of free joints that a solver's steps may cause
 
-
-class _Key(NamedTuple):
-    """What a deviation is of."""
-
-    quantity: Quantity
-    element: str
-    unit: str
-
-
-class _Value(NamedTuple):
-    """What one side says at one instant."""
-
-    key: _Key
-    value: Array
-
-
-class _Pair(NamedTuple):
-    """One comparison at one instant."""
-
-    found: _Value
-    expected: _Value
-    blur: float
-    """Relative differences up to it say nothing."""
-
-    @property
-    def difference(self) -> float:
-        """The greatest; what is no number is infinitely far off."""
-        difference = float(np.max(np.abs(self.found.value - self.expected.value)))
-        if math.isnan(difference):
-            return math.inf
-        return 0.0 if difference <= self.blur * max(1.0, self.size) else difference
-
-    @property
-    def size(self) -> float:
-        """The greatest value that is expected; 0 if that is no number."""
-        size = float(np.max(np.abs(self.expected.value)))
-        return size if math.isfinite(size) else 0.0
-
-
-class _Side(Protocol):
-    """One of the two robots that are compared, at one instant."""
-
-    @property
-    def force(self) -> Array: ...
-    @property
-    def torque(self) -> Array: ...
-    @property
-    def efforts(self) -> Array: ...
-
-    def frame(self, link: str) -> Frame: ...
-    def acceleration(self, link: str) -> tuple[Array, Array]: ...
-    def mass_and_centre(self) -> tuple[float, Array]: ...
+_BENCHES = {
+    ("package",): "Run and Test (they are only compiled)",
+    ("record",): "the bench around the generic robot (it is only compiled)",
+    ("package", "record"): "Run, Test and the generic robot with the record (they are only compiled)",
+}
+"""Per approach, the models around what is compared."""
 
 
 def experiment(
@@ -100,13 +52,12 @@ class PinocchioExperiment:
     def __init__(self, content: bytes, file: str, target: Target, options: Options, complete: bool) -> None:
         self.reference = f"Pinocchio {pinocchio().__version__}"
         robot = _robot(content, file)
-        self.content, self.notes = amended.readable(content)
+        self.content, self.notes = completion.completed_for_pinocchio(content)
         if complete:
-            self.content, made_up = amended.with_inertias(self.content, KinematicTree.of(robot))
+            self.content, made_up = completion.with_inertias(self.content, KinematicTree.of(robot))
             self.notes += made_up
-        robot = _robot(self.content, file)
-        self._skeleton = KinematicTree.of(robot, (target.name,))
-        self._names = variables(self._skeleton, target, options)
+        self._skeleton = KinematicTree.of(_robot(self.content, file), (target.name,))
+        self._variables = robot_variables(self._skeleton, target, options)
         self._axes, self._free = motion.driven_axes(self._skeleton), motion.free_joints(self._skeleton)
         self._courses = [motion.axis_course(joint) for joint in self._axes]
         names = [[joint.name for joint in joints] for joints in (self._axes, self._free)]
@@ -115,8 +66,8 @@ class PinocchioExperiment:
         ballast = self._needs_ballast(file)
         if complete and self._insoluble:
             raise SourceError(self._insoluble)
-        self.probe = probe.probe(self._skeleton, target, options, ballast)
-        self.unchecked = tuple(unchecked(self._skeleton, options))
+        self.probe = probe(self._skeleton, target, options, ballast)
+        self.unchecked = tuple(_unchecked(self._skeleton, options))
 
     def _needs_ballast(self, file: str) -> bool:
         """Whether free joints move no inertia: then bodies hang on the robot, and a note says so."""
@@ -132,49 +83,56 @@ class PinocchioExperiment:
         self.notes += (f"{weight}, because {names} would move without any inertia",)
         return True
 
-    def compare(
-        self, series: Mapping[str, Sequence[float]], baseline: Mapping[str, Sequence[float]] | None = None
-    ) -> Sequence[Deviation]:
+    def compare(self, series: Series, baseline: Series | None = None) -> Sequence[Deviation]:
         """See `urdfsync.domain.Experiment`; the first and the last instant count."""
-        pairs: list[_Pair] = []
+        greatest: dict[_Key, tuple[float, float]] = {}  # difference, and value of the reference
         with np.errstate(all="ignore"):  # where the simulation gave no number, the reference may have none
             for instant in (_FIRST, _LAST):
-                found = Measured(series, self._skeleton, self._names, instant)
+                found = Measured(series, self._skeleton, self._variables, instant)
                 expected = self._expected(found, baseline, instant)
-                blur = _SOLVER if baseline is not None and self._free and instant == _LAST else 0.0
-                both = zip(self._quantities(found), self._quantities(expected), strict=True)
-                pairs += (_Pair(*values, blur) for values in both)
-            return list(_deviations(pairs))
+                tolerated = _SOLVER_ERROR if baseline is not None and self._free and instant == _LAST else 0.0
+                for (key, one), (_, other) in zip(self._values(found), self._values(expected), strict=True):
+                    difference, value = greatest.get(key, (0.0, 0.0))
+                    new, size = _difference(one, other), _size(other)
+                    new = 0.0 if new <= tolerated * max(1.0, size) else new
+                    greatest[key] = max(difference, new), max(value, size)
+        sizes: dict[tuple[Quantity, str], float] = {}
+        for key, (_, value) in greatest.items():
+            sizes[key.quantity, key.unit] = max(sizes.get((key.quantity, key.unit), 0.0), value)
+        return [
+            Deviation(key.quantity, key.element, difference, value, sizes[key.quantity, key.unit], key.unit)
+            for key, (difference, value) in greatest.items()
+        ]
 
-    def _quantities(self, side: _Side) -> Iterator[_Value]:
+    def _values(self, side: Measured | Instant) -> Iterator[tuple[_Key, Array]]:
         """All that is compared at one instant, from the root outwards."""
         for link in self._skeleton.links:
             frame = side.frame(link.name)
-            yield _Value(_Key(Quantity.POSITION, f"link {link.name}", "m"), frame.place)
-            yield _Value(_Key(Quantity.ORIENTATION, f"link {link.name}", ""), frame.axes)
+            yield _Key(Quantity.POSITION, f"link {link.name}", "m"), frame.place
+            yield _Key(Quantity.ORIENTATION, f"link {link.name}", ""), frame.axes
         efforts = dict(zip((joint.name for joint in self._axes), side.efforts, strict=True))
         for joint in self._skeleton.joints:
             if joint.name in efforts:
                 unit = "N·m" if MOTION_KINDS[joint.type] == "rotational" else "N"
-                yield _Value(_Key(Quantity.EFFORT, f"joint {joint.name}", unit), efforts[joint.name])
+                yield _Key(Quantity.EFFORT, f"joint {joint.name}", unit), efforts[joint.name]
         root = f"link {self._skeleton.links[0].name}"
-        yield _Value(_Key(Quantity.REACTION, root, "N"), side.force)
-        yield _Value(_Key(Quantity.REACTION, root, "N·m"), side.torque)
+        yield _Key(Quantity.REACTION, root, "N"), side.force
+        yield _Key(Quantity.REACTION, root, "N·m"), side.torque
         for joint in self._free:
             linear, angular = side.acceleration(joint.child)
-            yield _Value(_Key(Quantity.ACCELERATION, f"link {joint.child}", "m/s²"), linear)
-            yield _Value(_Key(Quantity.ACCELERATION, f"link {joint.child}", "rad/s²"), angular)
+            yield _Key(Quantity.ACCELERATION, f"link {joint.child}", "m/s²"), linear
+            yield _Key(Quantity.ACCELERATION, f"link {joint.child}", "rad/s²"), angular
         mass, centre = side.mass_and_centre()
-        yield _Value(_Key(Quantity.MASS, "robot", "kg"), np.array(mass))
-        yield _Value(_Key(Quantity.CENTRE, "robot", "m"), centre)
+        yield _Key(Quantity.MASS, "robot", "kg"), np.array(mass)
+        yield _Key(Quantity.CENTRE, "robot", "m"), centre
 
-    def _expected(self, found: Measured, baseline: Mapping[str, Sequence[float]] | None, instant: int) -> _Side:
+    def _expected(self, found: Measured, baseline: Series | None, instant: int) -> Measured | Instant:
         """The baseline, or else the reference.
 
         For the reference, where free joints are later on follows from the simulation, whose solver is not tested.
         """
         if baseline is not None:
-            return Measured(baseline, self._skeleton, self._names, instant)
+            return Measured(baseline, self._skeleton, self._variables, instant)
         if self._insoluble:
             raise SourceError(self._insoluble)
         if instant == _FIRST:
@@ -182,10 +140,70 @@ class PinocchioExperiment:
         free = {joint.name: found.frame(joint.child) for joint in self._free}
         return self._reference.solve(self._reference.state(found.time, self._courses, free))
 
-    def _start(self, time: float = 0.0) -> State:
+    def _start(self, time: float = 0.0) -> Configuration:
         """How the robot begins."""
         free = {joint.name: self._reference.start(joint.name, motion.free_start(joint)) for joint in self._free}
         return self._reference.state(time, self._courses, free)
+
+
+class Measured:
+    """The values of the probe at one instant, with the questions that `reference.Instant` answers.
+
+    A value that is missing is NaN.
+    """
+
+    def __init__(self, series: Series, skeleton: KinematicTree, variables: RobotVariables, instant: int) -> None:
+        self._series, self._variables, self._instant = series, variables, instant
+        self.time = self._number("time")
+        self.force, self.torque = -self._array(FORCE), -self._array(TORQUE)
+        self.efforts = self._array(tuple(variables.efforts(skeleton).values()))
+
+    def frame(self, link: str) -> FrameMotion:
+        """How the frame of a link moves; its velocities are known only if a free joint carries it."""
+        axes = self._array(self._variables.axes[link]).reshape(3, 3).T
+        return FrameMotion(
+            self._array(self._variables.places[link]), axes, self._of_body(link, "v_0"), self._of_body(link, "w_a")
+        )
+
+    def acceleration(self, link: str) -> tuple[Array, Array]:
+        """Of a link that a free joint carries: linear, resolved in the world, and angular, resolved in its frame."""
+        return self._of_body(link, "a_0"), self._of_body(link, "z_a")
+
+    def mass_and_centre(self) -> tuple[float, Array]:
+        """Mass of the whole robot and its centre in the world; zero without any mass."""
+        (mass,), moment = self._array(MASS), self._array(MOMENT)
+        return float(mass), moment / mass if mass else moment
+
+    def _of_body(self, link: str, part: str) -> Array:
+        known = link in self._variables.bodies
+        return self._array(self._variables.of_body(link, part)) if known else np.full(3, math.nan)
+
+    def _array(self, names: Sequence[str]) -> Array:
+        return np.array([self._number(name) for name in names])
+
+    def _number(self, name: str) -> float:
+        series = self._series.get(name, ())
+        return series[self._instant] if len(series) else math.nan
+
+
+class _Key(NamedTuple):
+    """What a deviation is of."""
+
+    quantity: Quantity
+    element: str
+    unit: str
+
+
+def _difference(found: Array, expected: Array) -> float:
+    """The greatest; what is no number is infinitely far off."""
+    difference = float(np.max(np.abs(found - expected)))
+    return math.inf if math.isnan(difference) else difference
+
+
+def _size(expected: Array) -> float:
+    """The greatest absolute value; 0 if that is no number."""
+    size = float(np.max(np.abs(expected)))
+    return size if math.isfinite(size) else 0.0
 
 
 def _robot(content: bytes, file: str) -> Robot:
@@ -195,15 +213,29 @@ def _robot(content: bytes, file: str) -> Robot:
     return reading.robot
 
 
-def _deviations(pairs: Sequence[_Pair]) -> Iterator[Deviation]:
-    """The greatest difference per element, and the greatest values."""
-    differences: defaultdict[_Key, float] = defaultdict(float)
-    values: defaultdict[_Key, float] = defaultdict(float)
-    sizes: defaultdict[tuple[Quantity, str], float] = defaultdict(float)
-    for pair in pairs:
-        key = pair.found.key
-        differences[key] = max(differences[key], pair.difference)
-        values[key] = max(values[key], pair.size)
-        sizes[key.quantity, key.unit] = max(sizes[key.quantity, key.unit], values[key])
-    for key, difference in differences.items():
-        yield Deviation(key.quantity, key.element, difference, values[key], sizes[key.quantity, key.unit], key.unit)
+def _unchecked(skeleton: KinematicTree, options: Options) -> Iterator[str]:
+    """What the comparison does not cover, as far as it matters for this robot: sentences without a full stop."""
+    joints, links = skeleton.joints, skeleton.links
+    if all(joint.type == "fixed" for joint in joints):
+        yield "no joint moves, so that only poses, masses and the forces on the root link are compared"
+    if not any(link.inertial and link.inertial.mass > 0 for link in links):
+        yield "no link has a mass, so that efforts show the losses of joints only"
+    without_effect = {
+        "limits": any(joint.limit for joint in joints if joint.type in MOTION_KINDS),
+        "calibrations": any(joint.calibration for joint in joints),
+        "safety controllers": any(joint.safety_controller for joint in joints),
+        "shapes": any(link.visuals or link.collisions for link in links),
+    }
+    parts = []
+    if there := [noun for noun, is_there in without_effect.items() if is_there]:
+        parts.append(f"{_listed(there)} (they change no motion)")
+    touches = options.base == "floating" and options.collisions and "package" in options.approach
+    if touches and any(link.collisions for link in links):
+        parts.append("contacts with the ground (the robot moves high above it)")
+    yield f"{_listed([*parts, _BENCHES[tuple(sorted(set(options.approach)))]])} are not compared"
+
+
+def _listed(parts: Sequence[str]) -> str:
+    """`a`, `a and b`, `a, b and c`."""
+    *most, last = parts
+    return f"{', '.join(most)}{' and ' if most else ''}{last}"

@@ -21,8 +21,7 @@ INSTANT = 1e-6
 GRAVITY = 9.81
 """Along -z of the world, in m/s²."""
 
-_FARTHEST = 10.0
-"""Limits beyond it (m or rad) say nothing about where a joint is at home, and cost digits."""
+_FARTHEST = 10.0  # limits beyond it (m or rad) say nothing about where a joint is at home, and cost digits
 
 
 class Course(NamedTuple):

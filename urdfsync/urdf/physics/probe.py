@@ -1,31 +1,24 @@
 """The Modelica text that moves a generated robot as `motion` says, and the variables that are read from it.
 
-It relies on little, so that packages may be edited: on what `variables` says, on `m`, and on the start values of
-planar and floating joints.
+It relies on little of the package, so that packages may be edited: on the variables below, on `m`, and on the start
+values of planar and floating joints.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+
+import msgspec
 
 from urdfsync.domain import Probe, Target
 from urdfsync.modelica.literals import vector
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
+from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
+from urdfsync.urdf.model.robot import connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.physics.variables import (
-    ACCELERATION,
-    ANGULAR,
-    PLACE,
-    ROTATION,
-    VELOCITY,
-    Variables,
-    variables,
-)
 
-_DEPTH = 1e9
-"""How far down the ground is, in m: the contacts of a mobile robot are there, and nothing touches."""
+_GROUND_DEPTH = 1e9  # m: the contacts of a mobile robot are that far down, and nothing touches
 _DRIVE = """
   model {domain}Drive "Moves a flange as q = a0 + a1*t + a2*t^2/2"
     parameter Real a0 = 0;
@@ -61,36 +54,118 @@ MOMENT = tuple(f"moment[{i}]" for i in (1, 2, 3))
 """The sum of mass times place over all bodies, in kg·m."""
 
 
+class RobotVariables(msgspec.Struct, frozen=True):
+    """Names in a model that has the robot as `robot`; keys are URDF names."""
+
+    declaration: str
+    """Of the robot, up to the modifiers that depend on the comparison."""
+    moment: str
+    """An expression: the sum of mass times place over all links, in kg·m."""
+    places: Mapping[str, tuple[str, ...]]
+    """By link: the three coordinates of its frame, in the world."""
+    axes: Mapping[str, tuple[str, ...]]
+    """By link: the nine elements of the axes of its frame in the world, one axis after the other."""
+    flanges: Mapping[str, str]
+    """By joint that can be driven: the connector of its axis."""
+    frames: Mapping[str, str]
+    """By link without children: its connector."""
+    bodies: Mapping[str, str]
+    """By link: its body, which tells velocities; empty where links have no components of their own."""
+
+    def efforts(self, skeleton: KinematicTree) -> dict[str, str]:
+        """By driven joint: what drives it, in the order of `motion.driven_axes`."""
+        return {
+            joint.name: f"{self.flanges[joint.name]}.{'tau' if MOTION_KINDS[joint.type] == 'rotational' else 'f'}"
+            for joint in motion.driven_axes(skeleton)
+        }
+
+    def of_body(self, link: str, part: str) -> tuple[str, ...]:
+        """The three elements of a vector of a link's body: v_0 and a_0 in the world, w_a and z_a in its frame."""
+        return tuple(f"{self.bodies[link]}.{part}[{i}]" for i in (1, 2, 3))
+
+
+def robot_variables(skeleton: KinematicTree, target: Target, options: Options) -> RobotVariables:
+    """The names for the approach that is compared: that of the package, if there is a choice."""
+    compare = _package_variables if "package" in options.approach else _record_variables
+    return compare(skeleton, target, options)
+
+
+def _package_variables(skeleton: KinematicTree, target: Target, options: Options) -> RobotVariables:
+    connectors = connector_names(skeleton, options)
+    links = {link.name: f"robot.{skeleton.link(link.name).component}" for link in skeleton.links}
+    resolve = "Modelica.Mechanics.MultiBody.Frames.resolve1"
+    moments = (
+        f"{link}.body.m*({link}.frame_a.r_0 + {resolve}({link}.frame_a.R, {link}.body.r_CM))" for link in links.values()
+    )
+    nine = [(i, j) for i in (1, 2, 3) for j in (1, 2, 3)]
+    return RobotVariables(
+        declaration=f"{target.package}.{target.name} robot(animation = false, ",
+        moment=" + ".join(moments),
+        places={name: tuple(f"{link}.frame_a.r_0[{i}]" for i in (1, 2, 3)) for name, link in links.items()},
+        axes={name: tuple(f"{link}.frame_a.R.T[{i},{j}]" for i, j in nine) for name, link in links.items()},
+        flanges={name: f"robot.{axis}" for name, axis in connectors.axes.items()},
+        frames={name: f"robot.{frame}" for name, frame in connectors.frames.items()},
+        bodies={name: f"{link}.body" for name, link in links.items()},
+    )
+
+
+def _record_variables(skeleton: KinematicTree, target: Target, options: Options) -> RobotVariables:  # noqa: ARG001
+    """The generic robot with a generated record: links are numbers there, and only their poses are told."""
+    numbers = {link.name: number for number, link in enumerate(skeleton.links, 1)}
+    motions: tuple[Motion, ...] = ("rotational", "translational")
+    moments = (
+        f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :])"
+        for k in numbers.values()
+    )
+    record = f"redeclare parameter {target.package}.{target.name}Parameters data"
+    nine = [(i, j) for i in (1, 2, 3) for j in (1, 2, 3)]
+    return RobotVariables(
+        declaration=f"UrdfSync.Robots.GenericRobot robot({record}, ",
+        moment=" + ".join(moments),
+        places={name: tuple(f"robot.r_0[{k},{i}]" for i in (1, 2, 3)) for name, k in numbers.items()},
+        axes={name: tuple(f"robot.R_0[{k},{j},{i}]" for i, j in nine) for name, k in numbers.items()},
+        flanges={
+            joint.name: f"robot.{motion}Axis[{number}]"
+            for motion in motions
+            for number, joint in enumerate(skeleton.axes(motion), 1)
+        },
+        frames={link.name: f"robot.frame_b[{number}]" for number, link in enumerate(skeleton.leaves(), 1)},
+        bodies={},
+    )
+
+
 def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bool = False) -> Probe:
     """A model in which every axis of the robot moves, and the values to compare.
 
     With `ballast`, a body hangs on each link without children.
     """
-    names = variables(skeleton, target, options)
-    modifiers = ", ".join(["checkLimits = false", "fixedStart = false", *_starts(skeleton)])
+    names = robot_variables(skeleton, target, options)
+    modifiers = ", ".join(["checkLimits = false", "fixedStart = false", *_start_modifiers(skeleton)])
+    loaded = skeleton.leaves() if ballast else ()
     lines = [
         "package Probe_",
         *(f"  import {library};" for library in _libraries(target, options)),
         DRIVES,
-        _BASE.format(path=", ".join(map(_text, motion.PATH)), turn=_text(motion.TURN), axis=vector(motion.TURN_AXIS)),
+        _BASE.format(
+            path=", ".join(map(_polynomial, motion.PATH)),
+            turn=_polynomial(motion.TURN),
+            axis=vector(motion.TURN_AXIS),
+        ),
         "  model Probe",
-        *(f"    {line};" for line in _surroundings(options)),
+        *(f"    {line};" for line in _world(options)),
         "    MovingBase base;",
-        f"    {names.model}{modifiers});",
+        f"    {names.declaration}{modifiers});",
         *(f"    {line};" for line in _drives(skeleton)),
-        *([f"    {_ballast(leaf)};" for leaf in range(1, 1 + len(skeleton.leaves()))] if ballast else []),
+        *(f"    {_ballast_body(k)};" for k, _ in enumerate(loaded, 1)),
         "    Real mass = robot.m;",
         f"    Real moment[3] = {names.moment};",
         "  equation",
         "    connect(base.frame_b, robot.frame_a);",
         *(
-            f"    connect(drive{k}.flange, {names.flange(joint.name)});"
+            f"    connect(drive{k}.flange, {names.flanges[joint.name]});"
             for k, joint in enumerate(motion.driven_axes(skeleton), 1)
         ),
-        *(
-            f"    connect(ballast{k}.frame_a, {names.frame(leaf.name)});"
-            for k, leaf in enumerate(skeleton.leaves() if ballast else (), 1)
-        ),
+        *(f"    connect(ballast{k}.frame_a, {names.frames[leaf.name]});" for k, leaf in enumerate(loaded, 1)),
         "  end Probe;",
         "end Probe_;",
         "",
@@ -99,22 +174,13 @@ def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bo
     return Probe("\n".join(lines), "Probe_.Probe", stop, stop / 4, tuple(_values(skeleton, names)))
 
 
-def effort_names(skeleton: KinematicTree, names: Variables) -> tuple[str, ...]:
-    """What drives each axis, in the order of `motion.driven_axes`."""
-    return tuple(
-        f"{names.flange(joint.name)}.{'tau' if MOTION_KINDS[joint.type] == 'rotational' else 'f'}"
-        for joint in motion.driven_axes(skeleton)
-    )
-
-
-def _values(skeleton: KinematicTree, names: Variables) -> Iterator[str]:
+def _values(skeleton: KinematicTree, names: RobotVariables) -> Iterator[str]:
     for link in skeleton.links:
-        yield from names.vector(link.name, PLACE)
-        yield from names.axes(link.name)
+        yield from (*names.places[link.name], *names.axes[link.name])
     for joint in motion.free_joints(skeleton):
-        for part in (VELOCITY, ROTATION, ACCELERATION, ANGULAR):
-            yield from names.vector(joint.child, part)
-    yield from (*effort_names(skeleton, names), *FORCE, *TORQUE, *MASS, *MOMENT)
+        for part in ("v_0", "w_a", "a_0", "z_a"):
+            yield from names.of_body(joint.child, part)
+    yield from (*names.efforts(skeleton).values(), *FORCE, *TORQUE, *MASS, *MOMENT)
 
 
 def _libraries(target: Target, options: Options) -> dict[str, None]:
@@ -123,38 +189,36 @@ def _libraries(target: Target, options: Options) -> dict[str, None]:
     return dict.fromkeys(("Modelica", "UrdfSync", *optional, target.package.partition(".")[0]))
 
 
-def _surroundings(options: Options) -> Iterator[str]:
+def _world(options: Options) -> Iterator[str]:
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
     yield f"inner Modelica.Mechanics.MultiBody.World world({world})"
     if options.base == "floating":
-        yield f"inner UrdfSync.Contacts.Ground ground(height = {-_DEPTH!r})"
+        yield f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})"
 
 
-def _starts(skeleton: KinematicTree) -> Iterator[str]:
+def _start_modifiers(skeleton: KinematicTree) -> Iterator[str]:
     """Modifiers with the start values of planar and floating joints."""
     for joint in motion.free_joints(skeleton):
         start = motion.free_start(joint)._asdict()
-        values = (f"{key}_start = {_number(value)}" for key, value in start.items())
+        values = (f"{key}_start = {_literal(value)}" for key, value in start.items())
         yield f"{skeleton.joint(joint.name).component}(fixedStart = true, {', '.join(values)})"
 
 
 def _drives(skeleton: KinematicTree) -> Iterator[str]:
     for k, joint in enumerate(motion.driven_axes(skeleton), 1):
-        course = motion.axis_course(joint)
-        values = ", ".join(f"a{power} = {value!r}" for power, value in enumerate(course))
+        values = ", ".join(f"a{power} = {value!r}" for power, value in enumerate(motion.axis_course(joint)))
         yield f"{MOTION_KINDS[joint.type].capitalize()}Drive drive{k}({values})"
 
 
-def _ballast(number: int) -> str:
+def _ballast_body(number: int) -> str:
     tensor = ", ".join(f"I_{i}{i} = {value!r}" for i, value in enumerate(motion.BALLAST_INERTIA, 1))
-    centre = vector(motion.BALLAST_CENTRE)
-    body = f"animation = false, m = {motion.BALLAST_MASS!r}, r_CM = {centre}, {tensor}"
+    body = f"animation = false, m = {motion.BALLAST_MASS!r}, r_CM = {vector(motion.BALLAST_CENTRE)}, {tensor}"
     return f"Modelica.Mechanics.MultiBody.Parts.Body ballast{number}({body})"
 
 
-def _text(course: Course) -> str:
+def _polynomial(course: Course) -> str:
     return f"{course.position!r} + ({course.speed!r})*time + ({course.acceleration!r})*time^2/2"
 
 
-def _number(value: float | tuple[float, ...]) -> str:
+def _literal(value: float | tuple[float, ...]) -> str:
     return vector(value) if isinstance(value, tuple) else repr(value)

@@ -16,16 +16,13 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
-from urdfsync.urdf.physics.elements import Element, attribute, children, parse
-from urdfsync.urdf.physics.quiet import overheard
+from urdfsync.extras import install_command
+from urdfsync.urdf.parse import xml
+from urdfsync.urdf.physics.completion import Element, attribute, children
 
 Array = NDArray[np.float64]
 
-_NEAR = 0.9
-"""Cosine of the angle to x from which on a normal counts as close to it."""
-_LOST = "Could not parse inertial"
-"""What Pinocchio's reader says where it goes on without the mass of a link."""
-_ERROR = "Error:"
+_CLOSE_TO_X = 0.9  # cosine of the angle to x from which on a normal counts as close to it
 
 
 class Follower(NamedTuple):
@@ -45,7 +42,7 @@ class Plane(NamedTuple):
     """Their axes as rows, resolved in the joint frame."""
 
 
-class Reading(NamedTuple):
+class PinocchioRobot(NamedTuple):
     """What the reference knows of a robot."""
 
     model: Any
@@ -56,10 +53,10 @@ class Reading(NamedTuple):
     """By planar joint."""
 
 
-def read(content: bytes, file: str) -> Reading:
+def read(content: bytes, file: str) -> PinocchioRobot:
     """Read a URDF with Pinocchio. Raises SourceError if Pinocchio is not installed or refuses the file."""
     pin = pinocchio()
-    root = parse(content)
+    root = xml.parse_tree(content)
     unused = "_" * (1 + max(len(element.get("name", "")) for element in root.iter("{*}link", "{*}joint")))
     joints = {joint.get("name", ""): joint for joint in children(root, "joint")}
     followers = {name: _follower(mimic) for name, joint in joints.items() for mimic in children(joint, "mimic")}
@@ -71,24 +68,22 @@ def read(content: bytes, file: str) -> Reading:
     for name, plane in planes.items():
         _split(root, joints[name], plane)
     text = etree.tostring(root, encoding="unicode") if planes else content.decode("utf-8-sig")
-    reason = ""
-    with overheard() as said:
-        try:
-            model = pin.buildModelFromXML(text, pin.JointModelFreeFlyer(), unused)
-        except (ValueError, RuntimeError) as error:
-            reason = str(error)
-    if reason or _LOST in said.text:
-        raise SourceError(_refused(file, said.text, reason))
-    return Reading(model, followers, planes)
+    try:
+        model = pin.buildModelFromXML(text, pin.JointModelFreeFlyer(), unused)
+    except (ValueError, RuntimeError) as error:
+        message = f"Pinocchio can't read this file: {str(error).rstrip('.')}"
+        hint = "correct the file, or compare it without physics"
+        raise SourceError(Diagnostic(Severity.ERROR, "pinocchio-refuses", message, file, hint=hint)) from error
+    return PinocchioRobot(model, followers, planes)
 
 
 def pinocchio() -> Any:
     """The library; raises SourceError if it is not installed."""
     try:
-        import pinocchio
+        import pinocchio  # an optional extra
     except ImportError:
         message = "Pinocchio, the reference for physics, is not installed"
-        hint = "pip install 'urdfsync[physics]'"
+        hint = install_command("physics")
         raise SourceError(Diagnostic(Severity.ERROR, "no-pinocchio", message, hint=hint)) from None
     return pinocchio
 
@@ -96,7 +91,7 @@ def pinocchio() -> Any:
 def directions(normal: Array) -> Array:
     """The axes of a planar joint as rows: two in the plane, and the unit vector along `normal`."""
     axis = normal / np.linalg.norm(normal)
-    other = np.eye(3)[0 if abs(axis[0]) < _NEAR else 1]
+    other = np.eye(3)[0 if abs(axis[0]) < _CLOSE_TO_X else 1]
     first = other - (other @ axis) * axis
     first /= np.linalg.norm(first)
     return np.array([first, np.cross(axis, first), axis])
@@ -125,12 +120,3 @@ def _split(root: Element, joint: Element, plane: Plane) -> None:
         etree.SubElement(part, "axis", xyz=" ".join(repr(float(number)) for number in plane.axes[k]))
         etree.SubElement(part, "limit", lower="-1000", upper="1000", effort="1000", velocity="1000")
     root.remove(joint)
-
-
-def _refused(file: str, said: str, reason: str) -> Diagnostic:
-    """The first error that Pinocchio's reader told is the cause of all others."""
-    told = next((line.removeprefix(_ERROR) for line in said.splitlines() if line.startswith(_ERROR)), reason)
-    lost = next((line.removeprefix(_ERROR) for line in said.splitlines() if not reason and _LOST in line), told)
-    message = f"Pinocchio can't read this file: {' '.join(lost.split()).rstrip('.')}"
-    hint = "correct the file, or compare it without physics"
-    return Diagnostic(Severity.ERROR, "pinocchio-refuses", message, file, hint=hint)

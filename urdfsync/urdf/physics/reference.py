@@ -17,19 +17,17 @@ import numpy as np
 
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course, Planar, Start
-from urdfsync.urdf.physics.reading import Array, Reading, pinocchio
+from urdfsync.urdf.physics.reading import Array, PinocchioRobot, pinocchio
 
 TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 """In s/rad and s/m: the dry friction of generated joints is f·tanh(s·v/2)."""
 
-_SLIDING = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")
-"""How Pinocchio calls joints that slide."""
+_SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")  # Pinocchio's names
 
-_SINGULAR = 1e-12
-"""Ratio of the least to the greatest eigenvalue of an inertia that counts as singular."""
+_SINGULAR = 1e-12  # ratio of the least to the greatest eigenvalue of an inertia
 
 
-class Relative(msgspec.Struct, frozen=True):
+class FreeJointState(msgspec.Struct, frozen=True):
     """State of a free joint: the child's frame in the joint frame, all resolved in the latter."""
 
     place: Array
@@ -40,7 +38,7 @@ class Relative(msgspec.Struct, frozen=True):
     """Angular velocity."""
 
 
-class Frame(msgspec.Struct, frozen=True):
+class FrameMotion(msgspec.Struct, frozen=True):
     """A link's frame as it moves in the world."""
 
     place: Array
@@ -52,7 +50,7 @@ class Frame(msgspec.Struct, frozen=True):
     """Angular velocity, resolved in the link's frame."""
 
 
-class State(msgspec.Struct, frozen=True):
+class Configuration(msgspec.Struct, frozen=True):
     """Pinocchio's configuration, velocity and acceleration; those of free joints may be unknown yet."""
 
     q: Array
@@ -66,12 +64,12 @@ class Reference:
     Free joints are named from the root to the leaves.
     """
 
-    def __init__(self, reading: Reading, axes: Sequence[str], free: Sequence[str]) -> None:
+    def __init__(self, robot: PinocchioRobot, axes: Sequence[str], free: Sequence[str]) -> None:
         self.pin = pinocchio()
-        self.model, self.planes = reading.model, reading.planes
+        self.model, self.planes = robot.model, robot.planes
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes, self.free = tuple(axes), tuple(free)
-        self.projection, self._offset = self._mimic(reading)
+        self.projection, self._offset = self._mimic(robot)
         loose = [np.arange(part.idx_v, part.idx_v + part.nv) for name in free for part in self._parts(name)]
         self.loose = np.concatenate([np.zeros(0, dtype=int), *loose])
         """Where free joints are in Pinocchio's velocity."""
@@ -80,20 +78,22 @@ class Reference:
         self.bodies = [self.pin.Inertia(inertia) for inertia in self.model.inertias]
         """The robot's own, per joint of Pinocchio."""
 
-    def start(self, name: str, start: Start) -> Relative:
+    def start(self, name: str, start: Start) -> FreeJointState:
         """The state of a free joint from its start values."""
         if not isinstance(start, Planar):
             axes = self.pin.rpy.rpyToMatrix(*start.rpy)
-            return Relative(np.array(start.r), axes, np.array(start.v), np.array(start.w))
+            return FreeJointState(np.array(start.r), axes, np.array(start.v), np.array(start.w))
         x, y, normal = self.planes[name].axes
         place, velocity = (part[0] * x + part[1] * y for part in (start.s, start.v))
-        return Relative(place, self.pin.exp3(start.phi * normal), velocity, start.w * normal)
+        return FreeJointState(place, self.pin.exp3(start.phi * normal), velocity, start.w * normal)
 
-    def state(self, time: float, courses: Sequence[Course], free: Mapping[str, Relative | Frame]) -> State:
+    def state(
+        self, time: float, courses: Sequence[Course], free: Mapping[str, FreeJointState | FrameMotion]
+    ) -> Configuration:
         """Where the robot is, `courses` being those of the axes from time 0; accelerations of free joints are 0."""
         p, v, a = np.array([course.at(time) for course in courses]).reshape(-1, 3).T
         positions = self.projection @ p + self._offset
-        state = State(self.pin.neutral(self.model), self.projection @ v, self.projection @ a)
+        state = Configuration(self.pin.neutral(self.model), self.projection @ v, self.projection @ a)
         for joint in self.model.joints[2:]:
             if joint.nv == 1:
                 position = positions[joint.idx_v]
@@ -102,10 +102,10 @@ class Reference:
         _place_base(self.pin, state, time)
         for name in self.free:
             known = free[name]
-            self._place(state, name, known if isinstance(known, Relative) else self._relative(state, name, known))
+            self._place(state, name, known if isinstance(known, FreeJointState) else self._relative(state, name, known))
         return state
 
-    def solve(self, state: State) -> Instant:
+    def solve(self, state: Configuration) -> Instant:
         """Efforts of base and axes, and accelerations of free joints."""
         data, a = self.model.createData(), state.a.copy()
         load = self._load(data, state.q, state.v, a)
@@ -120,7 +120,7 @@ class Reference:
         """Efforts of damping and dry friction at velocity v."""
         return np.asarray(self.model.damping * v + self.model.friction * np.tanh(self.steepness * v / 2))
 
-    def is_singular(self, state: State) -> bool:
+    def is_singular(self, state: Configuration) -> bool:
         """Whether free joints carry so little inertia that their accelerations have no solution."""
         values = np.linalg.eigvalsh(self.free_inertia(state))
         return bool(values.size and values[0] <= _SINGULAR * values[-1])
@@ -133,7 +133,7 @@ class Reference:
             frame = self.model.frames[self.model.getFrameId(link, self.pin.BODY)]
             self.model.appendBodyToJoint(frame.parentJoint, body, frame.placement)
 
-    def free_inertia(self, state: State) -> Array:
+    def free_inertia(self, state: Configuration) -> Array:
         """The part of the inertia matrix H that belongs to the free joints."""
         upper = np.triu(self.pin.crba(self.model, self.model.createData(), state.q))
         inertia = upper + np.triu(upper, 1).T
@@ -147,19 +147,19 @@ class Reference:
         """In s/rad or s/m, as the default of the records."""
         steepness = np.full(self.model.nv, float(TURNING_STEEPNESS))
         for joint in self.model.joints:
-            if joint.shortname().startswith(_SLIDING):
+            if joint.shortname().startswith(_SLIDING_JOINTS):
                 steepness[joint.idx_v] = SLIDING_STEEPNESS
         return steepness
 
-    def _mimic(self, reading: Reading) -> tuple[Array, Array]:
+    def _mimic(self, robot: PinocchioRobot) -> tuple[Array, Array]:
         """B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per driven axis."""
         columns = {name: k for k, name in enumerate(self.axes)}
         scalar = set(self.model.names) - set(self.free)
         projection, offset = np.zeros((self.model.nv, len(columns))), np.zeros(self.model.nv)
         for name, joint in zip(self.model.names, self.model.joints, strict=True):
             factor, leader = 1.0, name
-            while leader in scalar and leader in reading.followers:
-                follower = reading.followers[leader]
+            while leader in scalar and leader in robot.followers:
+                follower = robot.followers[leader]
                 offset[joint.idx_v] += factor * follower.offset
                 factor, leader = factor * follower.multiplier, follower.leader
             if leader in columns:
@@ -171,7 +171,7 @@ class Reference:
         names = self.planes[name].parts if name in self.planes else (name,)
         return [self.model.joints[self.model.getJointId(part)] for part in names]
 
-    def _relative(self, state: State, name: str, frame: Frame) -> Relative:
+    def _relative(self, state: Configuration, name: str, frame: FrameMotion) -> FreeJointState:
         """State of a free joint from the frame of its child; all joints before it are in place."""
         first = self._parts(name)[0].id
         data, parent, placement = self.model.createData(), self.model.parents[first], self.model.jointPlacements[first]
@@ -180,9 +180,9 @@ class Reference:
         inward = joint.rotation.T
         place, axes = inward @ (frame.place - joint.translation), inward @ frame.axes
         velocity = inward @ frame.velocity - moves.linear - np.cross(moves.angular, place)
-        return Relative(place, axes, velocity, axes @ frame.turning - moves.angular)
+        return FreeJointState(place, axes, velocity, axes @ frame.turning - moves.angular)
 
-    def _place(self, state: State, name: str, at: Relative) -> None:
+    def _place(self, state: Configuration, name: str, at: FreeJointState) -> None:
         """Put a free joint into the configuration and velocity."""
         parts = self._parts(name)
         if name not in self.planes:
@@ -210,13 +210,13 @@ class Instant(msgspec.Struct, frozen=True):
     efforts: Array
     """Of the driven axes."""
 
-    def frame(self, link: str) -> Frame:
+    def frame(self, link: str) -> FrameMotion:
         """How the frame of a link moves."""
         pin, number = self.reference.pin, self._number(link)
         place = self.data.oMf[number]
         velocity = self._velocity(number, pin.LOCAL_WORLD_ALIGNED).linear
         turning = self._velocity(number, pin.LOCAL).angular
-        return Frame(np.array(place.translation), np.array(place.rotation), velocity, turning)
+        return FrameMotion(np.array(place.translation), np.array(place.rotation), velocity, turning)
 
     def acceleration(self, link: str) -> tuple[Array, Array]:
         """Of a link's frame: the linear one resolved in the world, the angular one in the frame."""
@@ -241,7 +241,7 @@ class Instant(msgspec.Struct, frozen=True):
         return self.reference.pin.getFrameVelocity(self.reference.model, self.data, number, resolved)
 
 
-def _place_base(pin: Any, state: State, time: float) -> None:
+def _place_base(pin: Any, state: Configuration, time: float) -> None:
     """Put the root link where `motion` says; Pinocchio resolves its velocity and acceleration in its own frame."""
     place, velocity, acceleration = np.array([course.at(time) for course in motion.PATH]).T
     angle, speed, gain = motion.TURN.at(time)

@@ -1,0 +1,396 @@
+"""The check after a build: when it is made, what is remembered of it, and what becomes of the build's result."""
+
+from __future__ import annotations
+
+import errno
+import importlib.util
+import shutil
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+
+from urdfsync import cli, config, dependencies
+from urdfsync.check import afterbuild
+from urdfsync.check.compilers.compiler import CompilerError
+from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
+from urdfsync.commands.build import build_and_check
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions, Progress
+from urdfsync.outcome import Checked, Exit, Result, exit_code
+
+RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12, 3),), seconds=2.5)
+BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)
+WRONG = CheckResult("ladder", "Ladder", diagnostics=(BROKEN,))
+SYNTAX = CheckResult("ladder", "Ladder", unchecked=("nothing was compiled, since there is no library",))
+OTHER = '[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\non_build = "check"\n'
+MODEL = "modelica/Ladder/Elements/R2.mo"
+
+
+class Examiner:
+    """Gives one verdict after the other, the last one again and again, and knows what it was asked for."""
+
+    def __init__(self, *verdicts: CheckResult | BaseException) -> None:
+        self.asked: list[str] = []
+        self._verdicts = list(verdicts)
+
+    def __call__(
+        self, config: Config, robots: Sequence[RobotConfig], options: CheckOptions, tell: Progress
+    ) -> Iterator[CheckResult]:
+        for count, robot in enumerate(robots):
+            self.asked.append(robot.name)
+            tell(f"{robot.name}: compiling", count, len(robots))
+            verdict = self._verdicts.pop(0) if len(self._verdicts) > 1 else self._verdicts[0]
+            if isinstance(verdict, BaseException):
+                raise verdict
+            yield verdict
+
+
+@pytest.fixture
+def project(project: Path) -> Path:
+    """The project with a check after each build."""
+    add(project, 'on_build = "check"\n')
+    return project
+
+
+def add(project: Path, text: str) -> None:
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write(text)
+
+
+def run(examiner: Examiner, **wishes: Any) -> list[Result]:
+    """Build and check all robots."""
+    loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1, **wishes)
+    return list(afterbuild.with_checks(loaded, request, build(loaded, loaded.robots, request), examiner))
+
+
+def stand_in(monkeypatch: pytest.MonkeyPatch, examiner: Examiner) -> None:
+    """Commands use this examiner."""
+    with_checks = afterbuild.with_checks
+    monkeypatch.setattr(afterbuild, "with_checks", lambda one, two, three: with_checks(one, two, three, examiner))
+
+
+def note(project: Path) -> Path:
+    return project / ".urdfsync" / "checked" / "ladder.json"
+
+
+def test_a_package_that_is_right_is_checked_once(project: Path) -> None:
+    examiner = Examiner(RIGHT)
+    first, second = run(examiner)[0], run(examiner)[0]
+    assert examiner.asked == ["ladder"]
+    assert first.checked is second.checked is Checked.RIGHT
+    assert second.in_step
+
+
+def test_a_package_that_is_wrong_is_checked_after_each_build_until_it_is_right(project: Path) -> None:
+    examiner = Examiner(WRONG, WRONG, RIGHT)
+    for _ in range(2):
+        (result,) = run(examiner)
+        assert result.checked is Checked.WRONG
+        assert result.diagnostics == (BROKEN,)
+        assert not result.failed
+        assert exit_code([result]) is Exit.ERROR
+    assert run(examiner)[0].checked is Checked.RIGHT
+    assert exit_code(run(examiner)) is Exit.IN_STEP
+    assert len(examiner.asked) == 3
+
+
+def test_what_is_wrong_is_not_taken_for_what_was_right_before(project: Path) -> None:
+    original = (project / "ladder.json").read_text()
+    run(Examiner(RIGHT))
+    (project / "ladder.json").write_text(original.replace("220.5", "330"))
+    run(Examiner(WRONG))
+    (project / "ladder.json").write_text(original)
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    assert examiner.asked == ["ladder"], "only the last check is remembered"
+
+
+def write(file: Path, text: str) -> None:
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text)
+
+
+def edit_model(project: Path) -> None:
+    with (project / MODEL).open("a") as file:
+        file.write("// mine\n")
+
+
+def add_class(project: Path) -> None:
+    (project / "modelica" / "Ladder" / "Mine.mo").write_text("within Ladder;\nmodel Mine end Mine;\n")
+
+
+def change_order(project: Path) -> None:
+    with (project / "modelica" / "Ladder" / "package.order").open("a") as file:
+        file.write("Mine\n")
+
+
+def change_library(project: Path) -> None:
+    (project / "libraries" / "Complex 4.1.0" / "Mine.mo").touch()
+
+
+def remove_library(project: Path) -> None:
+    shutil.rmtree(project / "libraries" / "Complex 4.1.0")
+
+
+def change_other_library(project: Path) -> None:
+    (project / "path" / "Pumps" / "Small.mo").write_text("within Pumps;\nmodel Small Real x; end Small;\n")
+
+
+def change_library_of_library(project: Path) -> None:
+    (project / "path" / "Tanks.mo").write_text("package Tanks\n  // new\nend Tanks;\n")
+
+
+def remove_other_library(project: Path) -> None:
+    shutil.rmtree(project / "path" / "Pumps")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        *(edit_model, add_class, change_order, change_library, remove_library),
+        *(change_other_library, change_library_of_library, remove_other_library),
+    ],
+)
+def test_it_is_checked_again_when_something_matters_that_a_build_does_not_see(
+    project: Path, change: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    add(project, '[check]\nlibrary = "libraries"\n')
+    for name in ("Modelica", "ModelicaServices", "Complex"):
+        write(project / "libraries" / f"{name} 4.1.0" / "package.mo", f"package {name} end {name};\n")
+    write(project / "path" / "Pumps" / "package.mo", "package Pumps\n  import Tanks;\nend Pumps;\n")
+    write(project / "path" / "Tanks.mo", "package Tanks\nend Tanks;\n")
+    write(project / "path" / "Unused.mo", "package Unused\nend Unused;\n")
+    monkeypatch.setenv("MODELICAPATH", str(project / "path"))
+    run(Examiner(RIGHT))
+    write(project / MODEL, (project / MODEL).read_text().replace("end R2;", "  Pumps.Small p;\nend R2;"))
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    change(project)
+    run(examiner)
+    run(examiner)
+    assert examiner.asked == ["ladder"] * 2
+
+
+@pytest.mark.parametrize("name", ["_version", "__version__"])
+def test_it_is_checked_again_with_another_tool(project: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    monkeypatch.setattr(afterbuild, name, (lambda _: "99") if name == "_version" else "99")
+    run(examiner)
+    assert examiner.asked == ["ladder"] * 2
+
+
+def test_a_full_build_checks_in_any_case(project: Path) -> None:
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    run(examiner, full=True)
+    assert examiner.asked == ["ladder"] * 2
+
+
+@pytest.mark.parametrize("content", [b"", b"\xff", b"[]", b'{"key": "0", "checked": "right"}'])
+def test_what_is_remembered_may_be_lost(project: Path, content: bytes) -> None:
+    examiner = Examiner(RIGHT)
+    run(examiner)
+    note(project).write_bytes(content)
+    assert run(examiner)[0].checked is Checked.RIGHT
+    assert examiner.asked == ["ladder"] * 2
+
+
+def test_nothing_is_written_through_a_link(project: Path, tmp_path: Path) -> None:
+    outside = tmp_path / "outside"
+    outside.mkdir()
+    (project / ".urdfsync").mkdir()
+    (project / ".urdfsync" / "checked").symlink_to(outside)
+    run(Examiner(RIGHT))
+    assert list(outside.iterdir()) == []
+
+
+def test_git_ignores_what_is_remembered(project: Path) -> None:
+    run(Examiner(RIGHT))
+    assert note(project).is_file()
+    assert [path.name for path in note(project).parent.iterdir()] == ["ladder.json"], "no temporary file is left"
+    assert "/*\n" in (project / ".urdfsync" / ".gitignore").read_text()
+
+
+def test_a_check_is_not_remembered_if_somebody_saves_meanwhile(project: Path) -> None:
+    class Saving(Examiner):
+        def __call__(self, *arguments: Any) -> Iterator[CheckResult]:
+            edit_model(project)
+            return super().__call__(*arguments)
+
+    examiner = Saving(RIGHT)
+    run(examiner)
+    run(examiner)
+    assert len(examiner.asked) == 2
+
+
+@pytest.mark.parametrize("error", [OutputError(BROKEN), PermissionError(errno.EACCES, "Permission denied", "x.mo")])
+def test_a_check_that_fails_is_an_error_of_its_robot(project: Path, error: Exception) -> None:
+    (result,) = run(Examiner(error))
+    assert result.checked is Checked.WRONG
+    (found,) = result.diagnostics
+    assert str(found) in (str(BROKEN), "x.mo: error: the packages can't be checked: Permission denied [system]")
+
+
+def test_what_could_not_be_checked_is_said_once_for_all_robots_and_at_each_build(project: Path) -> None:
+    add(project, OTHER)
+    examiner = Examiner(SYNTAX)
+    for _ in range(2):
+        ladder, other = run(examiner)
+        assert ladder.checked is other.checked is Checked.INCOMPLETE
+        assert [str(found) for found in (*ladder.diagnostics, *other.diagnostics)] == [
+            "warning: nothing was compiled, since there is no library [not-checked]"
+        ]
+        assert exit_code([ladder, other]) is Exit.IN_STEP
+    assert examiner.asked == ["ladder", "other"]
+
+
+NO_COMPILER = Diagnostic(Severity.ERROR, "no-compiler", "there is no compiler", hint="install it")
+
+
+@pytest.mark.parametrize(
+    ("way", "checked"),
+    [
+        (CompilerError(NO_COMPILER), Checked.UNCHECKED),
+        (CheckResult("ladder", "Ladder", diagnostics=(NO_COMPILER,)), Checked.INCOMPLETE),
+    ],
+)
+def test_a_machine_without_a_compiler_is_a_warning_and_no_fault(project: Path, way: Any, checked: Checked) -> None:
+    (result,) = run(Examiner(way))
+    assert result.checked is checked
+    assert result.diagnostics == (msgspec.structs.replace(NO_COMPILER, severity=Severity.WARNING),)
+    assert run(Examiner(way))[0].diagnostics == result.diagnostics, "it is said at each build"
+
+
+def test_what_keeps_one_package_from_being_checked_keeps_all(project: Path) -> None:
+    add(project, OTHER)
+    examiner = Examiner(RIGHT, OutputError(BROKEN))
+    ladder, other = run(examiner)
+    assert (ladder.checked, other.checked) == (Checked.RIGHT, Checked.WRONG)
+    assert other.diagnostics == (BROKEN,)
+    without = run(Examiner(CompilerError(NO_COMPILER)), full=True)
+    assert [result.checked for result in without] == [Checked.UNCHECKED] * 2
+
+
+def test_a_gap_is_said_also_if_something_compiles(project: Path) -> None:
+    verdict = msgspec.structs.replace(
+        RIGHT, gaps=("half of it was not compiled",), unchecked=("poses were not compared",)
+    )
+    (result,) = run(Examiner(verdict))
+    assert result.checked is Checked.INCOMPLETE
+    assert [str(found) for found in result.diagnostics] == ["warning: half of it was not compiled [not-checked]"]
+
+
+def test_without_the_extra_the_real_check_says_what_to_install(
+    project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    find = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "rumoca" else find(name))
+    assert cli.main(["build"]) == 0
+    streams = capsys.readouterr()
+    assert streams.out.splitlines()[0].endswith("files written; not checked")
+    assert "warning: there is no compiler: " in streams.err
+    assert "pip install platformdirs psutil rumoca" in streams.err
+
+
+def test_robots_that_are_not_to_be_checked_are_not(project: Path) -> None:
+    add(project, '[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    examiner = Examiner(RIGHT)
+    assert [result.checked for result in run(examiner)] == [Checked.RIGHT, None]
+    assert examiner.asked == ["ladder"]
+
+
+def test_failed_and_dry_builds_are_not_checked(project: Path) -> None:
+    examiner = Examiner(RIGHT)
+    assert [result.checked for result in run(examiner, dry=True)] == [None]
+    (project / "ladder.json").write_text("{")
+    assert [result.checked for result in run(examiner)] == [None]
+    assert examiner.asked == []
+
+
+def test_a_package_with_a_conflict_is_checked_as_it_is_on_disk(project: Path) -> None:
+    run(Examiner(RIGHT))
+    record = project / "modelica" / "Ladder" / "Elements" / "R2Parameters.mo"
+    record.write_text(record.read_text().replace("220.5", "221"))
+    source = project / "ladder.json"
+    source.write_text(source.read_text().replace("220.5", "330"))
+    (result,) = run(Examiner(RIGHT))
+    assert result.conflicts
+    assert result.checked is Checked.RIGHT
+    assert exit_code([result]) is Exit.CONFLICT
+    assert exit_code([msgspec.structs.replace(result, checked=Checked.WRONG)]) is Exit.ERROR
+
+
+def names(results: Sequence[Result]) -> list[str]:
+    return [result.robot for result in results]
+
+
+def test_results_keep_their_order_and_the_lock_is_free_while_packages_are_checked(project: Path) -> None:
+    text = '[robots.{0}]\nsource = "ladder.json"\npackage = "{1}"\ndomain = "rcnetwork"\n{2}'
+    add(project, text.format("plain", "Plain", "") + text.format("last", "Last", 'on_build = "check"\n'))
+
+    class Building(Examiner):
+        def __call__(
+            self, config: Config, robots: Sequence[RobotConfig], options: CheckOptions, tell: Progress
+        ) -> Iterator[CheckResult]:
+            again = BuildOptions(wait=0)
+            (project / "ladder.json").write_text((project / "ladder.json").read_text().replace("220.5", "330"))
+            assert not any(result.locked for result in build(config, config.robots, again))
+            return super().__call__(config, robots, options, tell)
+
+    examiner = Building(RIGHT)
+    assert names(run(examiner)) == ["ladder", "plain", "last"]
+    assert examiner.asked == ["ladder", "last"]
+
+
+def test_who_interrupts_a_check_is_told_what_was_built(project: Path) -> None:
+    loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1)
+    told: list[Result] = []
+    results = build(loaded, loaded.robots, request)
+    with pytest.raises(KeyboardInterrupt):
+        told.extend(afterbuild.with_checks(loaded, request, results, Examiner(KeyboardInterrupt())))
+    assert names(told) == ["ladder"]
+    assert told[0].checked is None
+
+
+def test_people_see_what_a_check_said(
+    project: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stand_in(monkeypatch, Examiner(WRONG, RIGHT))
+    assert cli.main(["build"]) == 2
+    streams = capsys.readouterr()
+    assert streams.err.splitlines() == [f"{MODEL}:3: error: there is no class `Foo` [compile]"]
+    assert streams.out.splitlines()[0].endswith("files written; checked: 1 error")
+    for _ in range(2):
+        assert cli.main(["build"]) == 0
+        streams = capsys.readouterr()
+        assert streams.out.splitlines()[0].endswith("in step, 14 files; checked: compiles")
+    assert cli.main(["build", "--check"]) == 0
+    assert "checked" not in capsys.readouterr().out
+
+
+def test_what_is_resolved_is_built_and_checked(
+    project: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run(Examiner(RIGHT))
+    stand_in(monkeypatch, Examiner(WRONG))
+    record, source = project / "modelica" / "Ladder" / "Elements" / "R2Parameters.mo", project / "ladder.json"
+    record.write_text(record.read_text().replace("220.5", "221"))
+    source.write_text(source.read_text().replace("220.5", "330"))
+    assert cli.main(["resolve", "--all", "--take", "--dry-run"]) == 0
+    assert "checked" not in capsys.readouterr().out
+    assert cli.main(["resolve", "--all", "--take"]) == 2
+    assert "checked: 1 error" in capsys.readouterr().out
+
+
+def test_what_a_check_said_is_never_said_again_without_a_look(project: Path) -> None:
+    loaded = config.load(Path("urdfsync.toml"))
+    run(Examiner(RIGHT))
+    with dependencies.record_dependencies() as looks:
+        assert [result.in_step for result in build_and_check(loaded, loaded.robots, BuildOptions(wait=1))] == [True]
+    assert not looks.complete

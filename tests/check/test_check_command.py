@@ -1,0 +1,193 @@
+"""`urdfsync check` as people type it: what reaches the checker, exit codes, the cache."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+
+from urdfsync import cli
+from urdfsync.check.results import CheckOptions, CheckResult, EditEffect
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import Deviation, Quantity
+from urdfsync.engine.options import Progress
+from urdfsync.output.phrases import byte_size
+
+Capture = pytest.CaptureFixture[str]
+
+RIGHT = CheckResult("ladder", "Ladder")
+CHANGED = Deviation(Quantity.EFFORT, "R2", 1.0, 10.0, 10.0, "A")
+EDITED = msgspec.structs.replace(RIGHT, effects=(EditEffect(("Elements/R2.mo",), (CHANGED,)),))
+INCOMPLETE = msgspec.structs.replace(RIGHT, gaps=("nothing was compiled: there is no library",))
+WRONG = msgspec.structs.replace(RIGHT, deviations=(CHANGED,))
+FAILED = msgspec.structs.replace(
+    RIGHT, diagnostics=(Diagnostic(Severity.ERROR, "no-compiler", "there is no compiler"),)
+)
+
+
+class Checker:
+    """Stands in for the checker: one result for each robot, and it remembers the options."""
+
+    def __init__(self) -> None:
+        self.result = RIGHT
+        self.options = CheckOptions()
+        self.robots: list[str] = []
+
+    def check(
+        self, config: Config, robots: Sequence[RobotConfig], options: CheckOptions, progress: Progress
+    ) -> Iterator[CheckResult]:
+        self.options = options
+        for robot in robots:
+            self.robots.append(robot.name)
+            progress(f"{robot.name}: compiling", 0, len(robots))
+            yield msgspec.structs.replace(self.result, robot=robot.name)
+
+
+@pytest.fixture
+def checker(project: Path, monkeypatch: pytest.MonkeyPatch) -> Checker:
+    found = Checker()
+    monkeypatch.setattr("urdfsync.check.run.check_robots", found.check)
+    return found
+
+
+def test_without_options_everything_is_as_documented(checker: Checker, capsys: Capture) -> None:
+    assert cli.main(["check"]) == 0
+    assert checker.robots == ["ladder"]
+    assert checker.options == CheckOptions(package_paths=checker.options.package_paths)
+    assert capsys.readouterr().out == "ladder: right: syntax and layout; 0.0 s\n"
+
+
+def test_all_options_reach_the_checker(checker: Checker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    limits = ["--jobs", "3", "--timeout", "12.5", "--memory", "4", "--wait", "7"]
+    assert cli.main(["check", "ladder", "--physics", "--strict", "--tool", "omc", *limits]) == 0
+    assert checker.options == CheckOptions(True, True, "omc", 3, 12.5, 4.0, 7.0, (tmp_path,))  # noqa: FBT003 - in the order of the fields
+
+
+def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capture) -> None:
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    assert cli.main(["check", "--robot", "other"]) == 0
+    assert checker.robots == ["other"]
+    assert cli.main(["check"]) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == "2 robots: 2 right"
+    assert cli.main(["check", "nobody"]) == 2
+    assert "nobody" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("result", "arguments", "code"),
+    [
+        (RIGHT, [], 0),
+        (EDITED, [], 0),
+        (EDITED, ["--strict"], 1),
+        (WRONG, [], 1),
+        (msgspec.structs.replace(RIGHT, in_step=False), [], 1),
+        (msgspec.structs.replace(RIGHT, in_step=False, built=False), [], 1),
+        (INCOMPLETE, [], 0),
+        (INCOMPLETE, ["--strict"], 1),
+        (FAILED, [], 2),
+    ],
+)
+def test_exit_codes(checker: Checker, result: CheckResult, arguments: list[str], code: int) -> None:
+    checker.result = result
+    assert cli.main(["check", *arguments]) == code
+    assert cli.main(["check", "--quiet", "--json", *arguments]) == code
+
+
+def test_an_interruption_leaves_what_was_found(
+    checker: Checker, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    def interrupted(*_: Any) -> Iterator[CheckResult]:
+        yield RIGHT
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("urdfsync.check.run.check_robots", interrupted)
+    assert cli.main(["check"]) == 130
+    streams = capsys.readouterr()
+    assert streams.out.startswith("ladder: right")
+    assert "[interrupted]" in streams.err
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--jobs", "0"],
+        ["--timeout", "0"],
+        ["--timeout", "soon"],
+        ["--memory", "inf"],
+        ["--memory", "nan"],
+        ["--tool", "dymola"],
+        ["ladder", "--clear-cache"],
+        ["--robot", "ladder", "--clear-cache"],
+        ["--clear-cache", "--physics"],
+        ["--clear-cache", "--timeout", "5"],
+        ["--clear-cache", "--wait", "5"],
+    ],
+)
+def test_bad_usage(checker: Checker, capsys: Capture, arguments: list[str]) -> None:
+    assert cli.main(["check", *arguments]) == 2
+    streams = capsys.readouterr()
+    assert streams.out == ""
+    assert "[usage]" in streams.err
+    assert checker.robots == []
+
+
+@pytest.mark.parametrize("option", ["--timeout", "--memory"])
+def test_a_limit_that_is_no_number_is_named(checker: Checker, capsys: Capture, option: str) -> None:
+    assert cli.main(["check", option, "abc"]) == 2
+    assert f"argument {option}: 'abc' is no limit; give a number greater than 0" in capsys.readouterr().err
+    assert checker.robots == []
+
+
+def test_emptying_the_cache_takes_no_compiler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    monkeypatch.setattr("urdfsync.check.compilers.compiler._SHARED", ("not_installed_anywhere",))
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path)
+    assert cli.main(["check", "--clear-cache"]) == 0
+    assert capsys.readouterr().out == "the cache was empty\n"
+
+
+def test_whoever_looks_sees_that_the_cache_is_being_emptied(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    seen = []
+
+    def clear(_: object) -> int:
+        seen.append(capsys.readouterr().err)
+        return 48
+
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path)
+    monkeypatch.setattr("urdfsync.check.cache.UserCache.clear", clear)
+    assert cli.main(["check", "--clear-cache"]) == 0
+    assert "emptying the cache" in seen[0]
+    assert capsys.readouterr().out == "cache emptied, 48 bytes freed\n"
+
+
+def test_the_cache_is_emptied_without_a_configuration(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache/urdfsync")
+    record = tmp_path / "cache/urdfsync/libraries/part/package.mo"
+    record.parent.mkdir(parents=True)
+    record.write_bytes(b" " * 2_500_000)
+    assert cli.main(["check", "--clear-cache"]) == 0
+    assert capsys.readouterr().out == "cache emptied, 2.5 MB freed\n"
+    assert not record.exists()
+    assert cli.main(["check", "--clear-cache"]) == 0
+    assert capsys.readouterr().out == "the cache was empty\n"
+    assert cli.main(["check", "--clear-cache", "--quiet"]) == 0
+    assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize(
+    ("number", "said"), [(1, "1 byte"), (999, "999 bytes"), (1500, "1.5 kB"), (48_123_904, "48 MB"), (2**30, "1.1 GB")]
+)
+def test_sizes_are_in_the_unit_that_suits(number: int, said: str) -> None:
+    assert byte_size(number) == said

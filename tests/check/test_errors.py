@@ -1,0 +1,326 @@
+"""What a compiler says of damaged packages: the cause, where it stands, and nothing twice. The texts are rumoca's."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import msgspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from support import arm
+from support.arm import ELBOW
+from support.modelica import compile_task, execute
+
+from urdfsync.check.errors import explain
+from urdfsync.check.files import PackageFiles
+from urdfsync.diagnostics import Diagnostic, Severity
+
+COPY = "/cache/workspaces/7a/SixAxisArm"
+FOLDERS = {Path(COPY): arm.DISK, Path("/cache/part/Modelica"): Path("/opt/library/Modelica 4.1.0")}
+EDITED = "the file was edited by hand"
+REVOLUTE = "Modelica.Mechanics.MultiBody.Joints.Revolute"
+BODY = "/cache/part/Modelica/Mechanics/MultiBody/Parts/Body.mo:75:13"
+SHADOW = f"variability violation: sphereDiameter has parameter variability but binding references variables [{BODY}]"
+
+
+def unresolved(*complaints: str) -> str:
+    """What the compiler says of names that it can't find."""
+    lines = [f"- <resolve> [Resolve]: {complaint}" for complaint in complaints]
+    return "\n".join(
+        [f"Probe_ could not be compiled: {complaints[0]}", f"Related failures (showing {len(lines)}):", *lines]
+    )
+
+
+def component(name: str) -> str:
+    return f"unresolved component reference: '{name}'"
+
+
+def kind(name: str) -> str:
+    return f"unresolved type reference: '{name}'"
+
+
+def explained(
+    text: str,
+    edits: Mapping[str, str | bytes | None] | None = None,
+    said: Sequence[Diagnostic] = (),
+    model: str = "",
+) -> list[str]:
+    """The findings as people read them, without the folder."""
+    found = explain(text, arm.package(edits), FOLDERS, said, model)
+    assert all(one.severity is Severity.ERROR for one in found)
+    return [str(one).removeprefix(str(arm.DISK)).removeprefix("/") for one in found]
+
+
+# --- names that are not there -----------------------------------------------------------------------------------------
+
+
+def test_a_component_is_found_where_it_is_mentioned() -> None:
+    edits = arm.changed("connect(frame_a, origin.frame_a)", "connect(frame_a, orgin.frame_a)")
+    place = f"{ELBOW}:{arm.line('connect(frame_a, origin')}"
+    assert explained(unresolved(component("orgin.frame_a")), edits) == [
+        f"{place}: error: joint elbow: `orgin.frame_a` is not declared; {EDITED} [unresolved]"
+    ]
+
+
+def test_of_a_class_that_is_not_there_the_follow_ups_are_left_out() -> None:
+    text = unresolved(*map(component, ("revolute.phi", "revolute.w")), kind(REVOLUTE[:-1]))
+    place = f"{ELBOW}:{arm.line(f'{REVOLUTE} revolute')}"
+    message = f"joint elbow: there is no class `{REVOLUTE[:-1]}`"
+    expected = [f"{place}: error: {message}; {EDITED} [unresolved]"]
+    assert explained(text, arm.changed(REVOLUTE, REVOLUTE[:-1])) == expected
+
+
+def test_a_missing_base_class_is_named_once() -> None:
+    base = "UrdfSync.Interfaces.PartialRevoluteJoint"
+    name = base.replace("Revolute", "Revolut")
+    missing = f"base class not found: `{name}` does not exist"
+    text = unresolved(missing, component("frame_a"), f"unresolved extends base class: '{name}'")
+    (found,) = explained(text, arm.changed(base, name))
+    assert found.startswith(f"{ELBOW}:{arm.line(base)}: error: joint elbow: there is no class `{name}`")
+
+
+def test_an_edited_file_is_preferred() -> None:
+    turret = "Joints/Turret.mo"
+    (found,) = explained(
+        unresolved(component("revolute.phi")), arm.changed('"Motion along the axis"', '"Motion"', turret)
+    )
+    assert found.startswith(f"{turret}:")
+    assert found.endswith(f"{EDITED} [unresolved]")
+
+
+def test_strings_comments_and_subscripts_are_no_part_of_a_name() -> None:
+    added = '\n  // load.tau\n  Real load(start = 0) "load.tau";\nequation\n  load[1].tau = 0;'
+    (found,) = explained(unresolved(component("load.tau")), arm.changed("\nequation", added))
+    assert found.startswith(f"{ELBOW}:{arm.line('equation') + 3}: ")
+
+
+def test_a_function_is_named_once_whatever_else_it_is_called() -> None:
+    text = unresolved(component("Modelica.Math.foo"), "unresolved function call: 'Modelica.Math.foo'")
+    edits = arm.changed("\nequation", "\n  parameter Real z = Modelica.Math.foo(1);\nequation")
+    (found,) = explained(text, edits)
+    assert "joint elbow: there is no function `Modelica.Math.foo`" in found
+
+
+def test_a_model_that_is_gone_is_missed_where_it_should_be() -> None:
+    name = f"{arm.NAME}.SixAxisArm"
+    text = unresolved(f"base class not found: `{name}` does not exist", f"unresolved extends base class: '{name}'")
+    assert explained(text, {"SixAxisArm.mo": None}) == [
+        f"SixAxisArm.mo: error: robot: there is no class `{name}`; it has to be declared there [unresolved]"
+    ]
+
+
+def test_of_what_the_package_does_not_mention_no_edit_is_to_blame() -> None:
+    hint = "nothing in the package mentions it: a library does, or a file around the package"
+    assert explained(unresolved(component("tank.level")), {ELBOW: arm.text() + "\n"}) == [
+        f": error: `tank.level` is not declared; {hint} [unresolved]"
+    ]
+
+
+def test_a_top_level_package_of_another_name_is_told_where_it_is_declared() -> None:
+    """What is around the robot's package is at fault: its own `package.mo` is as it should be."""
+    texts = {"package.mo": b"within Plant.Robots;\npackage Arm\nend Arm;\n"}
+    package = PackageFiles("Plant.Robots.Arm", Path("Plant/Robots/Arm"), texts, {"package.mo": "robot"})
+    text = unresolved("unresolved import: 'Plant'", "base class not found: `Plant.Robots.Arm.Arm` does not exist")
+    hint = "the class in this file has to be called so, like its folder"
+    assert (
+        str(explain(text, package, {})[0])
+        == f"Plant/package.mo: error: there is no package `Plant`; {hint} [unresolved]"
+    )
+
+
+# --- equations and unknowns -------------------------------------------------------------------------------------------
+
+COUNTS = "unknowns[state=148 algebraic=6037 output=0] equations[continuous=6186 discrete_real=0]"
+
+
+def unbalanced(equations: int, unknowns: int) -> str:
+    """What the compiler says of a model that has not as many equations as unknowns."""
+    balance = equations - unknowns
+    words = f"unbalanced model: {equations} equations, {unknowns} unknowns (balance = {balance}); {COUNTS}"
+    return f"todae failed: Probe_ failed in ToDae: {words}"
+
+
+EXTRA = arm.changed("\nequation", "\n  Real z;\nequation")
+
+
+def test_an_unbalanced_model_is_named_and_looked_for_in_the_edited_file() -> None:
+    """The joint need not be what lacks an equation."""
+    message = "`SixAxisArm` has 6,354 equations for 6,353 unknowns"
+    assert explained(unbalanced(6354, 6353), EXTRA, model="SixAxisArm") == [
+        f"{ELBOW}: error: {message}; look here first: {EDITED} [unbalanced]"
+    ]
+    (found,) = explained(unbalanced(1, 2), EXTRA)
+    assert "error: there are 1 equation for 2 unknowns" in found
+
+
+def test_several_edited_files_are_named() -> None:
+    files = (ELBOW, "Joints/Shoulder.mo", "Joints/Turret.mo", "SixAxisArm.mo")
+    edits = {path: arm.text(path) + "\n" for path in files}
+    named = ", ".join(f"{arm.DISK}/{path}" for path in files[:3])
+    assert explained(unbalanced(1824, 1825), edits, model="SixAxisArm") == [
+        ": error: `SixAxisArm` has 1,824 equations for 1,825 unknowns;"
+        f" look at what was edited: {named} and 1 more [unbalanced]"
+    ]
+
+
+def test_the_same_fault_in_other_models_is_said_once() -> None:
+    """The benches have other equations as well, and lack as many."""
+    said = explain(unbalanced(1824, 1825), arm.package(EXTRA), FOLDERS, (), "SixAxisArm")
+    assert explained(unbalanced(1854, 1855), EXTRA, said, "SixAxisArmRun") == []
+    assert len(explained(unbalanced(1853, 1855), EXTRA, said, "SixAxisArmTest")) == 1
+    warnings = [msgspec.structs.replace(one, severity=Severity.WARNING) for one in said]
+    assert len(explained(unbalanced(1854, 1855), EXTRA, warnings, "SixAxisArmRun")) == 1
+
+
+def test_a_class_of_the_users_is_unbalanced_in_its_own_file() -> None:
+    edits = {**EXTRA, "Tools/Own.mo": "model Own\n  Real z;\nend Own;\n"}
+    hint = f"look at {arm.DISK}/{ELBOW}, which was edited"
+    assert explained(unbalanced(0, 1), edits, model="Tools.Own") == [
+        f"Tools/Own.mo: error: `Tools.Own` has 0 equations for 1 unknown; {hint} [unbalanced]"
+    ]
+
+
+# --- complaints with a place ------------------------------------------------------------------------------------------
+
+
+def test_a_complaint_about_the_package_outweighs_its_shadows() -> None:
+    real = f"unknown modifier `foo` for component `origin` [{COPY}/{ELBOW}:45:11]"
+    text = "typecheck failed: Probe_ failed in Typecheck: " + "; ".join([SHADOW] * 12 + [real] + [SHADOW] * 7)
+    message = f"joint elbow: unknown modifier `foo` for component `origin`; {EDITED}"
+    assert explained(text, {ELBOW: arm.text() + "\n"}) == [f"{ELBOW}:45:11: error: {message} [does-not-compile]"]
+
+
+def test_a_complaint_without_a_place_outweighs_shadows_as_well() -> None:
+    text = f"typecheck failed: Probe_ failed in Typecheck: {SHADOW}; {SHADOW}; missing source context"
+    assert explained(text) == [": error: missing source context [does-not-compile]"]
+
+
+def test_a_shadow_alone_is_passed_on_with_the_folder_that_people_know() -> None:
+    (found,) = explain(f"typecheck failed: Probe_ failed in Typecheck: {SHADOW}; {SHADOW}", arm.package(), FOLDERS)
+    assert found.message.startswith("variability violation: sphereDiameter")
+    assert (found.file, found.line) == ("/opt/library/Modelica 4.1.0/Mechanics/MultiBody/Parts/Body.mo", 75)
+
+
+def test_folders_of_copies_are_never_shown() -> None:
+    text = f"instantiate failed: Probe_ failed in Instantiate: can't read '{COPY}/Links' nor {COPY}/{ELBOW}, sorry"
+    (found,) = explained(text)
+    assert f"can't read '{arm.DISK}/Links' nor {arm.DISK}/Joints/Elbow.mo, sorry" in found
+
+
+FRAMED = f"""\
+EP001
+
+  × `not` is a reserved keyword in Modelica (MLS §2.3.3) and cannot be used as
+  │ an identifier
+    ╭─[{COPY}/{ELBOW}:68:10]
+ 67 │ equatoin
+ 68 │   assert(not checkLimits or revolute.phi >= parameters.limits.lower - 1e-6,
+    ·          ─┬─
+    ·           ╰── unexpected `not`
+    ╰────
+  help: expected one of: each, final, redeclare, replaceable, )
+"""
+
+
+def test_a_complaint_with_a_frame_becomes_one_line() -> None:
+    words = "`not` is a reserved keyword in Modelica (MLS §2.3.3) and cannot be used as an identifier"
+    assert explained(FRAMED) == [f"{ELBOW}:68:10: error: joint elbow: {words} [does-not-compile]"]
+    assert len(explained("\x1b[31m" + FRAMED + FRAMED.replace(":68:", ":70:"))) == 2
+
+
+def test_messages_of_openmodelica_have_their_places() -> None:
+    place = f"{COPY}/{ELBOW}:68:3-68:35:writable"
+    text = (
+        f"[{COPY}/package.mo:3:1-9:2:writable] Warning: Requested package Modelica of version 4.0.0.\n"
+        f"[{place}] Error: Variable orgin.frame_a not found in scope {arm.NAME}.\n"
+        "[/opt/library/Modelica 4.1.0/package.mo:1:1-2:2:readonly] Notification: From here:\n"
+        "Error: Error occurred while flattening model Probe_\n"
+    )
+    assert explained(text) == [
+        f"{ELBOW}:68:3: error: joint elbow: Variable orgin.frame_a not found in scope {arm.NAME} [does-not-compile]"
+    ]
+
+
+def test_five_complaints_are_enough() -> None:
+    text = "; ".join(f"subscript {n} is out of bounds [{COPY}/{ELBOW}:{n}:1]" for n in range(1, 10))
+    found = explained(text)
+    assert len(found) == 5
+    assert found[-1].endswith("; there are 4 more [does-not-compile]")
+
+
+# --- files that can't be loaded ---------------------------------------------------------------------------------------
+
+
+def test_rules_of_the_layout_have_their_files() -> None:
+    rules = (
+        f"Failed to load source root '{COPY}': invalid Modelica package layout under '{COPY}': "
+        f"PKG-010 file '{COPY}/{ELBOW}' has `within A;` but expected `within B;`; "
+        f"PKG-006 directory '{COPY}/Links' is missing package.mo"
+    )
+    assert explained(rules) == [
+        f"{ELBOW}: error: joint elbow: the file has `within A;` but expected `within B;` [layout]",
+        "Links: error: the directory is missing package.mo [layout]",
+    ]
+
+
+def test_a_folder_that_the_compiler_can_not_read_is_named() -> None:
+    assert explained(f"Failed to load source root '{COPY}': parse source-root files under {COPY}") == [
+        ": error: the compiler can't read one of the files, and does not say which [syntax]"
+    ]
+    (found,) = explained("Failed to load source root '/opt/Tools': parse source-root files under /opt/Tools")
+    assert found.startswith("opt/Tools: error: the compiler can't read one of the files")
+
+
+# --- whatever else it says --------------------------------------------------------------------------------------------
+
+
+def test_unknown_words_are_cut_to_one_line() -> None:
+    (found,) = explained("solver failed:\n\n" + "x" * 5000)
+    assert len(found) < 500
+
+
+@given(st.text(st.sampled_from("ab:;'`[]()×╭─\n 12{}.") | st.characters(codec="utf-8"), min_size=1))
+def test_any_text_gives_something(text: str) -> None:
+    found = explain(text, arm.package(), FOLDERS)
+    assert bool(found) == bool(text.strip())
+    assert all("\n" not in str(one) for one in found)
+
+
+# --- the compiler itself ----------------------------------------------------------------------------------------------
+
+
+BENCH = """\
+within Elbows;
+model Bench
+  inner Modelica.Mechanics.MultiBody.World world;
+  Joints.Elbow elbow;
+  Modelica.Mechanics.MultiBody.Parts.Body load(m = 1, r_CM = {0, 0, 0});
+equation
+  connect(world.frame_b, elbow.frame_a);
+  connect(elbow.frame_b, load.frame_a);
+end Bench;
+"""
+DAMAGES = {
+    "unresolved": arm.changed(REVOLUTE, REVOLUTE[:-1]),
+    "unbalanced": arm.changed("\nequation", "\n  Real z;\nequation"),
+    "does-not-compile": arm.changed("\nequation", "\n  Real z = sin(1, 2);\nequation"),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("code", DAMAGES)
+def test_the_compiler_still_speaks_as_these_texts_do(code: str, modelica_library: Path, tmp_path: Path) -> None:
+    root = tmp_path / "Elbows"
+    edits = DAMAGES[code]
+    texts = {
+        path: edits.get(path, arm.text(path)) for path in (ELBOW, "Joints/ElbowParameters.mo", "Joints/package.mo")
+    }
+    moved = {path: text.replace(f"within {arm.NAME}", "within Elbows") for path, text in texts.items()}
+    for path, text in {**moved, "Bench.mo": BENCH, "package.mo": "package Elbows\nend Elbows;\n"}.items():
+        (root / path).parent.mkdir(parents=True, exist_ok=True)
+        (root / path).write_text(text)
+    (outcome,) = execute(modelica_library, [root], [compile_task("Elbows.Bench")])
+    (found,) = explain(outcome.error, arm.package(edits, name="Elbows"), {root: arm.DISK})
+    assert (found.code, found.file) == (code, f"{arm.DISK}/{ELBOW}")

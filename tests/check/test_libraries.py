@@ -1,0 +1,246 @@
+"""Modelica libraries in made-up folders: where they are found, which ones a package needs, and what is copied."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from urdfsync.check.cache import CacheError, UserCache
+from urdfsync.check.libraries import (
+    LibraryError,
+    StandardLibrary,
+    find_library,
+    find_standard_library,
+    library_state,
+    needed_libraries,
+    standard_library_copy,
+)
+
+PACKAGE = 'package %s\n  annotation (\n    uses(Complex(version="9.9")),\n    version="%s");\nend %s;\n'
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A home with nothing in it, and no libraries of the system."""
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.setenv("USERPROFILE", str(tmp_path / "home"))
+    exists = Path.iterdir
+    monkeypatch.setattr(Path, "iterdir", lambda self: iter(()) if "omlibrary" in self.parts[:5] else exists(self))
+    return tmp_path / "home"
+
+
+def put(folder: Path, *names: str) -> Path:
+    """Libraries such as `Modelica 4.1.0` and `Complex.mo` in a folder; without a number in the name they are 4.1.0."""
+    for name in names:
+        first, _, version = name.removesuffix(".mo").partition(" ")
+        file = folder / name if name.endswith(".mo") else folder / name / "package.mo"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(PACKAGE % (first, version or "4.1.0", first))
+    return folder
+
+
+def whole(folder: Path, version: str) -> Path:
+    return put(folder, f"Modelica {version}", f"ModelicaServices {version}", f"Complex {version}.mo")
+
+
+def code(environment: Mapping[str, str], configured: Path | None = None) -> str:
+    with pytest.raises(LibraryError) as caught:
+        find_standard_library(environment, configured)
+    (diagnostic,) = caught.value.diagnostics
+    assert diagnostic.hint
+    return diagnostic.code
+
+
+# --- where they are ---------------------------------------------------------------------------------------------------
+
+
+def test_modelicapath_comes_first_then_openmodelicas_folders(tmp_path: Path, home: Path) -> None:
+    mine = whole(tmp_path / "mine", "4.1.0")
+    whole(home / ".openmodelica" / "libraries", "4.2.0")
+    environment = {"MODELICAPATH": os.pathsep.join([str(tmp_path / "absent"), str(mine)])}
+    assert find_standard_library(environment).parts["Modelica"] == mine / "Modelica 4.1.0"
+    assert find_standard_library({}).version == (4, 2, 0)
+
+
+def test_on_windows_openmodelicas_libraries_are_below_the_folder_of_applications(tmp_path: Path) -> None:
+    place = whole(tmp_path / "data" / ".openmodelica" / "libraries", "4.1.0")
+    assert find_standard_library({"APPDATA": str(tmp_path / "data")}).parts["Complex"] == place / "Complex 4.1.0.mo"
+
+
+def test_the_newest_version_below_5_is_taken_by_number(tmp_path: Path) -> None:
+    for version in ("4.9.0", "4.10.0", "5.0.0"):
+        whole(tmp_path, version)
+    found = find_standard_library({}, tmp_path)
+    assert found.version == (4, 10, 0)
+    assert {path.stem.partition(" ")[2].partition(".")[0] for path in found.parts.values()} == {"4"}
+
+
+def test_a_later_generation_is_the_last_resort(tmp_path: Path) -> None:
+    assert find_standard_library({}, whole(tmp_path, "5.0.0")).version == (5, 0, 0)
+
+
+def test_a_folder_without_a_version_tells_it_in_its_text(tmp_path: Path) -> None:
+    put(tmp_path, "Modelica", "ModelicaServices", "Complex.mo")
+    assert find_standard_library({}, tmp_path).version == (4, 1, 0)
+
+
+def test_parts_of_the_same_generation_belong_together(tmp_path: Path) -> None:
+    put(whole(tmp_path, "4.1.0"), "Modelica 4.2.0", "Modelica 5.0.0")
+    found = find_standard_library({}, tmp_path)
+    assert (found.version, found.parts["Complex"].name) == ((4, 2, 0), "Complex 4.1.0.mo")
+
+
+def test_why_there_is_none(tmp_path: Path) -> None:
+    assert code({}) == "no-standard-library"
+    put(tmp_path / "lone", "Modelica 4.1.0")
+    assert code({"MODELICAPATH": str(tmp_path / "lone")}) == "no-standard-library"
+    old = whole(tmp_path / "old", "4.0.0+maint.om")
+    assert code({"MODELICAPATH": str(old)}) == "standard-library-too-old"
+    assert code({"MODELICAPATH": str(whole(tmp_path / "new", "4.1.0"))}, old) == "wrong-library-folder"
+    assert code({}, tmp_path / "absent") == "wrong-library-folder"
+    with pytest.raises(LibraryError, match=f"name the folder around it: {tmp_path / 'new'}"):
+        find_standard_library({}, tmp_path / "new" / "Modelica 4.1.0")
+
+
+def test_an_older_one_does_not_hide_one_that_suits(tmp_path: Path) -> None:
+    places = [str(whole(tmp_path / name, name)) for name in ("4.0.0", "4.1.0")]
+    assert find_standard_library({"MODELICAPATH": os.pathsep.join(places)}).version == (4, 1, 0)
+
+
+@pytest.mark.parametrize("name", ["Pumps", "Pumps 1.2.0", "Pumps.mo", "Pumps 1.2.mo"])
+def test_other_libraries_are_found_by_name(name: str, tmp_path: Path) -> None:
+    put(tmp_path / "second", name)
+    put(tmp_path / "third", "Pumps 9.0.0")
+    (tmp_path / "first" / "Pumps").mkdir(parents=True)  # no package
+    places = [tmp_path / "absent", tmp_path / "first", tmp_path / "second", tmp_path / "third"]
+    assert find_library("Pumps", places) == tmp_path / "second" / name
+    assert find_library("Pump", places) is None
+
+
+# --- which ones a package needs ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("Pumps.Small p; extends Tanks . Round;", {"Pumps", "Tanks"}),
+        (".Pumps.Small p;", {"Pumps"}),
+        ("import Pumps; import T = Tanks; import Valves.*;", {"Pumps", "Tanks", "Valves"}),
+        ("arm.Pumps.x; a[1].Tanks.c; Real Pumps; MyPumps.A a;", set()),
+        ('parameter String s = "Pumps.Small"; // Pumps.Small\n/* import Pumps; */', set()),
+        ("Arm.Pumps.Small p; Modelica.Blocks.A a;", set()),
+    ],
+)
+def test_libraries_are_what_names_begin_with(text: str, names: set[str], tmp_path: Path) -> None:
+    place = put(tmp_path, "Pumps 1.2.0", "Tanks.mo", "Valves", "Arm", "Modelica 4.1.0")
+    assert needed_libraries([text.encode()], "Arm", [place], ()).keys() == names
+
+
+def test_libraries_need_others_in_turn(tmp_path: Path) -> None:
+    place = put(tmp_path, "Pumps", "Tanks.mo", "Valves")
+    (place / "Pumps" / "Small.mo").write_text("within Pumps; model Small Tanks.Round t; end Small;")
+    found = needed_libraries([b"import Pumps;"], "Arm", [place], ["Valves", "Absent"])
+    assert found == {"Pumps": place / "Pumps", "Tanks": place / "Tanks.mo", "Valves": place / "Valves"}
+
+
+def test_the_state_of_a_library_changes_with_its_files(tmp_path: Path) -> None:
+    pumps = put(tmp_path, "Pumps") / "Pumps"
+    (pumps / "Sub").mkdir()
+    states = [library_state(pumps) for _ in range(2)]
+    (pumps / "Sub" / "Small.mo").write_text("model Small end Small;")
+    states.append(library_state(pumps))
+    os.utime(pumps / "Sub" / "Small.mo", (1, 1))
+    states.append(library_state(pumps))
+    (pumps / "Sub" / "Small.mo").unlink()
+    (pumps / "Sub" / "Large.mo").symlink_to("nowhere.mo")
+    states.append(library_state(pumps))
+    assert states[0] == states[1]
+    assert len(set(states)) == 3, "a link to nothing is nothing"
+
+
+# --- the copy of the Modelica Standard Library ------------------------------------------------------------------------
+
+COPIED = (
+    *("package", "Blocks/package", "Constants", "Icons", "Math", "Mechanics/package", "Mechanics/MultiBody/Body"),
+    *("Thermal/package", "Thermal/HeatTransfer/Port", "Electrical/package", "Electrical/Machines/package"),
+    *("Electrical/Machines/Thermal", "Units", "Utilities"),
+)
+LEFT_OUT = ("Mechanics/MultiBody/Examples/Pendulum", "Fluid/package", "Thermal/FluidHeatFlow", "UsersGuide/package")
+
+
+@pytest.fixture
+def small(tmp_path: Path) -> StandardLibrary:
+    """A made-up library."""
+    folder = whole(tmp_path / "libraries", "4.1.0")
+    for name in (*COPIED, *LEFT_OUT):
+        file = folder / "Modelica 4.1.0" / f"{name}.mo"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.touch()
+    (folder / "Modelica 4.1.0" / "Resources").mkdir()
+    (folder / "Modelica 4.1.0" / "Resources" / "large.bin").touch()
+    return find_standard_library({}, folder)
+
+
+@pytest.fixture
+def cache(tmp_path: Path) -> UserCache:
+    return UserCache(tmp_path / "cache")
+
+
+def names(folder: Path) -> set[str]:
+    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+
+
+@pytest.mark.parametrize(
+    ("text", "whole"),
+    [
+        ("", False),
+        ("Modelica.Mechanics.MultiBody.Body b; import SI = Modelica.Units.SI; import Modelica.Math.{sin, cos};", False),
+        ('Real x "Modelica.Fluid.Tank"; // Modelica.Fluid.Tank', False),
+        ("Modelica . Fluid.Tank t;", True),
+        ("import Modelica.Thermal.*;", True),
+        ("import M = Modelica;", True),
+        ("extends Modelica.Mechanics.MultiBody.Examples.Pendulum;", True),
+    ],
+)
+def test_what_robots_need_is_copied_and_all_if_more_is_named(
+    text: str, whole: bool, small: StandardLibrary, cache: UserCache
+) -> None:
+    copied = standard_library_copy(small, [text.encode()], cache)
+    partners = {"Complex.mo", "ModelicaServices/package.mo"}
+    wanted = (*COPIED, *LEFT_OUT) if whole else COPIED
+    assert names(copied) == {f"Modelica/{name}.mo" for name in wanted} | partners
+
+
+def test_a_copy_is_made_once_for_each_state(small: StandardLibrary, cache: UserCache) -> None:
+    first = standard_library_copy(small, (), cache)
+    (first / "mark").touch()
+    os.utime(first, (0, 0))
+    with ThreadPoolExecutor(8) as pool:
+        assert set(pool.map(lambda _: standard_library_copy(small, (), cache), range(8))) == {first}
+    assert (first / "mark").exists()
+    assert first.stat().st_mtime > 0, "its last use is noted"
+    (small.parts["Modelica"] / "Blocks" / "package.mo").write_text("package Blocks end Blocks;")
+    assert standard_library_copy(small, (), cache) != first
+
+
+def test_a_library_without_what_robots_need_is_a_clear_error(tmp_path: Path, cache: UserCache) -> None:
+    bare = find_standard_library({}, whole(tmp_path / "bare", "4.1.0"))
+    with pytest.raises(LibraryError, match=r"is broken: there is no `Modelica\.Blocks` and no `Modelica\.Constants`"):
+        standard_library_copy(bare, (), cache)
+    assert not cache.folder.exists()
+
+
+def test_a_cache_that_is_no_folder_is_a_clear_error(small: StandardLibrary, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(CacheError, match="the cache can't be written to"):
+        standard_library_copy(small, (), UserCache(tmp_path / "file" / "cache"))
+
+
+def test_the_real_one_is_a_tenth(modelica_library: Path, cache: UserCache) -> None:
+    copied = standard_library_copy(find_standard_library({}, modelica_library), (), cache)
+    assert (copied / "Modelica" / "Mechanics" / "MultiBody" / "Parts" / "Body.mo").is_file()
+    assert len(names(copied)) < 700

@@ -1,0 +1,199 @@
+"""The folder in which a compiler finds one package and what it refers to."""
+
+from __future__ import annotations
+
+import errno
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from urdfsync import config
+from urdfsync.check import files
+from urdfsync.check.files import PackageFiles
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import OutputError
+
+CONFIG = """
+[robots.arm]
+source = "arm.json"
+package = "Plant.Robots.Arm"
+domain = "rcnetwork"
+
+[robots.cart]
+source = "cart.json"
+package = "Plant.Robots.Cart"
+domain = "rcnetwork"
+
+[robots.crane]
+source = "crane.json"
+package = "Plant.Robots.Crane"
+domain = "rcnetwork"
+"""
+
+
+def write(folder: Path, **texts: str) -> None:
+    for name, text in texts.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+@pytest.fixture
+def plant(rc_domain: None, tmp_path: Path) -> Config:
+    """Three robots and a controller in one top-level package."""
+    output = tmp_path / "modelica"
+    write(
+        output,
+        **{
+            "Plant/package.mo": "package Plant",
+            "Plant/package.order": "Robots\nControl\n",
+            "Plant/Control.mo": "block Control",
+            "Plant/Resources/Old.mo": "no class",
+            "Plant/.git/Hidden.mo": "no class",
+            "Plant/Robots/package.mo": "package Robots",
+            "Plant/Robots/Arm/package.mo": "package Arm",
+            "Plant/Robots/Arm/Arm.mo": "model Arm",
+            "Plant/Robots/Cart/package.mo": "package Cart",
+            "Plant/Robots/Crane/package.mo": "package Crane",
+            "Plant/Robots/Crane/Hook.mo": "model Hook",
+            "Other/package.mo": "package Other",
+        },
+    )
+    return config.parse(CONFIG, tmp_path / "urdfsync.toml", "urdfsync.toml")
+
+
+def robot(plant: Config, name: str) -> RobotConfig:
+    return next(robot for robot in plant.robots if robot.name == name)
+
+
+def test_the_files_of_a_package_are_its_classes_and_orders(plant: Config) -> None:
+    found = files.package_texts(plant.root / "modelica" / "Plant")
+    assert {"package.mo", "package.order", "Control.mo", "Robots/Crane/Hook.mo"} <= found.keys()
+    assert not any("Resources" in path or ".git" in path for path in found)
+
+
+@pytest.fixture
+def odd(tmp_path: Path) -> Path:
+    """A package with what is no regular file; but one link leads to such."""
+    folder = tmp_path / "Odd"
+    write(tmp_path, **{"Odd/package.mo": "package Odd", "elsewhere/package.mo": "package Linked", "Real.mo": "model"})
+    (folder / "Dangling.mo").symlink_to("nowhere.mo")
+    (folder / "Circle.mo").symlink_to("Circle.mo")
+    (folder / "Linked").symlink_to(tmp_path / "elsewhere")
+    (folder / "images").symlink_to(tmp_path)
+    (folder / "Real.mo").symlink_to(tmp_path / "Real.mo")
+    if hasattr(os, "mkfifo"):
+        os.mkfifo(folder / "Pipe.mo")
+    return folder
+
+
+def test_what_is_no_regular_file_is_left_out(odd: Path) -> None:
+    assert files.package_texts(odd) == {"package.mo": b"package Odd", "Real.mo": b"model"}
+
+
+def test_and_is_told(odd: Path, plant: Config) -> None:
+    expected = {"Linked", "Dangling.mo", "Circle.mo", *(["Pipe.mo"] if hasattr(os, "mkfifo") else [])}
+    assert {path.relative_to(odd).as_posix() for path in files.irregular_files(odd)} == expected
+    assert files.irregular_files(plant.root / "modelica" / "Plant") == []
+    assert files.irregular_files(plant.root / "absent") == []
+
+
+@pytest.mark.parametrize("name", ["Plant/Control.mo", "Plant/Robots"])
+def test_what_can_not_be_read_is_named_as_people_see_it(
+    name: str, plant: Config, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(path: str, *rest: Any) -> Any:
+        if os.fspath(path).endswith(name):
+            raise PermissionError(errno.EACCES, "Permission denied", path)
+        return genuine(path, *rest)
+
+    owner, method = (Path, "read_bytes") if name.endswith(".mo") else (os, "scandir")
+    genuine = getattr(owner, method)
+    monkeypatch.chdir(plant.root)
+    with monkeypatch.context() as patch:
+        patch.setattr(owner, method, refuse)
+        with pytest.raises(OutputError) as caught:
+            files.package_texts(plant.root / "modelica" / "Plant")
+    (found,) = caught.value.diagnostics
+    assert (found.file, found.message) == (f"modelica/{name}", "it can't be read: Permission denied")
+    assert found.hint
+
+
+def test_other_robots_are_left_out(plant: Config) -> None:
+    found = files.files_around(plant, robot(plant, "arm"), {"Arm.mo": b"model Arm"})
+    expected = {"Plant/package.mo", "Plant/package.order", "Plant/Control.mo", "Plant/Robots/package.mo"}
+    assert found.keys() == expected
+
+
+def test_a_robot_that_is_mentioned_is_there_also_if_another_mentions_it(plant: Config) -> None:
+    write(plant.root / "modelica", **{"Plant/Robots/Cart/Load.mo": "Crane.Hook hook;"})
+    found = files.files_around(plant, robot(plant, "arm"), {"Arm.mo": b"Plant.Robots.Cart cart;"})
+    assert {"Plant/Robots/Cart/Load.mo", "Plant/Robots/Crane/Hook.mo"} <= found.keys()
+
+
+def test_packages_around_that_do_not_exist_are_made_up(rc_domain: None, tmp_path: Path) -> None:
+    plant = config.parse(CONFIG, tmp_path / "urdfsync.toml", "urdfsync.toml")
+    found = files.files_around(plant, robot(plant, "arm"), {})
+    assert found == {
+        "Plant/package.mo": b"within;\npackage Plant\nend Plant;\n",
+        "Plant/Robots/package.mo": b"within Plant;\npackage Robots\nend Robots;\n",
+    }
+
+
+def test_the_folder_holds_what_is_given_and_nothing_else(plant: Config, tmp_path: Path) -> None:
+    arm, folder = robot(plant, "arm"), tmp_path / "work"
+    write(folder, **{"Plant/Robots/Arm/Joints/Old.mo": "model Old"})
+    root = files.write_package(folder, arm, {"Arm.mo": b"model Arm"}, {"Plant/package.mo": b"package Plant"})
+    assert root == folder / "Plant"
+    there = {path.relative_to(folder).as_posix() for path in folder.rglob("*")}
+    assert there == {"Plant", "Plant/package.mo", "Plant/Robots", "Plant/Robots/Arm", "Plant/Robots/Arm/Arm.mo"}
+
+
+def test_files_that_are_right_are_left_alone(plant: Config, tmp_path: Path) -> None:
+    arm, folder = robot(plant, "arm"), tmp_path / "work"
+    files.write_package(folder, arm, {"Arm.mo": b"model Arm", "Leg.mo": b"1"}, {})
+    before = (folder / "Plant/Robots/Arm/Arm.mo").stat()
+    files.write_package(folder, arm, {"Arm.mo": b"model Arm", "Leg.mo": b"2"}, {})
+    after = (folder / "Plant/Robots/Arm/Arm.mo").stat()
+    assert (before.st_ino, before.st_mtime_ns) == (after.st_ino, after.st_mtime_ns)
+    assert (folder / "Plant/Robots/Arm/Leg.mo").read_bytes() == b"2"
+
+
+def package(**texts: str) -> PackageFiles:
+    """A robot's package with these files, written with `_` for `/` and without `.mo`."""
+    contents = {f"{name.replace('_', '/')}.mo": text.encode() for name, text in texts.items()}
+    return PackageFiles("Plant.Robots.Arm", Path("/out/Plant/Robots/Arm"), contents)
+
+
+def test_the_users_models_are_those_in_files_that_are_not_generated() -> None:
+    found = package(
+        Arm="within Plant.Robots.Arm;\nmodel Arm\nend Arm;\n",
+        Own="within Plant.Robots.Arm;\nmodel Own\nend Own;\n",
+        Control_PID="within Plant.Robots.Arm.Control; block PID\nend PID;\n",
+        Control_package="within Plant.Robots.Arm;\npackage Control\nend Control;\n",
+        Resources_Notes="model Notes\nend Notes;\n",
+    )
+    assert found.models_not_in(["Arm.mo", "package.mo"]) == ["Control.PID", "Own"]
+    assert found.models_not_in(found.texts) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("within; // model\n\nencapsulated model Own end Own;", True),
+        ("final block Own end Own;", True),
+        ("model Own = Arm(n = 2);", True),
+        ("model Own partial model In end In; end Own;", True),
+        ("encapsulated partial model Own end Own;", False),
+        ("function Own end Own;", False),
+        ("package Own model In end In; end Own;", False),
+        ("model Other end Other;", False),
+        ("within Plant.Robots", False),
+        ("model", False),
+        ("", False),
+    ],
+)
+def test_models_and_blocks_that_are_not_partial_compile_by_themselves(text: str, expected: bool) -> None:
+    assert (package(Own=text).models_not_in([]) == ["Own"]) is expected

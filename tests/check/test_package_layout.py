@@ -1,0 +1,340 @@
+"""The layout of a package: each fault has its place and its words, and what is sound gives none."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import msgspec
+import pytest
+from support import arm, corpus, packages
+from support.arm import ELBOW
+
+from urdfsync.check.files import PackageFiles, package_texts
+from urdfsync.check.layout import check_around, check_layout
+from urdfsync.domain import Target
+
+LIBRARY = corpus.REPOSITORY / "modelica" / "UrdfSync"
+WITHIN = f"within {arm.NAME}.Joints;"
+ORDER = "Joints/package.order"
+
+
+def findings(edits: Mapping[str, str | bytes | None]) -> list[str]:
+    """All findings, as people read them, without the folder."""
+    return [str(one).removeprefix(str(arm.DISK)).removeprefix("/") for one in check_layout(arm.package(edits))]
+
+
+# --- what is sound ----------------------------------------------------------------------------------------------------
+
+
+def test_the_library_with_its_examples_is_sound() -> None:
+    assert check_layout(PackageFiles("UrdfSync", LIBRARY, package_texts(LIBRARY))) == []
+
+
+SMALL = [file for file in corpus.robots() if 0 < corpus.moving_joints()[file] <= 3][:4] or [corpus.ABSENT]
+
+
+@pytest.mark.parametrize("file", SMALL, ids=corpus.label)
+def test_generated_packages_are_sound(file: str, corpus: Path) -> None:
+    made = packages.generate(corpus / file, Target("Plant.Robots.Bot", "Bot"))
+    texts = {path: text.encode() for path, text in made.texts.items()}
+    assert check_layout(PackageFiles("Plant.Robots.Bot", Path("Bot"), texts)) == []
+
+
+@pytest.mark.parametrize(
+    "edits",
+    [
+        pytest.param({ELBOW: arm.text().replace("\n", "\r\n")}, id="line ends of Windows"),
+        pytest.param({"Resources/notes.mo": "no Modelica"}, id="resources are no classes"),
+        pytest.param({"Joints/.#Elbow.mo": "no Modelica"}, id="hidden files are an editor's business"),
+        pytest.param({ORDER: None}, id="no package.order"),
+        pytest.param({ORDER: arm.text(ORDER).replace("\n", " \r\n\r\n")}, id="blanks in package.order"),
+        pytest.param({ELBOW: arm.text() + "// the end\n"}, id="comments"),
+    ],
+)
+def test_what_the_language_allows_is_no_fault(edits: Mapping[str, str | None]) -> None:
+    assert findings(edits) == []
+
+
+def test_constants_of_a_package_may_be_ordered() -> None:
+    constant = "\n  constant Real pi = 3;\nend Joints;"
+    edits = {**arm.changed("\nend Joints;", constant, "Joints/package.mo"), ORDER: "pi\n" + arm.text(ORDER)}
+    edits["Joints/package.mo"] = _behind(edits["Joints/package.mo"], "constant")
+    assert findings(edits) == []
+
+
+def _behind(text: str, word: str) -> str:
+    """The text of a package with the declaration that begins with `word` moved up behind its first line."""
+    lines = text.splitlines(keepends=True)
+    moved = next(line for line in lines if line.strip().startswith(word))
+    lines.remove(moved)
+    first = next(number for number, line in enumerate(lines) if line.startswith("package"))
+    return "".join([*lines[: first + 1], moved, *lines[first + 1 :]])
+
+
+# --- files ------------------------------------------------------------------------------------------------------------
+
+
+def test_the_first_place_that_does_not_parse_is_named_in_every_file() -> None:
+    shoulder = "Joints/Shoulder.mo"
+    edits = {**arm.changed("useAxisFlange = true,", "useAxisFlange = true"), shoulder: "hello world"}
+    lacks = "the file lacks `,` or `)` before `n`"
+    assert findings(edits) == [
+        f"{ELBOW}:{arm.line('n = parameters.axis')}: error: joint elbow: {lacks} [syntax]",
+        f"{shoulder}:1: error: the file lacks a class before `hello` [syntax]",
+    ]
+
+
+def test_markers_of_a_conflict_are_the_cause_of_what_does_not_parse() -> None:
+    edits = arm.changed("\nequation\n", "\n<<<<<<< mine\nequation\n=======\nequation\n>>>>>>> theirs\n")
+    (found,) = findings(edits)
+    place = f"{ELBOW}:{arm.line('equation')}"
+    assert found.startswith(
+        f"{place}: error: joint elbow: the file has the conflict marker `<<<<<<<`; correct it first"
+    )
+
+
+def test_what_is_declared_twice_is_an_error_and_what_is_connected_twice_a_warning() -> None:
+    twice = "\n  Real friction;\nequation\n  connect(frame_a, origin.frame_a);\n"
+    declared, connected = findings(arm.changed("\nequation\n", twice))
+    assert declared.endswith("error: joint elbow: the file declares `friction` twice [syntax]")
+    assert connected.endswith("the file connects `frame_a` and `origin.frame_a` twice [repeated]")
+    assert " warning: " in connected
+
+
+@pytest.mark.parametrize(
+    ("edits", "found"),
+    [
+        pytest.param(
+            arm.changed(WITHIN, "within Arm;"),
+            [
+                f"{ELBOW}:1: error: joint elbow: the file says `within Arm;`, but stands in `{arm.NAME}.Joints`;"
+                f" write `{WITHIN}` [wrong-within]"
+            ],
+            id="another package",
+        ),
+        pytest.param(
+            arm.changed(WITHIN, ""),
+            [f"{ELBOW}:1: error: joint elbow: the file lacks `{WITHIN}`; put it into the first line [wrong-within]"],
+            id="none",
+        ),
+        pytest.param(
+            arm.changed(WITHIN, "\n\nwithin;"),
+            [
+                f"{ELBOW}:3: error: joint elbow: the file says `within;`, but stands in `{arm.NAME}.Joints`;"
+                f" write `{WITHIN}` [wrong-within]"
+            ],
+            id="no package",
+        ),
+    ],
+)
+def test_a_file_says_in_which_package_it_stands(edits: Mapping[str, str], found: list[str]) -> None:
+    assert findings(edits) == found
+
+
+def test_a_top_level_package_may_say_that_it_is_in_none() -> None:
+    texts = {"package.mo": b"within;\npackage Arm\nend Arm;\n"}
+    assert check_layout(PackageFiles("Arm", Path("Arm"), texts)) == []
+    assert check_layout(PackageFiles("Arm", Path("Arm"), {"package.mo": b"package Arm\nend Arm;\n"})) == []
+    (found,) = check_layout(PackageFiles("Plant.Arm", Path("Arm"), texts))
+    assert found.code == "wrong-within"
+
+
+def test_class_and_file_have_one_name() -> None:
+    edits = {ELBOW: arm.text().replace("model Elbow", "model Elbw").replace("end Elbow", "end Elbw")}
+    message = "the class is called `Elbw`, but its file `Elbow`; give class and file the same name"
+    assert findings(edits) == [f"{ELBOW}:{arm.line('model Elbow')}: error: joint elbow: {message} [wrong-name]"]
+
+
+def test_package_and_folder_have_one_name() -> None:
+    edits = {"package.mo": arm.text("package.mo").replace("SixAxisArm", "Arm").replace(".Arm", ".SixAxisArm")}
+    (found,) = findings(edits)
+    message = "the class is called `Arm`, but its folder `SixAxisArm`; give class and folder the same name"
+    assert found == f"package.mo:{arm.line('package Six', 'package.mo')}: error: {message} [wrong-name]"
+
+
+def test_a_file_holds_one_class() -> None:
+    lines = arm.text().count("\n")
+    hint = "a file in a package holds one class: give it one of its own"
+    assert findings({ELBOW: arm.text() + "model Second\nend Second;\n"}) == [
+        f"{ELBOW}:{lines + 1}: error: joint elbow: the file holds `Second` besides `Elbow`; {hint} [second-class]"
+    ]
+    assert findings({ELBOW: f"{WITHIN}\n// nothing\n"}) == [
+        f"{ELBOW}: error: joint elbow: the file holds no class; write the class `Elbow`, or delete the file [no-class]"
+    ]
+
+
+def test_files_are_in_utf8() -> None:
+    message = "the file is not in UTF-8; save it as UTF-8 [not-utf8]"
+    edits = {ELBOW: arm.text().encode().replace(b"Motion along", b"Bew\xe9gung"), ORDER: b"Elbow\nSt\xfctze\n"}
+    assert findings(edits) == [
+        f"{ELBOW}:{arm.line('Motion along')}: error: joint elbow: {message}",
+        f"{ORDER}:2: error: {message}",
+    ]
+
+
+def test_a_byte_order_mark_is_pointed_out() -> None:
+    (found,) = findings({ELBOW: "\ufeff" + arm.text()})
+    hint = "save it without: some compilers refuse it"
+    assert found == f"{ELBOW}:1: warning: joint elbow: the file begins with a byte order mark; {hint} [byte-order-mark]"
+
+
+# --- folders ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_folder_of_classes_is_a_package() -> None:
+    hint = "add one, or move the files elsewhere"
+    assert findings({"Joints/package.mo": None}) == [
+        f"Joints: error: the folder holds classes, but no package.mo; {hint} [no-package-file]"
+    ]
+    (found,) = check_layout(PackageFiles("Arm", Path("Arm"), {}))
+    assert (found.code, found.file) == ("no-package-file", "Arm")
+
+
+@pytest.mark.parametrize("name", ["X.mo", "old ones", "model"])
+def test_of_a_folder_that_can_be_no_package_one_thing_is_said(name: str) -> None:
+    within = f"within {arm.NAME};"
+    edits = {f"{name}/package.mo": f"{within}\npackage X\nend X;\n", f"{name}/Inner/Y.mo": "nonsense"}
+    message = f"`{name}` can't be the name of a package; rename the folder, or move it elsewhere"
+    assert findings(edits) == [f"{name}: error: {message} [wrong-name]"]
+    order = f"{arm.text('package.order')}{name}\n"
+    assert findings({**edits, "package.order": order}) == [f"{name}: error: {message} [wrong-name]"]
+
+
+@pytest.mark.parametrize("name", ["Elbow.old", "Elbow (copy)"])
+def test_of_a_file_that_can_hold_no_class_one_thing_is_said(name: str) -> None:
+    message = f"`{name}` can't be the name of a class; rename the file, or move it elsewhere"
+    assert findings({f"Joints/{name}.mo": arm.text()}) == [f"Joints/{name}.mo: error: {message} [wrong-name]"]
+
+
+def test_a_package_file_with_a_capital_is_found() -> None:
+    content = arm.text("Joints/package.mo")
+    first = findings({"Joints/package.mo": None, "Joints/Package.mo": content})[0]
+    assert first.endswith("but no package.mo; rename `Package.mo` [no-package-file]")
+
+
+def test_a_class_is_there_once() -> None:
+    within = f"within {arm.NAME};"
+    assert findings({"Joints.mo": f"{within}\npackage Joints\nend Joints;\n"}) == [
+        "Joints.mo: error: `Joints` is both a file and a folder; keep one of them [class-twice]"
+    ]
+    inside = f"within {arm.NAME};\npackage Joints\n  model Elbow\n  end Elbow;\nend Joints;\n"
+    assert findings({"Joints/package.mo": inside}) == [
+        "Joints/package.mo:3: error: `Elbow` is declared here, and is a file as well; keep one of them [class-twice]"
+    ]
+
+
+def test_names_that_differ_by_case_only_are_pointed_out() -> None:
+    edits = {"Joints/elbow.mo": arm.text().replace("Elbow", "elbow"), ORDER: arm.text(ORDER) + "elbow\n"}
+    hint = "rename one: file systems that ignore case do not hold both"
+    assert findings(edits) == [
+        f"Joints/elbow.mo: warning: `elbow` and `Elbow` differ only by case; {hint} [same-but-for-case]"
+    ]
+
+
+def test_the_order_names_what_is_there_once() -> None:
+    names = arm.text(ORDER).split()
+    listed = [name for name in names if name != "Turret"] + ["Elbow", "Turet", "Wheel"]
+    lacks = "`Turret` is not named; add it where it belongs: tools put it last, or warn"
+    last = len(listed)
+    assert findings({ORDER: "\n".join(listed)}) == [
+        f"{ORDER}: warning: {lacks} [order-lacks]",
+        f"{ORDER}:{last - 2}: warning: `Elbow` is named twice, first in line {listed.index('Elbow') + 1};"
+        " take one of the lines out [order-twice]",
+        f"{ORDER}:{last - 1}: error: `Turet` is named, but is no class and no constant of the package;"
+        " did you mean `Turret`? [order-unknown]",
+        f"{ORDER}:{last}: error: `Wheel` is named, but is no class and no constant of the package;"
+        " take the line out, or bring the class back [order-unknown]",
+    ]
+
+
+def test_what_a_build_adds_to_an_order_nobody_has_to_add() -> None:
+    """The file is urdfsync's if the package is; whoever adds a class has to name it."""
+    names = [name for name in arm.text(ORDER).split() if name != "Turret"]
+    own = f"{WITHIN}\nmodel Own\nend Own;\n"
+    package = arm.package({ORDER: "\n".join(names), "Joints/Own.mo": own})
+    owners = {"Joints/package.mo": "robot", "Joints/Turret.mo": "joint turret"}
+    found = check_layout(msgspec.structs.replace(package, owners=owners))
+    hints = {one.message: one.hint for one in found}
+    advice = "add it where it belongs: tools put it last, or warn"
+    assert hints == {"`Own` is not named": advice, "`Turret` is not named": "`urdfsync build` adds it"}
+    elsewhere = msgspec.structs.replace(
+        arm.package({ORDER: "\n".join(names)}), owners={"Joints/Turret.mo": "joint turret"}
+    )
+    assert [one.hint for one in check_layout(elsewhere)] == [advice]
+
+
+def test_the_order_is_not_judged_by_a_package_file_that_does_not_parse() -> None:
+    edits = {"Joints/package.mo": "package Joints\n  constant Real x = ;\n", ORDER: "x\n" + arm.text(ORDER)}
+    assert [one.split("[")[-1] for one in findings(edits)] == ["syntax]"]
+
+
+# --- files around the package -----------------------------------------------------------------------------------------
+
+OUTPUT = arm.HOME / "modelica"
+AROUND = {
+    "Plant/package.mo": "within;\npackage Plant\nend Plant;\n",
+    "Plant/package.order": "Robots\nGone\n",
+    "Plant/Robots/package.mo": "within Plant;\npackage Robots\nend Robots;\n",
+    "Plant/Control.mo": "within Plant;\nblock Control\nend Control;\n",
+    "Tools 2.1/package.mo": "package Tools\nend Tools;\n",
+    "Tools 2.1/Pump.mo": "within Tools;\nmodel Pump\nend Pump;\n",
+    "Alone 1.0.mo": "package Alone\nend Alone;\n",
+}
+
+
+def around(files: Mapping[str, str | bytes]) -> list[str]:
+    """What is said of files beside the package, some of them other than they should be."""
+    texts = {**AROUND, **files}
+    contents = {OUTPUT / path: text.encode() if isinstance(text, str) else text for path, text in texts.items()}
+    return [str(one).removeprefix(f"{OUTPUT}/") for one in check_around(contents)]
+
+
+def test_packages_and_libraries_around_are_sound() -> None:
+    assert around({}) == []
+
+
+def test_a_file_around_that_does_not_parse_is_named() -> None:
+    lacks = "error: the file lacks a class before `nonsense` [syntax]"
+    broken = "within Plant;\nmodel Broken\n  Real x = ;\nend Broken;\n"
+    assert around({"Tools 2.1/Pump.mo": "nonsense((", "Plant/Broken.mo": broken, "Alone 1.0.mo": b"// \xe9"}) == [
+        "Alone 1.0.mo:1: error: the file is not in UTF-8; save it as UTF-8 [not-utf8]",
+        "Plant/Broken.mo:3: error: the file lacks an expression before `;` [syntax]",
+        f"Tools 2.1/Pump.mo:1: {lacks}",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "found"),
+    [
+        (
+            "Plant/Robots/Shelf.mo",
+            "within Plant;\nmodel Shelf\nend Shelf;\n",
+            "1: error: the file says `within Plant;`, but stands in `Plant.Robots`; write `within Plant.Robots;`",
+        ),
+        (
+            "Plant/Robots/package.mo",
+            "package Robots\nend Robots;\n",
+            "1: error: the file lacks `within Plant;`; put it into the first line",
+        ),
+        (
+            "Tools 2.1/Pump.mo",
+            "within Tool;\nmodel Pump\nend Pump;\n",
+            "1: error: the file says `within Tool;`, but stands in `Tools`; write `within Tools;`",
+        ),
+    ],
+)
+def test_files_around_say_in_which_package_they_stand(path: str, text: str, found: str) -> None:
+    assert around({path: text}) == [f"{path}:{found} [wrong-within]"]
+
+
+def test_what_keeps_no_compiler_from_reading_files_around_is_not_said() -> None:
+    twice = "  connect(a, b);\n" * 2
+    files = {
+        "Plant/Control.mo": f"within Plant;\nmodel Other\nequation\n{twice}end Other;\n",
+        "Plant/Old.v1.mo": "within Plant;\nmodel Old\nend Old;\n",
+        "Plant/X.mo/package.mo": "within Plant;\npackage X\nend X;\n",
+        "Plant/Resources/Notes.mo": "no Modelica",
+        "Plant/.#Control.mo": "no Modelica",
+    }
+    assert around(files) == []

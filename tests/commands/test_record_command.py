@@ -1,0 +1,203 @@
+"""`urdfsync record`: one record, without a project, into a terminal, a pipe or a file that nobody loses."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support.screen import Screen
+
+from urdfsync import cli
+
+Capture = pytest.CaptureFixture[str]
+
+REPOSITORY = Path(__file__).parents[2]
+TWIG = REPOSITORY / "tests/golden/twig.urdf"
+GOLDEN = REPOSITORY / "tests/golden/record/TwigParameters.mo"
+BUOY = REPOSITORY / "modelica/UrdfSync/Resources/robots/floating_buoy/floating_buoy.urdf"
+FAULTY = '<robot name="own">\n  <link name="base"/>\n  <link name="base"/>\n</robot>\n'
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The working folder: no configuration in it or above."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def record(*arguments: object) -> int:
+    return cli.main(["record", *map(str, arguments)])
+
+
+def test_the_record_is_that_of_a_package(capsys: Capture) -> None:
+    assert record(TWIG, "--within", "Zoo.Twig", "--class", "TwigParameters") == 0
+    said = capsys.readouterr()
+    assert said.out == GOLDEN.read_text(encoding="utf-8")
+    assert "mimic-of-fixed" in said.err
+
+
+def test_nothing_else_is_left_behind(folder: Path) -> None:
+    assert record(TWIG, "-o", "TwigParameters.mo") == 0
+    assert [path.name for path in folder.iterdir()] == ["TwigParameters.mo"]
+
+
+def test_a_record_on_its_own_names_the_libraries_that_it_uses(capsys: Capture) -> None:
+    assert record(TWIG) == 0
+    text = capsys.readouterr().out
+    assert text.startswith('within ;\n\nrecord TwigParameters "Numbers of robot Twig as a whole"\n')
+    assert '    uses(\n      Modelica(version="4.0.0"),\n' in text
+    assert text.endswith("end TwigParameters;\n")
+
+
+def test_a_terminal_shows_the_same_text(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    record(TWIG)
+    piped = capsys.readouterr().out
+    screen = Screen(width=400)
+    monkeypatch.setattr(sys, "stdout", screen)
+    assert record(TWIG) == 0
+    assert screen.getvalue() == piped
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX shell")
+def test_a_pipe_gets_utf_8_whatever_the_locale(folder: Path) -> None:
+    source = folder / "own.urdf"
+    source.write_text(TWIG.read_text().replace('name="twig"', 'name="Zweig ä"'), encoding="utf-8")
+    environment = os.environ | {
+        "LC_ALL": "C",
+        "PYTHONUTF8": "0",
+        "PYTHONCOERCECLOCALE": "0",
+        "PYTHONPATH": str(REPOSITORY),
+    }
+    command = [sys.executable, "-m", "urdfsync", "record", str(source)]
+    done = subprocess.run(command, env=environment, capture_output=True, check=True)
+    assert 'name = "Zweig ä"' in done.stdout.decode("utf-8")
+    assert b"\r" not in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["-o", "Branch.mo"], "Branch"),
+        (["-o", "my-branch.mo"], "TwigParameters"),
+        (["-o", "Branch.mo", "--class", "Stick"], "Stick"),
+        (["--class", "Stick"], "Stick"),
+        ([], "TwigParameters"),
+    ],
+)
+def test_the_class_is_called_as_asked_or_like_its_file(
+    arguments: list[str], expected: str, folder: Path, capsys: Capture
+) -> None:
+    assert record(TWIG, "--within", "Plant", *arguments) == 0
+    file = folder / arguments[1] if arguments[:1] == ["-o"] else None
+    text = file.read_text() if file else capsys.readouterr().out
+    assert text.startswith(f"within Plant;\n\nrecord {expected} ")
+
+
+def test_a_file_is_written_once(folder: Path, capsys: Capture) -> None:
+    assert record(TWIG, "-o", "Twig.mo") == 0
+    assert record(TWIG, "-o", "Twig.mo") == 0
+    assert capsys.readouterr().out.splitlines() == ["Twig.mo written: record Twig", "Twig.mo unchanged: record Twig"]
+    (folder / "Twig.mo").write_bytes((folder / "Twig.mo").read_bytes().replace(b"\n", b"\r\n"))
+    assert record(TWIG, "-o", "Twig.mo", "--quiet") == 0
+    assert b"\r\n" in (folder / "Twig.mo").read_bytes()
+
+
+def test_what_is_in_a_file_is_not_lost_unless_one_says_so(folder: Path, capsys: Capture) -> None:
+    file = folder / "Twig.mo"
+    file.write_text("model Twig end Twig;")
+    assert record(TWIG, "-o", "Twig.mo") == 2
+    assert file.read_text() == "model Twig end Twig;"
+    said = capsys.readouterr().err.splitlines()
+    assert said[-1] == (
+        "Twig.mo: error: the file exists, and holds something else; name another one, or replace it with --force "
+        "[file-exists]"
+    )
+    assert record(TWIG, "-o", "Twig.mo", "--force") == 0
+    assert "record Twig" in file.read_text()
+
+
+@pytest.mark.parametrize("name", ["own.urdf", "link.mo"])
+def test_the_source_is_never_replaced(name: str, folder: Path, capsys: Capture) -> None:
+    source = folder / "own.urdf"
+    source.write_bytes(TWIG.read_bytes())
+    (folder / "link.mo").symlink_to(source)
+    assert record(source, "-o", name, "--force") == 2
+    assert source.read_bytes() == TWIG.read_bytes()
+    assert capsys.readouterr().err.splitlines()[-1] == (
+        f"{name}: error: the record would replace its source; name another file [output-is-source]"
+    )
+
+
+def test_a_dash_is_standard_output(folder: Path, capsys: Capture) -> None:
+    assert record(TWIG, "-o", "-") == 0
+    dashed = capsys.readouterr().out
+    assert record(TWIG) == 0
+    assert capsys.readouterr().out == dashed
+    assert not list(folder.iterdir())
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+def test_a_link_stays_a_link(folder: Path) -> None:
+    (folder / "Real.mo").write_text("old")
+    (folder / "Twig.mo").symlink_to("Real.mo")
+    assert record(TWIG, "-o", "Twig.mo", "--force") == 0
+    assert (folder / "Twig.mo").is_symlink()
+    assert "record Twig" in (folder / "Real.mo").read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["lost.urdf"], "lost.urdf: error: the source can't be read: No such file or directory; name a file that is"),
+        ([TWIG, "-o", "lost/Twig.mo"], "lost/Twig.mo: error: it can't be written: No such file or directory; check"),
+        ([TWIG, "-o", "."], ".: error: a folder is in its place; name a file [output-in-the-way]"),
+        ([TWIG, "--class", "twig"], "error: 'twig' can't be a class; choose a name with a capital first"),
+        ([TWIG, "--within", "Plant.end"], "error: 'Plant.end' can't be a package; name one like Plant.Robots"),
+        ([TWIG, "--within", "Modelica"], "error: 'Modelica' can't be a package; name one like Plant.Robots"),
+        ([TWIG, "--domain", "urfd"], "error: "),
+    ],
+)
+def test_mistakes_are_one_line(arguments: list[object], said: str, folder: Path, capsys: Capture) -> None:
+    assert record(*arguments) == 2
+    found = [line for line in capsys.readouterr().err.splitlines() if "warning" not in line]
+    assert len(found) == 1
+    assert found[0].startswith(said)
+    assert not list(folder.iterdir())
+
+
+def test_a_faulty_source_is_told_with_its_line(folder: Path, capsys: Capture) -> None:
+    (folder / "own.urdf").write_text(FAULTY)
+    assert record("own.urdf", "-o", "Own.mo") == 2
+    assert "own.urdf:3: error: " in capsys.readouterr().err
+    assert not (folder / "Own.mo").exists()
+
+
+def test_a_robot_without_tables_is_written_with_a_warning(capsys: Capture) -> None:
+    assert record(BUOY) == 0
+    said = capsys.readouterr()
+    assert "jointTree" not in said.out
+    assert "floating_buoy.urdf:25: warning: the generic robot has no floating joints" in said.err
+
+
+def test_a_domain_without_a_record_says_so(rc_domain: None, capsys: Capture) -> None:
+    ladder = REPOSITORY / "tests/rcnetwork/examples/ladder.json"
+    assert record(ladder, "--domain", "rcnetwork") == 2
+    assert capsys.readouterr().err == (
+        "error: the domain `rcnetwork` has no record of a whole model; use `urdfsync build` [no-record]\n"
+    )
+
+
+def test_json(capsys: Capture) -> None:
+    assert record(TWIG, "--json") == 0
+    told = json.loads(capsys.readouterr().out)
+    assert (told["command"], told["exit"], told["class"], told["within"]) == ("record", 0, "TwigParameters", "")
+    assert told["text"].startswith("within ;\n")
+    assert [found["code"] for found in told["diagnostics"]] == ["mimic-of-fixed"]
+    for written in (True, False):
+        assert record(TWIG, "-o", "Twig.mo", "--json") == 0
+        told = json.loads(capsys.readouterr().out)
+        assert (told["file"], told["written"], "text" in told) == ("Twig.mo", written, False)

@@ -1,0 +1,482 @@
+"""`urdfsync resolve` from end to end: conflicts of real builds, settled, and what waited for that."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from urdfsync import cli
+from urdfsync.engine.rules import sides_hash
+from urdfsync.files import digest
+from urdfsync.state.lock import build_lock
+
+Capture = pytest.CaptureFixture[str]
+Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
+
+LADDER = "modelica/Ladder"
+MODEL = f"{LADDER}/Ladder.mo"
+SIGNAL = f"{LADDER}/Resources/step.txt"
+MINE = '"Element R2, 1 %"'
+FRESH = '"Element R3"'
+
+
+def edit(path: str | Path, old: str, new: str) -> None:
+    text = Path(path).read_text()
+    assert old in text
+    Path(path).write_text(text.replace(old, new))
+
+
+def more(name: str) -> None:
+    """One more resistor between two nodes that are there: a structural change that renames nothing."""
+    last = '"farad": 4.7e-6}'
+    edit("ladder.json", last, f'{last},\n    {{"name": "{name}", "between": ["in", "out"], "ohm": 1}}')
+
+
+def files(snapshot: dict[str, tuple[int, bytes]]) -> dict[str, tuple[int, bytes]]:
+    return {path: entry for path, entry in snapshot.items() if path != ".urdfsync/lock"}
+
+
+@pytest.fixture
+def clean(project: Path) -> Path:
+    """The network's model is edited, one more resistor is in the source: both fit together."""
+    assert cli.main(["build"]) == 0
+    edit(MODEL, "Elements.C1 elementC1", "parameter Real mine = 1;\n\n  Elements.C1 elementC1")
+    more("R3")
+    return project
+
+
+@pytest.fixture
+def contradictory(project: Path) -> Path:
+    """A resistor is edited in the network's model, and replaced in the source."""
+    assert cli.main(["build"]) == 0
+    edit(MODEL, '"Element R2"', MINE)
+    edit("ladder.json", '{"name": "R2", "between": ["middle", "out"]', '{"name": "R3", "between": ["in", "out"]')
+    return project
+
+
+def resolve(*arguments: str) -> int:
+    return cli.main(["resolve", *arguments])
+
+
+def says(capsys: Capture) -> str:
+    return capsys.readouterr().out.splitlines()[0]
+
+
+# Choices
+
+
+def test_merge_takes_both(clean: Path, capsys: Capture) -> None:
+    assert cli.main(["build"]) == 3
+    assert f"    urdfsync resolve {Path(MODEL)} --merge" in capsys.readouterr().out.splitlines()
+    assert resolve(MODEL, "--merge") == 0
+    assert says(capsys) == "ladder: 3 files written, 1 merged with your edits"
+    text = Path(MODEL).read_text()
+    assert "parameter Real mine = 1;" in text
+    assert FRESH in text
+    assert cli.main(["build", "--check"]) == 0
+
+
+def test_take_replaces_the_edits(contradictory: Path, capsys: Capture) -> None:
+    assert cli.main(["build"]) == 3
+    capsys.readouterr()
+    assert resolve(MODEL, "--take") == 0
+    assert says(capsys) == "ladder: 4 files written, 2 deleted"
+    assert MINE not in Path(MODEL).read_text()
+    assert FRESH in Path(MODEL).read_text()
+    assert cli.main(["build"]) == 0
+    assert says(capsys) == "ladder: in step, 14 files"
+
+
+def test_keep_is_remembered_until_the_generated_text_changes_again(contradictory: Path, capsys: Capture) -> None:
+    mine = Path(MODEL).read_text()
+    assert cli.main(["build"]) == 3
+    assert resolve(MODEL, "--keep") == 0
+    capsys.readouterr()
+    for arguments in (["build"], ["build", "--full"], ["build", "--check"]):
+        assert cli.main(arguments) == 0
+        assert says(capsys) == "ladder: in step, 14 files, 1 kept because you edited it"
+    edit("ladder.json", "220.5", "330")
+    assert cli.main(["build"]) == 0
+    assert Path(MODEL).read_text() == mine
+    more("R4")
+    assert cli.main(["build"]) == 3
+    assert Path(MODEL).read_text() == mine
+
+
+def test_what_waited_is_written(contradictory: Path) -> None:
+    elements = Path(LADDER) / "Elements"
+    assert cli.main(["build"]) == 3
+    assert (elements / "R2.mo").exists()
+    assert not (elements / "R3.mo").exists()
+    assert resolve(MODEL, "--keep") == 0
+    assert not (elements / "R2.mo").exists()
+    assert (elements / "R3.mo").exists()
+    assert "R3" in (elements / "package.order").read_text().splitlines()
+    assert not list(Path(".urdfsync/conflicts").rglob("*.*"))
+
+
+def test_no_build_has_to_come_first(clean: Path) -> None:
+    assert resolve(MODEL, "--merge") == 0
+
+
+def test_a_merge_that_is_not_offered_changes_nothing(
+    contradictory: Path, capsys: Capture, snapshot_of: Snapshot
+) -> None:
+    assert cli.main(["build"]) == 3
+    capsys.readouterr()
+    before = files(snapshot_of(contradictory))
+    assert resolve(MODEL, "--merge") == 2
+    proposal = Path(".urdfsync/conflicts/ladder/Ladder.merge.txt")
+    assert capsys.readouterr().err == (
+        f"{Path(MODEL)}: error: it can't be merged: the changes contradict each other; "
+        f"put what you want of {proposal} into your file, then use --keep [no-merge]\n"
+    )
+    assert MINE in proposal.read_text()
+    assert files(snapshot_of(contradictory)) == before
+
+
+def test_a_dry_run_writes_nothing(clean: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
+    before = files(snapshot_of(clean))
+    assert resolve(MODEL, "--merge", "--dry-run") == 0
+    assert says(capsys) == "ladder: 3 files to write, 1 to merge with your edits"
+    assert files(snapshot_of(clean)) == before
+
+
+def test_the_files_that_are_named_are_there(contradictory: Path, capsys: Capture) -> None:
+    assert cli.main(["build", "--json"]) == 3
+    (conflict,) = json.loads(capsys.readouterr().out)["robots"][0]["conflicts"]
+    for name in ("base", "generated", "merge"):
+        assert Path(conflict[name]).is_file()
+
+
+# Several files
+
+
+@pytest.fixture
+def several(clean: Path) -> Path:
+    """One conflict that merges, one that doesn't, and an imported file that both sides changed."""
+    edit(f"{LADDER}/Elements/R1Parameters.mo", "R = 100", "R = 110")
+    edit("ladder.json", '"ohm": 100', '"ohm": 120')
+    edit(SIGNAL, "#1", "#1 ")
+    edit("step.csv", "0.1,5", "0.1,7")
+    return clean
+
+
+def conflicts(capsys: Capture) -> list[str]:
+    """The conflicts that a dry build finds."""
+    capsys.readouterr()
+    cli.main(["build", "--dry-run", "--json"])
+    robots = json.loads(capsys.readouterr().out)["robots"]
+    return [found["path"].removeprefix(f"{LADDER}/") for robot in robots for found in robot["conflicts"]]
+
+
+def test_a_folder_stands_for_all_below_it(several: Path, capsys: Capture) -> None:
+    assert conflicts(capsys) == ["Elements/R1Parameters.mo", "Ladder.mo", "Resources/step.txt"]
+    assert resolve(f"{LADDER}/Elements", "--keep") == 3
+    assert conflicts(capsys) == ["Ladder.mo", "Resources/step.txt"]
+    assert resolve(LADDER, "--take") == 0
+    assert "R = 110" in Path(f"{LADDER}/Elements/R1Parameters.mo").read_text()
+    assert "0.1 7.0" in Path(SIGNAL).read_text()
+
+
+def test_several_files_are_settled_together_or_not_at_all(
+    several: Path, capsys: Capture, snapshot_of: Snapshot
+) -> None:
+    before = files(snapshot_of(several))
+    record = f"{LADDER}/Elements/R1Parameters.mo"
+    assert resolve(MODEL, record, "--merge") == 2
+    assert resolve(MODEL, "nothing.mo", "--keep") == 2
+    assert files(snapshot_of(several)) == before
+    assert resolve(MODEL, record, "--keep") == 3
+    assert conflicts(capsys) == ["Resources/step.txt"]
+
+
+def test_all_that_can_be_merged_is_merged(several: Path, capsys: Capture) -> None:
+    assert resolve("--all", "--merge") == 3
+    assert says(capsys) == "ladder: 2 conflicts, 4 changes waiting for that"
+    assert conflicts(capsys) == ["Elements/R1Parameters.mo", "Resources/step.txt"]
+    assert resolve("--all", "--keep") == 0
+    text = Path(MODEL).read_text()
+    assert "parameter Real mine = 1;" in text
+    assert FRESH in text
+
+
+def test_a_choice_that_waits_can_be_made_again(several: Path, capsys: Capture) -> None:
+    assert resolve(MODEL, "--merge") == 3
+    assert resolve(MODEL, "--take") == 3
+    assert resolve("--all", "--keep") == 0
+    assert "parameter Real mine = 1;" not in Path(MODEL).read_text()
+
+
+def test_all_can_be_kept_or_taken(several: Path, capsys: Capture) -> None:
+    assert resolve("--all", "--keep") == 0
+    assert conflicts(capsys) == []
+    assert "#1 \n" in Path(SIGNAL).read_text()
+    assert resolve("--all", "--take") == 0
+    assert capsys.readouterr().err == "note: nothing is in conflict [no-conflict]\n"
+
+
+# Imported files
+
+
+@pytest.fixture
+def unsourced(project: Path) -> Path:
+    """An imported file that both sides changed, and whose source is gone since: nobody has what it gave."""
+    assert cli.main(["build"]) == 0
+    edit(SIGNAL, "#1", "#1 ")
+    edit("step.csv", "0.1,5", "0.1,7")
+    assert cli.main(["build"]) == 3
+    Path("step.csv").rename("elsewhere.csv")
+    return project
+
+
+@pytest.mark.parametrize("options", [[], ["--dry-run"]])
+def test_what_nobody_has_cant_be_taken(
+    unsourced: Path, options: list[str], capsys: Capture, snapshot_of: Snapshot
+) -> None:
+    capsys.readouterr()
+    before = files(snapshot_of(unsourced))
+    assert resolve(SIGNAL, "--take", *options) == 2
+    assert capsys.readouterr().err == (
+        f"{Path(SIGNAL)}: error: it can't be taken: the file it is made from is not here; "
+        f"bring it back, or keep yours with `urdfsync resolve {Path(SIGNAL)} --keep` [no-take]\n"
+    )
+    assert resolve(LADDER, "--take", *options, "--json") == 2
+    assert [found["code"] for found in json.loads(capsys.readouterr().out)["diagnostics"]] == ["no-take"]
+    assert resolve("--all", "--take", *options) == 3
+    assert files(snapshot_of(unsourced)) == before
+
+
+def test_what_nobody_has_is_not_offered(unsourced: Path, capsys: Capture) -> None:
+    assert cli.main(["build"]) == 3
+    out = capsys.readouterr().out
+    assert "It is no text that could be merged, and the file it is made from is not here." in out
+    assert "--take" not in out
+    assert resolve(SIGNAL, "--keep") == 0
+    assert conflicts(capsys) == []
+    assert "#1 \n" in Path(SIGNAL).read_text()
+
+
+def test_a_choice_waits_for_what_nobody_has(unsourced: Path, capsys: Capture) -> None:
+    """Whatever has recorded it: `resolve` itself takes an imported file at once, or not at all."""
+    manifest = Path(".urdfsync/robots/ladder.toml")
+    generated = tomllib.loads(manifest.read_text())["dependencies"]["step.csv"]["target_hash"]
+    chosen_for = sides_hash(digest(Path(SIGNAL).read_bytes()), generated)
+    edit(manifest, 'state = "conflict"', f'state = "conflict"\nchoice = "take"\nchosen_for = "{chosen_for}"')
+    edit("ladder.json", '"ohm": 100', '"ohm": 120')
+    assert cli.main(["build"]) == 3
+    assert conflicts(capsys) == ["Resources/step.txt"]
+    Path("elsewhere.csv").rename("step.csv")
+    assert cli.main(["build"]) == 0
+    assert "0.1 7.0" in Path(SIGNAL).read_text()
+
+
+# What a path may be
+
+
+@pytest.mark.parametrize(
+    "typed", ["Ladder.mo", "../Ladder/Ladder.mo", ".", "..", "{project}/modelica/Ladder/Ladder.mo"]
+)
+def test_paths_count_from_the_working_folder(clean: Path, monkeypatch: pytest.MonkeyPatch, typed: str) -> None:
+    monkeypatch.chdir(LADDER)
+    assert resolve(typed.format(project=clean), "--merge") == 0
+
+
+def test_a_path_may_lead_through_links(clean: Path, tmp_path: Path) -> None:
+    try:
+        (tmp_path / "link").symlink_to(clean, target_is_directory=True)
+    except OSError:
+        pytest.skip("no symbolic links here")
+    assert resolve(str(tmp_path / "link" / MODEL), "--merge") == 0
+
+
+def test_a_path_that_is_no_conflict(clean: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
+    before = files(snapshot_of(clean))
+    for typed in ("nothing.mo", f"{LADDER}/Elements/R1.mo", "", "ladder.json"):
+        assert resolve(typed, "--keep") == 2
+        words = f"error: `{typed}` is not in conflict; these are: {Path(MODEL)} [no-conflict]\n"
+        assert capsys.readouterr().err == words
+    assert files(snapshot_of(clean)) == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--keep"], "name files or folders, or use --all"),
+        ([], "one of --keep, --take and --merge is needed"),
+        ([MODEL], "one of --keep, --take and --merge is needed"),
+        ([MODEL, "--all", "--keep"], "--all goes without paths"),
+    ],
+)
+def test_bad_usage_lists_the_conflicts(clean: Path, capsys: Capture, arguments: list[str], words: str) -> None:
+    assert resolve(*arguments) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("usage: urdfsync resolve ")
+    assert error.endswith(f"\nerror: {words}; in conflict: {Path(MODEL)} [usage]\n")
+    assert resolve(*arguments, "--json") == 2
+    assert json.loads(capsys.readouterr().out)["diagnostics"][0]["code"] == "usage"
+
+
+# Orphans
+
+
+@pytest.fixture
+def orphan(project: Path) -> Path:
+    """An edited model whose element is gone."""
+    assert cli.main(["build"]) == 0
+    edit(f"{LADDER}/Elements/R2.mo", "equation", "  Real mine;\nequation")
+    edit("ladder.json", '{"name": "R2", "between": ["middle", "out"]', '{"name": "R3", "between": ["in", "out"]')
+    assert cli.main(["build"]) == 0
+    return project / LADDER / "Elements/R2.mo"
+
+
+def test_a_build_says_what_can_be_done_about_orphans(orphan: Path, capsys: Capture) -> None:
+    assert cli.main(["build", "--full"]) == 0
+    capsys.readouterr()
+    more("R4")
+    assert cli.main(["build"]) == 0
+    *_, place, _, advice = capsys.readouterr().out.splitlines()
+    assert place == f"  orphan     {orphan.relative_to(Path.cwd())}  no longer generated, but you edited it; kept"
+    assert advice == "  `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
+
+
+def test_an_orphan_that_is_kept_is_the_users_own(orphan: Path, capsys: Capture) -> None:
+    assert resolve(str(orphan), "--keep") == 0
+    capsys.readouterr()
+    assert cli.main(["build"]) == 0
+    assert "kept because you edited" not in says(capsys)
+    assert "Real mine;" in orphan.read_text()
+
+
+def test_an_orphan_that_is_not_wanted_is_deleted(orphan: Path) -> None:
+    assert resolve(str(orphan), "--take") == 0
+    assert not orphan.exists()
+    assert not orphan.with_name("R2Parameters.mo").exists()
+    assert cli.main(["build", "--check"]) == 0
+
+
+def test_an_orphan_has_to_be_named(orphan: Path, capsys: Capture) -> None:
+    assert resolve("--all", "--take") == 0
+    assert resolve(str(orphan.parent), "--take") == 2
+    assert orphan.exists()
+    capsys.readouterr()
+    assert resolve(str(orphan), "--merge") == 2
+    assert "it is no longer generated: there is nothing to merge" in capsys.readouterr().err
+
+
+# Elements with another name
+
+
+@pytest.fixture
+def moved(project: Path) -> Path:
+    """An edited model of an element that has another name, with an edit that contradicts the new name."""
+    assert cli.main(["build"]) == 0
+    edit(f"{LADDER}/Elements/R2.mo", '"Resistor R2"', '"My resistor R2"')
+    edit("ladder.json", '"R2"', '"R5"')
+    return project
+
+
+@pytest.mark.parametrize("name", ["R2", "R5"])
+def test_a_file_that_moves_is_known_by_both_names(moved: Path, capsys: Capture, name: str) -> None:
+    assert conflicts(capsys) == ["Elements/R5.mo"]
+    assert resolve(f"{LADDER}/Elements/{name}.mo", "--take") == 0
+    assert not Path(f"{LADDER}/Elements/R2.mo").exists()
+    assert '"Resistor R5"' in Path(f"{LADDER}/Elements/R5.mo").read_text()
+    assert cli.main(["build", "--check"]) == 0
+
+
+def test_a_file_that_moves_can_be_kept_as_it_is(moved: Path, capsys: Capture) -> None:
+    mine = Path(f"{LADDER}/Elements/R2.mo").read_text()
+    assert resolve(f"{LADDER}/Elements/R2.mo", "--keep") == 0
+    assert says(capsys).endswith("1 moved with your edits")
+    assert not Path(f"{LADDER}/Elements/R2.mo").exists()
+    assert Path(f"{LADDER}/Elements/R5.mo").read_text() == mine
+
+
+# Robots, locks, programs
+
+
+def second_robot(text: str) -> None:
+    Path("other.json").write_text(text)
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "other.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+
+
+def test_only_the_robots_that_are_concerned_are_built(clean: Path, capsys: Capture) -> None:
+    second_robot(Path("ladder.json").read_text())
+    assert resolve(MODEL, "--merge") == 0
+    assert capsys.readouterr().out.startswith("ladder: ")
+    assert not Path("modelica/Other").exists()
+
+
+def test_a_broken_robot_hinders_no_other(clean: Path, capsys: Capture) -> None:
+    second_robot("{")
+    assert resolve("modelica/Other/Other.mo", "--keep") == 2
+    errors = capsys.readouterr().err
+    assert "other.json:1: error: " in errors
+    assert f"`modelica/Other/Other.mo` is not in conflict; these are: {Path(MODEL)}" in errors
+    assert resolve(MODEL, "--merge") == 0
+    assert resolve("--all", "--keep") == 2
+    assert resolve("--all", "--keep", "--robot", "ladder") == 0
+
+
+def test_another_build_is_waited_for(clean: Path, capsys: Capture) -> None:
+    with build_lock(clean, clean / ".urdfsync", 0) as lock:
+        lock.acquire()
+        assert resolve(MODEL, "--merge", "--wait", "0") == 4
+    assert "parameter Real mine = 1;" in Path(MODEL).read_text()
+    assert FRESH not in Path(MODEL).read_text()
+
+
+def test_a_configuration_elsewhere(
+    clean: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["build", "--config", "project/urdfsync.toml"]) == 3
+    (line,) = [line for line in capsys.readouterr().out.splitlines() if line.startswith("    urdfsync resolve")]
+    command = line.split()[1:]
+    assert command == ["resolve", str(Path("project") / MODEL), "--merge", "--config", "project/urdfsync.toml"]
+    assert cli.main(command) == 0
+
+
+def test_as_json(several: Path, capsys: Capture) -> None:
+    def document(*arguments: str) -> Any:
+        capsys.readouterr()
+        code = resolve(*arguments, "--json")
+        streams = capsys.readouterr()
+        loaded = json.loads(streams.out)
+        assert (streams.err, loaded["command"], loaded["exit"]) == ("", "resolve", code)
+        return loaded
+
+    left = document("--all", "--merge")
+    assert left["exit"] == 3
+    (robot,) = left["robots"]
+    record, table = robot["conflicts"]
+    assert record["merges"] is False
+    assert record["reason"] == "the changes contradict each other"
+    assert record["merge"] == ".urdfsync/conflicts/ladder/Elements/R1Parameters.merge.txt"
+    assert (table["path"], table["base"], table["generated"]) == (SIGNAL, None, None)
+    assert document("nothing.mo", "--keep")["diagnostics"][0]["code"] == "no-conflict"
+    assert document("--all", "--keep")["robots"][0]["conflicts"] == []
+    assert document("--all", "--keep") == {
+        "version": 2,
+        "command": "resolve",
+        "exit": 0,
+        "robots": [],
+        "diagnostics": [
+            {
+                "severity": "note",
+                "code": "no-conflict",
+                "message": "nothing is in conflict",
+                "file": "",
+                "line": 0,
+                "column": 0,
+                "hint": "",
+            }
+        ],
+    }

@@ -1,0 +1,197 @@
+"""`urdfsync status` as people and programs use it."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from urdfsync import cli, files
+from urdfsync.config import library_folder
+from urdfsync.state.lock import build_lock
+
+Capture = pytest.CaptureFixture[str]
+Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
+
+PACKAGE = "modelica/Ladder"
+ARM = library_folder() / "UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
+
+
+@pytest.fixture
+def built(project: Path, capsys: Capture) -> Path:
+    """A built project."""
+    cli.main(["build"])
+    capsys.readouterr()
+    return project
+
+
+@pytest.fixture
+def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> Path:
+    """The package of the six-axis arm without its meshes, built; the working folder is the project's."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "arm.urdf").write_bytes(ARM.read_bytes())
+    robot = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n'
+    (tmp_path / "urdfsync.toml").write_text(robot)
+    assert cli.main(["build", "--quiet"]) == 0
+    capsys.readouterr()
+    return tmp_path / "modelica/Arm"
+
+
+def edit(path: Path, old: str, new: str) -> None:
+    text = path.read_text()
+    assert text.count(old) == 1
+    path.write_text(text.replace(old, new))
+
+
+def shown(capsys: Capture, *arguments: str, code: int = 0) -> list[str]:
+    """What a status prints on the output stream, line by line."""
+    capsys.readouterr()
+    assert cli.main(["status", *arguments]) == code
+    return capsys.readouterr().out.splitlines()
+
+
+def warned(capsys: Capture, *arguments: str) -> list[str]:
+    """What a status prints on the error stream."""
+    capsys.readouterr()
+    cli.main(["status", *arguments])
+    return capsys.readouterr().err.splitlines()
+
+
+def document(capsys: Capture, *arguments: str, code: int = 0) -> dict[str, Any]:
+    capsys.readouterr()
+    assert cli.main(["status", "--json", *arguments]) == code
+    streams = capsys.readouterr()
+    assert streams.err == ""
+    loaded: dict[str, Any] = json.loads(streams.out)
+    assert (loaded["command"], loaded["exit"]) == ("status", code)
+    return loaded
+
+
+# Files
+
+
+def test_in_step(built: Path, capsys: Capture) -> None:
+    assert shown(capsys) == ["ladder: in step, 14 files"]
+    assert shown(capsys, "--quiet") == []
+
+
+def test_never_built(project: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
+    before = snapshot_of(project)
+    assert shown(capsys) == ["ladder: not built yet", "  `urdfsync build` writes 14 files"]
+    assert len(shown(capsys, "--verbose")) == 2 + 14
+    assert snapshot_of(project) == before
+
+
+def test_files_of_every_kind(built: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
+    edit(built / "ladder.json", "220.5", "330")
+    edit(built / PACKAGE / "Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
+    (built / PACKAGE / "Elements/C1.mo").unlink()
+    before = snapshot_of(built)
+    assert shown(capsys) == [
+        "ladder: out of step, 14 files: 1 missing, 1 stale, 1 edited",
+        "  1 parameter change in the source; `urdfsync build` writes 2 files",
+        "  edited    modelica/Ladder/Ladder.mo",
+        "  missing   modelica/Ladder/Elements/C1.mo  deleted, to be written again",
+        "  stale     modelica/Ladder/Elements/R2Parameters.mo  to be updated",
+    ]
+    everything = shown(capsys, "--verbose")
+    assert len(everything) == 2 + 14
+    assert "  in step   modelica/Ladder/Elements/C1Parameters.mo" in everything
+    assert snapshot_of(built) == before
+
+
+def test_a_conflict(built: Path, capsys: Capture) -> None:
+    edit(built / "ladder.json", "220.5", "330")
+    edit(built / PACKAGE / "Elements/R2Parameters.mo", "220.5", "221")
+    conflict = "  conflict  modelica/Ladder/Elements/R2Parameters.mo  edited and stale"
+    lines = shown(capsys, code=3)
+    assert any(line.startswith(conflict) for line in lines)
+    assert "`urdfsync resolve FILE --keep`" in lines[-1]
+    assert any(line.startswith(conflict) for line in shown(capsys, "--quiet", code=3))
+
+
+def test_many_stale_files_are_named_only_if_asked_for(built: Path, capsys: Capture) -> None:
+    elements = [{"name": f"R{n}", "between": ["in", "ground"], "ohm": 1.0} for n in range(10, 30)]
+    (built / "ladder.json").write_text(json.dumps({"name": "many", "elements": elements}))
+    lines = shown(capsys)
+    stale = int(lines[0].partition(": ")[2].split("files: ")[1].split()[0])
+    assert sum(line.startswith("  stale ") for line in lines) == 19
+    assert lines[-1] == f"  … and {stale - 19} more stale files; --verbose shows them"
+    assert sum(line.startswith("  stale ") for line in shown(capsys, "--verbose")) == stale
+
+
+def test_on_a_terminal_files_stand_below_their_folders(
+    built: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (built / PACKAGE / "Elements/C1.mo").unlink()
+    edit(built / PACKAGE / "Elements/R2Parameters.mo", "220.5", "221")
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert shown(capsys)[2:] == [
+        "  modelica/Ladder/Elements/",
+        "    missing   C1.mo            deleted, to be written again",
+        "    edited    R2Parameters.mo",
+    ]
+
+
+# Robots
+
+
+def test_a_broken_source_does_not_hide_the_others(built: Path, capsys: Capture) -> None:
+    with (built / "urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "no.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    assert shown(capsys, code=2) == ["ladder: in step, 14 files"]
+    assert "the source no.json does not exist" in warned(capsys)[0]
+    assert warned(capsys)[1] == "other: 1 error, so nothing can be said of its files"
+    assert [robot["failed"] for robot in document(capsys, code=2)["robots"]] == [False, True]
+    assert shown(capsys, "ladder") == ["ladder: in step, 14 files"]
+
+
+def test_what_is_left_of_a_robot_that_is_no_longer_configured(built: Path, capsys: Capture) -> None:
+    edit(built / "urdfsync.toml", "[robots.ladder]", "[robots.other]")
+    edit(built / "urdfsync.toml", '"Ladder"', '"Other"')
+    assert shown(capsys)[0] == "other: not built yet"
+    (note,) = warned(capsys)
+    assert "the state of `ladder` is still there" in note
+
+
+def test_without_its_state_a_package_is_not_known_as_built(built: Path, capsys: Capture) -> None:
+    for file in (built / ".urdfsync/robots").iterdir():
+        file.unlink()
+    (robot,) = document(capsys)["robots"]
+    assert (robot["built"], robot["in_step"]) == (False, True)
+    assert shown(capsys)[0] == "ladder: in step, 14 files"
+
+
+def test_a_build_that_is_writing_is_waited_for(built: Path, capsys: Capture) -> None:
+    with build_lock(built, built / ".urdfsync", 0) as lock:
+        lock.acquire()
+        assert shown(capsys) == ["ladder: in step, 14 files"], "it only reads, and nothing is half written"
+
+
+# The process
+
+
+def test_nothing_heavy_is_imported_if_all_is_in_step(built: Path, rc_site: Path) -> None:
+    code = (
+        "import sys; from urdfsync.cli import main; main(['status']); "
+        "print([name for name in ('jinja2', 'rich', 'lxml', 'numpy', 'yourdfpy', 'deepdiff') if name in sys.modules])"
+    )
+    rc_folder = Path(sys.modules["rc_domain"].__file__ or "").parent
+    environment = os.environ | {
+        "PYTHONPATH": os.pathsep.join(map(str, (Path(files.__file__).parents[1], rc_site, rc_folder)))
+    }
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == ["ladder: in step, 14 files", "[]"]
+
+
+@pytest.mark.parametrize("arguments", [["--dry-run"], ["--wait", "soon"]])
+def test_bad_usage(built: Path, capsys: Capture, arguments: list[str]) -> None:
+    assert shown(capsys, *arguments, code=2) == []
+    assert "[usage]" in warned(capsys, *arguments)[-1]

@@ -1,0 +1,288 @@
+"""Comparing two versions: equality first, deepdiff on what differs, meanings from the domain, files that follow."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, cast
+
+import deepdiff
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from urdfsync.diff.changes import Change, Changes, by_deepdiff, compare, moved_files, of_leaves
+from urdfsync.domain import (
+    ChangeClass,
+    ChangeKind,
+    Difference,
+    Domain,
+    ElementKey,
+    Import,
+    Meaning,
+    Role,
+    Snapshot,
+    Version,
+)
+
+PLAIN = st.recursive(
+    st.none() | st.booleans() | st.integers(-3, 3) | st.floats(-1, 1) | st.text("ab_[]'\"", max_size=3),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text("ab_.'[", max_size=2), inner, max_size=3),
+    max_leaves=6,
+)
+
+
+class Shelf:
+    """A domain of books on a shelf: everything is a parameter, colours are not modelled."""
+
+    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
+        gone, came = old["books"].keys() - new["books"].keys(), new["books"].keys() - old["books"].keys()
+        same = [(a, b) for a in gone for b in came if old["books"][a] == new["books"][b]]
+        return {("book", a): b for a, b in same}
+
+    def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
+        return {**snapshot, "books": {renames.get(("book", k), k): v for k, v in snapshot["books"].items()}}
+
+    def describe(
+        self, differences: Sequence[Difference], old: Version, new: Version, options: Any
+    ) -> Sequence[Meaning | None]:
+        return [None if "secret" in d.path else self._meaning(d) for d in differences]
+
+    def _meaning(self, difference: Difference) -> Meaning:
+        kind = ChangeClass.UNMODELLED if "colour" in difference.path else ChangeClass.PARAMETER
+        return Meaning(tuple(map(str, difference.path[1:])) or ("shelf",), kind, "mm")
+
+
+SHELF = cast(Domain, Shelf())
+
+
+def shelf(**books: Any) -> Version:
+    return Version({"name": "shelf", "books": books})
+
+
+def changes(old: Version, new: Version) -> Changes:
+    return compare(old, new, SHELF, None)
+
+
+def lines(found: Changes) -> list[tuple[str, str, Any, Any]]:
+    return [(str(change), str(change.kind), change.old, change.new) for change in found.changes]
+
+
+def import_(content: str, **facts: Any) -> Import:
+    return Import("Resources/a.stl", f"source of {content}", content, 1, facts)
+
+
+@pytest.fixture
+def compared(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Any, Any]]:
+    """What deepdiff is called with."""
+    calls: list[tuple[Any, Any]] = []
+    original: Callable[..., Any] = deepdiff.DeepDiff
+
+    def counted(old: Any, new: Any, **options: Any) -> Any:
+        assert not options.get("ignore_order")
+        assert options.get("significant_digits") is None
+        calls.append((old, new))
+        return original(old, new, **options)
+
+    monkeypatch.setattr(deepdiff, "DeepDiff", counted)
+    return calls
+
+
+def test_equal_versions_have_no_changes(compared: list[tuple[Any, Any]]) -> None:
+    found = changes(shelf(a={"size": [1, 2]}), shelf(a={"size": [1.0, 2]}))
+    assert (found.changes, found.change_class, found.noise) == ((), ChangeClass.NONE, False)
+    assert compared == []
+
+
+def test_only_elements_that_differ_are_compared_in_depth(compared: list[tuple[Any, Any]]) -> None:
+    books = {f"b{k}": {"size": [k, 1.0, 2.0]} for k in range(1000)}
+    other = {**books, "b500": {"size": [500, 1.0]}, "b600": {"size": [600, 1.0, 3.0]}}
+    found = changes(shelf(**books), shelf(**other))
+    assert lines(found) == [("b500 / size / 2", "removed", 2.0, None), ("b600 / size / 2", "changed", 2.0, 3.0)]
+    assert compared == [(books["b500"], other["b500"])], "where only numbers differ, deepdiff need not be loaded"
+
+
+@given(PLAIN, PLAIN, st.data())
+def test_what_needs_no_deepdiff_is_found_as_it_would(old: Any, new: Any, data: st.DataObject) -> None:
+    new = data.draw(st.sampled_from([new, _with_other_leaves(old, data)]))
+    found = of_leaves(("part", "name"), old, new)
+    assert found is None or sorted(found, key=repr) == sorted(by_deepdiff(("part", "name"), old, new), key=repr)
+
+
+def _with_other_leaves(value: Any, data: st.DataObject) -> Any:
+    if isinstance(value, dict):
+        return {key: _with_other_leaves(item, data) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_with_other_leaves(item, data) for item in value]
+    return data.draw(st.sampled_from([value, None, 1, 2.5, "c"]))
+
+
+def test_what_comes_and_goes_is_one_change(compared: list[tuple[Any, Any]]) -> None:
+    found = changes(shelf(a={"size": 1}, b={"size": 2}), shelf(b={"size": 2}, c={"size": 3}))
+    assert lines(found) == [("a", "removed", {"size": 1}, None), ("c", "added", None, {"size": 3})]
+    assert compared == []
+
+
+def test_vectors_are_compared_place_by_place() -> None:
+    found = changes(shelf(a={"size": [1.0, 2.0, 3.0]}), shelf(a={"size": [2.0, 3.0, 3.0, 4.0]}))
+    assert lines(found) == [
+        ("a / size / 0", "changed", 1.0, 2.0),
+        ("a / size / 1", "changed", 2.0, 3.0),
+        ("a / size / 3", "added", None, 4.0),
+    ]
+
+
+def test_small_numbers_are_not_equal() -> None:
+    assert lines(changes(shelf(a={"size": 1e-5}), shelf(a={"size": 2e-5}))) == [("a / size", "changed", 1e-5, 2e-5)]
+
+
+def test_a_number_of_another_type_beside_a_change_is_none() -> None:
+    found = changes(shelf(a={"size": 1, "pages": 2}), shelf(a={"size": 1.0, "pages": 3}))
+    assert lines(found) == [("a / pages", "changed", 2, 3)]
+
+
+def test_mappings_with_little_in_common_are_compared_key_by_key() -> None:
+    found = changes(shelf(a={"s": {"kind": "x", "p": 1}}), shelf(a={"s": {"kind": "y", "q": 1, "r": 1}}))
+    assert [line[0] for line in lines(found)] == ["a / s / kind", "a / s / p", "a / s / q", "a / s / r"]
+
+
+def test_parts_that_are_no_elements_are_compared_as_they_are() -> None:
+    found = changes(Version({"name": "shelf", "books": {}}), Version({"name": None, "books": {}}))
+    assert lines(found) == [("shelf", "changed", "shelf", None)]
+
+
+@given(st.dictionaries(st.text("ab", max_size=2), PLAIN, max_size=3), st.data())
+def test_the_changes_lead_from_the_old_to_the_new(books: dict[str, Any], data: st.DataObject) -> None:
+    other = {name: data.draw(PLAIN | st.just(book)) for name, book in books.items()}
+    differences: list[Difference] = []
+
+    class Recorder(Shelf):
+        def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
+            return {}
+
+        def describe(
+            self, found: Sequence[Difference], old: Version, new: Version, options: Any
+        ) -> Sequence[Meaning | None]:
+            differences.extend(found)
+            return super().describe(found, old, new, options)
+
+    compare(shelf(**books), shelf(**other), cast(Domain, Recorder()), None)
+    for difference in differences:
+        for version, value, absent in (
+            (books, difference.old, ChangeKind.ADDED),
+            (other, difference.new, ChangeKind.REMOVED),
+        ):
+            if difference.kind is not absent:
+                assert _at(version, difference.path[1:]) == value
+    assert {d.path[1] for d in differences} == {name for name in books if books[name] != other[name]}
+
+
+def _at(value: Any, path: Sequence[str | int]) -> Any:
+    for key in path:
+        value = value[key]
+    return value
+
+
+def test_a_rename_is_one_change_and_the_rest_is_compared_under_the_new_name() -> None:
+    found = changes(shelf(a={"size": 1}, c={"size": 1.0}), shelf(b={"size": 1}, c={"size": 2.0}))
+    assert found.renames == {("book", "a"): "b"}
+    assert lines(found) == [("book a", "renamed", "a", "b"), ("c / size", "changed", 1.0, 2.0)]
+    assert found.change_class is ChangeClass.STRUCTURAL
+
+
+def test_the_class_is_that_of_the_change_that_reaches_farthest() -> None:
+    red, blue, thick = ({"size": 1, "colour": "red"}, {"size": 1, "colour": "blue"}, {"size": 2, "colour": "blue"})
+    assert changes(shelf(a=red), shelf(a=blue)).change_class is ChangeClass.UNMODELLED
+    assert changes(shelf(a=red), shelf(a=thick)).change_class is ChangeClass.PARAMETER
+
+
+def test_another_generator_is_a_class_of_its_own() -> None:
+    old, new = Version({"books": {}}, generator="1"), Version({"books": {}}, generator="2")
+    found = changes(old, new)
+    assert (found.change_class, found.changes) == (ChangeClass.GENERATOR, ())
+    assert changes(new, new).change_class is ChangeClass.NONE
+
+
+def test_the_domain_can_leave_a_difference_out() -> None:
+    assert changes(shelf(a={"secret": 1}), shelf(a={"secret": 2})).changes == ()
+
+
+def test_imports_are_compared_by_content_and_facts() -> None:
+    old = Version({"books": {}}, {"x": import_("1"), "y": import_("1"), "z": import_("1"), "w": import_("1", size=1)})
+    new = Version({"books": {}}, {"v": import_("2"), "y": import_("1"), "z": import_("2"), "w": import_("1", size=2)})
+    assert lines(changes(old, new)) == [
+        ("v", "added", None, "2"),
+        ("w", "changed", "1", "1"),
+        ("x", "removed", "1", None),
+        ("z", "changed", "1", "2"),
+    ]
+
+
+def test_imports_that_nobody_looked_for_are_not_compared() -> None:
+    assert changes(Version({"books": {}}), Version({"books": {}}, {"x": import_("1")})).changes == ()
+
+
+def change(old: Any, new: Any, unit: str = "") -> Change:
+    return Change(("joint elbow", "origin", "xyz[2]"), ChangeKind.CHANGED, ChangeClass.PARAMETER, old, new, unit)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "noise"),
+    [
+        (1.0, 1.0 + 1e-6, True),
+        (1e-9, 1e-9 + 1e-15, True),
+        (1.0, 1.0 + 3e-6, False),
+        (1e-5, 2e-5, False),
+        (0.0, 1e-17, False),
+        (-1e-9, 1e-9, False),
+        ("1.0", "1.0000001", False),
+        (None, 1.0, False),
+        (True, 1, False),
+        ([1.0], [1.0000001], False),
+    ],
+)
+def test_noise_is_a_number_that_changed_by_a_millionth_or_less(old: Any, new: Any, noise: bool) -> None:
+    assert change(old, new).noise is noise
+    assert Changes((change(old, new),)).noise is noise
+    assert not Changes((change(old, new), change(1.0, 2.0))).noise
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "percent"),
+    [(2.0, 3.0, 50.0), (-2.0, -1.0, 50.0), (4, 1, -75.0), (0.0, 1.0, None), ("a", "b", None), (None, 1.0, None)],
+)
+def test_percentages_are_relative_to_the_old_value(old: Any, new: Any, percent: float | None) -> None:
+    assert change(old, new).percent == percent
+
+
+def test_a_change_reads_as_a_path_and_belongs_to_an_element() -> None:
+    one = change(1.0, 2.0)
+    assert str(one) == "joint elbow / origin / xyz[2]"
+    assert Changes((one, one)).by_element() == {"joint elbow": [one, one]}
+
+
+RECORD, MODEL = Role.RECORD, Role.MODEL
+
+
+def test_files_move_with_the_element_that_they_belong_to() -> None:
+    old = {"A.mo": ("link a", MODEL), "AParameters.mo": ("link a", RECORD), "C.mo": ("link c", MODEL)}
+    new = {"B.mo": ("link b", MODEL), "BParameters.mo": ("link b", RECORD), "C.mo": ("link c", MODEL)}
+    assert moved_files(old, new, {("link", "a"): "b"}) == {"A.mo": "B.mo", "AParameters.mo": "BParameters.mo"}
+    assert moved_files(old, new, {}) == {}
+
+
+def test_files_move_when_another_element_takes_their_place() -> None:
+    old = {"Joints/Arm.mo": ("joint arm", MODEL)}
+    new = {"Joints/Arm_joint.mo": ("joint arm", MODEL), "Links/Arm.mo": ("link arm", MODEL)}
+    assert moved_files(old, new, {}) == {"Joints/Arm.mo": "Joints/Arm_joint.mo"}
+
+
+def test_files_can_change_places() -> None:
+    old = {"A.mo": ("link a", MODEL), "B.mo": ("link b", MODEL)}
+    new = {"B.mo": ("link a", MODEL), "C.mo": ("link b", MODEL)}
+    assert moved_files(old, new, {}) == {"A.mo": "B.mo", "B.mo": "C.mo"}
+
+
+def test_several_files_of_one_owner_and_role_are_not_guessed() -> None:
+    old = {"Arm.mo": ("robot", MODEL), "ArmRun.mo": ("robot", MODEL)}
+    new = {"Leg.mo": ("robot", MODEL), "LegRun.mo": ("robot", MODEL)}
+    assert moved_files(old, new, {}) == {}

@@ -1,0 +1,104 @@
+"""Files of other revisions: what git has, what it has not, and names that are no revisions."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from support.git import NEEDS_GIT, Repository
+
+from urdfsync.diagnostics import SourceError
+from urdfsync.diff.revisions import Revision
+
+pytestmark = NEEDS_GIT
+
+
+@pytest.fixture(scope="module")
+def template(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A repository with two versions of `cad/arm.urdf`; the second one has a mesh, the work tree a third one."""
+    with pytest.MonkeyPatch.context() as patch:
+        return _make(Repository(tmp_path_factory.mktemp("git") / "repo", patch))
+
+
+def _make(made: Repository) -> Path:
+    (made.folder / "cad").mkdir()
+    arm = made.folder / "cad/arm.urdf"
+    arm.write_bytes(b"one\r\n")
+    made.commit("first")
+    arm.write_bytes(b"two\n")
+    (made.folder / "cad/tip (new) \xfc.stl").write_bytes(b"solid\n\0\nmissing\n")
+    made.commit("second")
+    made.git("tag", "v2")
+    arm.write_bytes(b"three\n")
+    return made.folder
+
+
+@pytest.fixture
+def repository(template: Path, tmp_path: Path) -> Path:
+    """The folder of a copy of the repository."""
+    shutil.copytree(template, tmp_path / "repo")
+    return tmp_path / "repo"
+
+
+@pytest.mark.parametrize(("name", "content"), [("HEAD", b"two\n"), ("v2", b"two\n"), ("main~1", b"one\r\n")])
+def test_a_file_is_read_as_it_was(repository: Path, name: str, content: bytes) -> None:
+    arm = repository / "cad/arm.urdf"
+    assert Revision(arm.parent, name).read(arm) == content
+
+
+def test_files_that_a_revision_has(repository: Path, tmp_path: Path) -> None:
+    folder = repository / "cad"
+    mesh = folder / "tip (new) \xfc.stl"
+    files = [folder / "nothing.stl", mesh, folder, tmp_path / "outside.stl", folder / "arm.urdf", folder / "a\nb"]
+    assert Revision(folder, "HEAD").contents(files) == {mesh: b"solid\n\0\nmissing\n", folder / "arm.urdf": b"two\n"}
+    assert Revision(folder, "HEAD~1").contents(files) == {folder / "arm.urdf": b"one\r\n"}
+    assert Revision(folder, "HEAD").contents([]) == {}
+
+
+def test_a_link_to_the_repository_is_no_obstacle(repository: Path, tmp_path: Path) -> None:
+    (tmp_path / "link").symlink_to(repository / "cad")
+    arm = tmp_path / "link/arm.urdf"
+    assert Revision(arm.parent, "HEAD").read(arm) == b"two\n"
+
+
+def test_what_belongs_to_another_repository_is_not_asked_for(repository: Path) -> None:
+    inner = repository / "cad/meshes"
+    inner.mkdir()
+    (inner / ".git").write_text("gitdir: elsewhere")
+    (inner / "tip.stl").write_bytes(b"solid")
+    revision = Revision(repository, "HEAD")
+    assert not revision.holds(inner / "tip.stl")
+    assert revision.holds(repository / "cad/arm.urdf")
+    assert not revision.holds(repository.parent / "arm.urdf")
+
+
+def test_a_path_that_the_revision_does_not_have(repository: Path) -> None:
+    with pytest.raises(SourceError, match=r"tip\.urdf does not exist in revision 'HEAD'; .*git show") as caught:
+        Revision(repository, "HEAD").read(repository / "cad/tip.urdf")
+    assert caught.value.diagnostics[0].file.startswith("HEAD:")
+
+
+@pytest.mark.parametrize("name", ["nope", "HEAD~9", "HEAD:cad/arm.urdf", "v2^{tree}", "a b", "..", "^HEAD"])
+def test_a_name_that_is_no_revision(repository: Path, name: str) -> None:
+    with pytest.raises(SourceError, match=r"is neither a file nor a revision of the git repository .*HEAD~1"):
+        Revision(repository, name)
+
+
+@pytest.mark.parametrize("name", ["-x", "--output=stolen", "", " ", "HEAD\nmain", "a\0b"])
+def test_a_name_that_git_must_not_see(repository: Path, name: str) -> None:
+    with pytest.raises(SourceError, match="is neither a file nor a git revision"):
+        Revision(repository, name)
+
+
+def test_no_git(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(repository))
+    with pytest.raises(SourceError, match="git is not installed, or not on PATH; install it, or give --against a file"):
+        Revision(repository, "HEAD")
+
+
+def test_a_git_that_fails(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    revision = Revision(repository, "HEAD")
+    (repository / ".git/HEAD").unlink()
+    with pytest.raises(SourceError, match="git failed: not a git repository"):
+        revision.read(repository / "cad/arm.urdf")

@@ -1,0 +1,312 @@
+"""The recorded state: the same value gives the same text, and nothing but its own text is read."""
+
+from __future__ import annotations
+
+import msgspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from urdfsync.diagnostics import StateError
+from urdfsync.domain import Role
+from urdfsync.state.manifest import (
+    DependencyRecord,
+    Generator,
+    Manifest,
+    Source,
+    dumps,
+    loads,
+    text_hash,
+    with_overtaken,
+)
+from urdfsync.state.record import Choice, FileRecord
+from urdfsync.state.record import RecordState as State
+
+MANIFEST = Manifest(
+    package="Plant.Arm",
+    class_="Arm",
+    folder="modelica/Plant/Arm",
+    source=Source("cad/arm.urdf", "5a", "7b"),
+    generator=Generator("urdf", 3, "9c"),
+    names={"links": {"base link": "base_link", "a.b": "a_b"}},
+    dependencies={
+        "package://arm/a b.stl": DependencyRecord("package://arm/a b.stl", "Resources/a_b.stl", "1f", "2f", 4),
+        "lost.stl": DependencyRecord("lost.stl", "Resources/lost.stl"),
+    },
+    orders={"modelica/Plant/package.order": ("Arm",), "modelica/Plant/Arm/package.order": ("Links", "Arm")},
+    files={
+        "modelica/Plant/Arm/Links/Base_link.mo": FileRecord("link base link", Role.MODEL, "ab", State.EDITED),
+        "modelica/Plant/Arm/Arm.mo": FileRecord("robot", Role.MODEL, "cd"),
+        "modelica/Plant/Arm/New.mo": FileRecord("robot", Role.MODEL, None, State.WAITING),
+        "modelica/Plant/Arm/Joints/Left.mo": FileRecord("joint left", Role.RECORD, "ef", State.ORPHAN),
+    },
+)
+
+
+def test_round_trip() -> None:
+    assert loads(dumps(MANIFEST), "arm.toml") == MANIFEST
+
+
+def test_text_is_for_people() -> None:
+    text = dumps(MANIFEST)
+    assert text.startswith("# What urdfsync last built for this robot.")
+    entry = '[files."Links/Base_link.mo"]\nowner = "link base link"\nrole = "model"\nbase = "ab"\nstate = "edited"\n'
+    assert entry in text
+    assert '"../package.order" = [\n    "Arm",\n]' in text
+
+
+names = st.text(st.characters(exclude_categories=["Cs"]), min_size=1, max_size=12)
+paths = st.from_regex(r"[a-z ]{1,5}(/[A-Za-z_. ]{1,8})?[a-z]\.mo", fullmatch=True)
+copies = paths.map("Resources/{}".format)
+
+
+records = st.builds(
+    FileRecord,
+    names,
+    st.sampled_from([Role.MODEL, Role.RECORD, Role.PACKAGE]),
+    st.none() | names,
+    st.sampled_from(State),
+    st.none() | paths.map("m/P/{}".format),
+    st.none() | names,
+    st.none() | st.sampled_from(Choice),
+)
+manifests = st.builds(
+    Manifest,
+    package=st.just("P"),
+    class_=names,
+    folder=st.just("m/P"),
+    source=st.just(MANIFEST.source),
+    generator=st.just(MANIFEST.generator),
+    options=st.sampled_from([None, {}, {"ground": True, "names": ["a"], "inner": {"x": 1.5}}]),
+    names=st.dictionaries(names, st.dictionaries(names, names, max_size=3), max_size=2),
+    dependencies=st.dictionaries(names, st.builds(DependencyRecord, names, copies, st.none() | names), max_size=2),
+    orders=st.dictionaries(
+        st.sampled_from(["m/package.order", "m/P/package.order", "m/P/A/package.order", "m/Q/package.order"]),
+        st.lists(names, max_size=3).map(tuple),
+    ),
+    files=st.dictionaries(paths.map("m/P/{}".format) | st.just("m/Q/A.mo"), records, max_size=4),
+)
+
+
+@given(manifests)
+def test_what_comes_back_is_known_before(manifest: Manifest) -> None:
+    """Whoever writes a manifest need not read it to know what it says."""
+    text, expected = dumps(manifest), manifest.recorded
+    found = loads(text, "p.toml")
+    assert msgspec.json.encode(found) == msgspec.json.encode(expected), "in the same order, too"
+    assert found == expected
+    assert dumps(found) == text
+    assert "m/Q/A.mo" not in found.files
+
+
+def test_order_of_entries_does_not_matter() -> None:
+    turned = msgspec.structs.replace(
+        MANIFEST,
+        files=dict(reversed(list(MANIFEST.files.items()))),
+        orders=dict(reversed(list(MANIFEST.orders.items()))),
+        dependencies=dict(reversed(list(MANIFEST.dependencies.items()))),
+        names={"links": dict(reversed(list(MANIFEST.names["links"].items())))},
+    )
+    assert dumps(turned) == dumps(MANIFEST)
+
+
+def test_line_endings_of_a_checkout_do_not_matter() -> None:
+    assert loads(dumps(MANIFEST).replace("\n", "\r\n"), "arm.toml") == MANIFEST
+
+
+def failure(text: str) -> str:
+    with pytest.raises(StateError) as caught:
+        loads(text, "arm.toml")
+    (diagnostic,) = caught.value.diagnostics
+    return str(diagnostic)
+
+
+def test_merge_markers_are_named_with_their_line() -> None:
+    text = dumps(MANIFEST).replace('hash = "5a"', '<<<<<<< HEAD\nhash = "5a"\n=======\nhash = "6a"\n>>>>>>> feature')
+    line = text.splitlines().index("<<<<<<< HEAD") + 1
+    assert failure(text).startswith(f"arm.toml:{line}: error: unresolved merge markers; restore it")
+
+
+def test_a_newer_format_is_refused() -> None:
+    text = dumps(MANIFEST).replace("format = 1", "format = 99")
+    assert failure(text).startswith("arm.toml:4: error: a newer urdfsync wrote this state (format 99")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line"),
+    [
+        ("revision = 3", 'revision = "3"', "revision ="),
+        ('role = "record"', 'role = "recrod"', 'role = "recrod"'),
+        ('owner = "joint left"', "", '[files."Joints/Left.mo"]'),
+        ('"Arm",', "5,", '"../package.order"'),
+        ('hash = "5a"', "", "[source]"),
+        ('package = "Plant.Arm"', "", ""),
+        ('folder = "modelica/Plant/Arm"', "folder = [1]", "folder ="),
+        ("[generator]", "[generator", "[generator"),
+    ],
+)
+def test_garbage_is_refused_with_its_line(old: str, new: str, line: str) -> None:
+    text = dumps(MANIFEST).replace(old, new)
+    message = failure(text)
+    place = next((n for n, found in enumerate(text.splitlines(), 1) if line and found.startswith(line)), 0)
+    assert message.startswith(f"arm.toml:{place}:" if place else "arm.toml: ")
+    assert "restore it from version control" in message
+
+
+@pytest.mark.parametrize("folder", ["Plant/Arm", "../lib/Plant/Arm", "../../a b/Plant/Arm", "ä.x/Plant/Arm"])
+def test_packages_may_be_beside_the_configuration(folder: str) -> None:
+    files = {f"{folder}/Links/Base_link.mo": FileRecord("link base link", Role.MODEL, "ab")}
+    parent = folder.rpartition("/")[0]
+    orders = {f"{parent}/package.order": ("Arm",), f"{folder}/Links/package.order": ("Base_link",)}
+    beside = msgspec.structs.replace(MANIFEST, folder=folder, files=files, orders=orders)
+    assert '[files."Links/Base_link.mo"]' in dumps(beside)
+    assert loads(dumps(beside), "arm.toml") == beside
+
+
+def test_what_lies_outside_of_the_package_is_not_recorded() -> None:
+    outside = {"modelica/Old/Left.mo": FileRecord("joint left", Role.RECORD, "ef", State.ORPHAN)}
+    orders = {"modelica/package.order": ("Plant",), "modelica/Plant/ArmX/package.order": ("A",)}
+    more = msgspec.structs.replace(MANIFEST, files={**MANIFEST.files, **outside}, orders={**MANIFEST.orders, **orders})
+    assert dumps(more) == dumps(MANIFEST)
+
+
+ORIGIN = "modelica/Plant/Arm/Links/Old.mo"
+WAITS = FileRecord(
+    "link new", Role.MODEL, "ab", State.CONFLICT, origin=ORIGIN, choice=Choice.TAKE, chosen_for="de", replaced_hash="fa"
+)
+WAITING = msgspec.structs.replace(MANIFEST, files={**MANIFEST.files, "modelica/Plant/Arm/Links/New.mo": WAITS})
+
+
+def test_a_file_that_waits_has_its_origin_below_the_package_in_the_text() -> None:
+    text = dumps(WAITING)
+    entry = text[text.index('[files."Links/New.mo"]') :].partition("\n\n")[0]
+    assert 'origin = "Links/Old.mo"\n' in entry
+    assert 'choice = "take"\nchosen_for = "de"' in entry
+    assert loads(text, "arm.toml") == WAITING, "and from the configuration's folder in the value"
+
+
+def test_a_package_beside_the_configuration_has_origins_too() -> None:
+    folder = "../lib/Plant/Arm"
+    record = msgspec.structs.replace(WAITS, origin=f"{folder}/Links/Old.mo")
+    beside = msgspec.structs.replace(MANIFEST, folder=folder, files={f"{folder}/Links/New.mo": record}, orders={})
+    assert 'origin = "Links/Old.mo"' in dumps(beside)
+    assert loads(dumps(beside), "arm.toml") == beside
+
+
+def test_what_does_not_wait_says_nothing_of_origin_and_choice() -> None:
+    assert not any(word in dumps(MANIFEST) for word in ("origin", "choice", "chosen_for", "stands"))
+
+
+def test_an_unknown_choice_is_refused_with_its_line() -> None:
+    text = dumps(WAITING).replace('choice = "take"', 'choice = "guess"')
+    line = text.splitlines().index('choice = "guess"') + 1
+    assert failure(text).startswith(f"arm.toml:{line}: error: this is no state of urdfsync: invalid enum value 'guess'")
+
+
+PLACES = [
+    "../../victim.txt",
+    "../package.mo",
+    "..",
+    ".",
+    "",
+    "/etc/passwd",
+    "C:/victim.txt",
+    "Links/../../victim.txt",
+    "Links/../Arm.mo",
+    "./Arm.mo",
+    "Links//Arm.mo",
+    "Links/",
+    "Links\\..\\..\\victim.txt",
+    "a\0b.mo",
+    "a\nb.mo",
+    "a\x1b[2J.mo",
+]
+
+
+def quoted(text: str) -> str:
+    return "".join(char if char.isprintable() and char != "\\" else f"\\u{ord(char):04x}" for char in text)
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_files_outside_of_the_package_are_refused_with_their_line(place: str) -> None:
+    text = dumps(MANIFEST) + f'\n[files."{quoted(place)}"]\nowner = "x"\nrole = "model"\nbase = "ab"\n'
+    line = text[: text.rindex("[files")].count("\n") + 1
+    message = failure(text)
+    assert message.startswith(f"arm.toml:{line}: error: the recorded path {place!r} does not belong to the package")
+    assert "`Plant.Arm`; restore the state from version control, or delete it" in message
+    assert message.isprintable()
+
+
+@pytest.mark.parametrize(
+    ("role", "place"),
+    [("model", "notes.txt"), ("record", "Resources/a.stl"), ("package", ".git/x"), ("import", "Links/A.mo")],
+)
+def test_files_that_no_build_writes_for_their_role_are_refused(role: str, place: str) -> None:
+    text = dumps(MANIFEST) + f'\n[files."{place}"]\nowner = "x"\nrole = "{role}"\nbase = "ab"\n'
+    assert f"the recorded path {place!r} does not belong" in failure(text)
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_an_origin_outside_of_the_package_is_refused_with_its_line(place: str) -> None:
+    text = dumps(WAITING).replace('origin = "Links/Old.mo"', f'origin = "{quoted(place)}"')
+    line = text.splitlines().index(f'origin = "{quoted(place)}"') + 1
+    assert failure(text).startswith(f"arm.toml:{line}: error: the recorded path {place!r} does not belong")
+
+
+@pytest.mark.parametrize("place", [*PLACES, "../../package.order", "Links/Arm.mo"])
+def test_orders_are_those_of_the_package_and_of_its_parent(place: str) -> None:
+    text = dumps(MANIFEST).replace('"../package.order" =', f'"{quoted(place)}" =')
+    line = text[: text.index(f'"{quoted(place)}" =')].count("\n") + 1
+    assert failure(text).startswith(f"arm.toml:{line}: error: the recorded path {place!r} does not belong")
+
+
+@pytest.mark.parametrize("place", [*PLACES, "Links/Arm.mo", "arm.stl"])
+def test_copies_of_dependencies_lie_in_the_package(place: str) -> None:
+    text = dumps(MANIFEST).replace('"Resources/lost.stl"', f'"{quoted(place)}"')
+    line = text[: text.index(f'target = "{quoted(place)}"')].count("\n") + 1
+    assert failure(text).startswith(f"arm.toml:{line}: error: the recorded path {place!r} does not belong")
+
+
+@pytest.mark.parametrize(
+    "folder", [*PLACES, "modelica/Plant", "modelica/Other/Arm", "/modelica/Plant/Arm", "a/../Plant/Arm", "XPlant/Arm"]
+)
+def test_the_folder_is_that_of_the_package(folder: str) -> None:
+    text = dumps(MANIFEST).replace('folder = "modelica/Plant/Arm"', f'folder = "{quoted(folder)}"')
+    line = text[: text.index("folder = ")].count("\n") + 1
+    assert failure(text).startswith(f"arm.toml:{line}: error: the recorded path {folder!r} does not belong")
+
+
+def test_a_source_with_control_characters_is_refused() -> None:
+    text = dumps(MANIFEST).replace('path = "cad/arm.urdf"', 'path = "cad/\\u0000arm.urdf"')
+    assert "the recorded path 'cad/\\x00arm.urdf' does not belong" in failure(text)
+
+
+@pytest.mark.parametrize("number", [0, -1])
+def test_a_format_that_never_was_is_refused(number: int) -> None:
+    text = dumps(MANIFEST).replace("format = 1", f"format = {number}")
+    assert failure(text).startswith(f"arm.toml:4: error: this is no state of urdfsync: there is no format {number}")
+
+
+def test_line_endings_are_normalised_before_hashing() -> None:
+    assert text_hash("a\r\nb\n") == text_hash("a\nb\n") != text_hash("a\nb")
+
+
+def test_files_that_were_overtaken_keep_their_records_as_conflicts() -> None:
+    """A build wrote all that was planned but for these, which somebody saved in between."""
+    place = "modelica/Plant/Arm"
+    before = msgspec.structs.replace(
+        MANIFEST,
+        files={f"{place}/{name}": FileRecord("x", Role.MODEL, f"old {name}") for name in ("Arm.mo", "Gone.mo", "A.mo")},
+        orders={f"{place}/package.order": ("Gone", "A")},
+    )
+    keys = [f"{place}/{name}" for name in ("Arm.mo", "Gone.mo", "Links/Base_link.mo", "package.order", "none.mo")]
+    text = with_overtaken(dumps(MANIFEST).encode(), [b"broken", dumps(before).encode()], keys).decode()
+    found = loads(text, "arm.toml")
+    assert found.files == {
+        **MANIFEST.files,
+        f"{place}/Arm.mo": FileRecord("x", Role.MODEL, "old Arm.mo", State.CONFLICT),
+        f"{place}/Gone.mo": FileRecord("x", Role.MODEL, "old Gone.mo", State.CONFLICT),
+        f"{place}/Links/Base_link.mo": FileRecord("link base link", Role.MODEL, None, State.CONFLICT),
+    }
+    assert found.orders == {**MANIFEST.orders, f"{place}/package.order": ("Gone", "A")}
+    assert found.source != MANIFEST.source, "so that no build takes it for up to date"

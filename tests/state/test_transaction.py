@@ -1,0 +1,154 @@
+"""A transaction: all is done, or what somebody saved meanwhile stays. Crashes at each operation are in `test_crash`."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+from urdfsync.diagnostics import OutputError, StateError
+from urdfsync.files import digest
+from urdfsync.state import file_operations
+from urdfsync.state.transaction import Change, Transactions, UnfinishedError
+
+
+@pytest.fixture
+def transactions(tmp_path: Path) -> Transactions:
+    return Transactions(tmp_path, tmp_path / "state", lambda path: path.relative_to(tmp_path).as_posix())
+
+
+@pytest.fixture
+def changes(tmp_path: Path) -> list[Change]:
+    """A file to renew, one to delete, one to make, and one that records it."""
+    for name in ("renewed.mo", "a/deleted.mo"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_bytes(name.encode())
+    return [
+        Change(tmp_path / "renewed.mo", b"new", digest(b"renewed.mo")),
+        Change(tmp_path / "a/deleted.mo", None, digest(b"a/deleted.mo")),
+        Change(tmp_path / "b/c/made.mo", b"made", None),
+        Change(tmp_path / "state/robots/arm.json", b"record", None),
+    ]
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """All files and empty folders."""
+    found = {path.relative_to(folder).as_posix(): path for path in folder.rglob("*")}
+    return {
+        name: b"" if path.is_dir() else path.read_bytes()
+        for name, path in found.items()
+        if path.is_file() or (name not in ("state", "state/journal") and not any(path.iterdir()))
+    }
+
+
+DONE = {"renewed.mo": b"new", "b/c/made.mo": b"made", "state/robots/arm.json": b"record"}
+
+
+def test_all_is_done(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
+    (tmp_path / "renewed.mo").chmod(0o640)
+    assert transactions.apply("arm", changes, [tmp_path / "a"]).overtaken == ()
+    assert contents(tmp_path) == DONE
+    assert (tmp_path / "renewed.mo").stat().st_mode & 0o777 == 0o640
+    assert not transactions.pending()
+
+
+def test_folders_that_are_not_empty_stay(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
+    (tmp_path / "a/mine").write_bytes(b"mine")
+    transactions.apply("arm", changes, [tmp_path / "a"])
+    assert contents(tmp_path) == {**DONE, "a/mine": b"mine"}
+
+
+@pytest.mark.skipif(sys.platform != "linux" or os.geteuid() != 0, reason="only root may give files to any group")
+def test_a_file_gets_the_group_of_its_folder(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
+    for folder in (tmp_path, tmp_path / "a"):
+        os.chown(folder, -1, 4321)
+        folder.chmod(0o2775)
+    transactions.apply("arm", changes)
+    assert {(tmp_path / name).stat().st_gid for name in DONE} == {4321}
+
+
+@pytest.mark.parametrize("number", range(4))
+def test_a_file_that_is_not_as_planned_stays(
+    tmp_path: Path, transactions: Transactions, changes: list[Change], number: int
+) -> None:
+    mine = changes[number].path
+    mine.parent.mkdir(parents=True, exist_ok=True)
+    mine.write_bytes(b"mine")
+    assert transactions.apply("arm", changes, [tmp_path / "a"]).overtaken == (mine,)
+    assert contents(tmp_path) == {**DONE, mine.relative_to(tmp_path).as_posix(): b"mine"}
+
+
+def test_a_folder_in_the_way_stays(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
+    (tmp_path / "renewed.mo").unlink()
+    (tmp_path / "renewed.mo").mkdir()
+    assert transactions.apply("arm", changes, [tmp_path / "a"]).overtaken == (tmp_path / "renewed.mo",)
+    assert contents(tmp_path) == {**DONE, "renewed.mo": b""}
+
+
+def test_a_new_file_that_somebody_has_made_just_so_is_no_hindrance(
+    tmp_path: Path, transactions: Transactions, changes: list[Change]
+) -> None:
+    (tmp_path / "b/c").mkdir(parents=True)
+    (tmp_path / "b/c/made.mo").write_bytes(b"made")
+    assert transactions.apply("arm", changes, [tmp_path / "a"]).overtaken == ()
+    assert contents(tmp_path) == DONE
+
+
+def test_an_error_names_what_is_in_the_way(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
+    before = contents(tmp_path)
+    (tmp_path / "b").write_bytes(b"in the way")
+    with pytest.raises(OutputError) as caught:
+        transactions.apply("arm", changes)
+    assert str(caught.value) == ("b: error: a file is where a folder is needed; move it away [output-in-the-way]")
+    assert contents(tmp_path) == {**before, "b": b"in the way"}
+
+
+@pytest.mark.parametrize(
+    "place", ["notes.txt", ".git/a.mo", "x/.ssh/package.order", "Resources/a.stl", "state/stamp", "state/robots/a.txt"]
+)
+def test_only_files_of_packages_and_of_the_state_are_written(
+    tmp_path: Path, transactions: Transactions, changes: list[Change], place: str
+) -> None:
+    before = contents(tmp_path)
+    with pytest.raises(StateError, match="is no file that a build writes"):
+        transactions.apply("arm", [*changes, Change(tmp_path / place, b"", None)])
+    assert contents(tmp_path) == before
+
+
+@pytest.mark.parametrize("link", ["a", "state"])
+def test_no_link_is_followed(tmp_path: Path, transactions: Transactions, changes: list[Change], link: str) -> None:
+    outside = tmp_path / "outside"
+    outside.mkdir()
+    if link == "a":
+        (tmp_path / "a").rename(outside / "a")
+    (tmp_path / link).symlink_to(outside)
+    before = contents(tmp_path)
+    with pytest.raises(OutputError, match="a symbolic link"):
+        transactions.apply("arm", changes)
+    assert contents(tmp_path) == before
+
+
+def test_what_cant_be_finished_is_finished_later(
+    tmp_path: Path, transactions: Transactions, changes: list[Change], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = file_operations.place
+
+    def fail(path: Path, target: Path) -> None:
+        if target.name == "made.mo":
+            raise OSError(errno.EACCES, os.strerror(errno.EACCES), str(target))
+        real(path, target)
+
+    monkeypatch.setattr(file_operations, "place", fail)
+    for attempt in (lambda: transactions.apply("arm", changes, [tmp_path / "a"]), transactions.recover):
+        with pytest.raises(UnfinishedError) as caught:
+            attempt()
+        assert [(found.file, found.code) for found in caught.value.diagnostics] == [("b/c/made.mo", "unfinished")]
+        assert transactions.pending()
+    monkeypatch.undo()
+    (note,) = transactions.recover()
+    assert note.message == "the last build of robot `arm` was interrupted; it is finished"
+    assert contents(tmp_path) == DONE
+    assert transactions.recover() == ()

@@ -1,0 +1,183 @@
+"""Whatever happens to a command has its exit code, and is told in one line."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import urdfsync
+from urdfsync import cli, config, extras
+from urdfsync.state.lock import Lock
+
+Capture = pytest.CaptureFixture[str]
+
+REPOSITORY = Path(__file__).parents[1]
+URDF = """<robot name="arm">
+  <link name="base"/>
+  <link name="tip"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+  <joint name="hold" type="fixed"><parent link="base"/><child link="tip"/></joint>
+</robot>
+"""
+COMMANDS = [
+    ["build"],
+    ["build", "--check"],
+    ["status"],
+    ["diff"],
+    ["check"],
+    ["resolve", "--all", "--keep"],
+    ["watch"],
+]
+
+
+@pytest.fixture
+def traces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder for temporary files."""
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(folder))
+    return folder
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [
+        (MemoryError(), "there is not enough memory"),
+        (RecursionError("too deep"), "RecursionError in test_failures.py, line "),
+        (ValueError("no number"), "ValueError in test_failures.py, line "),
+    ],
+)
+def test_what_nobody_foresaw_ends_in_2_with_its_traceback_in_a_file(
+    project: Path,
+    traces: Path,
+    capsys: Capture,
+    monkeypatch: pytest.MonkeyPatch,
+    command: list[str],
+    error: Exception,
+    words: str,
+) -> None:
+    def fail(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(config, "load", fail)
+    assert cli.main(command) == 2
+    streams = capsys.readouterr()
+    (line,) = streams.err.splitlines()
+    assert streams.out == ""
+    assert line.startswith(f"error: {words}")
+    (file,) = traces.iterdir()
+    assert f"please report it with the traceback in {file} [internal]" in line
+    assert type(error).__name__ in file.read_text()
+
+
+def test_so_does_what_fails_while_an_answer_is_saved(
+    project: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise RuntimeError("no answer")
+
+    cli.main(["build"])
+    monkeypatch.setattr("urdfsync.uptodate.save_answer", fail)
+    capsys.readouterr()
+    assert cli.main(["build"]) == 2
+    streams = capsys.readouterr()
+    assert streams.out == "ladder: in step, 14 files\n"
+    assert streams.err.startswith("error: RuntimeError in test_failures.py, line ")
+
+
+def test_verbose_shows_the_traceback(
+    project: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise ValueError("no number")
+
+    monkeypatch.setattr(config, "load", fail)
+    assert cli.main(["build", "--verbose"]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("Traceback ")
+    assert said.endswith("please report it with the traceback above [internal]\n")
+    assert cli.main(["build", "--json", "--verbose"]) == 2
+    streams = capsys.readouterr()
+    assert streams.err == ""
+    assert json.loads(streams.out)["diagnostics"][0]["code"] == "internal"
+    assert len(list(traces.iterdir())) == 1
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_signal_ends_a_build_with_130(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("arm.urdf").write_text(URDF)
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n')
+    Path(".urdfsync").mkdir()
+    environment = os.environ | {"PYTHONPATH": str(REPOSITORY)}
+    with Lock(tmp_path / ".urdfsync/lock", 0) as lock:
+        lock.acquire()
+        code = "import sys; from urdfsync import cli; from urdfsync.state.lock import Lock; acquire = Lock.acquire"
+        code += "\ndef tell(*a, **k): print('waits', flush=True); return acquire(*a, **k)"
+        code += "\nLock.acquire = tell; sys.exit(cli.main(['build']))"
+        command = [sys.executable, "-c", code]
+        with subprocess.Popen(
+            command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        ) as build:
+            assert build.stdout
+            assert build.stdout.readline() == "waits\n"
+            build.send_signal(number)
+            _, errors = build.communicate(timeout=30)
+    assert build.returncode == 130
+    assert errors == "error: interrupted; run the command again to finish the work [interrupted]\n"
+    assert not (tmp_path / "modelica").exists()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere file names are Unicode")
+def test_a_folder_whose_name_is_not_utf_8(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    folder = tmp_path / "caf\udce9"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    (folder / "arm.urdf").write_text(URDF)
+    outside = ["--config", str(folder / "urdfsync.toml")]
+    commands = [
+        ["init", "arm.urdf"],
+        ["build", "--svg"],
+        ["build", "--full"],
+        ["build"],
+        ["status"],
+        ["diff"],
+        ["resolve", "--all", "--keep"],
+        ["record", "arm.urdf"],
+        ["library"],
+    ]
+    for command in commands:
+        if command[0] == "init":
+            assert cli.main(command) == 0
+        else:
+            assert cli.main([*command, *(outside if command[0] not in ("record", "library") else [])]) == 0
+            capsys.readouterr()
+            assert cli.main([*command, "--json"]) == 0
+            assert json.loads(capsys.readouterr().out)["exit"] == 0
+    environment = os.environ | {"PYTHONPATH": str(Path(urdfsync.__file__).parents[1])}
+    for _ in range(2):  # the second time from what the first saved
+        done = subprocess.run(
+            [sys.executable, "-m", "urdfsync", "build"], env=environment, capture_output=True, text=True, check=True
+        )
+        assert done.stdout == "arm: in step, 15 files\n"
+
+
+def test_what_is_to_be_installed_exists() -> None:
+    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    needed = {
+        name: tuple(sorted(re.split(r"[<>=; ]", package)[0] for package in packages))
+        for name, packages in project["optional-dependencies"].items()
+        if name in extras.PACKAGES
+    }
+    assert needed == {name: tuple(sorted(packages)) for name, packages in extras.PACKAGES.items()}

@@ -1,0 +1,127 @@
+"""What users may have connected to: which names a change takes away, and nothing else."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import support.urdfs as urdfs
+from support.packages import read
+
+from urdfsync.domain import ElementKey, Target, Version
+from urdfsync.urdf.diff.interface import interface
+from urdfsync.urdf.options import Options
+
+TARGET = Target("Robot", "Robot")
+STAR = tuple(urdfs.link(name, 1.0) for name in ("base", "a", "b", "c"))
+
+
+def version(*elements: str) -> Version:
+    snapshot = read(urdfs.robot(*elements).encode()).snapshot
+    assert snapshot is not None
+    return Version(snapshot)
+
+
+def joint(name: str, kind: str, parent: str, child: str, *inside: str) -> str:
+    limit = ['<limit lower="0" upper="1" effort="1" velocity="1"/>'] if kind in ("revolute", "prismatic") else []
+    return urdfs.joint(name, kind, parent, child, inside=[*limit, *inside])
+
+
+def changed(
+    old: Version, new: Version, renames: dict[ElementKey, str] | None = None, **options: Any
+) -> dict[str, tuple[Any, ...]]:
+    found = interface(old, new, renames or {}, TARGET, Options(**options))
+    return {" / ".join(one.path): (one.old, one.new) for one in found}
+
+
+def test_a_connector_keeps_its_name_whatever_comes_and_goes_beside_it() -> None:
+    old = version(*STAR[:1], *STAR[2:], joint("jb", "continuous", "base", "b"), joint("jc", "revolute", "base", "c"))
+    new = version(
+        *STAR,
+        joint("ja", "continuous", "base", "a"),
+        joint("jb", "continuous", "base", "b"),
+        joint("jc", "prismatic", "base", "c"),
+    )
+    assert changed(old, new) == {
+        "joint jc / position in Run": ("jc_phi", "jc_s"),
+        "joint jc / effort in Run": ("jc_tau", "jc_f"),
+    }
+    assert "joint jc / position in Run" not in changed(old, new, inputs="vector")  # one input for all joints
+
+
+def test_a_joint_that_becomes_passive_loses_its_variables_of_run_and_an_option_keeps_them() -> None:
+    wheel, caster = (joint(name, "continuous", "base", child) for name, child in (("wheel", "a"), ("caster", "b")))
+    drive = '<transmission name="t"><joint name="wheel"/></transmission>'
+    old, new = version(*STAR[:3], wheel, caster), version(*STAR[:3], wheel, caster, drive)
+    gone = {
+        "joint caster / position in Run": ("caster_phi", None),
+        "joint caster / effort in Run": ("caster_tau", None),
+    }
+    assert changed(old, new) == gone
+    hints = {one.hint for one in interface(old, new, {}, TARGET, Options())}
+    assert hints == {'list "caster" in `driven`, with all others that are driven, to keep it'}
+    assert changed(old, new, driven=("wheel", "caster")) == {}
+    assert changed(new, old) == {path: (None, name) for path, (name, _) in gone.items()}
+
+
+def test_a_leaf_that_is_none_any_more_loses_its_frame_and_an_option_keeps_it() -> None:
+    old = version(*STAR[:2], joint("turn", "continuous", "base", "a"))
+    new = version(*STAR[:3], joint("turn", "continuous", "base", "a"), joint("tip", "fixed", "a", "b"))
+    assert changed(old, new) == {"link a / frame": ("aFrame", None)}
+    (found,) = interface(old, new, {}, TARGET, Options())
+    assert found.hint == 'list "a" in `frames` to keep it'
+    assert changed(old, new, frames=("a",)) == {}
+    assert changed(new, old) == {"link a / frame": (None, "aFrame")}
+
+
+def test_a_joint_that_follows_or_stops_loses_its_axis_and_its_support() -> None:
+    first, follower = joint("first", "continuous", "base", "a"), joint("second", "continuous", "base", "b")
+    mimics = joint("second", "continuous", "base", "b", '<mimic joint="first"/>')
+    gone = {"joint second / axis": ("secondAxis", None), "joint second / support": ("secondSupport", None)}
+    assert changed(version(*STAR[:3], first, follower), version(*STAR[:3], first, mimics)) == gone
+    stopped = joint("second", "fixed", "base", "b")
+    assert changed(version(*STAR[:3], first, follower), version(*STAR[:3], first, stopped)) == gone
+
+
+def test_a_connector_that_gives_way_to_a_new_element_is_named() -> None:
+    old = version(*STAR[:2], joint("turn", "continuous", "base", "a"))
+    link = '<link name="turnAxis"/>'
+    new = version(*STAR[:2], link, joint("turn", "continuous", "base", "a"), joint("f", "fixed", "base", "turnAxis"))
+    assert changed(old, new) == {"joint turn / axis": ("turnAxis", "turnAxis_2")}
+
+
+def test_a_renamed_joint_shows_its_new_connectors() -> None:
+    def two(first: str, second: str) -> Version:
+        joints = (joint(first, "continuous", "base", "a"), joint(second, "continuous", "base", "b"))
+        return version(*STAR[:3], *joints)
+
+    assert changed(two("u", "v"), two("u", "w"), {("joint", "v"): "w"}) == {
+        "joint w / axis": ("vAxis", "wAxis"),
+        "joint w / support": ("vSupport", "wSupport"),
+    }
+
+
+def test_what_is_gone_altogether_is_no_change_of_a_connector() -> None:
+    one, other = joint("one", "continuous", "base", "a"), joint("other", "continuous", "base", "b")
+    assert changed(version(*STAR[:3], one, other), version(*STAR[:2], one)) == {}
+
+
+def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:
+    old = version(*STAR[:3], joint("jb", "continuous", "base", "a"), joint("jc", "continuous", "base", "b"))
+    new = version(
+        *STAR,
+        joint("ja", "continuous", "base", "c"),
+        joint("jb", "continuous", "base", "a"),
+        joint("jc", "continuous", "base", "b"),
+    )
+    assert changed(old, new) == {}
+    assert changed(old, new, inputs="vector") == {"robot / positions": ("jb, jc", "ja, jb, jc")}
+    behind = version(
+        *STAR, *(joint(f"j{n}", "continuous", "base", child) for n, child in zip("bcd", "abc", strict=True))
+    )
+    assert changed(old, behind, inputs="vector") == {}
+
+
+def test_the_record_approach_has_no_names_to_connect_to() -> None:
+    old = version(*STAR[:2], joint("turn", "continuous", "base", "a"))
+    new = version(*STAR[:2], joint("turn", "fixed", "base", "a"))
+    assert changed(old, new, approach=("record",)) == {}

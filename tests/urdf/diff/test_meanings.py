@@ -1,0 +1,366 @@
+"""Differences of robots in the words of URDF: paths, units and classes, one example per line of the design's table."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import msgspec
+import pytest
+import support.urdfs as urdfs
+from support.packages import read
+
+from urdfsync.diff.changes import Change, compare
+from urdfsync.domain import ChangeClass, ChangeKind, Import, Version
+from urdfsync.urdf.domain import DOMAIN
+from urdfsync.urdf.meshes import lookup
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Mesh
+
+NONE, UNMODELLED, PARAMETER, STRUCTURAL = list(ChangeClass)[:4]
+ADDED, REMOVED, CHANGED, RENAMED = list(ChangeKind)
+FIXED, FLOATING = Options(), Options(base="floating")
+MESH = lookup.key(Mesh("arm.stl"))
+Data = dict[str, Any]
+
+ROBOT = urdfs.robot(
+    """<link name="base">
+      <inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+      <visual name="cover"><geometry><box size="1 2 3"/></geometry>
+        <material name="red"><color rgba="1 0 0 1"/></material></visual>
+      <visual><geometry><mesh filename="arm.stl"/></geometry></visual>
+      <collision><geometry><sphere radius="0.1"/></geometry></collision>
+      <collision><geometry><mesh filename="arm.stl"/></geometry></collision>
+    </link>""",
+    *(f'<link name="{name}"/>' for name in ("one", "two", "three", "four", "five")),
+    """<joint name="turn" type="revolute"><parent link="base"/><child link="one"/><axis xyz="0 0 1"/>
+      <limit lower="-1" upper="1" effort="5" velocity="2"/><dynamics damping="0.1" friction="0.2"/>
+      <safety_controller k_velocity="3"/><calibration rising="0.5"/></joint>""",
+    """<joint name="slide" type="prismatic"><parent link="base"/><child link="two"/><axis xyz="0 0 1"/>
+      <limit lower="0" upper="1" effort="5" velocity="2"/><dynamics damping="0.1"/>
+      <mimic joint="turn" multiplier="0.5"/></joint>""",
+    """<joint name="spin" type="continuous"><parent link="base"/><child link="three"/>
+      <limit effort="5" velocity="2"/></joint>""",
+    """<joint name="glide" type="planar"><parent link="base"/><child link="four"/>
+      <dynamics damping="0.1"/></joint>""",
+    '<joint name="weld" type="fixed"><parent link="base"/><child link="five"/></joint>',
+    '<gazebo reference="one"><mu1>1</mu1></gazebo>',
+)
+
+
+def import_(content: str, hull: bool = True) -> Import:
+    facts = {"bounds": [[0.0] * 3, [1.0] * 3], "hull": [[0.0] * 3] if hull else []}
+    return Import("Resources/arm.stl", content, content, 1, facts)
+
+
+def version(edit: Callable[[Data], object] = lambda _: None, found: Import | None = None) -> Version:
+    snapshot = read(ROBOT.encode()).snapshot
+    data = json.loads(json.dumps(snapshot))
+    edit(data)
+    return Version(data, {MESH: found} if found else {})
+
+
+def changes(edit: Callable[[Data], object], options: Options = FIXED) -> list[Change]:
+    """The changes that an edit of the robot's snapshot makes; its mesh is there before and after."""
+    found = import_("a")
+    return list(compare(version(found=found), version(edit, found), DOMAIN, options).changes)
+
+
+def put(*path: str | int, value: Any) -> Callable[[Data], object]:
+    """Set the value at a path of the snapshot."""
+
+    def edit(data: Any) -> None:
+        for key in path[:-1]:
+            data = data[key]
+        data[path[-1]] = value
+
+    return edit
+
+
+def drop(*path: str | int) -> Callable[[Data], object]:
+    """Remove the value at a path of the snapshot."""
+
+    def edit(data: Any) -> None:
+        for key in path[:-1]:
+            data = data[key]
+        del data[path[-1]]
+
+    return edit
+
+
+BASE = ("links", "base")
+DYNAMICS, LIMIT = {"damping": 0.0, "friction": 0.0}, {"lower": 0.0, "upper": 0.0}
+
+CASES = [
+    (put("name", value="other"), "robot / name", CHANGED, "", PARAMETER),
+    (put(*BASE, "inertial", "mass", value=3.0), "link base / inertial / mass", CHANGED, "kg", PARAMETER),
+    (put(*BASE, "inertial", "inertia", "ixy", value=0.1), "link base / inertial / inertia / ixy", CHANGED, "kg·m²",
+     PARAMETER),
+    (drop(*BASE, "inertial"), "link base / inertial", REMOVED, "", PARAMETER),
+    (put(*BASE, "visuals", 0, "origin", "rpy", 2, value=1.0), "link base / visual 1 / origin / rpy[2]", CHANGED, "rad",
+     PARAMETER),
+    (put(*BASE, "visuals", 0, "geometry", "size", 0, value=9.0), "link base / visual 1 / geometry / size[0]", CHANGED,
+     "m", PARAMETER),
+    (put(*BASE, "visuals", 0, "material", "rgba", 1, value=0.5), "link base / visual 1 / material / rgba[1]", CHANGED,
+     "", PARAMETER),
+    (drop(*BASE, "visuals", 0, "material"), "link base / visual 1 / material", REMOVED, "", PARAMETER),
+    (put(*BASE, "visuals", 0, "material", "name", value="blue"), "link base / visual 1 / material / name", CHANGED, "",
+     UNMODELLED),
+    (put(*BASE, "visuals", 0, "material", "texture", value="a.png"), "link base / visual 1 / material / texture", ADDED,
+     "", UNMODELLED),
+    (put(*BASE, "visuals", 1, "material", value={"name": "red"}), "link base / visual 2 / material", ADDED, "",
+     UNMODELLED),
+    (put(*BASE, "visuals", 0, "name", value="lid"), "link base / visual 1 / name", CHANGED, "", PARAMETER),
+    (drop(*BASE, "visuals", 1), "link base / visual 2", REMOVED, "", STRUCTURAL),
+    (drop(*BASE, "collisions", 1), "link base / collision 2", REMOVED, "", STRUCTURAL),
+    (put(*BASE, "collisions", 0, "geometry", "radius", value=0.2), "link base / collision 1 / geometry / radius",
+     CHANGED, "m", PARAMETER),
+    (put("joints", "weld", "type", value="floating"), "joint weld / type", CHANGED, "", STRUCTURAL),
+    (put("joints", "weld", "parent", value="one"), "joint weld / parent", CHANGED, "", STRUCTURAL),
+    (put("joints", "weld", "origin", "xyz", 2, value=1.0), "joint weld / origin / xyz[2]", CHANGED, "m", PARAMETER),
+    (put("joints", "weld", "axis", value=[0.0, 0.0, 0.5]), "joint weld / axis[0]", CHANGED, "", UNMODELLED),
+    (put("joints", "weld", "dynamics", value=DYNAMICS), "joint weld / dynamics", ADDED, "", UNMODELLED),
+    (put("joints", "weld", "limit", value=LIMIT), "joint weld / limit", ADDED, "", UNMODELLED),
+    (put("joints", "turn", "axis", 2, value=0.5), "joint turn / axis[2]", CHANGED, "", PARAMETER),
+    (put("joints", "turn", "limit", "upper", value=2.0), "joint turn / limit / upper", CHANGED, "rad", PARAMETER),
+    (put("joints", "turn", "limit", "velocity", value=3.0), "joint turn / limit / velocity", CHANGED, "rad/s",
+     PARAMETER),
+    (drop("joints", "turn", "limit", "effort"), "joint turn / limit / effort", REMOVED, "N·m", PARAMETER),
+    (drop("joints", "turn", "limit"), "joint turn / limit", REMOVED, "", PARAMETER),
+    (put("joints", "turn", "dynamics", "damping", value=0.0), "joint turn / dynamics / damping", CHANGED, "N·m·s/rad",
+     PARAMETER),
+    (drop("joints", "turn", "dynamics"), "joint turn / dynamics", REMOVED, "", STRUCTURAL),
+    (drop("joints", "turn", "calibration"), "joint turn / calibration", REMOVED, "", PARAMETER),
+    (put("joints", "turn", "safety_controller", "k_position", value=1.0), "joint turn / safety_controller / k_position",
+     CHANGED, "1/s", PARAMETER),
+    (put("joints", "spin", "limit", "lower", value=1.0), "joint spin / limit / lower", CHANGED, "rad", UNMODELLED),
+    (put("joints", "spin", "limit", "effort", value=1.0), "joint spin / limit / effort", CHANGED, "N·m", PARAMETER),
+    (put("joints", "slide", "limit", "effort", value=1.0), "joint slide / limit / effort", CHANGED, "N", PARAMETER),
+    (put("joints", "slide", "dynamics", "friction", value=1.0), "joint slide / dynamics / friction", CHANGED, "N",
+     PARAMETER),
+    (put("joints", "slide", "mimic", "multiplier", value=1.0), "joint slide / mimic / multiplier", CHANGED, "m/rad",
+     PARAMETER),
+    (put("joints", "slide", "mimic", "offset", value=1.0), "joint slide / mimic / offset", CHANGED, "m", PARAMETER),
+    (put("joints", "slide", "mimic", "joint", value="spin"), "joint slide / mimic / joint", CHANGED, "", STRUCTURAL),
+    (drop("joints", "slide", "mimic"), "joint slide / mimic", REMOVED, "", STRUCTURAL),
+    (put("joints", "glide", "axis", 0, value=0.5), "joint glide / axis[0]", CHANGED, "", PARAMETER),
+    (put("joints", "glide", "dynamics", "damping", value=1.0), "joint glide / dynamics / damping", CHANGED, "",
+     PARAMETER),
+    (drop("joints", "glide", "dynamics"), "joint glide / dynamics", REMOVED, "", STRUCTURAL),
+    (put("extensions", "", "gazebo", 0, value='<gazebo reference="one"/>'), "robot / gazebo one", CHANGED, "",
+     UNMODELLED),
+    (put("extensions", "link one", value={"sensor": ["<sensor/>"]}), "link one / extensions", ADDED, "", UNMODELLED),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("edit", "path", "kind", "unit", "reach"), CASES, ids=[case[1] for case in CASES])
+def test_an_edit_is_one_change_in_the_words_of_urdf(
+    edit: Callable[[Data], object], path: str, kind: ChangeKind, unit: str, reach: ChangeClass
+) -> None:
+    found = [change for change in changes(edit) if str(change) == path]
+    assert [(change.kind, change.unit, change.change_class) for change in found] == [(kind, unit, reach)]
+
+
+def test_what_is_named_by_its_element_alone_came_or_went() -> None:
+    def add(data: Data) -> None:
+        data["links"]["six"] = {"visuals": [], "collisions": []}
+        data["joints"]["six"] = {**data["joints"]["weld"], "child": "six"}
+
+    found = [(str(change), change.kind, change.change_class) for change in changes(add)]
+    assert found == [("link six", ADDED, STRUCTURAL), ("joint six", ADDED, STRUCTURAL)]
+
+
+def test_the_order_of_visuals_of_one_kind_is_a_parameter() -> None:
+    boxes = [{"geometry": {"kind": "box", "size": [size] * 3}, "origin": {}, "name": ""} for size in (1.0, 2.0)]
+    old, new = (version(put(*BASE, "visuals", value=order)) for order in (boxes, boxes[::-1]))
+    assert compare(old, new, DOMAIN, FIXED).change_class is PARAMETER
+
+
+def test_another_kind_of_geometry_is_structural() -> None:
+    edit = put(*BASE, "visuals", 0, "geometry", value={"kind": "sphere", "radius": 1.0})
+    assert {(str(change), change.change_class) for change in changes(edit)} == {
+        (f"link base / visual 1 / geometry / {field}", STRUCTURAL) for field in ("kind", "radius", "size")
+    }
+
+
+def test_units_of_a_joint_that_turned_into_a_slide() -> None:
+    def edit(data: Data) -> None:
+        data["joints"]["turn"].update(type="prismatic", limit={"lower": -0.5, "upper": 0.5, "effort": 5.0})
+
+    units = {str(change): change.unit for change in changes(edit)}
+    assert units["joint turn / limit / lower"] == "rad → m"
+    assert units["joint turn / limit / velocity"] == "rad/s"
+
+
+def test_collisions_that_are_not_wanted_are_not_modelled() -> None:
+    edit = drop(*BASE, "collisions", 0)
+    hidden = [change.change_class for change in changes(edit, Options(collisions=False))]
+    assert set(hidden) == {UNMODELLED}
+
+
+def test_a_mobile_robot_stands_on_collisions_even_if_they_are_not_wanted() -> None:
+    edit = put(*BASE, "collisions", 0, "geometry", "radius", value=0.2)
+    assert [change.change_class for change in changes(edit, Options(base="floating", collisions=False))] == [PARAMETER]
+
+
+def mesh_change(
+    old: Import | None, new: Import | None, options: Options = FIXED
+) -> Iterator[tuple[str, ChangeKind, str]]:
+    for change in compare(version(found=old), version(found=new), DOMAIN, options).changes:
+        yield str(change), change.kind, change.change_class
+
+
+def test_the_content_of_a_mesh_is_a_parameter() -> None:
+    assert list(mesh_change(import_("a"), import_("b"))) == [("mesh arm.stl / content", CHANGED, PARAMETER)]
+
+
+@pytest.mark.parametrize(("old", "new", "kind"), [(None, import_("a"), ADDED), (import_("a"), None, REMOVED)])
+def test_a_mesh_that_is_found_or_lost_is_structural(old: Import | None, new: Import | None, kind: ChangeKind) -> None:
+    assert list(mesh_change(old, new)) == [("mesh arm.stl / content", kind, STRUCTURAL)]
+
+
+def test_a_mesh_that_can_no_longer_touch_the_ground_is_structural_for_mobile_robots() -> None:
+    old, new = import_("a"), import_("b", hull=False)
+    assert [change[2] for change in mesh_change(old, new, FIXED)] == [PARAMETER]
+    assert [change[2] for change in mesh_change(old, new, FLOATING)] == [STRUCTURAL]
+
+
+def test_a_shape_without_its_mesh_is_not_modelled() -> None:
+    edit = put(*BASE, "visuals", 1, "origin", "xyz", 0, value=1.0)
+    found = compare(version(), version(edit), DOMAIN, FIXED).changes
+    assert [(str(c), c.change_class) for c in found] == [("link base / visual 2 / origin / xyz[0]", UNMODELLED)]
+
+
+@pytest.mark.parametrize(("meshes", "reach"), [({MESH: import_("a")}, STRUCTURAL), ({}, UNMODELLED), (None, PARAMETER)])
+def test_another_mesh_file_matters_as_far_as_it_is_found(meshes: dict[str, Import] | None, reach: ChangeClass) -> None:
+    edit = put(*BASE, "visuals", 1, "geometry", "filename", value="other.stl")
+    old, new = (msgspec.structs.replace(version(e), imports=meshes) for e in (lambda _: None, edit))
+    found = compare(old, new, DOMAIN, FIXED).changes
+    assert [(str(c), c.change_class) for c in found] == [("link base / visual 2 / geometry / filename", reach)]
+
+
+def test_reading_the_same_robot_written_differently_gives_no_change() -> None:
+    text = ROBOT.replace('mass value="2"', 'mass value="2.0"').replace("><", ">\n <!-- a comment --> <")
+    snapshot = read(text.encode()).snapshot
+    assert snapshot is not None
+    found = compare(version(), Version(snapshot, {}), DOMAIN, FIXED)
+    assert found.change_class is NONE
+
+
+CASTERS = (
+    *(f'<link name="{name}"/>' for name in ("base", "one", "two", "three")),
+    '<joint name="wheel" type="continuous"><parent link="base"/><child link="one"/></joint>',
+    '<joint name="caster" type="continuous"><parent link="base"/><child link="two"/></joint>',
+    '<joint name="mast" type="revolute"><parent link="base"/><child link="three"/><limit upper="1"/></joint>',
+)
+WHEEL, CASTER, MAST = (
+    f'<transmission name="{name} drive"><joint name="{name}"/></transmission>' for name in ("wheel", "caster", "mast")
+)
+LIMITED = CASTERS[5].replace("</joint>", '<limit effort="1" velocity="1"/></joint>')
+
+
+def drives(old: Sequence[str], new: Sequence[str], options: Options = FIXED) -> dict[str, tuple[Any, Any, ChangeClass]]:
+    """The changes from one robot to another: old value and new one where a drive changed, and the class."""
+    one, two = (read(urdfs.robot(*elements).encode()).snapshot for elements in (old, new))
+    assert one is not None
+    assert two is not None
+    found = compare(Version(one, {}), Version(two, {}), DOMAIN, options).changes
+    return {
+        str(c): (c.old, c.new, c.change_class) if c.path[-1] == "drive" else (None, None, c.change_class) for c in found
+    }
+
+
+TEXT = (None, None, UNMODELLED)
+PASSIVE, DRIVEN = ("driven", "passive", STRUCTURAL), ("passive", "driven", STRUCTURAL)
+
+
+def test_the_first_drive_makes_casters_passive() -> None:
+    found = drives(CASTERS, (*CASTERS, WHEEL))
+    assert found == {"joint caster / drive": PASSIVE, "robot / extensions": TEXT}
+
+
+def test_drives_of_joints_that_are_driven_anyway_are_not_modelled() -> None:
+    assert set(drives((*CASTERS, WHEEL), (*CASTERS, WHEEL, MAST)).values()) == {TEXT}
+    other = WHEEL.replace("</transmission>", "<actuator name='m'/></transmission>")
+    assert drives((*CASTERS, WHEEL), (*CASTERS, other)) == {"robot / transmission wheel drive": TEXT}
+
+
+def test_a_drive_that_goes_to_another_joint() -> None:
+    moved = drives((*CASTERS, WHEEL), (*CASTERS, CASTER))
+    assert moved["joint wheel / drive"] == PASSIVE
+    assert moved["joint caster / drive"] == DRIVEN
+
+
+def test_a_limit_can_decide_too() -> None:
+    limited = [LIMITED if element == CASTERS[5] else element for element in CASTERS]
+    assert drives((*CASTERS, WHEEL), (*limited, WHEEL)) == {
+        "joint caster / drive": DRIVEN,
+        "joint caster / limit": (None, None, PARAMETER),
+    }
+    assert drives(CASTERS, limited) == {"joint caster / limit": (None, None, PARAMETER)}
+
+
+@pytest.mark.parametrize("options", [Options(driven=("wheel",)), Options(approach=("record",))])
+def test_where_the_source_does_not_decide_drives_are_text(options: Options) -> None:
+    assert set(drives(CASTERS, (*CASTERS, WHEEL), options).values()) == {TEXT}
+
+
+def test_a_joint_that_can_not_be_driven_any_more_has_another_type_and_no_more_to_say() -> None:
+    fixed = [element.replace('"caster" type="continuous"', '"caster" type="fixed"') for element in CASTERS]
+    assert drives((*CASTERS, WHEEL), (*fixed, WHEEL)) == {"joint caster / type": (None, None, STRUCTURAL)}
+    following = [element.replace('"two"/>', '"two"/><mimic joint="wheel"/>') for element in CASTERS[5:6]]
+    mimics = (*CASTERS[:5], *following, *CASTERS[6:])
+    assert drives((*CASTERS, WHEEL), (*mimics, WHEEL)) == {"joint caster / mimic": (None, None, STRUCTURAL)}
+
+
+def test_a_renamed_joint_keeps_its_drive() -> None:
+    renamed = [element.replace('"wheel"', '"tyre"') for element in (*CASTERS, WHEEL)]
+    found = drives((*CASTERS, WHEEL), renamed)
+    assert "joint wheel" in found
+    assert not [path for path in found if path.endswith("drive") and path.startswith("joint")]
+
+
+def test_a_rename_that_the_transmission_has_missed_is_one_still() -> None:
+    renamed = [element.replace('"wheel"', '"tyre"') for element in CASTERS]
+    assert drives((*CASTERS, WHEEL), (*renamed, WHEEL)) == {
+        "joint wheel": (None, None, STRUCTURAL),
+        "joint caster / drive": DRIVEN,
+    }
+
+
+# --- names and extensions -----------------------------------------------------------------------------------------
+
+PAIR = (
+    '<link name="a"/><link name="b"/>',
+    '<joint name="a" type="fixed"><parent link="a"/><child link="b"/></joint>',
+)
+
+
+def between(old: Sequence[str], new: Sequence[str]) -> list[str]:
+    """The changes from one robot of these elements to another."""
+    one, two = (read(urdfs.robot(*elements).encode()).snapshot for elements in (old, new))
+    assert one is not None
+    assert two is not None
+    return [f"{change}: {change.kind}" for change in compare(Version(one), Version(two), DOMAIN, FIXED).changes]
+
+
+def test_a_link_and_a_joint_of_one_name_are_not_mixed_up() -> None:
+    assert between(PAIR, (PAIR[0], PAIR[1].replace('<joint name="a"', '<joint name="c"'))) == ["joint a: renamed"]
+
+
+def test_extensions_are_told_apart_by_what_they_are_about() -> None:
+    def tags(*links: str) -> list[str]:
+        return [f'<gazebo reference="{link}"><mu1>1</mu1></gazebo>' for link in links]
+
+    assert between((*PAIR, *tags("b")), (*PAIR, *tags("a", "b"))) == ["robot / gazebo a: added"]
+    assert between((*PAIR, "<gazebo><a/></gazebo>"), (*PAIR, "<gazebo><a/></gazebo>", "<gazebo><b/></gazebo>")) == [
+        "robot / gazebo (2): added"
+    ]
+
+
+def test_extensions_of_a_renamed_element_go_with_it() -> None:
+    eye = '<link name="b"><sensor name="camera"/></link>'
+    old = ('<link name="a"/>', eye, PAIR[1])
+    new = (old[0], eye.replace('"b"', '"head"'), PAIR[1].replace('"b"', '"head"'))
+    assert between(old, new) == ["link b: renamed"]

@@ -1,0 +1,372 @@
+"""Renames: recognised where they are certain, never guessed; and the files that move with them."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from support import mutations
+from support.corpus import label, robots
+from support.packages import read
+
+from urdfsync.diff.changes import compare, moved_files
+from urdfsync.domain import Artifact, ChangeKind, ElementKey, Role, Snapshot, Target, Version
+from urdfsync.urdf.diff import renames as module
+from urdfsync.urdf.diff.renames import find_renames
+from urdfsync.urdf.domain import DOMAIN
+from urdfsync.urdf.names import identify
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Inertial, Joint, Link, Material, Mimic, Origin, Robot, Sphere, Visual
+from urdfsync.urdf.snapshot import to_snapshot
+
+TARGET = Target("Robots.Arm", "Arm")
+Data = dict[str, Any]
+
+
+def link(name: str, mass: float = 0.0) -> Link:
+    return Link(name, Inertial(mass) if mass else None)
+
+
+def joint(name: str, parent: str, child: str, x: float = 0.0, mimic: str = "") -> Joint:
+    return Joint(name, "continuous", parent, child, Origin((x, 0.0, 0.0)), mimic=Mimic(mimic) if mimic else None)
+
+
+def snapshot(*elements: Link | Joint) -> Snapshot:
+    links = tuple(element for element in elements if isinstance(element, Link))
+    joints = tuple(element for element in elements if isinstance(element, Joint))
+    return to_snapshot(Robot("robot", links, joints))
+
+
+ARM = (
+    link("base", 1),
+    link("upper", 2),
+    link("lower", 3),
+    joint("shoulder", "base", "upper"),
+    joint("elbow", "upper", "lower"),
+)
+
+
+def with_names(old: Snapshot, new: Mapping[ElementKey, str]) -> Snapshot:
+    """The snapshot under new names, by an implementation of its own."""
+    data = copy.deepcopy(dict(old))
+    for part in ("links", "joints"):
+        targets = {name: new.get((part[:-1], name), name) for name in data[part]}
+        for name in targets:
+            mutations.rename(data, part, name, f"\0{name}")
+        for name, target in targets.items():
+            mutations.rename(data, part, f"\0{name}", target)
+        data[part] = dict(sorted(data[part].items()))
+    return data
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        {("link", "upper"): "arm"},
+        {("joint", "elbow"): "bend"},
+        {("link", "base"): "foot"},
+        {("joint", "shoulder"): "s", ("link", "upper"): "u"},
+        {("joint", "shoulder"): "s", ("link", "upper"): "u", ("joint", "elbow"): "e", ("link", "lower"): "l"},
+        {("link", "base"): "b", ("link", "upper"): "u", ("link", "lower"): "l"},
+    ],
+)
+def test_links_joints_subtrees_and_whole_robots(names: Mapping[ElementKey, str]) -> None:
+    old = snapshot(*ARM)
+    new = with_names(old, names)
+    assert find_renames(old, new) == names
+    found = compare(Version(old), Version(new), DOMAIN, Options())
+    assert {change.kind for change in found.changes} == {ChangeKind.RENAMED}
+
+
+def test_nothing_is_renamed_where_nothing_came_or_nothing_went() -> None:
+    assert find_renames(snapshot(*ARM), snapshot(*ARM)) == {}
+    assert find_renames(snapshot(*ARM), snapshot(*ARM, link("tool"), joint("flange", "lower", "tool"))) == {}
+
+
+def test_other_numbers_are_no_rename() -> None:
+    heavier = snapshot(
+        ARM[0], link("arm", 2.5), ARM[2], joint("shoulder", "base", "arm"), joint("elbow", "arm", "lower")
+    )
+    assert find_renames(snapshot(*ARM), heavier) == {}
+    farther = snapshot(*ARM[:4], joint("bend", "upper", "lower", x=0.1))
+    assert find_renames(snapshot(*ARM), farther) == {}
+
+
+def test_another_place_is_no_rename() -> None:
+    moved = snapshot(*ARM[:4], joint("bend", "base", "lower"))
+    assert find_renames(snapshot(*ARM), moved) == {}
+
+
+def test_changes_elsewhere_do_not_hide_a_rename() -> None:
+    changed = snapshot(
+        link("base", 9), *ARM[1:3], joint("swing", "base", "upper"), joint("elbow", "upper", "lower", x=1.0)
+    )
+    assert find_renames(snapshot(*ARM), changed) == {("joint", "shoulder"): "swing"}
+
+
+def test_names_of_materials_and_shapes_are_names_too() -> None:
+    def arm(name: str) -> Snapshot:
+        visual = Visual(Sphere(1.0), name=name, material=Material(name, (1.0, 0.0, 0.0, 1.0)))
+        return snapshot(ARM[0], Link(name, visuals=(visual,)), joint("shoulder", "base", name))
+
+    assert find_renames(arm("upper"), arm("arm")) == {("link", "upper"): "arm"}
+
+
+def test_swapped_names_are_no_rename() -> None:
+    old = snapshot(*ARM)
+    assert find_renames(old, with_names(old, {("link", "upper"): "lower", ("link", "lower"): "upper"})) == {}
+
+
+def test_a_name_that_another_element_takes_is_no_rename() -> None:
+    old = snapshot(*ARM)
+    assert find_renames(old, with_names(old, {("link", "upper"): "lower", ("link", "lower"): "hand"})) == {}
+
+
+def legs(*names: str, x: float = 0.0, foot: Mapping[str, float] | None = None) -> Snapshot:
+    """A trunk with equal legs, unless they start at different places or their feet weigh differently."""
+    elements: list[Link | Joint] = [link("trunk", 9)]
+    for number, name in enumerate(names):
+        elements += [link(f"{name}_thigh", 2), link(f"{name}_foot", (foot or {}).get(name, 1.0))]
+        elements += [joint(f"{name}_hip", "trunk", f"{name}_thigh", x * number)]
+        elements += [joint(f"{name}_knee", f"{name}_thigh", f"{name}_foot")]
+    return snapshot(*elements)
+
+
+def leg_names(**names: str) -> Mapping[ElementKey, str]:
+    parts = (("link", "thigh"), ("link", "foot"), ("joint", "hip"), ("joint", "knee"))
+    return {(kind, f"{old}_{part}"): f"{new}_{part}" for old, new in names.items() for kind, part in parts}
+
+
+def test_legs_that_look_the_same_are_not_guessed() -> None:
+    assert find_renames(legs("left", "right"), legs("l", "r")) == {}
+
+
+def test_one_of_two_legs_that_look_the_same_can_be_renamed() -> None:
+    assert find_renames(legs("left", "right"), legs("left", "r")) == leg_names(right="r")
+
+
+def test_one_of_two_legs_that_both_went_is_not_guessed() -> None:
+    assert find_renames(legs("left", "right"), legs("l")) == {}
+
+
+def test_legs_at_different_places_are_told_apart() -> None:
+    assert find_renames(legs("left", "right", x=0.2), legs("l", "r", x=0.2)) == leg_names(left="l", right="r")
+
+
+def test_legs_are_told_apart_by_what_hangs_on_them() -> None:
+    old, new = legs("left", "right", foot={"right": 1.5}), legs("l", "r", foot={"l": 1.5})
+    assert find_renames(old, new) == leg_names(left="r", right="l")
+
+
+def test_what_is_left_over_is_not_matched_because_it_is_left_over() -> None:
+    old, new = legs("left", "right", foot={"right": 1.5}), legs("l", "r", foot={"r": 1.75})
+    assert find_renames(old, new) == leg_names(left="l")
+
+
+def test_joints_that_follow_another_joint_are_renamed_with_it() -> None:
+    fingers = (
+        link("palm"),
+        link("a"),
+        link("b"),
+        joint("one", "palm", "a"),
+        joint("two", "palm", "b", 1.0, mimic="one"),
+    )
+    old = snapshot(*fingers)
+    names = {("joint", "one"): "first", ("joint", "two"): "second"}
+    assert find_renames(old, with_names(old, names)) == names
+
+
+def test_a_joint_that_follows_another_one_now_is_not_renamed() -> None:
+    palm = (link("palm"), link("a"), link("b"), link("c"), link("d"))
+    chain = joint("end", "palm", "d", 3.0, mimic="two")
+    old = snapshot(
+        *palm, joint("x", "palm", "a"), joint("y", "palm", "b", 1.0), joint("two", "palm", "c", 2.0, "x"), chain
+    )
+    new = snapshot(
+        *palm,
+        joint("p", "palm", "a"),
+        joint("q", "palm", "b", 1.0),
+        joint("zwei", "palm", "c", 2.0, "q"),
+        joint("ende", "palm", "d", 3.0, "zwei"),
+    )
+    assert find_renames(old, new) == {("joint", "x"): "p", ("joint", "y"): "q"}
+
+
+@given(st.randoms(use_true_random=False), st.integers(0, 2))
+def test_what_is_recognised_is_true(random: Random, others: int) -> None:
+    """Fresh names for some elements, and other changes beside: no match is ever wrong."""
+    old = mutations.version(random)
+    edited = dict(old.snapshot)
+    if others and random.random() < 0.5:
+        edited = copy.deepcopy(edited)
+        for _ in range(others):
+            mutations.MUTATIONS[0](edited, random)
+    names = {
+        (kind, name): f"new_{name}"
+        for kind in ("link", "joint")
+        for name in edited[f"{kind}s"]
+        if random.random() < 0.6
+    }
+    found = find_renames(old.snapshot, with_names(edited, names))
+    assert found.items() <= names.items()
+
+
+@pytest.mark.parametrize("file", robots(), ids=label)
+def test_a_prefix_for_all_names_of_a_real_robot(corpus: Path, file: str) -> None:
+    old = read((corpus / file).read_bytes()).snapshot
+    if old is None:
+        pytest.skip("a file with errors")
+    names = {(kind, name): f"left/{name}" for kind in ("link", "joint") for name in old[f"{kind}s"]}
+    found = find_renames(old, with_names(old, names))
+    assert found.items() <= names.items()
+    assert found == names or _has_twins(old)
+
+
+def _has_twins(robot: Snapshot) -> bool:
+    """Whether two joints of one link look the same, as far as a look at them and their child links tells."""
+
+    def look(joint: Data) -> str:
+        mimic = {**joint.get("mimic", {}), "joint": ""}
+        return repr([joint["parent"], joint["origin"], joint["type"], mimic, robot["links"][joint["child"]]])
+
+    looks = [look(joint) for joint in robot["joints"].values()]
+    return len(set(looks)) < len(looks)
+
+
+REAL = [
+    ("ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtlebot3_burger.urdf", "004", "005", 7, 6),
+    ("ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtlebot3_waffle.urdf", "002", "003", 13, 12),
+    ("ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtlebot3_waffle_pi.urdf", "002", "004", 11, 10),
+    ("TheRobotStudio+SO-ARM100__Simulation_SO101_so101_old_calib.urdf", "001", "002", 0, 6),
+    ("TheRobotStudio+SO-ARM100__Simulation_SO101_so101_new_calib.urdf", "002", "003", 1, 4),
+]
+"""Steps of the histories, past versions with errors: history, both versions, numbers of renamed links and joints."""
+
+
+@pytest.mark.parametrize(("name", "before", "after", "links", "joints"), REAL, ids=[case[0][-30:] for case in REAL])
+def test_the_renames_among_the_histories(
+    corpus: Path, name: str, before: str, after: str, links: int, joints: int
+) -> None:
+    folder = corpus / "histories" / name
+    old, new = (read((folder / f"{version}.urdf").read_bytes()).snapshot for version in (before, after))
+    assert old is not None
+    assert new is not None
+    found = [kind for kind, _ in find_renames(old, new)]
+    assert (found.count("link"), found.count("joint")) == (links, joints)
+
+
+def test_no_other_step_of_the_histories_has_renames(corpus: Path) -> None:
+    known = {(name, after) for name, _, after, _, _ in REAL}
+    for folder in sorted((corpus / "histories").iterdir()):
+        old = None
+        for file in sorted(folder.glob("*.urdf")):
+            new = read(file.read_bytes()).snapshot
+            if old is not None and new is not None:
+                assert bool(find_renames(old, new)) == ((folder.name, file.stem) in known), file
+            old = new or old
+
+
+def owners(robot: Snapshot) -> Mapping[str, tuple[str, Role]]:
+    files = DOMAIN.artifacts(robot, {}, TARGET, Options())
+    return {file.path: (file.owner, file.role) for file in files if isinstance(file, Artifact)}
+
+
+def class_names(robot: Snapshot) -> Mapping[ElementKey, str]:
+    keys = [("link", name) for name in robot["links"]] + [("joint", name) for name in robot["joints"]]
+    return {key: identifier.type for key, identifier in identify(keys, (TARGET.name,)).items()}
+
+
+def expected_moves(old: Snapshot, new: Snapshot, names: Mapping[ElementKey, str]) -> Mapping[str, str]:
+    """By the rule of names: both files of each element whose class has another name now."""
+    before, after = class_names(old), class_names(new)
+    pairs = [(kind, before[kind, name], after.get((kind, names.get((kind, name), name)))) for kind, name in before]
+    return {
+        f"{kind.capitalize()}s/{one}{suffix}.mo": f"{kind.capitalize()}s/{two}{suffix}.mo"
+        for kind, one, two in pairs
+        if two is not None and one != two
+        for suffix in ("", "Parameters")
+    }
+
+
+def test_files_move_with_renamed_elements() -> None:
+    old = snapshot(*ARM)
+    names = {("link", "upper"): "arm", ("joint", "elbow"): "bend"}
+    found = moved_files(owners(old), owners(with_names(old, names)), names)
+    assert found == {
+        "Joints/Elbow.mo": "Joints/Bend.mo",
+        "Joints/ElbowParameters.mo": "Joints/BendParameters.mo",
+        "Links/Upper.mo": "Links/Arm_link.mo",
+        "Links/UpperParameters.mo": "Links/Arm_linkParameters.mo",
+    }
+
+
+def test_files_move_when_a_new_link_takes_the_name_of_a_joint() -> None:
+    old = snapshot(*ARM)
+    new = snapshot(*ARM, link("elbow"), joint("tip", "lower", "elbow"))
+    assert find_renames(old, new) == {}
+    assert moved_files(owners(old), owners(new), {}) == {
+        "Joints/Elbow.mo": "Joints/Elbow_joint.mo",
+        "Joints/ElbowParameters.mo": "Joints/Elbow_jointParameters.mo",
+    }
+
+
+@given(st.randoms(use_true_random=False), st.integers(1, 3))
+def test_files_move_as_the_rule_of_names_says(random: Random, count: int) -> None:
+    first = mutations.version(random)
+    old, new = first.snapshot, mutations.mutated(first, random, count).snapshot
+    names = find_renames(old, new)
+    assert moved_files(owners(old), owners(new), names) == expected_moves(old, new, names)
+
+
+def chain(prefix: str, length: int) -> Snapshot:
+    links = [link(f"{prefix}{k}", 1.0 + k) for k in range(length)]
+    joints = [joint(f"{prefix}j{k}", f"{prefix}{k - 1}", f"{prefix}{k}") for k in range(1, length)]
+    return snapshot(*links, *joints)
+
+
+def comb(prefix: str, length: int) -> Snapshot:
+    """A chain in which each link has two more joints that look the same."""
+    plain = chain(prefix, length)
+    twins: list[Link | Joint] = []
+    for k in range(length):
+        for side in "lr":
+            twins += [link(f"{prefix}{side}{k}"), joint(f"{prefix}j{side}{k}", f"{prefix}{k}", f"{prefix}{side}{k}")]
+    more = snapshot(*twins)
+    return {**plain, "links": {**plain["links"], **more["links"]}, "joints": {**plain["joints"], **more["joints"]}}
+
+
+@pytest.fixture
+def looks(monkeypatch: pytest.MonkeyPatch) -> list[object]:
+    """Links whose numbers were looked at."""
+    seen: list[object] = []
+    original = module._link
+
+    def counted(data: Mapping[str, Any]) -> object:
+        seen.append(data)
+        return original(data)
+
+    monkeypatch.setattr(module, "_link", counted)
+    return seen
+
+
+@pytest.mark.parametrize("shape", [chain, comb])
+def test_the_work_is_linear_in_links(looks: list[object], shape: Callable[[str, int], Snapshot]) -> None:
+    works = []
+    for length in (500, 2000):
+        looks.clear()
+        found = find_renames(shape("a", length), shape("b", length))
+        assert len(found) == 2 * length - 1
+        works.append(len(looks))
+    assert works[1] <= 4.1 * works[0]
+
+
+def test_one_rename_in_a_long_chain_looks_at_its_neighbours_only(looks: list[object]) -> None:
+    old = chain("a", 1000)
+    assert find_renames(old, with_names(old, {("link", "a500"): "middle"})) == {("link", "a500"): "middle"}
+    assert len(looks) <= 4

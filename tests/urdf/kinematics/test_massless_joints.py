@@ -1,0 +1,132 @@
+"""Joints that move no mass make the mass matrix singular, which Pinocchio computes in its own way."""
+
+from __future__ import annotations
+
+import numpy as np
+import pinocchio
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from support import urdfs
+
+from urdfsync.urdf.kinematics.massless import Massless, find_massless_joints
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.parse.source import read_robot
+
+
+def found(urdf: str, free: set[str] | None = None) -> dict[str, Massless]:
+    robot = read_robot(urdf.encode(), "own.urdf").robot
+    assert robot is not None
+    return dict(find_massless_joints(KinematicTree.of(robot), free))
+
+
+def is_singular(urdf: str) -> bool:
+    """By Pinocchio, all joints at zero."""
+    model = pinocchio.buildModelFromXML(urdf)
+    upper = np.triu(pinocchio.crba(model, model.createData(), pinocchio.neutral(model)))
+    matrix: NDArray[np.float64] = upper + np.triu(upper, 1).T
+    sizes = np.sqrt(np.where(matrix.diagonal() > 0, matrix.diagonal(), 1))
+    return bool((np.linalg.eigvalsh(matrix / np.outer(sizes, sizes)) < 1e-10).any())
+
+
+def rod(name: str) -> str:
+    """A link whose mass is all on its z axis, as exporters write it."""
+    tensor = '<inertia ixx="0.1" iyy="0.1" izz="0" ixy="0" ixz="0" iyz="0"/>'
+    return f'<link name="{name}"><inertial><origin xyz="0 0 0.2"/><mass value="2"/>{tensor}</inertial></link>'
+
+
+# What two joints in series, with a ring of some mass between them, are and where the second is.
+PAIRS = {
+    "coaxial": ("continuous", "0 0 1", "0 0 0.4", "continuous", "0 0 1", None, {"first": Massless.UNDONE}),
+    "opposed": ("continuous", "0 0 1", "0 0 0.4", "continuous", "0 0 -1", None, {"first": Massless.UNDONE}),
+    "along": ("prismatic", "0 0 1", "0.3 0 0.4", "prismatic", "0 0 1", None, {"first": Massless.UNDONE}),
+    "off the axis": ("continuous", "0 0 1", "0.3 0 0.4", "continuous", "0 0 1", None, {}),
+    "across": ("continuous", "0 0 1", "0 0 0.4", "continuous", "0 1 0", None, {}),
+    "other kind": ("continuous", "0 0 1", "0 0 0.4", "prismatic", "0 0 1", None, {}),
+    "a mass between": ("continuous", "0 0 1", "0 0 0.4", "continuous", "0 0 1", 1e-3, {}),
+}
+
+
+@pytest.mark.parametrize(
+    ("kind", "axis", "xyz", "next_kind", "next_axis", "mass", "expected"), PAIRS.values(), ids=PAIRS
+)
+def test_joints_on_one_axis(
+    kind: str, axis: str, xyz: str, next_kind: str, next_axis: str, mass: float | None, expected: dict[str, Massless]
+) -> None:
+    """Somewhere on a moving arm, and followed by a third joint that has a mass of its own."""
+    inside = [urdfs.limit()]
+    urdf = urdfs.robot(
+        *(urdfs.link(name, one) for name, one in {"base": 5, "arm": 2, "ring": mass, "tool": 1, "tip": 0.5}.items()),
+        urdfs.joint("lift", "continuous", "base", "arm", axis="0.6 0 0.8", inside=inside),
+        urdfs.joint("first", kind, "arm", "ring", axis=axis, inside=inside),
+        urdfs.joint("second", next_kind, "ring", "tool", axis=next_axis, xyz=xyz, rpy="0 0 0.7", inside=inside),
+        urdfs.joint("third", "revolute", "tool", "tip", axis="0 1 0", inside=inside),
+    )
+    assert found(urdf) == expected
+    assert is_singular(urdf) == bool(expected)
+    assert found(urdf, free={"first", "second", "other"}) == expected
+    assert found(urdf, free={"first"}) == found(urdf, free={"second"}) == {}
+
+
+def test_the_first_and_last_axis_of_a_straight_wrist() -> None:
+    at = {"xyz": "0 0 0.1", "rpy": "0 0 0"}
+    urdf = urdfs.robot(
+        *(urdfs.link(name, one) for name, one in {"arm": 5, "roll": None, "pitch": None, "hand": 1}.items()),
+        urdfs.joint("first", "continuous", "arm", "roll", axis="0 0 1", **at),
+        urdfs.joint("across", "continuous", "roll", "pitch", axis="0 1 0", **at),
+        urdfs.joint("last", "continuous", "pitch", "hand", axis="0 0 1", **at),
+    )
+    assert found(urdf) == {"first": Massless.UNDONE}
+    assert is_singular(urdf)
+
+
+def test_a_joint_that_others_follow_moves_their_masses() -> None:
+    urdf = urdfs.robot(
+        *(urdfs.link(name, mass) for name, mass in {"base": 5, "ring": None, "tool": 1, "other": 1}.items()),
+        urdfs.joint("first", "continuous", "base", "ring", axis="0 0 1"),
+        urdfs.joint("second", "continuous", "ring", "tool", axis="0 0 1", xyz="0 0 0.4", rpy="0 0 0"),
+        urdfs.joint("third", "continuous", "base", "other", axis="0 0 1", inside=[urdfs.mimic("first")]),
+    )
+    assert found(urdf) == {}
+    assert found(urdf.replace(urdfs.mimic("first"), urdfs.mimic("first", 0.0))) == {}
+    assert found(urdf.replace(urdfs.mimic("first"), "")) == {"first": Massless.UNDONE}
+
+
+def test_what_is_on_the_axis_is_not_turned_even_far_from_the_root() -> None:
+    urdf = urdfs.robot(
+        *(urdfs.link("base", 1), rod("rod"), urdfs.link("end"), urdfs.link("tip")),
+        urdfs.joint("spin", "continuous", "base", "rod", axis="0 0 1", xyz="70 -30 20"),
+        urdfs.joint("slide", "prismatic", "base", "end", axis="0 0 1", inside=[urdfs.limit()]),
+        urdfs.joint("turn", "continuous", "end", "tip", axis="0 0 1"),
+    )
+    assert found(urdf) == {
+        "spin": Massless.ON_AXIS,
+        "slide": Massless.NOTHING_BEHIND,
+        "turn": Massless.NOTHING_BEHIND,
+    }
+    assert found(urdf.replace("0 0 0.2", "0.001 0 0.2")).keys() == {"slide", "turn"}
+
+
+JOINTS = st.tuples(
+    st.sampled_from(["revolute", "prismatic", "fixed"]),
+    st.sampled_from(["1 0 0", "0 1 0", "0 0 1", "0.6 0 0.8"]),
+    st.sampled_from(["0 0 0", "0 0 0.4", "0.3 0 0.4", "5 -3 2"]),
+    st.sampled_from(["0 0 0", "0.5 -0.6 0.7"]),
+    st.sampled_from([None, 0.01, 20]),
+    st.booleans(),
+)
+"""Kind, axis, place and attitude of a joint, the mass that it moves, and whether it begins a branch."""
+
+
+@given(st.lists(JOINTS, min_size=1, max_size=7))
+def test_whoever_is_named_makes_the_mass_matrix_singular(
+    joints: list[tuple[str, str, str, str, float | None, bool]],
+) -> None:
+    links, moving = [urdfs.link("link 0", 1)], []
+    for i, (kind, axis, xyz, rpy, mass, branch) in enumerate(joints, 1):
+        parent, limits = f"link {max(0, i - 1 - branch)}", [urdfs.limit()]
+        links.append(urdfs.link(f"link {i}", mass))
+        moving.append(urdfs.joint(f"joint {i}", kind, parent, f"link {i}", axis=axis, xyz=xyz, rpy=rpy, inside=limits))
+    urdf = urdfs.robot(*links, *moving)
+    assert is_singular(urdf) or not found(urdf)

@@ -1,0 +1,122 @@
+"""Copies that Pinocchio reads as urdfsync reads the original, and copies in which everything that moves has mass."""
+
+from __future__ import annotations
+
+import pytest
+from support.urdfs import dynamics, joint, limit, link, mimic, robot
+
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.physics.completion import completed_for_pinocchio, with_inertias
+from urdfsync.urdf.physics.reading import read
+from urdfsync.urdf.robot import Robot
+
+ENDS = '<parent link="base"/><child link="arm"/>'
+
+
+def two_links(
+    *inside: str, kind: str = "revolute", base: str = '<link name="base"/>', name: str = ' name="own"'
+) -> str:
+    elbow = f'<joint name="elbow" type="{kind}">{ENDS}{"".join(inside)}</joint>'
+    return f'<robot{name}>{base}<link name="arm"/>{elbow}</robot>'
+
+
+def robot_of(content: bytes) -> Robot:
+    reading = read_robot(content, "robot.urdf", cross_check=False)
+    assert reading.robot is not None, reading.diagnostics
+    return reading.robot
+
+
+def masses(content: bytes) -> dict[str, float]:
+    return {one.name: one.inertial.mass if one.inertial else 0.0 for one in robot_of(content).links}
+
+
+GOOD = two_links(limit())
+LACKING = {
+    "the robot's name": two_links(limit(), name=""),
+    "1 <limit>": two_links('<limit lower="-1" upper="2"/>'),
+    "1 <limit> of a joint without": two_links(),
+    "1 <dynamics>": two_links("<dynamics/>", kind="continuous"),
+    "1 <safety_controller>": two_links(limit(), '<safety_controller soft_lower_limit="0"/>'),
+    "1 <inertia>": two_links(
+        limit(), base='<link name="base"><inertial><mass value="2"/><inertia ixx="1"/></inertial></link>'
+    ),
+    "1 <inertia>, 1 <mass>": two_links(limit(), base='<link name="base"><inertial/></link>'),
+}
+
+
+@pytest.mark.parametrize(("added", "urdf"), LACKING.items())
+def test_what_pinocchio_asks_for_is_added(added: str, urdf: str) -> None:
+    content, notes = completed_for_pinocchio(urdf.encode())
+    assert notes == (f"what Pinocchio's reader asks for was added: {added.partition(' of')[0]}",)
+    model = read(content, "robot.urdf").model
+    assert sum(inertia.mass for inertia in model.inertias) == sum(masses(urdf.encode()).values())
+    assert completed_for_pinocchio(content) == (content, ())
+
+
+def test_a_good_file_stays_as_it_is() -> None:
+    assert completed_for_pinocchio(GOOD.encode()) == (GOOD.encode(), ())
+
+
+def test_another_encoding_becomes_utf_8() -> None:
+    content, notes = completed_for_pinocchio(
+        f'<?xml version="1.0" encoding="utf-16"?>{GOOD}'.replace("arm", "Älm").encode("utf-16")
+    )
+    assert notes == ()
+    assert [one.name for one in robot_of(content).links] == ["base", "Älm"]
+    assert read(content, "robot.urdf").model.existFrame("Älm")
+
+
+def test_all_links_of_a_robot_without_mass_get_some() -> None:
+    urdf = robot(link("base"), link("arm"), joint("elbow", "continuous", "base", "arm")).encode()
+    content, notes = with_inertias(urdf, KinematicTree.of(robot_of(urdf)))
+    assert notes == (
+        "inertias were made up for 2 links of the generated package only, because the file gives no mass at all",
+    )
+    assert min(masses(content).values()) > 0
+
+
+TREE = robot(
+    link("base", 3.0),
+    link("sensor"),
+    link("carrier"),
+    link("load", 1.0),
+    link("gripper"),
+    link("tip"),
+    joint("mount", "fixed", "base", "sensor"),
+    joint("lift", "prismatic", "base", "carrier", inside=[limit()]),
+    joint("bolt", "fixed", "carrier", "load"),
+    joint("grip", "continuous", "load", "gripper", inside=[mimic("lift")]),
+    joint("end", "fixed", "gripper", "tip"),
+).encode()
+
+
+def test_massless_links_that_weigh_on_no_joint_stay_massless() -> None:
+    """The sensor does not move against the base, the carrier moves the load."""
+    content, notes = with_inertias(TREE, KinematicTree.of(robot_of(TREE)))
+    assert notes == (
+        "inertias were made up for 2 links of the generated package only, because joints move them without any mass",
+    )
+    before, after = masses(TREE), masses(content)
+    assert {name for name in before if before[name] != after[name]} == {"gripper", "tip"}
+
+
+def test_a_robot_with_mass_in_all_that_moves_stays_as_it_is() -> None:
+    urdf = robot(link("base"), link("arm", 1.0), joint("elbow", "continuous", "base", "arm", inside=[dynamics(1, 1)]))
+    assert with_inertias(urdf.encode(), KinematicTree.of(robot_of(urdf.encode()))) == (urdf.encode(), ())
+
+
+def test_made_up_inertias_are_possible_skew_and_always_the_same() -> None:
+    names = [f"link_{number}" for number in range(40)]
+    joints = [joint(f"to_{name}", "continuous", "base", name) for name in names]
+    urdf = robot(link("base"), *map(link, names), *joints).encode()
+    content, _ = with_inertias(urdf, KinematicTree.of(robot_of(urdf)))
+    reading = read_robot(content, "robot.urdf", cross_check=False)
+    assert reading.diagnostics == (), "the checks of the reader know what a tensor must be"
+    assert reading.robot is not None
+    inertials = {one.name: one.inertial for one in reading.robot.links}
+    assert len(set(inertials.values())) == 41
+    assert all(one and one.inertia.ixy and one.inertia.ixz and one.inertia.iyz for one in inertials.values())
+    base = inertials["base"]
+    assert base is not None
+    assert (base.mass, base.origin.xyz, base.inertia.ixy) == (0.946, (0.061, -0.08, 0.082), 0.003063)

@@ -1,0 +1,1 @@
+"""`urdfsync check`: packages are read, compiled, and compared with an independent reference."""

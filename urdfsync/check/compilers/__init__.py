@@ -1,0 +1,1 @@
+"""rumoca and OpenModelica, each in a process of its own."""

@@ -1,0 +1,167 @@
+"""What is to be checked, and what came out: plain data, passed between processes as JSON."""
+
+from __future__ import annotations
+
+import enum
+import json
+import math
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any, Literal, TypeAlias, TypeVar
+
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import Deviation, Quantity
+from urdfsync.outcome import Exit
+
+TOLERANCE = 1e-10
+"""The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
+
+MOST_SINGLE_EDITS = 6
+"""So many edited files are tried one by one at most; more of them are looked at and told together."""
+
+POSES = (Quantity.POSITION, Quantity.ORIENTATION)
+EFFORTS = (Quantity.EFFORT, Quantity.REACTION, Quantity.ACCELERATION)
+MASSES = (Quantity.MASS, Quantity.CENTRE)
+
+T = TypeVar("T")
+CompilerName: TypeAlias = Literal["rumoca", "omc"]
+
+
+class CheckOptions(msgspec.Struct, frozen=True):
+    """How to check."""
+
+    physics: bool = False
+    """Whether poses, efforts and masses are compared with the domain's reference."""
+    strict: bool = False
+    """Whether a difference that comes from an edit counts as one."""
+    compiler: CompilerName = "rumoca"
+    jobs: int | None = None
+    """How many robots may be checked at the same time; None for what cores and memory allow."""
+    timeout: float = 600.0
+    """Seconds per robot."""
+    memory: float | None = None
+    """Gigabytes for all processes together; None for what is free."""
+    wait: float = 60.0
+    """Seconds to wait for a build that is writing."""
+    package_paths: tuple[Path, ...] = ()
+    """Where to look for packages after the configured folders."""
+    compilers: int = 1
+    """How many compilers may run at the same time for one robot."""
+
+
+class CheckStatus(enum.StrEnum):
+    """What a check says of a robot in one word."""
+
+    RIGHT = "right"
+    INCOMPLETE = "incomplete"
+    """Nothing is wrong as far as it was checked, but something could not be that should have been."""
+    DIFFERS = "differs"
+    FAILED = "failed"
+
+
+class CompiledModel(msgspec.Struct, frozen=True):
+    """A model of the package that compiles and is balanced."""
+
+    model: str
+    """Name below the package."""
+    unknowns: int
+    """Scalar unknowns, and so many equations; 0 if the compiler does not say."""
+    states: int
+    """As the compiler counts them before it reduces the index."""
+
+
+class EditEffect(msgspec.Struct, frozen=True):
+    """What edits of the user do to the robot, compared with what is generated."""
+
+    files: tuple[str, ...]
+    """The edited files that it comes from, below the package's folder; several if they work together."""
+    deviations: tuple[Deviation, ...]
+    """Those beyond the tolerance, from the root outwards; none if the edits change nothing that is compared."""
+    owners: tuple[str, ...] = ()
+    """The elements that the files belong to, in the domain's words."""
+
+
+class CheckResult(msgspec.Struct, frozen=True):
+    """What was checked of one robot, and what came out."""
+
+    robot: str
+    package: str
+    built: bool = True
+    """False if there is no package on disk yet: what would be generated was checked."""
+    in_step: bool = True
+    """Whether the package on disk is what a build would leave."""
+    conflicting: bool = False
+    """Whether it is out of step because edits and new texts contradict each other."""
+    compiled: tuple[CompiledModel, ...] = ()
+    deviations: tuple[Deviation, ...] | None = None
+    """Of the package as it is generated, without edits, from the reference; None if that was not compared."""
+    effects: tuple[EditEffect, ...] = ()
+    """What the edits of the user do, each apart where that can be told."""
+    notes: tuple[str, ...] = ()
+    """What was made up or completed for the comparison, and why: one sentence each, without a full stop."""
+    unchecked: tuple[str, ...] = ()
+    """What a check like this does not cover, and why: one sentence each, without a full stop."""
+    gaps: tuple[str, ...] = ()
+    """What it should have covered and could not, and why: one sentence each, without a full stop."""
+    diagnostics: tuple[Diagnostic, ...] = ()
+    seconds: float = 0.0
+    """From beginning to end."""
+    megabytes: float = 0.0
+    """Peak memory of a process that worked for it."""
+    reference: str = ""
+    """What `deviations` are from, for example `Pinocchio 3.4`; empty if nothing was compared."""
+
+    @property
+    def failed(self) -> bool:
+        """Whether something could not be checked, or does not compile."""
+        return any(one.severity is Severity.ERROR for one in self.diagnostics)
+
+    @property
+    def differs(self) -> bool:
+        """Whether what is generated is not what the reference says, whoever edited what."""
+        return self.deviations is not None and not all(map(agrees, self.deviations))
+
+    @property
+    def is_changed_by_edits(self) -> bool:
+        """Whether edits of the user change what is compared."""
+        return any(effect.deviations for effect in self.effects)
+
+    def status(self, strict: bool) -> CheckStatus:
+        """The result in one word; with `strict`, a difference that comes from an edit counts as well."""
+        if self.failed:
+            return CheckStatus.FAILED
+        if self.differs or not self.in_step or (strict and self.is_changed_by_edits):
+            return CheckStatus.DIFFERS
+        return CheckStatus.INCOMPLETE if self.gaps else CheckStatus.RIGHT
+
+
+def to_text(value: Any) -> str:
+    """A line of JSON; unlike that of msgspec it has infinite numbers."""
+    return json.dumps(msgspec.to_builtins(value, enc_hook=str))
+
+
+def from_text(text: str | bytes, kind: type[T]) -> T:
+    """What `to_text` gave a text for. Raises ValueError for any other text."""
+    return msgspec.convert(json.loads(text), kind, dec_hook=lambda path, value: path(value))
+
+
+def agrees(deviation: Deviation) -> bool:
+    """Whether a difference is within the tolerance; one that is no number is not."""
+    return deviation.relative <= TOLERANCE
+
+
+def largest(deviations: Sequence[Deviation] | None, quantities: Sequence[Quantity]) -> Deviation | None:
+    """The deviation that is greatest relative to its kind; None if nothing of these quantities was compared."""
+    found = [one for one in deviations or () if one.quantity in quantities]
+    return max(found, key=lambda one: math.inf if math.isnan(one.relative) else one.relative, default=None)
+
+
+def exit_code(results: Iterable[CheckResult], strict: bool) -> Exit:
+    """2 if anything failed, 1 if anything differs or, with `strict`, is incomplete, else 0."""
+    found = {result.status(strict) for result in results}
+    if CheckStatus.FAILED in found:
+        return Exit.ERROR
+    wrong = {CheckStatus.DIFFERS, CheckStatus.INCOMPLETE} if strict else {CheckStatus.DIFFERS}
+    return Exit.OUT_OF_STEP if found & wrong else Exit.IN_STEP

@@ -1,1 +1,0 @@
-"""`urdfsync check`: compiles packages, and compares them with an independent reference."""

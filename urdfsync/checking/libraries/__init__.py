@@ -1,1 +1,0 @@
-"""The Modelica libraries that a package needs: where they are, and which part of them."""

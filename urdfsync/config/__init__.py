@@ -1,0 +1,24 @@
+"""The configuration `urdfsync.toml`: what a user may set, how it is read, and the folders of urdfsync itself."""
+
+from urdfsync.config.load import find, load, parse
+from urdfsync.config.names import is_robot_name
+from urdfsync.config.paths import library_folder, ros_package_path, shown, templates_folder, working_folder
+from urdfsync.config.settings import FILE_NAME, STATE_FOLDER, CheckConfig, Config, Keys, RobotConfig
+
+__all__ = [
+    "FILE_NAME",
+    "STATE_FOLDER",
+    "CheckConfig",
+    "Config",
+    "Keys",
+    "RobotConfig",
+    "find",
+    "is_robot_name",
+    "library_folder",
+    "load",
+    "parse",
+    "ros_package_path",
+    "shown",
+    "templates_folder",
+    "working_folder",
+]

@@ -1,0 +1,276 @@
+"""`urdfsync.toml` to a frozen `Config`; every fault is told with its line, all of them at once.
+
+All paths in the file count from its own folder. A robot's table may hold the keys of `Keys` and the options of its
+domain; `[defaults]` the same without source, package and class; `[check]` the keys of `CheckKeys`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import msgspec
+
+from urdfsync import dependencies, registry, tomlfile
+from urdfsync.config.names import find_name_problems, is_robot_name, model_class
+from urdfsync.config.paths import shown
+from urdfsync.config.settings import (
+    FILE_NAME,
+    OWN_KEYS,
+    STATE_FOLDER,
+    CheckConfig,
+    CheckKeys,
+    Config,
+    Keys,
+    RobotConfig,
+)
+from urdfsync.config.values import WrongValueError, convert
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.domain import Domain, Target
+from urdfsync.spelling import nearest
+
+
+def find(start: Path) -> Path:
+    """The configuration file of `start` or of the nearest folder above it. Raises ConfigError if there is none."""
+    for folder in (start, *start.parents):
+        if dependencies.is_file(folder / FILE_NAME):
+            return folder / FILE_NAME
+    message = f"no {FILE_NAME} in {start} or a folder above it"
+    hint = "write one with `urdfsync init SOURCE`, or name one with --config"
+    raise ConfigError(Diagnostic(Severity.ERROR, "no-config", message, hint=hint))
+
+
+def load(file: Path) -> Config:
+    """Read a configuration file. Raises ConfigError with everything that is wrong in it."""
+    name, code = shown(file), "unreadable-config"
+    if file.exists() and not file.is_file():  # reading a FIFO would never end
+        message, hint = "the configuration is no regular file", f"name a {FILE_NAME}"
+        raise ConfigError(Diagnostic(Severity.ERROR, code, message, name, hint=hint))
+    line = 0
+    try:
+        dependencies.depend_on(file)
+        text = file.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        message, hint, code = "the configuration does not exist", "write one with `urdfsync init SOURCE`", "no-config"
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        message, hint = "the configuration is not UTF-8", "save it as UTF-8"
+    except OSError as error:
+        message, hint = f"the configuration can't be read: {error.strerror}", "name a file that you may read"
+    else:
+        return parse(text, file.absolute(), name)
+    raise ConfigError(Diagnostic(Severity.ERROR, code, message, name, line, hint=hint))
+
+
+def parse(text: str, file: Path, name: str) -> Config:
+    """The configuration in `text`, which is (or would be) at the absolute path `file`; errors call it `name`.
+
+    Raises ConfigError with one diagnostic for each fault.
+    """
+    reader = _Reader(text, name, file.parent)
+    reader.check_characters()
+    robots = () if reader.problems else tuple(reader.robots())
+    check = reader.check()
+    reader.find_clashes(robots)
+    if reader.problems:
+        raise ConfigError(*sorted(reader.problems, key=lambda problem: problem.line))
+    return Config(file, robots, check)
+
+
+class _Table(NamedTuple):
+    """A table to be read: its values, how messages call it, its path, and the keys that `[defaults]` gave it."""
+
+    values: Mapping[str, Any]
+    name: str
+    path: tuple[str, ...]
+    inherited: Collection[str] = ()
+
+
+class _Reader:
+    """One pass over a document; gathers `problems` instead of stopping at the first."""
+
+    def __init__(self, text: str, file: str, root: Path) -> None:
+        self.problems: list[Diagnostic] = []
+        self._document = tomlfile.parse(text, file, ConfigError)
+        self._lines = tomlfile.lines(text)
+        self._file, self._root = file, root
+        self._options: set[str] = set()
+        """The options of all domains that the robots have."""
+
+    def check_characters(self) -> None:
+        """No name, path or option has a use for a control character, and some systems stop at one."""
+        for path, text in tomlfile.strings(self._document):
+            if any(ord(char) < 32 or ord(char) == 127 for char in text):
+                self._report("control-character", path, f"there is a control character in {text!r}", "write it without")
+
+    def robots(self) -> Iterator[RobotConfig]:
+        """Every robot whose table is right."""
+        document = _Table(self._document, "the configuration", ())
+        self._refuse_unknown(document, ("check", "defaults", "robots"))
+        defaults, robots = self._subtable("defaults"), self._subtable("robots")
+        if not robots and not self.problems:
+            hint = "add a table `[robots.NAME]` with `source` and `package`"
+            self._report("no-robots", (), "the configuration has no robot", hint)
+        for name, values in robots.items():
+            if not isinstance(values, dict):
+                self._report("wrong-value", ("robots", name), f"`robots.{name}` must be a table")
+            elif (robot := self._robot(name, values, defaults)) is not None:
+                yield robot
+        for key in OWN_KEYS:
+            if key in defaults:
+                message = f"`{key}` can't have a default: every robot has its own"
+                self._report("unknown-key", ("defaults", key), message)
+        self._refuse_unknown(_Table(defaults, "`[defaults]`", ("defaults",)), _KEY_NAMES | self._options)
+
+    def check(self) -> CheckConfig:
+        """The table `[check]`."""
+        table = _Table(self._subtable("check"), "`[check]`", ("check",))
+        self._refuse_unknown(table, _names_of(CheckKeys))
+        keys = self._read(table, CheckKeys)
+        if keys is None or keys.library is None:
+            return CheckConfig()
+        if not keys.library:
+            hint = "give the path of the folder that holds the Modelica Standard Library, or take the line out"
+            self._report("wrong-value", ("check", "library"), "`library` must name a folder", hint)
+        return CheckConfig(_absolute(self._root / keys.library), self._line("check", "library"))
+
+    def find_clashes(self, robots: Sequence[RobotConfig]) -> None:
+        """Two robots must not share a manifest or a package's folder, nor may one stand in the other's."""
+        names: dict[str, str] = {}
+        folders: dict[str, str] = {}
+        for robot in robots:
+            if (other := names.setdefault(robot.name.casefold(), robot.name)) != robot.name:
+                self._clash(robot.name, f"robots `{other}` and `{robot.name}` differ in case only")
+            elif (other := folders.setdefault(_folded(robot.folder), robot.name)) != robot.name:
+                self._clash(robot.name, f"robots `{other}` and `{robot.name}` have the same package")
+        for robot in robots:
+            for parent in robot.folder.parents:
+                if other := folders.get(_folded(parent), ""):
+                    self._clash(robot.name, f"the package of robot `{robot.name}` lies inside that of robot `{other}`")
+
+    def _robot(self, name: str, values: dict[str, Any], defaults: dict[str, Any]) -> RobotConfig | None:
+        path = ("robots", name)
+        if not is_robot_name(name):
+            hint = "use letters, digits, `_`, `-` and `.`, a letter or digit first"
+            self._report("robot-name", path, f"the robot's name {name!r} can't be a file's name", hint)
+            return None
+        domain = self._domain(path, str(values.get("domain", defaults.get("domain", "urdf"))), "domain" in values)
+        if domain is None:
+            return None
+        before = len(self.problems)
+        options = _names_of(domain.options)
+        self._options |= options
+        self._refuse_unknown(_Table(values, f"robot `{name}`", path), _KEY_NAMES | options)
+        usable = {key: value for key, value in defaults.items() if key in (_KEY_NAMES - set(OWN_KEYS)) | options}
+        table = _Table(usable | values, f"robot `{name}`", path, usable.keys() - values.keys())
+        keys, chosen = self._read(table, Keys), self._read(table, domain.options)
+        if keys is not None:
+            self._check_keys(table, keys)
+        if keys is None or chosen is None or len(self.problems) > before:
+            return None
+        source = Path(keys.source)
+        return RobotConfig(
+            name=name,
+            source=_absolute(self._root / source),
+            source_text=source.name if source.is_absolute() else Path(os.path.normpath(source)).as_posix(),
+            output=_absolute(self._root / keys.output),
+            target=Target(keys.package, model_class(keys.package, keys.class_)),
+            domain=keys.domain,
+            templates=_absolute(self._root / keys.templates) if keys.templates else None,
+            package_paths=tuple(_absolute(self._root / path) for path in keys.package_paths),
+            create_parents=keys.create_parents,
+            merging=keys.on_conflict == "merge",
+            checking=keys.on_build == "check",
+            options=chosen,
+            lines={key: self._line(*_place(table, key)) for key in ("", *table.values)},
+        )
+
+    def _domain(self, path: tuple[str, ...], name: str, is_own: bool) -> Domain | None:
+        try:
+            return registry.domain(name)
+        except ConfigError as error:
+            line = self._line(*path, "domain") if is_own else self._line("defaults", "domain")
+            self.problems += [msgspec.structs.replace(d, file=self._file, line=line) for d in error.diagnostics]
+            return None
+
+    def _check_keys(self, table: _Table, keys: Keys) -> None:
+        """Names and paths that can be read, and can't be used."""
+        for key, message, hint in find_name_problems(keys.package, keys.class_):
+            self._report("modelica-name", _place(table, key), message, hint)
+        if not keys.source:
+            self._report(
+                "wrong-value", _place(table, "source"), "`source` must name a file", "give the path of the source"
+            )
+        output = _place(table, "output")
+        if not keys.output:
+            hint = 'write "." for the folder of the configuration itself'
+            self._report("wrong-value", output, "`output` must name a folder", hint)
+        if Path(_folded(_absolute(self._root / keys.output))).is_relative_to(_folded(self._root / STATE_FOLDER)):
+            message = f"`output` can't be in {STATE_FOLDER}: that is where urdfsync keeps its own files"
+            self._report("wrong-value", output, message, "name another folder")
+
+    def _read(self, table: _Table, struct: type[Any]) -> Any:
+        """The keys of `table` that `struct` has, as its instance; None if any of them is wrong or missing."""
+        values, complete = {}, True
+        for field in msgspec.structs.fields(struct):
+            key = field.encode_name
+            try:
+                if key in table.values:
+                    values[field.name] = convert(key, table.values[key], field.type)
+                elif field.required:
+                    complete = False
+                    self._report("missing-key", table.path, f"{table.name} has no `{key}`", f"add a line `{key} = …`")
+            except WrongValueError as error:
+                complete = False
+                self._report("wrong-value", _place(table, key), str(error))
+        try:
+            return struct(**values) if complete else None
+        except (TypeError, ValueError) as error:
+            self._report("wrong-value", table.path, f"{table.name}: {error}")
+            return None
+
+    def _refuse_unknown(self, table: _Table, known: Collection[str]) -> None:
+        for key in table.values:
+            if key not in known:
+                near = nearest(key, sorted(known))
+                hint = f"did you mean `{near}`?" if near else f"known keys are {', '.join(sorted(known))}"
+                self._report("unknown-key", (*table.path, key), f"unknown key `{key}` in {table.name}", hint)
+
+    def _subtable(self, key: str) -> dict[str, Any]:
+        value = self._document.get(key, {})
+        if isinstance(value, dict):
+            return value
+        self._report("wrong-value", (key,), f"`{key}` must be a table")
+        return {}
+
+    def _clash(self, robot: str, message: str) -> None:
+        self._report("clash", ("robots", robot, "package"), message)
+
+    def _line(self, *path: str) -> int:
+        return tomlfile.nearest(self._lines, *filter(None, path))
+
+    def _report(self, code: str, path: tuple[str, ...], message: str, hint: str = "") -> None:
+        self.problems.append(Diagnostic(Severity.ERROR, code, message, self._file, self._line(*path), hint=hint))
+
+
+def _place(table: _Table, key: str) -> tuple[str, ...]:
+    """Where a key of a robot stands: in its own table or in `[defaults]`."""
+    return ("defaults", key) if key in table.inherited else (*table.path, key)
+
+
+def _names_of(struct: type[Any]) -> set[str]:
+    return {field.encode_name for field in msgspec.structs.fields(struct)}
+
+
+_KEY_NAMES = _names_of(Keys)
+
+
+def _absolute(path: Path) -> Path:
+    """The path without `..` and `.`, symbolic links kept: what the user wrote is what messages show."""
+    return Path(os.path.normpath(path))
+
+
+def _folded(path: Path) -> str:
+    return str(path).casefold()

@@ -1,0 +1,57 @@
+"""Folders: where the user works, where ROS packages are, where the files are that urdfsync brings along."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+import urdfsync
+from urdfsync import dependencies
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.domain import Domain
+
+
+def working_folder() -> Path:
+    """The working folder. Raises ConfigError if it was deleted."""
+    try:
+        return Path.cwd()
+    except FileNotFoundError:
+        message, hint = "the working folder does not exist any more", "change to a folder that exists"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-folder", message, hint=hint)) from None
+
+
+def shown(path: Path) -> str:
+    """A path as people see it: relative to the working folder if it is inside it."""
+    text = str(path)
+    try:
+        current = os.getcwd()  # noqa: PTH109 - every message asks, and a Path takes five times as long
+    except FileNotFoundError:  # somebody has deleted it
+        return text
+    inside = os.path.join(current, "")  # noqa: PTH118
+    if os.path.normcase(text).startswith(os.path.normcase(inside)):
+        return text[len(inside) :]
+    return "." if text == current else text
+
+
+def ros_package_path(environment: Mapping[str, str]) -> tuple[Path, ...]:
+    """The folders of the environment variable ROS_PACKAGE_PATH."""
+    folders = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
+    return tuple(Path(folder).absolute() for folder in folders if folder)
+
+
+def library_folder() -> Path:
+    """The folder to put on MODELICAPATH: it holds the library `UrdfSync`."""
+    return _data_folder("modelica")
+
+
+def templates_folder(domain: Domain) -> Path:
+    """The folder of a domain's own templates."""
+    return domain.templates or _data_folder("templates") / domain.name
+
+
+def _data_folder(name: str) -> Path:
+    """A folder of a wheel, or of the repository that an editable installation stands in."""
+    package = Path(urdfsync.__file__).parent
+    installed = package / "_data" / name
+    return installed if dependencies.is_folder(installed) else package.parent / name

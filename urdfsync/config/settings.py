@@ -1,0 +1,101 @@
+"""What a configuration says: the keys of its tables, and the robots that follow from them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal
+
+import msgspec
+
+from urdfsync.config.paths import shown
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.domain import Target
+from urdfsync.spelling import nearest
+
+FILE_NAME = "urdfsync.toml"
+STATE_FOLDER = ".urdfsync"
+"""Holds the recorded state; beside the configuration."""
+OWN_KEYS = ("source", "package", "class")
+"""Keys that `[defaults]` can't have."""
+
+
+class Keys(msgspec.Struct, frozen=True):
+    """The keys of a robot's table that every domain shares; the domain's options stand beside them."""
+
+    source: str
+    package: str
+    class_: str = msgspec.field(name="class", default="")
+    output: str = "modelica"
+    domain: str = "urdf"
+    templates: str = ""
+    package_paths: tuple[str, ...] = ()
+    create_parents: bool = False
+    on_conflict: Literal["keep", "merge"] = "keep"
+    on_build: Literal["nothing", "check"] = "nothing"
+
+
+class CheckKeys(msgspec.Struct, frozen=True):
+    """The keys of the table `[check]`."""
+
+    library: str | None = None
+
+
+class RobotConfig(msgspec.Struct, frozen=True):
+    """One robot of the configuration; paths are absolute, `options` is an instance of `Domain.options`."""
+
+    name: str
+    source: Path
+    source_text: str
+    """The source's path as the state records it: relative to the configuration, POSIX; of absolute ones the name."""
+    output: Path
+    target: Target
+    domain: str
+    templates: Path | None
+    package_paths: tuple[Path, ...]
+    create_parents: bool
+    merging: bool
+    """Whether a file that both sides changed gets their merge, if that is without doubt."""
+    checking: bool
+    """Whether the package is checked after each build."""
+    options: Any
+    lines: Mapping[str, int]
+    """Line of every key in the configuration; of the robot's table for `""`."""
+
+    @property
+    def folder(self) -> Path:
+        """The folder of the generated package."""
+        return self.output.joinpath(*self.target.package.split("."))
+
+
+class CheckConfig(msgspec.Struct, frozen=True):
+    """What checks need to know of the machine."""
+
+    library: Path | None = None
+    """The folder that holds the Modelica Standard Library, absolute; None to look for it."""
+    line: int = 0
+    """Where the configuration names it; 0 if it does not."""
+
+
+class Config(msgspec.Struct, frozen=True):
+    """A configuration file and its robots, in the order of the file."""
+
+    file: Path
+    robots: tuple[RobotConfig, ...]
+    check: CheckConfig = CheckConfig()
+
+    @property
+    def root(self) -> Path:
+        """The folder of the configuration, which holds `.urdfsync/` as well."""
+        return self.file.parent
+
+    def select(self, names: Sequence[str]) -> tuple[RobotConfig, ...]:
+        """The robots of these names, or all for none. Raises ConfigError for a name that no robot has."""
+        known = [robot.name for robot in self.robots]
+        for name in names:
+            if name not in known:
+                near = nearest(name, known)
+                hint = f"did you mean `{near}`?" if near else f"it has {', '.join(known)}"
+                message = f"no robot `{name}` in the configuration"
+                raise ConfigError(Diagnostic(Severity.ERROR, "unknown-robot", message, shown(self.file), hint=hint))
+        return tuple(robot for robot in self.robots if not names or robot.name in names)

@@ -1,0 +1,58 @@
+"""What a configuration asks for in vain: warnings before the work, each once for all robots."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from urdfsync import profiling, registry
+from urdfsync.config.paths import shown, templates_folder
+from urdfsync.config.settings import Config, RobotConfig
+from urdfsync.dependencies import is_folder, read_file, walk_files
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.spelling import nearest
+
+_SUFFIX = ".jinja"
+
+
+@profiling.stage("configuration")
+def find_warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagnostic, ...]:
+    """Search paths that do not exist, and templates that replace none."""
+    found = [*_search_paths(config, robots), *_templates(robots)]
+    return tuple(dict.fromkeys(found))
+
+
+def _search_paths(config: Config, robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]:
+    for robot in robots:
+        for folder in robot.package_paths:
+            if not is_folder(folder):
+                message = f"the folder {shown(folder)} of `package_paths` does not exist"
+                line, hint = robot.lines.get("package_paths", 0), "correct it, or take it out"
+                yield Diagnostic(Severity.WARNING, "no-package-path", message, shown(config.file), line=line, hint=hint)
+
+
+def _templates(robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]:
+    """Files in template folders that are neither named as a template of the domain nor used by another file there."""
+    for robot in robots:
+        if robot.templates is None or not is_folder(robot.templates):
+            continue
+        known = set(_files(templates_folder(registry.domain(robot.domain))))
+        own = _files(robot.templates)
+        for name in sorted(own.keys() - known):
+            replaces = name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}"
+            if replaces != name and replaces not in known:
+                continue  # a text that only lies there
+            if any(name.encode() in read_file(path) for other, path in own.items() if other != name):
+                continue
+            near = nearest(replaces, sorted(known), 0.5)
+            hint = f"did you mean `{near}`?" if near else f"those of urdfsync are {', '.join(sorted(known))}"
+            message = "no template of urdfsync has this name, so this one replaces none"
+            yield Diagnostic(Severity.WARNING, "stray-template", message, shown(own[name]), hint=hint)
+
+
+def _files(folder: Path) -> dict[str, Path]:
+    """The files below a folder by their names in it, POSIX; hidden ones are left out."""
+    files = {path.relative_to(folder): path for path in map(Path, walk_files(folder))}
+    return {
+        name.as_posix(): path for name, path in files.items() if not any(part.startswith(".") for part in name.parts)
+    }

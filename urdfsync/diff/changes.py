@@ -1,0 +1,238 @@
+"""Compare two versions of a model: classified changes, and the files that these concern. Knows no domain."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Hashable, Iterator, Mapping, Sequence
+from typing import Any
+
+import msgspec
+
+from urdfsync.domain import (
+    ChangeClass,
+    ChangeKind,
+    Difference,
+    Domain,
+    ElementKey,
+    Import,
+    Snapshot,
+    Version,
+)
+
+NOISE = 1e-6
+"""Relative change of a number that an exporter's rounding explains."""
+
+_KINDS = {
+    "dictionary_item_added": ChangeKind.ADDED,
+    "dictionary_item_removed": ChangeKind.REMOVED,
+    "iterable_item_added": ChangeKind.ADDED,
+    "iterable_item_removed": ChangeKind.REMOVED,
+    "type_changes": ChangeKind.CHANGED,
+    "values_changed": ChangeKind.CHANGED,
+}
+"""Names of deepdiff for the differences of plain data."""
+
+
+class Change(msgspec.Struct, frozen=True):
+    """One change in the domain's words; `old` and `new` are plain data, None for what is not there."""
+
+    path: tuple[str, ...]
+    kind: ChangeKind
+    change_class: ChangeClass
+    old: Any
+    new: Any
+    unit: str = ""
+
+    @property
+    def element(self) -> str:
+        """The element that the change belongs to, for example `joint elbow`."""
+        return self.path[0]
+
+    @property
+    def noise(self) -> bool:
+        """Whether only the rounding of a number may have changed. It is applied like any other change."""
+        if not (is_number(self.old) and is_number(self.new)):
+            return False
+        return bool(abs(self.new - self.old) <= NOISE * max(abs(self.old), abs(self.new)))
+
+    @property
+    def percent(self) -> float | None:
+        """Change of a number relative to its old value; None without one, or if that is zero."""
+        if not (is_number(self.old) and is_number(self.new)) or self.old == 0:
+            return None
+        return float(100 * (self.new - self.old) / abs(self.old))
+
+    def __str__(self) -> str:
+        """The path as people read it: `joint elbow / origin / xyz[2]`."""
+        return " / ".join(self.path)
+
+
+class Changes(msgspec.Struct, frozen=True):
+    """All differences of two versions of a model."""
+
+    changes: tuple[Change, ...] = ()
+    renames: Mapping[ElementKey, str] = msgspec.field(default_factory=dict)
+    generator: bool = False
+    """Whether templates, options or the output revision differ."""
+
+    @property
+    def change_class(self) -> ChangeClass:
+        """The class that reaches farthest."""
+        if self.generator:
+            return ChangeClass.GENERATOR
+        return max((change.change_class for change in self.changes), key=lambda c: c.rank, default=ChangeClass.NONE)
+
+    @property
+    def is_structural(self) -> bool:
+        """Whether any element, type or connection changed."""
+        return any(change.change_class is ChangeClass.STRUCTURAL for change in self.changes)
+
+    @property
+    def noise(self) -> bool:
+        """Whether there are changes and all of them are numeric noise."""
+        return bool(self.changes) and not self.generator and all(change.noise for change in self.changes)
+
+    def by_element(self) -> Mapping[str, Sequence[Change]]:
+        """Return the changes of each element that has any, in their order."""
+        result: dict[str, list[Change]] = {}
+        for change in self.changes:
+            result.setdefault(change.element, []).append(change)
+        return result
+
+
+def compare(old: Version, new: Version, domain: Domain, options: Any) -> Changes:
+    """Return the changes from one version to another, with the domain's options of the new one."""
+    renames: Mapping[ElementKey, str] = {}
+    differences: list[Difference] = []
+    if old.snapshot != new.snapshot:
+        renames = domain.renames(old.snapshot, new.snapshot)
+        old = msgspec.structs.replace(old, snapshot=domain.comparable(old.snapshot, renames))
+        new = msgspec.structs.replace(new, snapshot=domain.comparable(new.snapshot, {}))
+        differences += _of_snapshots(old.snapshot, new.snapshot)
+    if old.imports is not None and new.imports is not None:
+        differences += _of_imports(old.imports, new.imports)
+    meanings = domain.describe(differences, old, new, options) if differences else ()
+    changes = [
+        Change((f"{kind} {name}",), ChangeKind.RENAMED, ChangeClass.STRUCTURAL, name, renamed)
+        for (kind, name), renamed in renames.items()
+    ]
+    changes += [
+        Change(meaning.path, difference.kind, meaning.change_class, difference.old, difference.new, meaning.unit)
+        for difference, meaning in zip(differences, meanings, strict=True)
+        if meaning is not None
+    ]
+    return Changes(tuple(changes), renames, old.generator != new.generator)
+
+
+def moved_files(
+    old: Mapping[str, tuple[str, str]], new: Mapping[str, tuple[str, str]], renames: Mapping[ElementKey, str]
+) -> Mapping[str, str]:
+    """Return old path → new path of each file that belongs to the same element as before, but is at another place.
+
+    Both mappings have the owner and the template of files by their path. A file moves with its element's new name, or
+    with an identifier that had to give way to another element's. Where an element has several files of one template
+    that moved, nothing is matched.
+    """
+    if old == new and not renames:
+        return {}
+    owners = {f"{kind} {name}": f"{kind} {renamed}" for (kind, name), renamed in renames.items()}
+    sources, targets = defaultdict[Hashable, list[str]](list), defaultdict[Hashable, list[str]](list)
+    staying = set()
+    for path, (owner, template) in old.items():
+        key = owners.get(owner, owner), template
+        if new.get(path) == key:
+            staying.add(path)
+        else:
+            sources[key].append(path)
+    for path, found in new.items():
+        if path not in staying:
+            targets[found].append(path)
+    pairs = ((paths, targets[key]) for key, paths in sources.items() if key in targets)
+    return {one[0]: two[0] for one, two in pairs if len(one) == len(two) == 1}
+
+
+def is_number(value: object) -> bool:
+    """Whether a value is a number, and no truth value."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _of_snapshots(old: Snapshot, new: Snapshot) -> Iterator[Difference]:
+    """Yield the differences of two snapshots; elements that are equal cost one comparison."""
+    for part in dict.fromkeys([*new, *old]):
+        before, after = old.get(part), new.get(part)
+        if not (isinstance(before, Mapping) and isinstance(after, Mapping)):
+            yield from _of_values((part,), before, after)
+            continue
+        for name in sorted(before.keys() | after.keys()):
+            if name not in before:
+                yield Difference((part, name), ChangeKind.ADDED, None, after[name])
+            elif name not in after:
+                yield Difference((part, name), ChangeKind.REMOVED, before[name], None)
+            else:
+                yield from _of_values((part, name), before[name], after[name])
+
+
+def _of_values(path: tuple[str, ...], old: Any, new: Any) -> list[Difference]:
+    """Return the differences of two values, in the order of their paths."""
+    if old == new:
+        return []
+    found = of_leaves(path, old, new)
+    return sorted(by_deepdiff(path, old, new) if found is None else found, key=lambda difference: difference.path)
+
+
+def of_leaves(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference] | None:
+    """Return the differences of two values with the same keys and lengths; None for other values.
+
+    Loading deepdiff takes 110 ms, more than the row "one mass changed, whole process, 100 links" of docs/speed.md has
+    left. A property test holds both to the same answer.
+    """
+    if isinstance(old, dict) and isinstance(new, dict):
+        if old.keys() != new.keys():
+            return None
+        pairs = [((*path, key), value, new[key]) for key, value in old.items()]
+    elif isinstance(old, list) and isinstance(new, list):
+        if len(old) != len(new):
+            return None
+        pairs = [((*path, index), *values) for index, values in enumerate(zip(old, new, strict=True))]
+    elif isinstance(old, dict | list) or isinstance(new, dict | list):
+        return None
+    else:
+        return [Difference(path, ChangeKind.CHANGED, old, new)] if old != new else []
+    parts = [of_leaves(*pair) for pair in pairs]
+    return None if any(part is None for part in parts) else [found for part in parts for found in part or ()]
+
+
+def by_deepdiff(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference]:
+    """Return the differences of any two values."""
+    from deepdiff import DeepDiff  # see `of_leaves`
+
+    tree = DeepDiff(
+        old,
+        new,
+        view="tree",
+        zip_ordered_iterables=True,  # else a vector's number that moves is taken for one that comes and one that goes
+        threshold_to_diff_deeper=0,  # else mappings with few keys in common are compared as a whole
+        ignore_private_variables=False,
+    )
+    return [
+        Difference(
+            (*path, *level.path(output_format="list")),
+            _KINDS[report],
+            None if _KINDS[report] is ChangeKind.ADDED else level.t1,
+            None if _KINDS[report] is ChangeKind.REMOVED else level.t2,
+        )
+        for report, levels in tree.items()
+        for level in levels
+        if level.t1 != level.t2  # 1 and 1.0 are of two types
+    ]
+
+
+def _of_imports(old: Mapping[str, Import], new: Mapping[str, Import]) -> Iterator[Difference]:
+    """Yield the differences of imported files; the hash of the content stands for it."""
+    for key in sorted(old.keys() | new.keys()):
+        before, after = old.get(key), new.get(key)
+        if before is None or after is None:
+            kind = ChangeKind.ADDED if before is None else ChangeKind.REMOVED
+            yield Difference(("imports", key), kind, before and before.target_hash, after and after.target_hash)
+        elif (before.target_hash, before.facts) != (after.target_hash, after.facts):
+            yield Difference(("imports", key), ChangeKind.CHANGED, before.target_hash, after.target_hash)

@@ -1,0 +1,1 @@
+"""What several commands show, to people and to programs."""

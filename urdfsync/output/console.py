@@ -1,0 +1,234 @@
+"""Where one command writes: lines for people, or one JSON document for programs.
+
+Findings, progress and errors go to the error stream, everything else to the output stream. Nothing that urdfsync
+quotes from files can command a terminal: `visible` escapes it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import IO, TYPE_CHECKING, Any, Literal
+
+import msgspec
+
+from urdfsync import profiling, streams
+from urdfsync.diagnostics import Diagnostic, Severity
+
+if TYPE_CHECKING:
+    import rich.console
+    from rich.progress import Progress, TaskID
+    from rich.text import Text
+
+JSON_VERSION = 2
+"""Version of the JSON documents and events; raised when a key changes its meaning or goes away."""
+FEW = 5
+"""So many warnings of one code are shown; of more, only the first ones and their number."""
+_BAR_AFTER = 0.5
+"""Seconds of work before a progress bar appears."""
+_SEVERITIES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
+
+
+class StyledLine(msgspec.Struct, frozen=True):
+    """One line as pieces of text, each with a style of rich; empty for none.
+
+    Pipes and files get the text without rich: its import takes 20 of the 95 ms of a build of one changed mass, which
+    has to stay below 2.5 times the published tool's update (docs/speed.md).
+    """
+
+    parts: tuple[tuple[str, str], ...]
+
+    def __str__(self) -> str:
+        """The line without styles."""
+        return "".join(text for text, _ in self.parts)
+
+    def __rich__(self) -> Text:
+        """The line with styles."""
+        from rich.text import Text
+
+        return Text.assemble(*self.parts)
+
+
+def line(*parts: tuple[str, str]) -> StyledLine:
+    """One line of pieces of text with their styles. Nothing in it can move the cursor or turn the writing round."""
+    return StyledLine(tuple((visible(text), style) for text, style in parts))
+
+
+def text(*parts: tuple[str, str]) -> Text:
+    """The same as a text of rich, for what rich has to wrap, cut or align."""
+    return line(*parts).__rich__()
+
+
+def visible(text: str) -> str:
+    """The text with everything escaped that a terminal would obey instead of showing it."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def finding(found: Diagnostic) -> StyledLine:
+    """A diagnostic as one line: `file:line: severity: message; hint [code]`."""
+    numbers = [str(number) for number in (found.line, found.column) if number]
+    place = ":".join([found.file, *numbers]) + ": " if found.file else ""
+    hint = f"; {found.hint}" if found.hint else ""
+    message = " ".join(f"{found.message}{hint}".split())
+    style = _SEVERITIES[found.severity]
+    return line((place, "bold"), (found.severity.value, style), (f": {message} ", ""), (f"[{found.code}]", "dim"))
+
+
+def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool, verbose: bool) -> list[StyledLine]:
+    """Diagnostics as lines: with `quiet` errors alone, without `verbose` the first warnings of each code."""
+    if quiet:
+        diagnostics = [found for found in diagnostics if found.severity is Severity.ERROR]
+    total, seen, hidden = Counter(found.code for found in diagnostics), Counter[str](), Counter[str]()
+    lines = []
+    for found in diagnostics:
+        seen[found.code] += 1
+        is_early = total[found.code] <= FEW or seen[found.code] < FEW
+        if verbose or is_early or found.severity is Severity.ERROR:
+            lines.append(finding(found))
+        else:
+            hidden[found.code] += 1
+    more = (f"and {number} more like these [{code}]; --verbose shows them" for code, number in hidden.items())
+    return [*lines, *(line((words, "dim")) for words in more)]
+
+
+def is_terminal(stream: IO[str]) -> bool:
+    """Whether people look at the stream, or want it to look as if."""
+    return stream.isatty() or bool(os.environ.get("FORCE_COLOR"))
+
+
+def has_marks(stream: IO[str]) -> bool:
+    """Whether signs like ✓ can be shown."""
+    return is_terminal(stream) and str(getattr(stream, "encoding", "")).lower().startswith("utf")
+
+
+def rich_console(stream: IO[str]) -> rich.console.Console:
+    """A console of rich on this stream, with colours if they are understood and wanted."""
+    from rich.console import Console
+
+    is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") in ("dumb", "unknown")
+    system: Literal["auto"] | None = "auto" if is_terminal(stream) and not is_plain else None
+    return Console(file=stream, highlight=False, force_terminal=is_terminal(stream), color_system=system)
+
+
+def write_lines(lines: Iterable[StyledLine | Text], stream: IO[str]) -> None:
+    """Write lines, none of which is broken."""
+    if is_terminal(stream):
+        screen = rich_console(stream)
+        for one in lines:
+            screen.print(one, soft_wrap=True)
+        return
+    for one in lines:
+        stream.write(f"{one}\n")
+        stream.flush()
+
+
+class Console:
+    """What one command shows, as its options want it."""
+
+    def __init__(self, *, as_json: bool = False, quiet: bool = False, verbose: bool = False, config: str = "") -> None:
+        """`config` is the configuration as the user named it, for commands that are proposed."""
+        self.json, self.quiet, self.verbose, self.config = as_json, quiet, verbose, config
+        self._robots: list[Mapping[str, Any]] = []
+        self._warnings: Sequence[Diagnostic] = ()
+        self._begin = time.monotonic()
+        self._bar: tuple[Progress, TaskID] | None = None
+
+    @profiling.stage("presentation")
+    def print(self, lines: Iterable[StyledLine | Text], *, error: bool = False) -> None:
+        """Write lines on the output stream; with `error` on the error stream."""
+        self.stop_progress()
+        write_lines(lines, sys.stderr if error else sys.stdout)
+
+    def findings(self, diagnostics: Sequence[Diagnostic]) -> None:
+        """Show diagnostics to people."""
+        if not self.json and diagnostics:
+            self.print(findings(diagnostics, quiet=self.quiet, verbose=self.verbose), error=True)
+
+    def warnings(self, diagnostics: Sequence[Diagnostic]) -> None:
+        """Diagnostics that belong to no robot and do not stop the command."""
+        self._warnings = diagnostics
+        self.findings(diagnostics)
+
+    def add_robot(self, values: Mapping[str, Any]) -> None:
+        """One more robot of the JSON document; those of a command that fails later are in its document, too."""
+        self.stop_progress()
+        self._robots.append(values)
+
+    def end(self, command: str, code: int) -> None:
+        """The end of a command on robots: its JSON document, and where the time went."""
+        self.stop_progress()
+        from urdfsync.views import profiles
+
+        profile = profiling.current()
+        if self.json:
+            measured = {"profile": profiles.to_json(profile)} if profile else {}
+            self.write_json(command, code, {"robots": self._robots, **measured})
+        elif profile:
+            screen = rich_console(sys.stderr)
+            for part in profiles.parts(profile):
+                screen.print(part)
+
+    def fail(self, command: str, diagnostics: Sequence[Diagnostic], code: int) -> None:
+        """Say what stopped the command."""
+        self.stop_progress()
+        if self.json:
+            self.write_json(command, code, {"robots": self._robots}, diagnostics)
+        else:
+            self.findings(diagnostics)
+
+    def write_json(
+        self, command: str, code: int, values: Mapping[str, Any], diagnostics: Sequence[Diagnostic] = ()
+    ) -> None:
+        """Write the one JSON document of a command: docs/json.md."""
+        found = [msgspec.structs.asdict(one) for one in (*self._warnings, *diagnostics)]
+        document = {
+            "version": JSON_VERSION,
+            "command": command,
+            "exit": int(code),
+            **values,
+            "diagnostics": found,
+        }
+        indent = None if command == "watch" else 2  # its output is one object per line
+        sys.stdout.write(json.dumps(document, indent=indent) + "\n")
+
+    def progress(self, what: str, done: int, total: int) -> None:
+        """Show a step of the work, once the work takes long enough for anybody to wonder."""
+        if self._wants_bar and time.monotonic() - self._begin >= _BAR_AFTER:
+            bar, task = self._start_bar(what)
+            bar.update(task, description=what, completed=done, total=total)
+
+    def waiting(self, what: str) -> None:
+        """Show at once that there is work whose steps are unknown."""
+        if self._wants_bar:
+            self._start_bar(what)
+
+    def stop_progress(self) -> None:
+        """Take the progress bar away."""
+        if self._bar is not None:
+            self._bar[0].stop()
+            self._bar = None
+        self._begin = time.monotonic()
+
+    @property
+    def _wants_bar(self) -> bool:
+        return not self.json and not self.quiet and sys.stderr.isatty()
+
+    def _start_bar(self, what: str) -> tuple[Progress, TaskID]:
+        """The bar, which moves to and fro until there is a number of steps."""
+        if self._bar is None:
+            from rich.progress import Progress
+
+            stream: Any = sys.stderr
+            if isinstance(stream, streams.Stream):
+                stream = stream.without_transcript()  # the bar is gone at the end: no saved answer has it
+            screen = rich_console(stream)
+            bar = Progress(console=screen, transient=True, redirect_stdout=False, redirect_stderr=False)
+            self._bar = bar, bar.add_task(what, total=None)
+            bar.start()
+        return self._bar

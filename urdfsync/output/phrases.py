@@ -1,0 +1,174 @@
+"""Results in words, for several commands: no styles, no layout."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import Counter
+from collections.abc import Container, Sequence
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import ChangeClass, ChangeKind, Role
+from urdfsync.engine.actions import Action, Kind
+from urdfsync.outcome import Checked, Result
+
+if TYPE_CHECKING:
+    from urdfsync.diff.changes import Change, Changes
+
+GENERATOR = "a template, an option or urdfsync itself changed"
+_LONGEST_VALUE = 40
+_NAMED = {
+    Kind.UPDATE: "{}",
+    Kind.MERGE: "{}; merged with your edits",
+    Kind.CONFLICT: "you edited it, and what it is made from changed too: {}",
+}
+"""Reasons of actions that follow from a change of the model, which takes the place of `{}`."""
+
+
+def counted(count: int, noun: str) -> str:
+    """`1 file`, `2 files`."""
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def error_count(diagnostics: Sequence[Diagnostic]) -> str:
+    """`2 errors`."""
+    return counted(sum(found.severity is Severity.ERROR for found in diagnostics), "error")
+
+
+def byte_size(number: int) -> str:
+    """So many bytes, in the largest unit of which there is at least one: `812 kB`, `1.2 GB`."""
+    for power, unit in ((3, "GB"), (2, "MB"), (1, "kB")):
+        if number >= 1000**power:
+            value = number / 1000**power
+            return f"{value:.0f} {unit}" if value >= 10 else f"{value:.1f} {unit}"
+    return counted(number, "byte")
+
+
+def summary(result: Result) -> str:
+    """What happened to a robot's package (in a dry run: what would), as the rest of a line that names the robot."""
+    if result.failed:
+        end = "the next build finishes or undoes what was begun" if result.unfinished else "nothing was changed"
+        return f"{error_count(result.diagnostics)}, {end}"
+    parts = action_counts(result)
+    if waiting := sum(action.held for action in result.actions.decided):
+        parts.append(f"{counted(waiting, 'change')} waiting for that")
+    if result.in_step:
+        fine = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED)
+        total = sum(action.kind in fine for action in result.actions)
+        parts.insert(0, f"in step, {counted(total, 'file')}")
+    checked = [check_result(result.checked, result.diagnostics)] if result.checked else []
+    return "; ".join([", ".join(parts), *checked])
+
+
+def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
+    """What the check after a build said, as the rest of a line that names the robot."""
+    return {
+        Checked.RIGHT: "checked: compiles",
+        Checked.INCOMPLETE: "not checked completely",
+        Checked.UNCHECKED: "not checked",
+        Checked.WRONG: f"checked: {error_count(diagnostics)}",
+    }[checked]
+
+
+def action_counts(result: Result, silent: Container[Kind] = ()) -> list[str]:
+    """A phrase for each kind of action that is not `silent`, with the number of files."""
+    kinds = Counter(action.kind for action in result.actions.decided if not action.held)
+    kinds[Kind.UPDATE] += kinds.pop(Kind.CREATE, 0)
+    kinds[Kind.CONFLICT] += kinds.pop(Kind.UNOWNED, 0)
+    phrases = []
+    for kind, (to_do, done) in _ACTION_PHRASES.items():
+        if (number := kinds[kind]) and kind not in silent:
+            them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
+            phrases.append((to_do if result.dry else done).format(n=number, them=them, have=have, s=s))
+    return phrases
+
+
+_ACTION_PHRASES = {
+    Kind.UPDATE: ("{n} file{s} to write", "{n} file{s} written"),
+    Kind.RESTORE: ("{n} to restore", "{n} restored because you deleted {them}"),
+    Kind.DELETE: ("{n} to delete", "{n} deleted"),
+    Kind.ADOPT: ("{n} already as wanted",) * 2,
+    Kind.MERGE: ("{n} to merge with your edits", "{n} merged with your edits"),
+    Kind.MOVE: ("{n} to move with your edits", "{n} moved with your edits"),
+    Kind.INCLUDED: ("{n} that you edited already {have} what is new",) * 2,
+    Kind.KEEP: ("{n} kept because you edited {them}",) * 2,
+    Kind.ORPHAN: ("{n} no longer generated but kept because you edited {them}",) * 2,
+    Kind.NEEDED: ("{n} no longer generated but kept because your files need {them}",) * 2,
+    Kind.CONFLICT: ("{n} conflict{s}",) * 2,
+}
+"""For each kind of action what a build would do and what it did, in the order in which they are told."""
+
+
+def reason(action: Action, changes: Changes | None) -> str:
+    """Why an action happens, as the end of a sentence that begins with the path.
+
+    Where the changes of the model tell, they are named: `link forearm: mass 1.2 → 1.4 kg (+16.7 %)`.
+    """
+    if action.kind not in _NAMED or changes is None:
+        return action.reason
+    waits = action.reason.removeprefix(msgspec.structs.replace(action, held=False).reason)
+    cause = _cause(action, changes)
+    return _NAMED[action.kind].format(cause) + waits if cause else action.reason
+
+
+def _cause(action: Action, changes: Changes) -> str:
+    """The changes that a file follows from: records those of their element, models and packages structural ones."""
+    found = [change for change in changes.changes if change.element == action.owner]
+    if action.role in (Role.MODEL, Role.PACKAGE, Role.ORDER):
+        structural = [one for one in changes.changes if one.change_class is ChangeClass.STRUCTURAL]
+        own = [change for change in structural if change.element == action.owner]
+        found = own or structural or ([] if changes.generator else found)
+    if not found:
+        return GENERATOR if changes.generator else ""
+    more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
+    return f"{_of_element(found[0])}{more}"
+
+
+def _of_element(change: Change) -> str:
+    """A change as `element: place old → new`."""
+    place, what = " / ".join(change.path[1:]), change_value(change)
+    return f"{change.element}: {f'{place} ' if place else ''}{what}"
+
+
+def change_lines(changes: Changes) -> list[str]:
+    """What changed in the model, one line each: `joint elbow / limit / effort: 54 → 60 N.m (+11 %)`."""
+    lines = [GENERATOR] if changes.generator else []
+    for change in changes.changes:
+        is_unmodelled = change.change_class is ChangeClass.UNMODELLED
+        lines += [f"{change}: {change_value(change)}{' (not modelled)' if is_unmodelled else ''}"]
+    return lines
+
+
+def change_value(change: Change) -> str:
+    """What happened at one place: `54 → 60 N.m (+11 %)`, `renamed to elbow`, `added`."""
+    if change.kind is ChangeKind.RENAMED:
+        return f"renamed to {change.new}"
+    if change.kind is not ChangeKind.CHANGED:
+        return str(change.kind)
+    relation = ""
+    if change.noise:
+        relation = " (rounding)"
+    elif change.unit == "rad":
+        relation = f" ({math.degrees(change.old):.4g}° → {math.degrees(change.new):.4g}°)"
+    elif change.percent is not None:
+        relation = f" ({change.percent:+.3g} %)"
+    return f"{_value(change.old)} → {_value(change.new)} {change.unit}".rstrip() + relation
+
+
+def _value(value: object) -> str:
+    """A value in few characters; numbers with all digits that they have, up to ten."""
+    if isinstance(value, float):
+        return f"{value:.10g}"
+    text = value if isinstance(value, str) else json.dumps(value)
+    return text if len(text) <= _LONGEST_VALUE else f"{text[: _LONGEST_VALUE - 1]}…"
+
+
+def change_classes(changes: Changes) -> str:
+    """`1 structural and 2 parameter changes`."""
+    classes = Counter(change.change_class for change in changes.changes)
+    counts = [(classes[one], one) for one in reversed(ChangeClass) if classes[one]]
+    words = " and ".join(f"{number} {one}" for number, one in counts)
+    return f"{words} change{'' if counts[-1][0] == 1 else 's'}"

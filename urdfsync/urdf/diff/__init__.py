@@ -1,0 +1,1 @@
+"""What the differences of two robots are in the words of URDF, and what follows from them."""

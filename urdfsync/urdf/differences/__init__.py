@@ -1,1 +1,0 @@
-"""What the differences of two robots mean."""

@@ -1,0 +1,147 @@
+"""Copies of URDF files that Pinocchio can read, and in which every moving joint carries mass.
+
+Pinocchio's reader refuses, or leaves out, elements that urdfsync reads with a warning. And where a moving joint
+carries no mass, only its kinematics could be compared. Package and reference are both made from the copy.
+"""
+
+from __future__ import annotations
+
+import random
+from collections import Counter
+from collections.abc import Collection, Iterator
+from typing import NamedTuple
+
+from lxml import etree
+
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.parse import xml
+
+Element = etree._Element
+
+_TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_POINTS = 4  # made-up inertias are those of so many equal masses: not diagonal, and never impossible
+
+
+class CompletedSource(NamedTuple):
+    """A copy of a URDF, the same bytes if nothing is missing, and what was done: sentences without a full stop."""
+
+    content: bytes
+    notes: tuple[str, ...] = ()
+
+
+def children(element: Element, tag: str) -> Iterator[Element]:
+    """The children of that name, those with a prefix left out."""
+    return (child for child in element.iterchildren("{*}" + tag) if child.prefix is None)
+
+
+def attribute(element: Element, tag: str, name: str, default: str = "") -> str:
+    """An attribute of the first child of that name; the default if there is no such child or attribute."""
+    found = next(children(element, tag), None)
+    return default if found is None else found.get(name, default)
+
+
+def completed_for_pinocchio(content: bytes) -> CompletedSource:
+    """The URDF in UTF-8, with the elements and attributes that Pinocchio's reader insists on."""
+    root = xml.parse_tree(content)
+    counts = Counter(_complete(root))
+    if not counts and _is_utf8(content):
+        return CompletedSource(content)
+    added = ["the robot's name"] * counts.pop("robot", 0) + [
+        f"{count} <{tag}>" for tag, count in sorted(counts.items())
+    ]
+    notes = (f"what Pinocchio's reader asks for was added: {', '.join(added)}",) if added else ()
+    return CompletedSource(_bytes(root), notes)
+
+
+def with_inertias(content: bytes, skeleton: KinematicTree) -> CompletedSource:
+    """The URDF with made-up inertias in all links that hang on a moving joint which carries no mass.
+
+    The root link counts as moving: a robot without any mass gets inertias in all its links.
+    """
+    massless = _massless_links(skeleton)
+    if not massless:
+        return CompletedSource(content)
+    root = xml.parse_tree(content)
+    for link in children(root, "link"):
+        if link.get("name") in massless:
+            for old in list(children(link, "inertial")):
+                link.remove(old)
+            link.append(_made_up_inertial(link.get("name") or ""))
+    links = f"{len(massless)} links" if len(massless) > 1 else f'link "{next(iter(massless))}"'
+    everywhere = len(massless) == len(skeleton.links)
+    reason = "the file gives no mass at all" if everywhere else "joints move them without any mass"
+    note = f"inertias were made up for {links} of the generated package only, because {reason}"
+    return CompletedSource(_bytes(root), (note,))
+
+
+def _complete(root: Element) -> Iterator[str]:
+    """Complete the elements below `root`; gives the tag of each that was not complete."""
+    if not root.get("name"):
+        root.set("name", "robot")
+        yield "robot"
+    for joint in children(root, "joint"):
+        if joint.get("type") in ("revolute", "prismatic") and next(children(joint, "limit"), None) is None:
+            etree.SubElement(joint, "limit", lower="-1000", upper="1000")
+        yield from _fill(joint, "limit", ("effort", "velocity"), "1000")
+        yield from _fill(joint, "safety_controller", ("k_velocity",), "0")
+        if not attribute(joint, "dynamics", "friction"):
+            yield from _fill(joint, "dynamics", ("damping",), "0")
+    for inertial in (part for link in children(root, "link") for part in children(link, "inertial")):
+        for tag, names in (("mass", ("value",)), ("inertia", _TENSOR)):
+            if next(children(inertial, tag), None) is None:
+                etree.SubElement(inertial, tag)
+            yield from _fill(inertial, tag, names, "0")
+
+
+def _fill(parent: Element, tag: str, names: Collection[str], value: str) -> Iterator[str]:
+    for element in children(parent, tag):
+        missing = [name for name in names if element.get(name) is None]
+        for name in missing:
+            element.set(name, value)
+        if missing:
+            yield tag
+
+
+def _massless_links(skeleton: KinematicTree) -> set[str]:
+    """Links below moving joints that carry no mass, those joints' own links included."""
+    massive = {link.name for link in skeleton.links if link.inertial and link.inertial.mass > 0}
+    for joint in reversed(skeleton.joints):  # from the leaves to the root
+        if joint.child in massive:
+            massive.add(joint.parent)
+    massless = {skeleton.links[0].name} - massive
+    for joint in skeleton.joints:
+        if joint.child not in massive and (joint.type != "fixed" or joint.parent in massless):
+            massless.add(joint.child)
+    return massless
+
+
+def _made_up_inertial(link: str) -> Element:
+    """Mass properties of equal masses at random places, in a frame that is turned and off-centre."""
+    draw = random.Random(link)  # noqa: S311 - the link's name decides, so the numbers are the same everywhere
+    mass = round(draw.uniform(0.5, 3), 3)
+    points = [[draw.uniform(-0.15, 0.15) for _ in range(3)] for _ in range(_POINTS)]
+    tensor = {}
+    for name in _TENSOR:
+        i, j = ("xyz".index(letter) for letter in name[1:])
+        products = sum((i == j) * sum(x * x for x in point) - point[i] * point[j] for point in points)
+        tensor[name] = repr(round(products * mass / _POINTS, 6))
+    element = etree.Element("inertial")
+    etree.SubElement(element, "origin", xyz=_random_vector(draw, 0.1), rpy=_random_vector(draw, 1))
+    etree.SubElement(element, "mass", value=repr(mass))
+    etree.SubElement(element, "inertia", tensor)
+    return element
+
+
+def _random_vector(draw: random.Random, reach: float) -> str:
+    return " ".join(repr(round(draw.uniform(-reach, reach), 3)) for _ in range(3))
+
+
+def _is_utf8(content: bytes) -> bool:
+    try:
+        return "\0" not in content.decode()
+    except UnicodeDecodeError:
+        return False
+
+
+def _bytes(root: Element) -> bytes:
+    return etree.tostring(root, encoding="UTF-8", xml_declaration=True)
