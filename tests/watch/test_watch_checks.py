@@ -73,6 +73,14 @@ def edit(project: Path, old: str, new: str) -> None:
     source.write_text(source.read_text().replace(old, new))
 
 
+def until(condition: Callable[[], bool]) -> None:
+    """Wait for something that no single event tells."""
+    deadline = time.monotonic() + LIMIT
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
 def kinds(daemon: Daemons, since: int = 0) -> list[str]:
     return [type(event).__name__ for event in daemon.events[since:]]
 
@@ -153,6 +161,78 @@ def test_who_wants_no_checks_any_more_gets_none(project: Path, start: Start) -> 
     daemon.wait(events.Built, len(daemon.events))
     assert "CheckDone" not in kinds(daemon)
     assert len(compiler.saw) == 1
+
+
+def test_a_package_that_was_right_is_not_checked_again_at_the_start(project: Path, start: Start) -> None:
+    first, second = Compiler(), Compiler()
+    daemon = start(first)
+    daemon.wait(events.CheckDone)
+    daemon.stop()
+    daemon = start(second)
+    since = len(daemon.events)
+    edit(project, "220.5", "330")
+    daemon.wait(events.CheckDone, since)
+    assert kinds(daemon)[:3] == ["Started", "Building", "Built"]
+    assert kinds(daemon).count("Checking") == 1
+    assert ["330" in text for text in second.saw] == [True]
+
+
+OTHER = '[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\non_build = "check"\n'
+
+
+@pytest.fixture
+def other(project: Path, start: Start) -> None:
+    """Another robot to check."""
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write(OTHER)
+
+
+@pytest.mark.usefixtures("other")
+def test_one_package_is_checked_at_a_time_in_the_order_of_builds(project: Path, start: Start) -> None:
+    compiler = Compiler()
+    compiler.free.clear()
+    daemon = start(compiler)
+    daemon.wait(events.Checking)
+    until(lambda: kinds(daemon).count("Built") == 2 and bool(compiler.saw))
+    time.sleep(0.2)
+    assert len(compiler.saw) == 1
+    MODEL.write_text(MODEL.read_text().replace("end R2;", "  Foo foo;\nend R2;"))  # takes the place of the first
+    until(lambda: kinds(daemon).count("Built") == 3)
+    compiler.free.set()
+    until(lambda: kinds(daemon).count("CheckDone") == 2)
+    found = [event for event in daemon.events if isinstance(event, events.CheckDone)]
+    assert [event.robot for event in found] == ["other", "ladder"]
+
+
+@pytest.mark.usefixtures("other")
+def test_what_this_machine_lacks_is_told_once(start: Start) -> None:
+    lacking = "nothing was compiled, since there is no library"
+
+    class Nothing(Compiler):
+        def __call__(self, *_: object) -> Iterator[CheckResult]:
+            yield CheckResult("ladder", "Ladder", unchecked=(lacking,))
+
+    daemon = start(Nothing())
+    until(lambda: kinds(daemon).count("CheckDone") == 2)
+    found = [event for event in daemon.events if isinstance(event, events.CheckDone)]
+    assert [event.checked for event in found] == 2 * [Checked.INCOMPLETE]
+    assert [one.message for event in found for one in event.diagnostics] == [lacking]
+
+
+@pytest.mark.usefixtures("other")
+def test_a_bug_in_a_check_is_one_error_and_the_next_check_is_made(start: Start) -> None:
+    class Broken(Compiler):
+        def __call__(self, *_: object) -> Iterator[CheckResult]:
+            self.saw.append("")
+            if len(self.saw) == 1:
+                raise ZeroDivisionError("by nothing")
+            yield RIGHT
+
+    daemon = start(Broken())
+    until(lambda: kinds(daemon).count("CheckDone") == 2)
+    first, second = (event for event in daemon.events if isinstance(event, events.CheckDone))
+    assert [one.code for one in first.diagnostics] == ["internal"]
+    assert second.checked is Checked.RIGHT
 
 
 @pytest.fixture
