@@ -326,9 +326,8 @@ class Daemon:
                 self._take_result(watched, result)
             elif same_content(watched.settled, self._robots.inputs(watched)):
                 self._take_failure(watched, result)
-        for watched in robots.values():
-            self._robots.renew_paths(watched)
-        self._watch_folders()
+        if any([self._robots.renew_paths(watched) for watched in robots.values()]):
+            self._watch_folders()
 
     def _is_finished(self, watched: WatchedRobot) -> bool:
         """Return whether nothing is left to do for a robot at once.

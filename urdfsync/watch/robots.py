@@ -99,9 +99,10 @@ class WatchedRobots:
         """The paths of each robot."""
         return {watched.name: watched.paths for watched in self}
 
-    def renew_paths(self, watched: WatchedRobot) -> None:
-        """Find the paths of a robot again, after a build."""
-        watched.paths = self._find_paths(watched.robot)
+    def renew_paths(self, watched: WatchedRobot) -> bool:
+        """Find the paths of a robot again, after a build. Returns whether they have changed."""
+        before, watched.paths = watched.paths, self._find_paths(watched.robot)
+        return watched.paths != before
 
     def inputs(self, watched: WatchedRobot) -> InputStates:
         """Return the inputs of a robot as they are now."""
