@@ -8,12 +8,13 @@ from pathlib import Path
 import pytest
 
 from urdfsync import cli, config
+from urdfsync.engine.cache import Cache
 from urdfsync.watch.paths import CONFIG, RobotPaths, WatchedPaths, find_robot_paths, find_watched_paths
 
 
 def ladder(project: Path) -> RobotPaths:
     loaded = config.load(project / "urdfsync.toml")
-    return find_robot_paths(loaded, loaded.robots[0], ())
+    return find_robot_paths(loaded, loaded.robots[0], (), Cache())
 
 
 def names(project: Path, paths: frozenset[str]) -> set[str]:

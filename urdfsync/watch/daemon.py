@@ -326,7 +326,8 @@ class Daemon:
                 self._take_result(watched, result)
             elif same_content(watched.settled, self._robots.inputs(watched)):
                 self._take_failure(watched, result)
-        if any([self._robots.renew_paths(watched) for watched in robots.values()]):
+        have_changed = [self._robots.renew_paths(watched) for watched in robots.values()]
+        if any(have_changed):
             self._watch_folders()
 
     def _is_finished(self, watched: WatchedRobot) -> bool:

@@ -16,6 +16,7 @@ from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Dependency, Lookup
 from urdfsync.engine import parents
+from urdfsync.engine.cache import Cache
 from urdfsync.engine.imports import find_dependencies
 from urdfsync.files import placed
 from urdfsync.state.store import State, Store
@@ -55,9 +56,9 @@ class RobotPaths(msgspec.Struct, frozen=True):
         yield from all_files_below(self.templates) if self.templates else ()
 
 
-def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path]) -> RobotPaths:
+def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path], cache: Cache) -> RobotPaths:
     """Return the paths of a robot as far as the last build recorded them."""
-    state = _recorded(config, robot)
+    state = _recorded(config, robot, cache)
     outputs = {*parents.files(robot), *map(str, Store(config.root).paths(robot.name))}
     inputs = {str(robot.source)}
     recorded: Mapping[str, Iterable[str]] = {}
@@ -77,9 +78,11 @@ def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence
     )
 
 
-def _recorded(config: Config, robot: RobotConfig) -> State | None:
+def _recorded(config: Config, robot: RobotConfig, cache: Cache) -> State | None:
+    store = Store(config.root, shown)
     try:
-        return Store(config.root, shown).load(robot.name)
+        # a build has just recorded it; loading it again takes a fifth of the time of a changed mass in 1,000 links
+        return cache.get("state", store.texts(robot.name), lambda: store.load(robot.name))
     except (UrdfsyncError, OSError):  # the build tells it
         return None
 

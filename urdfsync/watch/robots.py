@@ -163,7 +163,7 @@ class WatchedRobots:
         return {path for path, state in now.items() if _content(seen.get(path, _IN_THE_WAY)) != _content(state)}
 
     def _find_paths(self, robot: RobotConfig) -> RobotPaths:
-        return find_robot_paths(self._config, robot, self._package_paths)
+        return find_robot_paths(self._config, robot, self._package_paths, self._cache)
 
 
 def _read_output(files: PackageFiles, path: str, seen: FileState | None) -> FileState | None:
