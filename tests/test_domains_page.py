@@ -13,7 +13,7 @@ from support.daemon import Daemons
 
 from urdfsync import cli, registry
 from urdfsync.outcome import Exit
-from urdfsync.watching import events
+from urdfsync.watch import events
 
 PAGE = REPOSITORY / "docs" / "domains.md"
 

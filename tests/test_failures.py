@@ -68,7 +68,6 @@ def test_what_nobody_foresaw_ends_in_2_with_its_traceback_in_a_file(
         raise error
 
     monkeypatch.setattr(config, "load", fail)
-    monkeypatch.setattr("urdfsync.watching.settings.config.load", fail)
     assert cli.main(command) == 2
     streams = capsys.readouterr()
     (line,) = streams.err.splitlines()

@@ -9,7 +9,6 @@ import os
 import re
 import signal
 import sys
-import typing
 from pathlib import Path
 from typing import Any
 
@@ -25,8 +24,8 @@ from urdfsync.engine.actions import Kind
 from urdfsync.outcome import Checked, Result
 from urdfsync.output.console import JSON_VERSION
 from urdfsync.profiling import OTHER, STAGES
-from urdfsync.views.watching import ForPrograms, event_values
-from urdfsync.watching import events
+from urdfsync.watch import events
+from urdfsync.watch.report import JsonReport, event_values
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
 BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, CHECK, CLEARED, RESOLVE, INIT, RECORD, LIBRARY = (
@@ -146,9 +145,9 @@ def watched(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytes
     moved = '<child link="tip"/><origin xyz="0 0 0.1"/>'
     part = URDF.replace('"tip">', '"top">')
     saves = {"Built": part, "Waiting": URDF.replace('<child link="tip"/>', moved)}
-    show = ForPrograms.__call__
+    show = JsonReport.show
 
-    def listen(self: ForPrograms, event: events.Event) -> None:
+    def listen(self: JsonReport, event: events.Event) -> None:
         show(self, event)
         if text := saves.pop(type(event).__name__, ""):
             (folder / "new").write_text(text)
@@ -156,7 +155,7 @@ def watched(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytes
         elif isinstance(event, events.Built) and not saves:
             os.kill(os.getpid(), signal.SIGTERM)
 
-    monkeypatch.setattr(ForPrograms, "__call__", listen)
+    monkeypatch.setattr(JsonReport, "show", listen)
     capsys.readouterr()
     assert cli.main(["watch", "--settle", "0", "--sample", "0", "--json"]) == 0
     streams = capsys.readouterr()
@@ -201,10 +200,10 @@ def test_the_other_events_look_as_shown() -> None:
     folder = Path("/home/me/project/modelica/Arm")
     failed = Result("arm", "Arm", folder, Path("/home/me/project"), diagnostics=(failure,), failed=True)
     others: tuple[events.Event, ...] = (
-        events.Calm("arm"),
+        events.Unchanged("arm"),
         events.Failed(failed),
         events.Checking("arm"),
-        events.Checked("arm", Checked.WRONG, 2.464, (mistake,)),
+        events.CheckDone("arm", Checked.WRONG, 2.464, (mistake,)),
         events.Ran("arm", 2),
         events.Noted((warning,)),
         events.Recovered("all folders are watched again"),
@@ -214,7 +213,7 @@ def test_the_other_events_look_as_shown() -> None:
     times = [datetime.datetime.fromisoformat(event["time"]) for event in OTHERS]
     shown = [event_values(event, time) for event, time in zip(others, times, strict=True)]
     assert json.loads(json.dumps(shown)) == OTHERS
-    kinds = {kind.__name__.lower() for kind in typing.get_args(events.Event)}
+    kinds = {kind.__struct_config__.tag for kind in events.Event.__subclasses__()}
     assert kinds == {event["event"] for event in (*SESSION, *OTHERS, BUILT)}
 
 

@@ -16,16 +16,15 @@ from types import TracebackType
 from typing import IO, Any, Self
 
 from urdfsync.engine.options import BuildOptions
-from urdfsync.watch import Daemon
-from urdfsync.watching import events
-from urdfsync.watching.options import Options
-from urdfsync.watching.settling import Times
+from urdfsync.watch import events
+from urdfsync.watch.daemon import Daemon, WatchOptions
+from urdfsync.watch.debounce import Times
 
 REPOSITORY = Path(__file__).parents[2]
 LIMIT = 60.0
 """Seconds after which something does not happen any more, however busy the machine is."""
 
-QUICK = Times(settle=0.02, sample=0.01, patience=0.1, doubt=0.05)
+QUICK = Times(settle=0.02, sample=0.01, give_up_after=0.1, recheck_shrunk=0.05)
 
 Event = Mapping[str, Any]
 ENDS = ("built", "failed", "calm")
@@ -134,7 +133,7 @@ class Daemons:
         self.error: Exception | None = None
         self._news = threading.Condition()
         self._daemon = Daemon(
-            Options(Path("urdfsync.toml"), times=QUICK, request=BuildOptions(wait=1), **options), self
+            WatchOptions(Path("urdfsync.toml"), times=QUICK, build=BuildOptions(wait=1), **options), self
         )
         self._thread = threading.Thread(target=self._run)
         self._thread.start()
@@ -142,7 +141,7 @@ class Daemons:
     def _run(self) -> None:
         self._daemon.run()
 
-    def __call__(self, event: events.Event) -> None:
+    def show(self, event: events.Event) -> None:
         with self._news:
             self.events.append(event)
             self._news.notify_all()

@@ -15,11 +15,13 @@ from urdfsync.outcome import Exit
 from urdfsync.output.console import Console
 
 if TYPE_CHECKING:
-    from urdfsync.watch import Daemon
-    from urdfsync.watching.options import Options
+    from urdfsync.watch.daemon import Daemon, WatchOptions
 
 _CODES = "exit codes: 0 ended by SIGTERM or SIGHUP, 2 error, 4 watched already, 130 ended by SIGINT"
-_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
+_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
+"""Signals that end the daemon; the last one comes from its own timer."""
+_GRACE = 10.0
+"""Seconds after the first signal in which the work in hand has to end."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -59,35 +61,38 @@ def _duration(text: str) -> float:
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Run the daemon until a signal ends it."""
-    from urdfsync.views.watching import watching  # not at the top: no other command has events
-    from urdfsync.watch import Daemon  # not at the top: watchdog takes 45 ms
+    from urdfsync.watch.daemon import Daemon  # not at the top: watchdog takes 45 ms
+    from urdfsync.watch.report import watch_report
 
-    show = watching(as_json=console.json, quiet=console.quiet, verbose=console.verbose, config=console.config)
-    with show as listener:
+    report = watch_report(as_json=console.json, quiet=console.quiet, verbose=console.verbose, config=console.config)
+    with report as listener:
         daemon = Daemon(_options(args, console), listener)
         with _signals(daemon) as received:
             daemon.run()
     return Exit.INTERRUPTED if received[0] == "SIGINT" else Exit.IN_STEP
 
 
-def _options(args: argparse.Namespace, console: Console) -> Options:
-    from urdfsync.watching.options import Options
-    from urdfsync.watching.settling import Times
+def _options(args: argparse.Namespace, console: Console) -> WatchOptions:
+    from urdfsync.watch.daemon import WatchOptions
+    from urdfsync.watch.debounce import Times
 
-    return Options(
+    return WatchOptions(
         file=args.config or config.find(config.working_folder()),
         robots=(*args.robots, *(args.robot or ())),
         times=Times(args.settle / 1000, args.sample / 1000, args.patience),
         rescan=max(args.rescan, 0.1),
         poll=args.poll,
         command=args.exec,
-        request=arguments.request(args, console),
+        build=arguments.request(args, console),
     )
 
 
 @contextlib.contextmanager
 def _signals(daemon: Daemon) -> Iterator[list[str]]:
-    """End the daemon when the process is told to: the first signal lets it finish its work, the second undoes that."""
+    """Stop the daemon when the process is told to end. The first signal lets it finish its work.
+
+    The second one interrupts the work, and so does the time: a source may be such that reading it never ends.
+    """
     received: list[str] = []
 
     def handle(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 - as signal calls it
@@ -95,12 +100,16 @@ def _signals(daemon: Daemon) -> Iterator[list[str]]:
         daemon.stop(received[0])
         if len(received) > 1:
             raise KeyboardInterrupt
+        if hasattr(signal, "setitimer"):  # else only a second signal helps
+            signal.setitimer(signal.ITIMER_REAL, _GRACE, _GRACE)
 
-    numbers = {name: number for name in _SIGNALS if (number := getattr(signal, name, None)) is not None}
-    heeded = {name: number for name, number in numbers.items() if signal.getsignal(number) is not signal.SIG_IGN}
-    before = {name: signal.signal(number, handle) for name, number in heeded.items()}  # `nohup` ignores SIGHUP
+    numbers = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
+    handled = [number for number in numbers if signal.getsignal(number) is not signal.SIG_IGN]  # `nohup` ignores SIGHUP
+    before = {number: signal.signal(number, handle) for number in handled}
     try:
         yield received
     finally:
-        for name, handler in before.items():
-            signal.signal(getattr(signal, name), handler)
+        if hasattr(signal, "setitimer"):
+            signal.setitimer(signal.ITIMER_REAL, 0)
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -70,7 +70,7 @@ class PackageFiles:
         if content is None:
             self.states.setdefault(self._place(key), None)
             return None
-        self.states.setdefault(self._place(key), _state(dependencies.NO_STAT, content))
+        self.states.setdefault(self._place(key), state_of(dependencies.NO_STAT, content))
         return content.decode(errors="surrogateescape")
 
     def any_text(self, key: str) -> str:
@@ -89,7 +89,7 @@ class PackageFiles:
             stat, state = dependencies.stat_of(status), self._known.get(path)
             if state is None or state.stat != stat:
                 content = tree.content(path)
-                state = None if content is None else _state(stat, content)
+                state = None if content is None else state_of(stat, content)
         self.states[path] = state
         return state
 
@@ -155,7 +155,8 @@ class PackageFiles:
         return next((tree for tree in self._trees if tree.covers(path)), None)
 
 
-def _state(stat: dependencies.Stat, content: bytes) -> FileState:
+def state_of(stat: dependencies.Stat, content: bytes) -> FileState:
+    """Return the state of a file with these stat values and this content."""
     sha256 = digest(content)
     return FileState(stat, sha256, text_digest(content) if b"\r" in content else sha256)
 

@@ -26,7 +26,7 @@ from urdfsync.hooks.checkout import plan_index
 from urdfsync.hooks.index import Index
 from urdfsync.hooks.robot_files import RobotFiles
 from urdfsync.outcome import Exit, Result, exit_code
-from urdfsync.watching import stash
+from urdfsync.watch import precommit
 
 _IN_STEP = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET)
 """Actions on files that are as they should be."""
@@ -242,7 +242,7 @@ def _lost_state(path: str) -> Diagnostic:
 
 def _find_stashed(index: Index) -> frozenset[str]:
     """Return the files of which pre-commit has stashed changes, to bring them back after the hooks."""
-    store = stash.store(os.environ, Path.home())
-    holder = stash.Stash(store).holder(index.top)
+    store = precommit.store_folder(os.environ, Path.home())
+    holder = precommit.PrecommitStash(store).holder(index.top)
     patches = sorted(store.glob(f"patch*-{holder}")) if holder is not None else []
     return frozenset(index.patched(patches[-1])) if patches else frozenset()

@@ -1,0 +1,288 @@
+"""The daemon with `on_build = "check"`: when it asks for checks, and that it goes on beside them."""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+import psutil
+import pytest
+from support.daemon import LIMIT, REPOSITORY, Daemons, Watch
+
+from urdfsync.check import run
+from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.options import Progress
+from urdfsync.outcome import Checked
+from urdfsync.watch import events
+
+RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12, 3),), seconds=2.5)
+BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)
+WRONG = CheckResult("ladder", "Ladder", diagnostics=(BROKEN,))
+RECORD = Path("modelica/Ladder/Elements/R2Parameters.mo")
+MODEL = Path("modelica/Ladder/Elements/R2.mo")
+
+
+class Compiler:
+    """A stand-in that compiles for as long as it is held, and then finds wrong what mentions `Foo`."""
+
+    def __init__(self) -> None:
+        self.free = threading.Event()
+        self.free.set()
+        self.saw: list[str] = []
+
+    def __call__(
+        self, config: Config, robots: Sequence[RobotConfig], options: CheckOptions, tell: Progress
+    ) -> Iterator[CheckResult]:
+        self.saw.append(RECORD.read_text())
+        wrong = "Foo" in MODEL.read_text()
+        while True:
+            tell("compiling", 0, 1)
+            if self.free.wait(0.01):
+                yield WRONG if wrong else RIGHT
+                return
+
+
+Start = Callable[[Compiler], Daemons]
+
+
+@pytest.fixture
+def start(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Start]:
+    running = []
+
+    def begin(compiler: Compiler) -> Daemons:
+        monkeypatch.setattr(run, "check_robots", compiler)
+        running.append(Daemons())
+        return running[-1]
+
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write('on_build = "check"\n')
+    yield begin
+    for daemon in running:
+        daemon.stop()
+
+
+def edit(project: Path, old: str, new: str) -> None:
+    source = project / "ladder.json"
+    source.write_text(source.read_text().replace(old, new))
+
+
+def until(condition: Callable[[], bool]) -> None:
+    """Wait for something that no single event tells."""
+    deadline = time.monotonic() + LIMIT
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+def kinds(daemon: Daemons, since: int = 0) -> list[str]:
+    return [type(event).__name__ for event in daemon.events[since:]]
+
+
+def test_each_build_is_checked_once(project: Path, start: Start) -> None:
+    compiler = Compiler()
+    daemon = start(compiler)
+    daemon.wait(events.CheckDone)
+    since = len(daemon.events)
+    edit(project, "220.5", "330")
+    found = daemon.wait(events.CheckDone, since)
+    assert (found.checked, found.seconds) == (Checked.RIGHT, 2.5)
+    assert kinds(daemon, since) == ["Settling", "Building", "Built", "Checking", "CheckDone"]
+    assert ["330" in text for text in compiler.saw] == [False, True]
+
+
+def test_an_edit_that_does_not_compile_is_told_and_so_is_its_end(project: Path, start: Start) -> None:
+    daemon = start(Compiler())
+    daemon.wait(events.CheckDone)
+    since, text = len(daemon.events), MODEL.read_text()
+    MODEL.write_text(text.replace("end R2;", "  Foo foo;\nend R2;"))
+    found = daemon.wait(events.CheckDone, since)
+    assert (found.checked, found.diagnostics) == (Checked.WRONG, (BROKEN,))
+    since = len(daemon.events)
+    MODEL.write_text(text)
+    assert daemon.wait(events.CheckDone, since).checked is Checked.RIGHT
+
+
+def test_builds_go_on_while_a_package_is_checked_and_the_last_one_counts(project: Path, start: Start) -> None:
+    compiler = Compiler()
+    compiler.free.clear()
+    daemon = start(compiler)
+    daemon.wait(events.Checking)
+    since = len(daemon.events)
+    edit(project, "220.5", "330")
+    assert daemon.wait(events.Built, since).files
+    daemon.wait(events.Checking, since)
+    compiler.free.set()
+    daemon.wait(events.CheckDone, since)
+    assert kinds(daemon).count("CheckDone") == 1
+    assert "330" in compiler.saw[-1]
+
+
+def test_a_source_that_can_not_be_built_leaves_the_check_of_the_last_build_alone(project: Path, start: Start) -> None:
+    compiler = Compiler()
+    compiler.free.clear()
+    daemon = start(compiler)
+    daemon.wait(events.Checking)
+    since = len(daemon.events)
+    (project / "ladder.json").write_text("{")
+    daemon.wait(events.Failed, since)
+    compiler.free.set()
+    daemon.wait(events.CheckDone, since)
+    assert len(compiler.saw) == 1
+
+
+def test_it_ends_while_a_package_is_checked(project: Path, start: Start) -> None:
+    compiler = Compiler()
+    compiler.free.clear()
+    daemon = start(compiler)
+    daemon.wait(events.Checking)
+    before = threading.active_count()
+    daemon.stop()
+    assert threading.active_count() < before - 1, "neither the daemon's thread nor that of the check is left"
+    assert isinstance(daemon.events[-1], events.Stopping)
+
+
+def test_who_wants_no_checks_any_more_gets_none(project: Path, start: Start) -> None:
+    compiler = Compiler()
+    compiler.free.clear()
+    daemon = start(compiler)
+    daemon.wait(events.Checking)
+    since, file = len(daemon.events), project / "urdfsync.toml"
+    file.write_text(file.read_text().replace('"check"', '"nothing"'))
+    daemon.wait(events.Started, since)
+    daemon.wait(events.Built, since)
+    edit(project, "220.5", "330")
+    daemon.wait(events.Built, len(daemon.events))
+    assert "CheckDone" not in kinds(daemon)
+    assert len(compiler.saw) == 1
+
+
+def test_a_package_that_was_right_is_not_checked_again_at_the_start(project: Path, start: Start) -> None:
+    first, second = Compiler(), Compiler()
+    daemon = start(first)
+    daemon.wait(events.CheckDone)
+    daemon.stop()
+    daemon = start(second)
+    since = len(daemon.events)
+    edit(project, "220.5", "330")
+    daemon.wait(events.CheckDone, since)
+    assert kinds(daemon)[:3] == ["Started", "Building", "Built"]
+    assert kinds(daemon).count("Checking") == 1
+    assert ["330" in text for text in second.saw] == [True]
+
+
+OTHER = '[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\non_build = "check"\n'
+
+
+@pytest.fixture
+def other(project: Path, start: Start) -> None:
+    """Another robot to check."""
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write(OTHER)
+
+
+@pytest.mark.usefixtures("other")
+def test_one_package_is_checked_at_a_time_in_the_order_of_builds(project: Path, start: Start) -> None:
+    compiler = Compiler()
+    compiler.free.clear()
+    daemon = start(compiler)
+    daemon.wait(events.Checking)
+    until(lambda: kinds(daemon).count("Built") == 2 and bool(compiler.saw))
+    time.sleep(0.2)
+    assert len(compiler.saw) == 1
+    MODEL.write_text(MODEL.read_text().replace("end R2;", "  Foo foo;\nend R2;"))  # takes the place of the first
+    until(lambda: kinds(daemon).count("Built") == 3)
+    compiler.free.set()
+    until(lambda: kinds(daemon).count("CheckDone") == 2)
+    found = [event for event in daemon.events if isinstance(event, events.CheckDone)]
+    assert [event.robot for event in found] == ["other", "ladder"]
+
+
+@pytest.mark.usefixtures("other")
+def test_what_this_machine_lacks_is_told_once(start: Start) -> None:
+    lacking = "nothing was compiled, since there is no library"
+
+    class Nothing(Compiler):
+        def __call__(self, *_: object) -> Iterator[CheckResult]:
+            yield CheckResult("ladder", "Ladder", unchecked=(lacking,))
+
+    daemon = start(Nothing())
+    until(lambda: kinds(daemon).count("CheckDone") == 2)
+    found = [event for event in daemon.events if isinstance(event, events.CheckDone)]
+    assert [event.checked for event in found] == 2 * [Checked.INCOMPLETE]
+    assert [one.message for event in found for one in event.diagnostics] == [lacking]
+
+
+@pytest.mark.usefixtures("other")
+def test_a_bug_in_a_check_is_one_error_and_the_next_check_is_made(start: Start) -> None:
+    class Broken(Compiler):
+        def __call__(self, *_: object) -> Iterator[CheckResult]:
+            self.saw.append("")
+            if len(self.saw) == 1:
+                raise ZeroDivisionError("by nothing")
+            yield RIGHT
+
+    daemon = start(Broken())
+    until(lambda: kinds(daemon).count("CheckDone") == 2)
+    first, second = (event for event in daemon.events if isinstance(event, events.CheckDone))
+    assert [one.code for one in first.diagnostics] == ["internal"]
+    assert second.checked is Checked.RIGHT
+
+
+@pytest.fixture
+def stuck(project: Path, rc_site: Path, tmp_path: Path, modelica_library: Path) -> Iterator[Watch]:
+    """A daemon in a process of its own, with a compiler that is never done; names are resolved before it begins."""
+    (tmp_path / "site").mkdir()
+    (tmp_path / "site" / "rumoca.py").write_text("import time\n\nwhile True:\n    time.sleep(60)\n")
+    home = {name: str(tmp_path / "home") for name in ("HOME", "XDG_CACHE_HOME", "PRE_COMMIT_HOME")}
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write(f'on_build = "check"\n[check]\nlibrary = "{modelica_library.as_posix()}"\n')
+    path = [tmp_path / "site", rc_site, REPOSITORY / "tests" / "rcnetwork"]
+    with Watch(project, path=path, **home) as watch:
+        yield watch
+
+
+def compilers(watch: Watch) -> list[psutil.Process]:
+    """All processes that work for the daemon, once a compiler is among them."""
+    deadline = time.monotonic() + LIMIT
+    while time.monotonic() < deadline and not any(event["event"] == "checked" for event in watch.events):
+        with contextlib.suppress(psutil.NoSuchProcess):
+            found = psutil.Process(watch.process.pid).children(recursive=True)
+            if any("urdfsync.check.compilers.rumoca" in process.cmdline() for process in found):
+                return found
+        time.sleep(0.05)
+    raise AssertionError(watch.said)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+@pytest.mark.parametrize(
+    ("signals", "code"),
+    [([signal.SIGTERM], 0), ([signal.SIGINT], 130), ([signal.SIGINT, signal.SIGINT], 130), ([signal.SIGKILL], -9)],
+)
+def test_no_compiler_outlives_the_daemon(stuck: Watch, signals: list[int], code: int) -> None:
+    stuck.wait("checking")
+    helpers = compilers(stuck)
+    for number in signals:
+        stuck.process.send_signal(number)
+    assert stuck.process.wait(LIMIT) == code, stuck.said
+    assert psutil.wait_procs(helpers, LIMIT)[1] == []
+    assert stuck.errors == ""
+
+
+@pytest.mark.slow
+def test_builds_go_on_beside_a_compiler_that_is_never_done(stuck: Watch, project: Path) -> None:
+    stuck.wait("checking")
+    first = compilers(stuck)
+    since = stuck.mark
+    edit(project, "220.5", "330")
+    stuck.wait("built", lambda event: bool(event["files"]), since)
+    stuck.wait("checking", since=since)
+    assert psutil.wait_procs(first, LIMIT)[1] == [], "what is checked now is the newer package"
+    assert stuck.stop() == 0

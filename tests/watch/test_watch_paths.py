@@ -1,0 +1,133 @@
+"""Which paths matter to a robot, and where their changes are looked for."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from urdfsync import cli, config
+from urdfsync.engine.cache import Cache
+from urdfsync.watch.paths import CONFIG, RobotPaths, WatchedPaths, find_robot_paths, find_watched_paths
+
+
+def ladder(project: Path) -> RobotPaths:
+    loaded = config.load(project / "urdfsync.toml")
+    return find_robot_paths(loaded, loaded.robots[0], (), Cache())
+
+
+def names(project: Path, paths: frozenset[str]) -> set[str]:
+    return {os.path.relpath(path, project) for path in paths}
+
+
+def bare(source: Path, package: Path, templates: Path | None = None, *outputs: Path) -> RobotPaths:
+    return RobotPaths(
+        source=str(source),
+        inputs=frozenset([str(source)]),
+        templates=str(templates) if templates else None,
+        outputs=frozenset(map(str, outputs)),
+        package=str(package),
+    )
+
+
+def seen(project: Path, one: RobotPaths) -> WatchedPaths:
+    return find_watched_paths(str(project), str(project / "urdfsync.toml"), {"arm": one})
+
+
+def test_after_a_build_dependencies_and_outputs_are_known(project: Path) -> None:
+    assert cli.main(["build", "--quiet"]) == 0
+    found = ladder(project)
+    assert names(project, found.inputs) == {"ladder.json", "step.csv"}
+    assert {"modelica/Ladder/Elements/R1.mo", "modelica/Ladder/package.order"} <= names(project, found.outputs)
+    assert len(found.built_hash) == 64
+    assert ("elements", "R1") in found.built_names
+
+
+def test_a_dependency_may_turn_up_wherever_it_is_looked_for(project: Path) -> None:
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write('package_paths = ["one", "two"]\n')
+    assert cli.main(["build", "--quiet"]) == 0
+    assert names(project, ladder(project).inputs) == {"ladder.json", "step.csv"}, "what comes later does not matter"
+    (project / "step.csv").unlink()
+    assert names(project, ladder(project).inputs) == {"ladder.json", "step.csv", "one/step.csv", "two/step.csv"}
+
+
+def test_a_state_that_can_not_be_read_is_still_watched(project: Path) -> None:
+    assert cli.main(["build", "--quiet"]) == 0
+    (project / ".urdfsync/robots/ladder.toml").write_text("<<<<<<<")
+    assert ".urdfsync/robots/ladder.toml" in names(project, ladder(project).outputs)
+
+
+def test_parents_and_templates_matter(project: Path) -> None:
+    (project / "urdfsync.toml").write_text(
+        '[robots.ladder]\nsource = "ladder.json"\npackage = "Plant.Ladder"\ndomain = "rcnetwork"\ntemplates = "own"\n'
+    )
+    (project / "own/sub").mkdir(parents=True)
+    (project / "own/sub/x.jinja").write_text("")
+    found = ladder(project)
+    assert {"modelica/Plant/package.mo", "modelica/Plant/package.order"} <= names(project, found.outputs)
+    assert str(project / "own/sub/x.jinja") in set(found.input_files())
+
+
+def test_folders_up_to_that_of_the_configuration_are_watched(tmp_path: Path) -> None:
+    project = tmp_path / "project"
+    (project / "cad/export").mkdir(parents=True)
+    found = seen(project, bare(project / "cad/export/arm.urdf", project / "modelica/Arm"))
+    assert names(project, found.folders) == {".", "cad", "cad/export"}
+    for name in ("cad", "cad/export", "cad/export/arm.urdf", "modelica", "modelica/Arm"):
+        assert found.robots_for(str(project / name)) == {"arm"}
+    assert found.robots_for(str(project / "urdfsync.toml")) == {CONFIG}
+    assert found.robots_for(str(project / "cad/other.urdf")) == set()
+
+
+def test_elsewhere_folders_are_watched_up_to_the_nearest_common_one(tmp_path: Path) -> None:
+    project, cad = tmp_path / "a/project", tmp_path / "cad/export"
+    project.mkdir(parents=True)
+    cad.mkdir(parents=True)
+    (cad / "arm.urdf").write_text("")
+    found = seen(project, bare(cad / "arm.urdf", project / "modelica/Arm"))
+    assert found.folders == {str(folder) for folder in (project, tmp_path, tmp_path / "cad", cad)}
+    assert found.robots_for(str(tmp_path / "a")) == set()
+
+
+@pytest.mark.parametrize("root", ["/", "/project"])
+def test_the_root_is_never_watched(root: str) -> None:
+    found = find_watched_paths(
+        root,
+        f"{root}/urdfsync.toml",
+        {"arm": RobotPaths("/etc/hostname", frozenset(["/etc/hostname"]), None, frozenset(), "/usr")},
+    )
+    assert "/" not in found.folders
+    assert "/" not in found.by_path
+
+
+def test_links_and_where_they_lead_are_watched(tmp_path: Path) -> None:
+    project = tmp_path / "project"
+    (project / "v1/deep").mkdir(parents=True)
+    (project / "v1/deep/arm.urdf").write_text("")
+    (project / "latest").symlink_to("v1")
+    (project / "here").symlink_to("latest/deep")
+    found = seen(project, bare(project / "here/arm.urdf", project / "modelica/Arm"))
+    assert names(project, found.folders) == {".", "v1", "v1/deep"}
+    for name in ("here", "latest", "v1", "v1/deep", "v1/deep/arm.urdf"):
+        assert found.robots_for(str(project / name)) == {"arm"}
+    assert found.robots_for(str(project / "here/arm.urdf")) == set(), "no event has a link in its path"
+
+
+def test_links_without_end(tmp_path: Path) -> None:
+    (tmp_path / "loop").symlink_to("loop/loop")
+    found = seen(tmp_path, bare(tmp_path / "loop/arm.urdf", tmp_path / "modelica/Arm"))
+    assert found.robots_for(str(tmp_path / "loop")) == {"arm"}
+
+
+def test_packages_and_templates_are_watched_as_a_whole(tmp_path: Path) -> None:
+    package, own = tmp_path / "modelica/Arm", tmp_path / "own"
+    package.mkdir(parents=True)
+    own.mkdir()
+    found = seen(tmp_path, bare(tmp_path / "arm.urdf", package, own, package / "Links/A.mo"))
+    assert found.trees == {str(package): set(), str(own): {"arm"}}
+    assert names(tmp_path, found.folders) == {".", "modelica"}
+    assert found.robots_for(str(package / "Links/A.mo")) == {"arm"}
+    assert found.robots_for(str(package / "Bench.mo")) == set()
+    assert found.robots_for(str(own / "link/new.jinja")) == {"arm"}

@@ -1,1 +1,0 @@
-"""How results look; with `report`, the only place that knows rich."""

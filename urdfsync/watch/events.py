@@ -1,0 +1,149 @@
+"""What happens while `urdfsync watch` runs, as values; `--json` writes them with the tag as the event's name.
+
+Events of one robot come in this order: `Settling` when one of its files changed, `Waiting` if its source is not valid
+(yet), `Building` when it has settled, and `Built` or `Failed`; or `Unchanged` if nothing differs after all. Checks go
+on beside that: `Checking`, and `CheckDone` for the last one of several that begin while a robot changes.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Protocol
+
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.outcome import Checked, Result
+
+
+class Event(msgspec.Struct, frozen=True, tag=str.lower):
+    """One event."""
+
+
+class Started(Event, frozen=True):
+    """The configuration was read, and these robots are watched from now on."""
+
+    config: Path
+    robots: tuple[str, ...]
+    again: bool = False
+    """Whether it was read before: then it has changed, or is valid again."""
+
+
+class Settling(Event, frozen=True):
+    """A file of the robot changed; the robot is built when nothing changes any more."""
+
+    robot: str
+
+
+class Unchanged(Event, frozen=True, tag="calm"):
+    """The files of the robot are what they were before `Settling`: nothing to build."""
+
+    robot: str
+
+
+class Waiting(Event, frozen=True):
+    """The robot is not built for now, although its files have settled.
+
+    Either its source is no model, which an exporter may be about to change: then `diagnostics` say what is wrong with
+    it, and `Failed` follows if that lasts. Or it lost many elements, and is watched a little longer.
+    """
+
+    robot: str
+    reason: str
+    """In words that follow the robot's name, for example `waiting for the exporter`."""
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
+class Building(Event, frozen=True):
+    """The build of the robot begins."""
+
+    robot: str
+
+
+class Built(Event, frozen=True):
+    """The robot was built, perhaps with conflicts, perhaps with nothing to write."""
+
+    result: Result
+    files: tuple[Path, ...] = ()
+    """Files that were written or deleted, absolute."""
+    recovered: bool = False
+    """Whether the robot's last build failed."""
+
+
+class Failed(Event, frozen=True):
+    """The robot can't be built. It is tried again at each rescan, and `Built` follows when that works."""
+
+    result: Result
+    again: bool = False
+    """Whether the last build failed for the same reason, and the user changed something since."""
+
+
+class Checking(Event, frozen=True):
+    """The check of the robot's package begins; one that was begun before is cancelled."""
+
+    robot: str
+
+
+class CheckDone(Event, frozen=True, tag="checked"):
+    """The robot's package was checked as the last build left it."""
+
+    robot: str
+    checked: Checked
+    seconds: float = 0.0
+    """How long that took; 0 if it was known from an earlier check."""
+    diagnostics: tuple[Diagnostic, ...] = ()
+    """What is wrong with it, and what could not be checked."""
+
+
+class Noted(Event, frozen=True):
+    """Findings about no robot; told once, until they are over and happen again.
+
+    A configuration that can't be used (the last valid one stays in force), files that can't be watched (they are read
+    every second), a command of `--exec` that failed.
+    """
+
+    diagnostics: tuple[Diagnostic, ...]
+
+
+class Recovered(Event, frozen=True):
+    """What `Noted` said of the daemon itself is over."""
+
+    what: str
+    """In words, for example `all folders are watched again`."""
+
+
+class Paused(Event, frozen=True):
+    """Nothing is built for now, for example because pre-commit has stashed changes away."""
+
+    reason: str
+
+
+class Resumed(Event, frozen=True):
+    """Robots are built again."""
+
+
+class Ran(Event, frozen=True):
+    """The command of `--exec` has ended after a build of the robot; if it failed, `Noted` follows."""
+
+    robot: str
+    code: int
+    """Its exit code; negative if a signal ended it."""
+
+
+class Stopping(Event, frozen=True):
+    """The daemon was told to end; the last event."""
+
+    signal: str
+    """Name of the signal, for example `SIGINT`."""
+
+
+class Listener(Protocol):
+    """Shows events to people or programs. Called from one thread only."""
+
+    def show(self, event: Event) -> None:
+        """Show an event; the daemon waits meanwhile."""
+        ...
+
+    def progress(self, what: str, done: int, total: int) -> None:
+        """Show a step of the build under way; may be called often."""
+        ...

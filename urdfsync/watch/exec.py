@@ -1,0 +1,78 @@
+"""Runs the command of `--exec` after builds: in the background, one at a time per robot."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import threading
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from urdfsync.config import RobotConfig
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.watch.event_queue import CommandEnded, EventQueue
+
+_MAX_VARIABLE = 100_000
+"""Bytes of an environment variable: systems limit one to 128 KiB."""
+_STDERR = 2
+
+
+class CommandRunner:
+    """The command, and for which robots it runs and has to run again. Both methods return what went wrong."""
+
+    def __init__(self, queue: EventQueue, command: str, folder: Path) -> None:
+        self._queue, self._command, self._folder = queue, command, folder
+        self._running: set[str] = set()
+        self._waiting: dict[str, tuple[RobotConfig, tuple[Path, ...]]] = {}
+
+    def run(self, robot: RobotConfig, files: Sequence[Path]) -> tuple[Diagnostic, ...]:
+        """Run the command for a robot of which these files changed, once the one that runs for it has ended.
+
+        Several changes in that time are one more run. `CommandEnded` is put into the queue at the end.
+        """
+        if not self._command:
+            return ()
+        if robot.name in self._running:
+            _, before = self._waiting.get(robot.name, (robot, ()))
+            self._waiting[robot.name] = robot, tuple(dict.fromkeys((*before, *files)))
+            return ()
+        try:
+            process = subprocess.Popen(  # noqa: S602 - a shell command is what the user gives
+                self._command,
+                shell=True,
+                cwd=self._folder,
+                env={**os.environ, **_variables(robot, files)},
+                stdin=subprocess.DEVNULL,
+                stdout=_STDERR,  # its output would break the lines of --json
+            )
+        except OSError as error:
+            return (_warning(robot.name, f"can't be started: {error.strerror or error}"),)
+        self._running.add(robot.name)
+        threading.Thread(target=self._wait, args=(robot.name, process), daemon=True).start()
+        return ()
+
+    def finish(self, robot: str, code: int) -> tuple[Diagnostic, ...]:
+        """Take note of the end of a command, and run it again if more files have changed."""
+        self._running.discard(robot)
+        found: tuple[Diagnostic, ...] = ()
+        if code:
+            how = f"ended with exit code {code}" if code > 0 else f"was ended by signal {-code}"
+            found = (_warning(robot, how),)
+        waiting = self._waiting.pop(robot, None)
+        return found + (self.run(*waiting) if waiting else ())
+
+    def _wait(self, robot: str, process: subprocess.Popen[bytes]) -> None:
+        self._queue.put(CommandEnded(robot, process.wait()))
+
+
+def _variables(robot: RobotConfig, files: Sequence[Path]) -> Mapping[str, str]:
+    text = "\n".join(map(str, files))
+    if len(os.fsencode(text)) > _MAX_VARIABLE:
+        text = str(robot.folder)
+    return {"URDFSYNC_ROBOT": robot.name, "URDFSYNC_PACKAGE": robot.target.package, "URDFSYNC_FILES": text}
+
+
+def _warning(robot: str, what: str) -> Diagnostic:
+    message = f"robot `{robot}`: the command of --exec {what}"
+    hint = "it runs again after the next build that changes something"
+    return Diagnostic(Severity.WARNING, "exec", message, hint=hint)

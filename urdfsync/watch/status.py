@@ -1,0 +1,148 @@
+"""The status of each robot while `urdfsync watch` runs: pure, told of events."""
+
+from __future__ import annotations
+
+import enum
+from collections import Counter
+from collections.abc import Sequence
+
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.outcome import Checked, Result
+from urdfsync.watch import events
+
+_CHECK_FAILED = "checked with errors"
+
+
+class Activity(enum.StrEnum):
+    """What a robot is at, in words; those that need the user's attention come first."""
+
+    ERROR = "error"
+    CONFLICT = "conflict"
+    WAITING = "waiting"
+    BUILDING = "building"
+    CHECKING = "checking"
+    SETTLING = "settling"
+    STARTING = "not looked at yet"
+    IN_STEP = "in step"
+
+    @property
+    def rank(self) -> int:
+        """Place in this order, from 0."""
+        return list(Activity).index(self)
+
+
+class RobotStatus(msgspec.Struct, frozen=True):
+    """One robot at one moment."""
+
+    robot: str
+    activity: Activity
+    text: str
+    """The rest of a line that names the robot."""
+
+
+class StatusTable:
+    """The status of all robots."""
+
+    def __init__(self) -> None:
+        self.pause_reason = ""
+        """Why nothing is built for now; empty if robots are built."""
+        self._results: dict[str, RobotStatus] = {}
+        """After the last build."""
+        self._builds: dict[str, RobotStatus] = {}
+        """Between the first event and the end of a build."""
+        self._checks: dict[str, RobotStatus] = {}
+
+    @property
+    def rows(self) -> Sequence[RobotStatus]:
+        """The status of each robot in the order of the configuration; of build and check that which matters more."""
+        rows = []
+        for robot, result in self._results.items():
+            at_rest = min(result, self._checks.get(robot, result), key=lambda status: status.activity.rank)
+            rows.append(self._builds.get(robot) or at_rest)
+        return rows
+
+    def take(self, event: events.Event, clock: str) -> None:
+        """Take note of an event; `clock` is the time of day as people see it."""
+        match event:
+            case events.Started(robots=robots):
+                self._results = {name: self._results.get(name) or _plain(name, Activity.STARTING) for name in robots}
+                self._builds = {name: status for name, status in self._builds.items() if name in self._results}
+                self._checks = {}
+            case events.Settling(robot):
+                self._builds[robot] = _plain(robot, Activity.SETTLING)
+            case events.Waiting(robot, reason, diagnostics):
+                text = ": ".join([reason, *_first_error(diagnostics)])
+                self._builds[robot] = RobotStatus(robot, Activity.WAITING, text)
+            case events.Building(robot):
+                self._builds[robot] = _plain(robot, Activity.BUILDING)
+            case events.Unchanged(robot):
+                self._builds.pop(robot, None)
+            case events.Built(result) | events.Failed(result):
+                self._builds.pop(result.robot, None)
+                self._results[result.robot] = _after_build(result, clock, self._results.get(result.robot))
+            case events.Checking(robot):
+                self._checks[robot] = _plain(robot, Activity.CHECKING)
+            case events.CheckDone(robot, checked, diagnostics=diagnostics):
+                self._checks.pop(robot, None)
+                if checked is Checked.WRONG:
+                    text = ": ".join([_CHECK_FAILED, *_first_error(diagnostics)])
+                    self._checks[robot] = RobotStatus(robot, Activity.ERROR, text)
+            case events.Paused(reason):
+                self.pause_reason = reason
+            case events.Resumed():
+                self.pause_reason = ""
+            case _:
+                pass
+
+    def progress(self, what: str, done: int, total: int) -> None:
+        """Take note of how far the build under way is."""
+        for robot, status in self._builds.items():
+            if status.activity is Activity.BUILDING and what != robot:
+                count = f" {done} of {total}" if total > 1 else ""
+                self._builds[robot] = RobotStatus(robot, Activity.BUILDING, f"{Activity.BUILDING}: {what}{count}")
+
+    def visible(self, room: int) -> tuple[Sequence[RobotStatus], str]:
+        """Return the robots for which so many lines have room, and a line that counts the others.
+
+        If there are too many robots, those that need attention are shown. The line takes room, too; it is empty if
+        all robots are shown.
+        """
+        rows = self.rows
+        if len(rows) <= room:
+            return rows, ""
+        order = sorted(range(len(rows)), key=lambda index: rows[index].activity.rank)
+        number = max(room - 1, 0)
+        shown = [rows[index] for index in sorted(order[:number])]
+        counts = Counter(rows[index].activity for index in order[number:])
+        text = ", ".join(f"{counts[activity]} {activity}" for activity in Activity if counts[activity])
+        if len(counts) == 1:
+            return shown, f"… and {text.replace(' ', ' more ', 1)}"
+        return shown, f"… and {counts.total()} more: {text}"
+
+
+def _plain(robot: str, activity: Activity) -> RobotStatus:
+    return RobotStatus(robot, activity, activity)
+
+
+def _after_build(result: Result, clock: str, before: RobotStatus | None) -> RobotStatus:
+    robot = result.robot
+    if result.failed:
+        return RobotStatus(robot, Activity.ERROR, ": ".join([Activity.ERROR, *_first_error(result.diagnostics)]))
+    if result.conflicts:
+        files = [(action.origin or action.path).rpartition("/")[2] for action in result.conflicts]
+        where = files[0] if len(files) == 1 else f"{len(files)} files"
+        return RobotStatus(robot, Activity.CONFLICT, f"{Activity.CONFLICT} in {where}")
+    if result.in_step and before is not None and before.activity is Activity.IN_STEP:
+        return before  # with the time of the build that wrote something
+    return RobotStatus(robot, Activity.IN_STEP, "in step" if result.in_step else f"in step, built at {clock}")
+
+
+def _first_error(diagnostics: Sequence[Diagnostic]) -> list[str]:
+    """Return place and message of the first error, or else of the first finding, if there is any."""
+    errors = [found for found in diagnostics if found.severity is Severity.ERROR] or list(diagnostics)
+    for found in errors[:1]:
+        place = f"{found.file}:{found.line}: " if found.line else f"{found.file}: " if found.file else ""
+        return [" ".join(f"{place}{found.message}".split())]
+    return []

@@ -1,1 +1,0 @@
-"""What `urdfsync watch` is made of: which files matter, when they have settled, and what there is to say."""
