@@ -260,7 +260,8 @@ def test_a_rename_and_a_template_are_told_as_such(arm: Path) -> None:
     assert change_lines(other)[0] == "a template, an option or urdfsync itself changed"
 
 
-CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller"/>
+CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller">
+  <inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
   <joint name="wheel" type="continuous"><parent link="base"/><child link="tyre"/></joint>
   <joint name="caster" type="continuous"><parent link="base"/><child link="roller"/></joint>
   <transmission name="t"><joint name="wheel"/></transmission>

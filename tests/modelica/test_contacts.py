@@ -39,7 +39,7 @@ def session(modelica_library: Path) -> Iterator[Any]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_CACHE_HOME", str(CACHE.folder))
         patch.setenv("MODELICAPATH", "")  # the compiler looks there too
-        yield rumoca.Session(roots=[*standard(modelica_library), str(URDFSYNC)])
+        yield rumoca.Session(roots=[standard(modelica_library), str(URDFSYNC)])
 
 
 @dataclass(frozen=True)
