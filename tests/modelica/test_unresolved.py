@@ -229,6 +229,19 @@ def test_a_redeclaration_inside_of_a_modifier_is_told_apart() -> None:
     ]
 
 
+def test_a_modifier_by_a_name_with_dots_is_told_apart() -> None:
+    for body in ("crane.boom.numbers.mass = 2", "crane.boom.numbers(mass = 2)"):
+        (one,) = found(PLANT, USER, f"model Mine\n Plant.Test t({body});\nend Mine;\n")
+        assert (one.kind, one.line) == (UnresolvedKind.DOTTED_MODIFIER, 2)
+        assert one.name == body.partition("(")[0].partition(" ")[0]
+
+
+@pytest.mark.parametrize("name", ["crane.boom.numbers.mas", "crane.bom.numbers.mass", "cran.boom.numbers.mass"])
+def test_each_part_of_a_modifier_with_dots_is_looked_up(name: str) -> None:
+    kinds = {one.kind for one in found(PLANT, USER, f"model Mine\n Plant.Test t({name} = 2);\nend Mine;\n")}
+    assert UnresolvedKind.ELEMENT in kinds
+
+
 def test_what_a_name_means() -> None:
     scopes = Scopes(Texts(PLANT, USER))
     mine = scopes.node(("User", "MyTest"))

@@ -75,6 +75,11 @@ def _diagnostic(package: PackageFiles, file: Path, places: Sequence[Unresolved])
         severity, code = Severity.WARNING, "nested-redeclare"
         message = f"the redeclaration of `{one.part}` inside of another modifier is not checked: rumoca ignores it"
         hint = f"write a model that says `extends {one.owner}(redeclare … {one.part})`, and use that instead"
+    elif one.kind is UnresolvedKind.DOTTED_MODIFIER:
+        severity, code = Severity.WARNING, "dotted-modifier"
+        message = f"the modifier of `{one.name}` is not checked: rumoca ignores names with dots in modifiers"
+        first, *rest = one.name.split(".")
+        hint = f"write `{first}({'('.join(rest)} = …{')' * len(rest)}`, which every tool follows"
     else:
         severity, code, hint = Severity.ERROR, "unresolved", f"did you mean `{one.meant}`?" if one.meant else ""
         if one.kind in (UnresolvedKind.CLASS, UnresolvedKind.FUNCTION):

@@ -204,7 +204,8 @@ def find_uses(
     if not isinstance(node, Node):
         tokens = (token for token in lex(text)[0] if token.text in lost)
         return [Unresolved(UnresolvedKind.ELEMENT, token.text, token.text, "", token.line) for token in tokens]
-    found = (one for one in unresolved(node, scopes, doubtful) if one.kind is not UnresolvedKind.NESTED_REDECLARE)
+    legal = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
+    found = (one for one in unresolved(node, scopes, doubtful) if one.kind not in legal)
     return sorted((one for one in found if one.part in lost), key=lambda one: one.line)
 
 

@@ -25,6 +25,8 @@ class UnresolvedKind(enum.Enum):
     """A class has no element of this name."""
     NESTED_REDECLARE = "nested-redeclare"
     """Legal: it redeclares an element inside of an element."""
+    DOTTED_MODIFIER = "dotted-modifier"
+    """Legal: a modifier of an element inside of an element, by a name with dots."""
 
 
 class Unresolved(NamedTuple):
@@ -116,11 +118,20 @@ class _Walk:
     ) -> Iterator[Unresolved]:
         """Yield what is wrong with modifiers of something that may have one of these types; without any, names pass."""
         for one in arguments:
-            found = self._scopes.part(types or (UNKNOWN,), one.name.parts[0])
-            part = Name(one.name.parts[:1], one.name.line)
             redeclares = one.is_redeclared or one.is_break
-            if types:
-                yield from self._missing(part, found, scope, UnresolvedKind.ELEMENT, is_part=redeclares)
+            found: object = None
+            inside = types
+            for part in one.name.parts:
+                found = self._scopes.part(inside or (UNKNOWN,), part)
+                if inside:
+                    name = Name((part,), one.name.line)
+                    yield from self._missing(name, found, scope, UnresolvedKind.ELEMENT, is_part=redeclares)
+                if not isinstance(found, Element):
+                    break
+                inside = found.types
+            if len(one.name.parts) > 1 and isinstance(found, Element):
+                name_ = str(one.name)
+                yield Unresolved(UnresolvedKind.DOTTED_MODIFIER, name_, name_, "", one.name.line)
             if depth and one.is_redeclared and isinstance(found, Element):
                 owner = next((str(type_) for type_ in types if type_ is not UNKNOWN), "")
                 yield Unresolved(UnresolvedKind.NESTED_REDECLARE, str(one.name), str(one.name), owner, one.name.line)

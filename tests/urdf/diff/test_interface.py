@@ -42,6 +42,7 @@ def test_a_connector_keeps_its_name_whatever_comes_and_goes_beside_it() -> None:
         joint("jc", "prismatic", "base", "c"),
     )
     assert changed(old, new) == {
+        "joint jc / axis and support": ("jcAxis (rotational)", "jcAxis (translational)"),
         "joint jc / position in Run": ("jc_phi", "jc_s"),
         "joint jc / effort in Run": ("jc_tau", "jc_f"),
     }
@@ -97,6 +98,8 @@ def test_a_renamed_joint_shows_its_new_connectors() -> None:
     assert changed(two("u", "v"), two("u", "w"), {("joint", "v"): "w"}) == {
         "joint w / axis": ("vAxis", "wAxis"),
         "joint w / support": ("vSupport", "wSupport"),
+        "joint w / position in Run": ("v_phi", "w_phi"),
+        "joint w / effort in Run": ("v_tau", "w_tau"),
     }
 
 
@@ -118,7 +121,9 @@ def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:
     behind = version(
         *STAR, *(joint(f"j{n}", "continuous", "base", child) for n, child in zip("bcd", "abc", strict=True))
     )
-    assert changed(old, behind, inputs="vector") == {}
+    assert changed(old, behind, inputs="vector") == {"robot / positions": ("jb, jc", "jb, jc, jd")}
+    another = version(*STAR[:3], joint("jb", "continuous", "base", "a"), joint("jz", "prismatic", "base", "b"))
+    assert changed(old, another, inputs="vector") == {"robot / positions": ("jb, jc", "jb, jz")}
 
 
 def test_the_record_approach_has_no_names_to_connect_to() -> None:

@@ -16,6 +16,7 @@ _RUN: Mapping[Motion, Mapping[str, str]] = {
     "translational": {"position": "s", "effort": "f"},
 }
 """How the names of variables of Run end."""
+_OTHER_FLANGES = "adapt what is connected to it, and joints that were exchanged"
 
 
 def interface(
@@ -40,6 +41,7 @@ def interface(
         *_differing("link", "frame", one.frames, other.frames, links, renames),
         *_differing("joint", "axis", one.axes, other.axes, joints, renames),
         *_differing("joint", "support", one.supports, other.supports, joints, renames),
+        *_motions(before, after, renames, one.axes, other.axes),
         *_variables(before, after, joints, renames, earlier, options),
         *_positions(before, after, renames, earlier, options),
     ]
@@ -62,6 +64,24 @@ def _differing(
         yield Effect((f"{kind} {name}", connector), before, after, hint=hint)
 
 
+def _motions(
+    before: KinematicTree,
+    after: KinematicTree,
+    renames: Mapping[ElementKey, str],
+    old: Mapping[str, str],
+    new: Mapping[str, str],
+) -> Iterator[Effect]:
+    """Axes that keep their name and turn where they slid, or the other way round: they take other flanges now."""
+    types = {joint.name: joint.type for joint in after.joints}
+    for joint in before.joints:
+        name = renames.get(("joint", joint.name), joint.name)
+        if joint.name in old and old[joint.name] == new.get(name):
+            one, other = MOTION_KINDS[joint.type], MOTION_KINDS[types[name]]
+            if one != other:
+                path = f"joint {name}", "axis and support"
+                yield Effect(path, f"{old[joint.name]} ({one})", f"{new[name]} ({other})", hint=_OTHER_FLANGES)
+
+
 def _variables(
     before: KinematicTree,
     after: KinematicTree,
@@ -70,23 +90,29 @@ def _variables(
     earlier: Options,
     options: Options,
 ) -> Iterator[Effect]:
-    """Variables of Run. A joint that gets or loses its axis, or has another name, is named with that axis."""
+    """Variables of Run. A joint that gets or loses its axis is named with that axis."""
     moving = {joint.name: joint for joint in after.joints if joint.name in joints and can_be_driven(joint)}
     was_driven, is_driven = driven_joints(before.joints, earlier), driven_joints(after.joints, options)
     for joint in before.joints:
         name = renames.get(("joint", joint.name), joint.name)
-        component = before.joint(joint.name).component
-        if name not in moving or not can_be_driven(joint) or after.joint(name).component != component:
+        if name not in moving or not can_be_driven(joint):
             continue
+        component, component_now = before.joint(joint.name).component, after.joint(name).component
         old = _RUN[MOTION_KINDS[joint.type]] if joint.name in was_driven else {}
         new = _RUN[MOTION_KINDS[moving[name].type]] if name in is_driven else {}
         hint = f'list "{name}" in `driven`, with all others that are driven, to keep it' if old and not new else ""
         named = [(old, earlier.inputs == "names"), (new, options.inputs == "names")]
-        one, other = (f"{component}_{ends['position']}" if ends and by_name else None for ends, by_name in named)
+        components = component, component_now
+        one, other = (
+            f"{called}_{ends['position']}" if ends and by_name else None
+            for called, (ends, by_name) in zip(components, named, strict=True)
+        )
         if one != other:
             keep = hint if options.inputs == "names" else 'set `inputs = "names"` to keep it'
             yield Effect((f"joint {name}", "position in Run"), one, other, hint=keep if one and not other else "")
-        one, other = (f"{component}_{ends['effort']}" if ends else None for ends in (old, new))
+        one, other = (
+            f"{called}_{ends['effort']}" if ends else None for called, ends in zip(components, (old, new), strict=True)
+        )
         if one != other:
             yield Effect((f"joint {name}", "effort in Run"), one, other, hint=hint)
 
@@ -94,7 +120,7 @@ def _variables(
 def _positions(
     before: KinematicTree, after: KinematicTree, renames: Mapping[ElementKey, str], earlier: Options, options: Options
 ) -> Iterator[Effect]:
-    """The vector of positions of Run: that it is gone, or has another order."""
+    """The vector of positions of Run: that it is gone, or has other joints, or the same in another order."""
     was_driven, is_driven = driven_joints(before.joints, earlier), driven_joints(after.joints, options)
     if earlier.inputs == "names" or not was_driven:
         return
@@ -103,7 +129,6 @@ def _positions(
         return
     known = [renames.get(("joint", joint.name), joint.name) for joint in before.joints if joint.name in was_driven]
     new = [joint.name for joint in after.joints if joint.name in is_driven]
-    places = {name: place for place, name in enumerate(new)}
-    if any(places.get(name, place) != place for place, name in enumerate(known)):
+    if known != new:
         hint = "adapt what is connected to `positions` of Run"
-        yield Effect(("robot", "positions"), ", ".join(known), ", ".join(new), hint=hint)
+        yield Effect(("robot", "positions"), ", ".join(known), ", ".join(new) or None, hint=hint)
