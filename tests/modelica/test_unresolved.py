@@ -242,6 +242,12 @@ def test_each_part_of_a_modifier_with_dots_is_looked_up(name: str) -> None:
     assert UnresolvedKind.ELEMENT in kinds
 
 
+def test_an_element_that_is_redeclared_is_one_of_a_base() -> None:
+    text = "model Mine\n extends Plant.Crane;\n redeclare User.Telescope bom;\nend Mine;\n"
+    (one,) = found(PLANT, USER, text)
+    assert (one.kind, one.part, one.near, one.line) == (UnresolvedKind.ELEMENT, "bom", "boom", 3)
+
+
 def test_what_a_name_means() -> None:
     scopes = Scopes(Texts(PLANT, USER))
     mine = scopes.node(("User", "MyTest"))

@@ -99,6 +99,10 @@ class _Walk:
 
     def _component(self, component: Component, node: Node) -> Iterator[Unresolved]:
         yield from self._type(component.type, node)
+        bases = self._scopes.bases(node)
+        if "redeclare" in component.prefixes and bases:
+            found = self._scopes.part(bases, component.name.parts[0])
+            yield from self._missing(component.name, found, None, UnresolvedKind.ELEMENT, is_part=True)
         types = self._scopes.types_in(component, node)
         yield from self._arguments(component.arguments, () if self._is_foreign(component, types) else types, node)
         if component.constraint:

@@ -25,7 +25,7 @@ block ToolController "Pulls a tool round in a circle, by forces that the Jacobia
     "Damping against turns";
 
   parameter Modelica.Units.SI.Angle rpy_ref[3] = {0, 1.5 + Modelica.Constants.pi/2, 0}
-    "Roll, pitch and yaw that the tool is to keep: those at the beginning";
+    "Roll, pitch and yaw that the tool is to keep: those of the default of start";
 
   parameter Modelica.Units.SI.Acceleration g[3] = {0, 0, -Modelica.Constants.g_n}
     "Gravity, resolved in the base frame";
