@@ -191,8 +191,11 @@ def test_with_all_frames_each_link_keeps_its_own(corpus: Path, history: str) -> 
 @HISTORIES
 def test_each_case_is_named_with_the_key_that_keeps_a_frame(corpus: Path, history: str) -> None:
     for old, new in itertools.pairwise(versions(history)):
-        gone = lost(old.robot, new.robot)
+        gone, run = lost(old.robot, new.robot), lost(old.run, new.run)
         said = {(effect.path, effect.old): effect for effect in effects(old, new)}
+        named = {effect.old for effect in said.values()}
+        for name, (_, element) in run.items():
+            assert name in named or element not in new.elements, name
         for name, (what, element) in gone.items():
             if what == "part" or element not in new.elements:
                 continue
@@ -201,8 +204,9 @@ def test_each_case_is_named_with_the_key_that_keeps_a_frame(corpus: Path, histor
             if effect.new is None and what == "frame":
                 assert f'list "{element[1]}" in `frames`' in effect.hint
         for effect in said.values():
-            assert effect.old is None or effect.old in gone, effect
-            assert effect.new is None or effect.new in lost(new.robot, old.robot), effect
+            assert effect.old is None or effect.old in {**gone, **run}, effect
+            coming = {**lost(new.robot, old.robot), **lost(new.run, old.run)}
+            assert effect.new is None or effect.new in coming, effect
 
 
 def effects(old: Built, new: Built) -> Sequence[Effect]:

@@ -77,7 +77,12 @@ def test_a_leaf_that_is_none_any_more_loses_its_frame_and_an_option_keeps_it() -
 def test_a_joint_that_follows_or_stops_loses_its_axis_and_its_support() -> None:
     first, follower = joint("first", "continuous", "base", "a"), joint("second", "continuous", "base", "b")
     mimics = joint("second", "continuous", "base", "b", '<mimic joint="first"/>')
-    gone = {"joint second / axis": ("secondAxis", None), "joint second / support": ("secondSupport", None)}
+    gone = {
+        "joint second / axis": ("secondAxis", None),
+        "joint second / support": ("secondSupport", None),
+        "joint second / position in Run": ("second_phi", None),
+        "joint second / effort in Run": ("second_tau", None),
+    }
     assert changed(version(*STAR[:3], first, follower), version(*STAR[:3], first, mimics)) == gone
     stopped = joint("second", "fixed", "base", "b")
     assert changed(version(*STAR[:3], first, follower), version(*STAR[:3], first, stopped)) == gone

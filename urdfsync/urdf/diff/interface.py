@@ -91,16 +91,17 @@ def _variables(
     options: Options,
 ) -> Iterator[Effect]:
     """Variables of Run. A joint that gets or loses its axis is named with that axis."""
-    moving = {joint.name: joint for joint in after.joints if joint.name in joints and can_be_driven(joint)}
+    now = {joint.name: joint for joint in after.joints if joint.name in joints}
     was_driven, is_driven = driven_joints(before.joints, earlier), driven_joints(after.joints, options)
     for joint in before.joints:
         name = renames.get(("joint", joint.name), joint.name)
-        if name not in moving or not can_be_driven(joint):
+        if name not in now or not can_be_driven(joint):
             continue
         component, component_now = before.joint(joint.name).component, after.joint(name).component
         old = _RUN[MOTION_KINDS[joint.type]] if joint.name in was_driven else {}
-        new = _RUN[MOTION_KINDS[moving[name].type]] if name in is_driven else {}
-        hint = f'list "{name}" in `driven`, with all others that are driven, to keep it' if old and not new else ""
+        new = _RUN[MOTION_KINDS[now[name].type]] if name in is_driven else {}
+        is_passive = old and not new and can_be_driven(now[name])
+        hint = f'list "{name}" in `driven`, with all others that are driven, to keep it' if is_passive else ""
         named = [(old, earlier.inputs == "names"), (new, options.inputs == "names")]
         components = component, component_now
         one, other = (
