@@ -16,11 +16,12 @@ from urdfsync import config
 from urdfsync.commands import arguments
 from urdfsync.config import Config
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
-from urdfsync.diff.outline import OutlineEntry, OutlineRow, Tone, effect_rows, outline
+from urdfsync.domain import ChangeKind
 from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.outcome import Exit
 from urdfsync.output.console import Console, has_marks, line, rich_console, text
 from urdfsync.output.json_values import action_values, change_values, finding_values
+from urdfsync.output.outline import OutlineEntry, OutlineRow, effect_rows, outline
 from urdfsync.output.phrases import GENERATOR, change_classes, counted, error_count
 from urdfsync.output.phrases import summary as build_summary
 
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     from urdfsync.diff.comparison import Comparison
 
 _ADVICE = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
-_TONES = {Tone.ADDED: "green", Tone.REMOVED: "red", Tone.RENAMED: "cyan", Tone.QUIET: "dim"}
+_CHANGES = {ChangeKind.ADDED: "green", ChangeKind.REMOVED: "red", ChangeKind.RENAMED: "cyan"}
 _WIDEST = 44
 """Columns for labels at most; the values of longer ones go to the next line."""
 _VALUES = 40
@@ -74,11 +75,10 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 
     folder = config.working_folder()
     configuration = _configuration(args, folder)
-    sources = comparison.find_sources(args.source, configuration, args.robot or [], folder)
-    comparison.check_sources(sources, args.against, configuration, folder)
+    robots = comparison.find_sources(args.source, configuration, args.robot or [], args.against, folder)
     found = []
     request = arguments.request(args, console)
-    for one in comparison.compare_sources(sources, args.against, configuration, request, folder):
+    for one in comparison.compare_sources(robots, args.against, configuration, request, folder):
         if console.json:
             console.add_robot(_to_json(one))
         else:
@@ -114,7 +114,7 @@ def _to_json(found: Comparison) -> dict[str, Any]:
         "in_step": found.in_step,
         "summary": _summary(found),
         "class": found.change_class,
-        "changes": [change_values(one) for one in found.changes.changes] if found.changes else [],
+        "changes": [change_values(one) for one in found.result.changes.changes] if found.result.changes else [],
         "effects": [
             {"effect": " / ".join(one.path), "old": one.old, "new": one.new, "unit": one.unit, "hint": one.hint}
             for one in found.effects
@@ -133,10 +133,10 @@ def _summary(found: Comparison) -> str:
     if found.missing:
         return found.missing
     since = f"since {'the last build' if found.against is None else found.against}"
-    if found.changes is None:
+    if found.result.changes is None:
         return f"nothing changed {since}{'' if found.in_step else ', but files are not as they should be'}"
-    what = change_classes(found.changes) if found.changes.changes else GENERATOR
-    return f"{what} {since}{', only by rounding' if found.changes.noise else ''}"
+    what = change_classes(found.result.changes) if found.result.changes.changes else GENERATOR
+    return f"{what} {since}{', only by rounding' if found.result.changes.noise else ''}"
 
 
 # --- text ---------------------------------------------------------------------------------------------------------
@@ -148,7 +148,7 @@ def _show(found: Comparison, console: Console) -> None:
     if console.quiet and not found.result.conflicts:
         return
     screen = rich_console(sys.stderr if found.result.failed else sys.stdout)
-    if found.in_step and found.changes is None:
+    if found.in_step and found.result.changes is None:
         mark = [("✓ ", "green")] if has_marks(screen.file) else []
         console.print([line(*mark, (found.result.robot, "bold"), (f": {_summary(found)}", ""))])
         return
@@ -168,16 +168,16 @@ def _tree(found: Comparison, console: RichConsole, verbose: bool) -> Tree:
     marks = [(f"{mark} ", style)] if has_marks(console.file) else []
     headline = text(*marks, (found.result.robot, "bold"), (f": {_summary(found)}", ""))
     tree = Tree(headline, guide_style="dim")
-    if found.changes is None:
+    if found.result.changes is None:
         return tree
-    if found.changes.generator:
+    if found.result.changes.generator:
         tree.add(text(("urdfsync", "bold"), ("  a template, an option or the program itself changed", "")))
-    shown = outline(found.changes, everything=verbose)
+    shown = outline(found.result.changes, everything=verbose)
     columns = _Columns([row for entry in shown.entries for row in entry.rows], console, guides=8)
     # a first row without a label stands beside the names of its elements
     titles = _Columns([_titled(entry) for entry in shown.entries if not entry.rows[0].label], console, guides=4)
     for entry in shown.entries:
-        is_quiet = all(row.tone is Tone.QUIET for row in entry.rows)
+        is_quiet = all(row.is_quiet for row in entry.rows)
         style, rows = "dim" if is_quiet else "bold", entry.rows
         if rows[0].label:
             branch = tree.add(text((entry.title, style)))
@@ -211,7 +211,7 @@ class _Columns:
         """Return the row; what does not fit goes to further lines, below the values; `margin` stands before them."""
         from rich.console import Console as RichConsole
 
-        line = text((f"{row.label:<{self._label}}  ", style or ("dim" if row.tone is Tone.QUIET else "")))
+        line = text((f"{row.label:<{self._label}}  ", style or ("dim" if row.is_quiet else "")))
         indent = "\n" + margin + " " * (self._label + 2)
         room = self._total - self._label - 2
         if len(row.label) > self._label:
@@ -231,7 +231,7 @@ class _Columns:
 
 
 def _value(row: OutlineRow) -> Text:
-    style = _TONES.get(row.tone, "")
+    style = "dim" if row.is_quiet else _CHANGES.get(row.kind, "")
     if not row.old:
         return text((row.new, style))
     return text((row.old, style or "dim"), (" → ", "dim"), (row.new, style))
