@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from urdfsync.diff.changes import Change, Changes
 
 GENERATOR = "a template, an option or urdfsync itself changed"
+RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
 _NAMED = {
     Kind.UPDATE: "{}",
     Kind.MERGE: "{}; merged with your edits",
