@@ -6,12 +6,11 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from urdfsync.diff import outline
-from urdfsync.diff.outline import OutlineEntry, OutlineRow, Tone
-from urdfsync.domain import Role
+from urdfsync.domain import ChangeKind, Role
 from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.outcome import Result
-from urdfsync.output.phrases import action_counts, counted
+from urdfsync.output.outline import OutlineEntry, OutlineRow, outline
+from urdfsync.output.phrases import GENERATOR, action_counts, counted
 
 if TYPE_CHECKING:
     from urdfsync.diff.changes import Changes
@@ -22,13 +21,11 @@ _MAX_LENGTH = 100
 """Characters of changes that are spelled out."""
 _MAX_NAMES = 3
 """Names of one kind that are listed; more are counted."""
-_GENERATOR = "a template, an option or urdfsync itself changed"
 _NOUNS = {Role.RECORD: "record", Role.MODEL: "model"}
 _NAMED = (Kind.RESTORE, Kind.MERGE, Kind.MOVE)
 """Actions of which the files are named."""
 _NOT_COUNTED = frozenset({Kind.CREATE, Kind.UPDATE, Kind.KEEP, Kind.ORPHAN, Kind.NEEDED, *CONFLICTS})
 """Actions that have words of their own, or that the user knows of."""
-_ELEMENT = {Tone.ADDED, Tone.REMOVED, Tone.RENAMED}
 _PLAIN_NUMBER = re.compile(r"-?[\d.]+(e[-+]?\d+)?|-?inf")
 _INDEX = re.compile(r"\d")
 
@@ -88,14 +85,14 @@ def _conflicts(result: Result, *, known: bool) -> Iterator[str]:
 def _changes(found: Changes) -> str:
     """Return what changed in the model. Of many changes, only elements that come, go or are renamed are named."""
     if found.generator:
-        return _GENERATOR
-    entries = outline.outline(found).entries
+        return GENERATOR
+    entries = outline(found).entries
     if sum(len(entry.rows) for entry in entries) <= _MAX_ROWS:
         words = "; ".join(map(_entry, entries))
         if len(words) <= _MAX_LENGTH:
             return words
     whole = [change for change in found.changes if len(change.path) == 1]
-    named = [entry for entry in entries if entry.rows[0].tone in _ELEMENT and not entry.rows[0].label]
+    named = [entry for entry in entries if _is_whole(entry.rows[0])]
     few = len(named) <= _MAX_NAMES and all(len(_entry(entry)) <= _MAX_LENGTH for entry in named)
     rest = [change for change in found.changes if not (few and change in whole)]
     parts = [_element(entry) for entry in named] if few else []
@@ -108,10 +105,15 @@ def _changes(found: Changes) -> str:
 
 def _entry(entry: OutlineEntry) -> str:
     """Return such as `link elbow: mass 1.2 → 1.35 kg (+12.5 %)`, `link tool added`."""
-    if entry.rows[0].tone in _ELEMENT and not entry.rows[0].label:
+    if _is_whole(entry.rows[0]):
         more = ", ".join(map(_row, entry.rows[1:]))
         return f"{_element(entry)}{': ' if more else ''}{more}"
     return f"{entry.title}: {', '.join(map(_row, entry.rows))}"
+
+
+def _is_whole(row: OutlineRow) -> bool:
+    """Whether a whole element comes, goes or is renamed."""
+    return row.kind is not ChangeKind.CHANGED and not row.is_quiet and not row.label
 
 
 def _element(entry: OutlineEntry) -> str:
