@@ -18,7 +18,8 @@ from urdfsync.engine.actions import Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.plan import Plan, plan_robot
+from urdfsync.engine.plan import plan_robot
+from urdfsync.engine.stage import Plan
 
 EXAMPLES = Path(__file__).parents[1] / "rcnetwork/examples"
 SETTINGS = '[robots.ladder]\nsource = "ladder.json"\npackage = "Ladder"\ndomain = "rcnetwork"\n'

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.engine.package_order import merge
+from urdfsync.engine.parents import merge_order as merge
 
 
 def names_in(text: str) -> list[str]:

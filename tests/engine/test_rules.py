@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, WRITES, Action, Kind
-from urdfsync.engine.renames import OnDisk
 from urdfsync.engine.rules import (
     DesiredFile,
+    OnDisk,
     decide,
     decide_file,
     hold,

@@ -21,7 +21,7 @@ from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.outcome import Exit
 from urdfsync.output.console import Console, has_marks, line, rich_console, text
 from urdfsync.output.json_values import action_values, change_values, finding_values
-from urdfsync.output.phrases import GENERATOR, change_classes, counted, error_count
+from urdfsync.output.phrases import change_classes, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ def _summary(found: Comparison) -> str:
     since = f"since {'the last build' if found.against is None else found.against}"
     if found.changes is None:
         return f"nothing changed {since}{'' if found.in_step else ', but files are not as they should be'}"
-    what = change_classes(found.changes) if found.changes.changes else GENERATOR
+    what = change_classes(found.changes) if found.changes.changes else generator_change(found.changes)
     return f"{what} {since}{', only by rounding' if found.changes.noise else ''}"
 
 
@@ -171,7 +171,7 @@ def _tree(found: Comparison, console: RichConsole, verbose: bool) -> Tree:
     if found.changes is None:
         return tree
     if found.changes.generator:
-        tree.add(text(("urdfsync", "bold"), ("  a template, an option or the program itself changed", "")))
+        tree.add(text(("urdfsync", "bold"), (f"  {generator_change(found.changes)}", "")))
     shown = outline(found.changes, everything=verbose)
     columns = _Columns([row for entry in shown.entries for row in entry.rows], console, guides=8)
     # a first row without a label stands beside the names of its elements

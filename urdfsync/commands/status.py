@@ -19,7 +19,7 @@ from urdfsync.engine.build import build
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.output.console import Console, StyledLine, has_marks, is_terminal, line
 from urdfsync.output.json_values import action_values, result_values
-from urdfsync.output.phrases import GENERATOR, change_classes, counted, error_count
+from urdfsync.output.phrases import change_classes, counted, error_count, generator_change
 from urdfsync.output.results import FileLine, file_lines
 
 if TYPE_CHECKING:
@@ -243,7 +243,7 @@ def next_build(found: PackageStatus) -> list[str]:
 def _source_changes(changes: Changes) -> str:
     """`1 structural and 2 parameter changes in the source`."""
     if changes.generator:
-        return GENERATOR
+        return generator_change(changes)
     return f"{change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}"
 
 

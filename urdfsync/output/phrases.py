@@ -18,7 +18,6 @@ from urdfsync.outcome import Checked, Result
 if TYPE_CHECKING:
     from urdfsync.diff.changes import Change, Changes
 
-GENERATOR = "a template, an option or urdfsync itself changed"
 _LONGEST_VALUE = 40
 _NAMED = {
     Kind.UPDATE: "{}",
@@ -122,7 +121,7 @@ def _cause(action: Action, changes: Changes) -> str:
         own = [change for change in structural if change.element == action.owner]
         found = own or structural or ([] if changes.generator else found)
     if not found:
-        return GENERATOR if changes.generator else ""
+        return generator_change(changes) if changes.generator else ""
     more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
     return f"{_of_element(found[0])}{more}"
 
@@ -133,9 +132,17 @@ def _of_element(change: Change) -> str:
     return f"{change.element}: {f'{place} ' if place else ''}{what}"
 
 
+def generator_change(changes: Changes) -> str:
+    """What else than the model changed: options by their names, if nothing but options did."""
+    if not changes.options:
+        return "a template, an option or urdfsync itself changed"
+    names = " and ".join(f"`{name}`" for name in changes.options)
+    return f"the option{'s' if len(changes.options) > 1 else ''} {names} changed"
+
+
 def change_lines(changes: Changes) -> list[str]:
     """What changed in the model, one line each: `joint elbow / limit / effort: 54 → 60 N.m (+11 %)`."""
-    lines = [GENERATOR] if changes.generator else []
+    lines = [generator_change(changes)] if changes.generator else []
     for change in changes.changes:
         is_unmodelled = change.change_class is ChangeClass.UNMODELLED
         lines += [f"{change}: {change_value(change)}{' (not modelled)' if is_unmodelled else ''}"]

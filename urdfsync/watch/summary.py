@@ -11,7 +11,7 @@ from urdfsync.diff.outline import OutlineEntry, OutlineRow, Tone
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.outcome import Result
-from urdfsync.output.phrases import action_counts, counted
+from urdfsync.output.phrases import action_counts, counted, generator_change
 
 if TYPE_CHECKING:
     from urdfsync.diff.changes import Changes
@@ -22,7 +22,6 @@ _MAX_LENGTH = 100
 """Characters of changes that are spelled out."""
 _MAX_NAMES = 3
 """Names of one kind that are listed; more are counted."""
-_GENERATOR = "a template, an option or urdfsync itself changed"
 _NOUNS = {Role.RECORD: "record", Role.MODEL: "model"}
 _NAMED = (Kind.RESTORE, Kind.MERGE, Kind.MOVE)
 """Actions of which the files are named."""
@@ -88,7 +87,7 @@ def _conflicts(result: Result, *, known: bool) -> Iterator[str]:
 def _changes(found: Changes) -> str:
     """Return what changed in the model. Of many changes, only elements that come, go or are renamed are named."""
     if found.generator:
-        return _GENERATOR
+        return generator_change(found)
     entries = outline.outline(found).entries
     if sum(len(entry.rows) for entry in entries) <= _MAX_ROWS:
         words = "; ".join(map(_entry, entries))
