@@ -246,11 +246,3 @@ def test_a_full_build_reads_every_file(project: Path) -> None:
     work = plan_robot(loaded, loaded.robots[0], BuildOptions(cache=memory, full=True, dry=True))
     assert not any(action.writes for action in work.actions)
     assert not any(entry and "wrong" in entry for entry in memory.states("ladder").values())
-
-
-def test_nothing_stays_of_the_look_at_the_clock(project: Path) -> None:
-    memory = Cache()
-    assert _built(project, memory)
-    (project / ".urdfsync/.clock.urdfsync-tmp").write_text("of a process that was killed")
-    _planned(project, memory)
-    assert not (project / ".urdfsync/.clock.urdfsync-tmp").exists()

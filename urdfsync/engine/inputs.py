@@ -177,11 +177,11 @@ class Inputs:
         before, recorded = self._recorded_options, self.recorded
         if before is None or recorded is None or recorded.generator.revision != self.domain.revision:
             return ()
-        now, target = self.robot.options, Target(recorded.package, recorded.class_)
-        if _fingerprint(target, before, self.domain.revision, self.templates.digest) != recorded.generator.fingerprint:
+        robot, revision = self.robot, self.domain.revision
+        if _fingerprint(robot.target, before, revision, self.templates.digest) != recorded.generator.fingerprint:
             return ()
-        names = now.__struct_fields__
-        return tuple(name for name in names if getattr(before, name) != getattr(now, name))
+        names = robot.options.__struct_fields__
+        return tuple(name for name in names if getattr(before, name) != getattr(robot.options, name))
 
     def rebuilt_manifest(self, generated: Mapping[str, str]) -> Manifest | None:
         """Return the manifest of the last build, rebuilt with `--repair`; `generated` has hashes of files by key."""

@@ -131,12 +131,16 @@ class Pool:
             left = len(self._waiting) + len(self._futures) + 1
             self._options.progress("reading", self._stale - left + done, self._stale)
         try:
-            self._submit()
-            plan, measured = future.result()
-        except UrdfsyncError:
-            raise
-        except Exception as problem:  # the worker is lost, in one of many ways
+            problem = future.exception()
+            if problem is None or isinstance(problem, UrdfsyncError):
+                self._submit()
+        except Exception as error:  # the workers are lost, in one of many ways
+            raise lost from error
+        if isinstance(problem, UrdfsyncError):
+            raise problem
+        if problem is not None:
             raise lost from problem
+        plan, measured = future.result()
         if measured and (profile := profiling.current()):
             profile.add(measured)
         return plan
