@@ -17,7 +17,6 @@ from urdfsync.output.outline import change_row
 if TYPE_CHECKING:
     from urdfsync.diff.changes import Change, Changes
 
-GENERATOR = "a template, an option or urdfsync itself changed"
 RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
 _NAMED = {
     Kind.UPDATE: "{}",
@@ -121,7 +120,7 @@ def _cause(action: Action, changes: Changes) -> str:
         own = [change for change in structural if change.element == action.owner]
         found = own or structural or ([] if changes.generator else found)
     if not found:
-        return GENERATOR if changes.generator else ""
+        return generator_change(changes) if changes.generator else ""
     more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
     return f"{_of_element(found[0])}{more}"
 
@@ -132,9 +131,17 @@ def _of_element(change: Change) -> str:
     return f"{change.element}: {f'{place} ' if place else ''}{what}"
 
 
+def generator_change(changes: Changes) -> str:
+    """What else than the model changed: options by their names, if nothing but options did."""
+    if not changes.options:
+        return "a template, an option or urdfsync itself changed"
+    names = " and ".join(f"`{name}`" for name in changes.options)
+    return f"the option{'s' if len(changes.options) > 1 else ''} {names} changed"
+
+
 def change_lines(changes: Changes) -> list[str]:
     """What changed in the model, one line each: `joint elbow / limit / effort: 54 → 60 N.m (+11.1 %)`."""
-    return [*([GENERATOR] if changes.generator else []), *(f"{one}: {_change_value(one)}" for one in changes.changes)]
+    return [*([generator_change(changes)] if changes.generator else []), *(f"{one}: {_change_value(one)}" for one in changes.changes)]
 
 
 def _change_value(change: Change) -> str:

@@ -10,7 +10,7 @@ from urdfsync.domain import ChangeKind, Role
 from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.outcome import Result
 from urdfsync.output.outline import OutlineEntry, OutlineRow, outline
-from urdfsync.output.phrases import GENERATOR, action_counts, counted
+from urdfsync.output.phrases import action_counts, counted, generator_change
 
 if TYPE_CHECKING:
     from urdfsync.diff.changes import Changes
@@ -85,7 +85,7 @@ def _conflicts(result: Result, *, known: bool) -> Iterator[str]:
 def _changes(found: Changes) -> str:
     """Return what changed in the model. Of many changes, only elements that come, go or are renamed are named."""
     if found.generator:
-        return GENERATOR
+        return generator_change(found)
     entries = outline(found).entries
     if sum(len(entry.rows) for entry in entries) <= _MAX_ROWS:
         words = "; ".join(map(_entry, entries))
