@@ -6,7 +6,6 @@ import threading
 from types import TracebackType
 from typing import Self
 
-from urdfsync.check import run
 from urdfsync.check.afterbuild import BuildCheck, BuildChecker, is_general
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic
@@ -61,7 +60,7 @@ class CheckQueue:
         if not robot.checking:
             return []
         checker = self._checker()
-        key = checker.cache.key(robot)
+        key = checker.key(robot)
         pending = self._pending(robot.name)
         if pending is not None:
             if key is not None and pending.key == key:
@@ -70,7 +69,7 @@ class CheckQueue:
         last_key, last = self._last.get(robot.name, (None, None))
         if last is not None and key is not None and last_key == key:
             return [last] if pending is not None else []
-        if found := checker.known(robot, key):
+        if found := checker.known(key):
             event = self._note(CheckJob(robot, key), found)
             was_right = pending is None and (last is None or last.checked is Checked.RIGHT)
             return [] if was_right and found.checked is Checked.RIGHT else [event]
@@ -85,7 +84,7 @@ class CheckQueue:
         return [self._note(ended.job, ended.found), *self._start_next()]
 
     def _checker(self) -> BuildChecker:
-        return BuildChecker(self._config, self._options, run.check_robots)
+        return BuildChecker(self._config, self._options)
 
     def _pending(self, name: str) -> CheckJob | None:
         running = self._running
