@@ -132,10 +132,11 @@ def _summary(found: Comparison) -> str:
     if found.missing:
         return found.missing
     since = f"since {'the last build' if found.against is None else found.against}"
-    if found.result.changes is None:
+    changes = found.result.changes
+    if changes is None:
         return f"nothing changed {since}{'' if found.in_step else ', but files are not as they should be'}"
-    what = change_classes(found.result.changes) if found.result.changes.changes else generator_change(found.result.changes)
-    return f"{what} {since}{', only by rounding' if found.result.changes.noise else ''}"
+    what = change_classes(changes) if changes.changes else generator_change(changes)
+    return f"{what} {since}{', only by rounding' if changes.noise else ''}"
 
 
 # --- text ---------------------------------------------------------------------------------------------------------

@@ -69,11 +69,12 @@ class Pool:
     ) -> None:
         if self._executor is None:
             return
-        if kind is not None and not issubclass(kind, Exception):
+        if kind is not None and not issubclass(kind, Exception) and isinstance(self._executor, ProcessPoolExecutor):
             for child in active_children():  # whoever interrupts does not want to wait
                 child.terminate()
-        for future in self._futures.values():
-            future.cancel()
+        else:  # not of a pool whose processes have ended: it fails with a traceback on futures that are cancelled
+            for future in self._futures.values():
+                future.cancel()
         self._executor.shutdown()
 
     def plan(self, robot: RobotConfig) -> Plan:

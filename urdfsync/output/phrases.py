@@ -141,7 +141,8 @@ def generator_change(changes: Changes) -> str:
 
 def change_lines(changes: Changes) -> list[str]:
     """What changed in the model, one line each: `joint elbow / limit / effort: 54 → 60 N.m (+11.1 %)`."""
-    return [*([generator_change(changes)] if changes.generator else []), *(f"{one}: {_change_value(one)}" for one in changes.changes)]
+    lines = [generator_change(changes)] if changes.generator else []
+    return [*lines, *(f"{change}: {_change_value(change)}" for change in changes.changes)]
 
 
 def _change_value(change: Change) -> str:
