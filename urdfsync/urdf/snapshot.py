@@ -13,6 +13,7 @@ one block of a diff; every number is there, defaults too, so that a change of a 
 from __future__ import annotations
 
 import json
+import operator
 from collections.abc import Mapping
 from typing import Any
 
@@ -33,9 +34,7 @@ def to_snapshot(robot: Robot) -> Snapshot:
     for extension in sorted(robot.extensions, key=msgspec.structs.astuple):
         extensions.setdefault(extension.owner, {}).setdefault(extension.tag, []).append(extension.text)
     by_name = {
-        part: {
-            element.pop("name"): element for element in sorted(plain[part], key=lambda element: str(element["name"]))
-        }
+        part: {element.pop("name"): element for element in sorted(plain[part], key=operator.itemgetter("name"))}
         for part in ("joints", "links")
     }
     return {"extensions": extensions, **by_name, "name": robot.name}

@@ -70,7 +70,7 @@ class Findings:
         return self.lines[path]
 
     def result(self) -> tuple[Diagnostic, ...]:
-        """Return all diagnostics by line; of more than three warnings of one code, the first names the others' lines."""
+        """Return all diagnostics by line; more than three warnings of one code become one."""
         by_code: dict[tuple[Severity, str], list[Diagnostic]] = {}
         for diagnostic in sorted(self._diagnostics, key=lambda found: (found.line, found.column)):
             by_code.setdefault((diagnostic.severity, diagnostic.code), []).append(diagnostic)

@@ -115,11 +115,16 @@ def _shapes(link: Element, tag: str) -> Iterator[tuple[Element, Element]]:
 def _read_geometry(element: Element) -> Geometry:
     kind = _SHAPES[element.node.tag]
     element.expect(kind.__struct_fields__)
-    if kind is Box:
-        return Box(element.required_vector("size"))
-    if kind is Mesh:
-        return Mesh(element.text("filename"), element.vector("scale", _UNIT))
-    return kind(*map(element.required, kind.__struct_fields__))
+    match element.node.tag:
+        case "box":
+            return Box(element.required_vector("size"))
+        case "mesh":
+            return Mesh(element.text("filename"), element.vector("scale", _UNIT))
+        case "sphere":
+            return Sphere(element.required("radius"))
+        case tag:
+            round_kind = Cylinder if tag == "cylinder" else Capsule
+            return round_kind(element.required("radius"), element.required("length"))
 
 
 def read_material(element: Element) -> Material:
