@@ -124,7 +124,7 @@ def _templates(folder: Path) -> Sequence[Path]:
         path = work.project / name
         path.write_bytes((path.read_bytes() if path.exists() else b"within Bot;\nmodel Bench\nend Bench;\n") + MINE)
     work.run(["build"])
-    _commit(work.project)
+    commit(work.project)
     found.append(shutil.copytree(work.project, folder / "templates/in-step"))
     (work.project / "bot.urdf").write_text(_urdf(2.0))
     crashed = shutil.copytree(work.project, folder / "templates/killed")
@@ -146,7 +146,7 @@ def _urdf(mass: float) -> str:
     return robot(link("base"), arm, turning, link("hand", mass), joint("hold", "fixed", "arm", "hand"))
 
 
-def _commit(project: Path) -> None:
+def commit(project: Path) -> None:
     """Make the project a repository, with all that is committed of it, whatever git is told on this machine."""
     environment = os.environ | {"GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1"}
     who = ["-c", "user.name=A", "-c", "user.email=a@example.org"]
@@ -176,25 +176,10 @@ def _damage(work: Workplace, random: Random) -> None:
 
 
 _NAMES = (
-    *(
-        "journal/prepare.json",
-        "journal/apply.json",
-        "journal/done.json",
-        "journal/undo.json",
-        "journal/new.urdfsync-tmp",
-    ),
-    *(
-        "undo/1",
-        "stamp",
-        "lock",
-        "watch.lock",
-        "robots/other.toml",
-        "robots/bot.json",
-        "robots/bot.toml",
-        "robots/BOT.toml",
-    ),
-    *("robots/-x.toml", "robots/.toml", "robots/\x1b[2J.toml", "robots/a.b.toml", "conflicts/bot/x.mo", "svg/bot.svg"),
-    *(".gitignore", "config", "robots/bot.toml.urdfsync-tmp", "conflicts/bot/Links/Arm.merge.mo.txt"),
+    *("journal/prepare.json", "journal/apply.json", "journal/done.json", "journal/undo.json", "undo/1", "stamp"),
+    *("journal/new.urdfsync-tmp", "lock", "watch.lock", "robots/other.toml", "robots/bot.json", "robots/bot.toml"),
+    *("robots/BOT.toml", "robots/-x.toml", "robots/.toml", "robots/\x1b[2J.toml", "robots/a.b.toml", "conflicts/bot/x"),
+    *("svg/bot.svg", ".gitignore", "config", "robots/bot.toml.urdfsync-tmp", "conflicts/bot/Links/Arm.merge.mo.txt"),
 )
 
 
@@ -225,6 +210,9 @@ def _values(path: Path, work: Workplace, random: Random) -> None:
         _put(path, json.dumps(document).encode())
     else:
         _noise(path, work, random)
+
+
+_JOURNAL = '{"robot":"bot","token":"12","steps":[{"path":"x"}],"made":[],"emptied":[],"format":3}'
 
 
 def _change(document: Any, random: Random) -> None:
