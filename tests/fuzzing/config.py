@@ -154,10 +154,10 @@ def _configuration(random: Random) -> bytes:
     if random.random() < 0.1:
         document[random.choice(("robots", "defaults", "check", *KEYS))] = random.choice((*OTHERS, *TEXTS))
     text = tomli_w.dumps(document)
-    if random.random() < 0.2:
+    if random.random() < 0.1:
         text = random.choice(_TEXT_DAMAGE)(text, random)
     content = text.encode(errors="surrogatepass")
-    if random.random() < 0.1:
+    if random.random() < 0.05:
         content = damaged(content, random)
     if random.random() < 0.03:
         content = text.encode(random.choice(("utf-16", "latin-1", "utf-8-sig", "utf-32")), errors="replace")
@@ -166,8 +166,8 @@ def _configuration(random: Random) -> bytes:
 
 def _table(random: Random, count: int) -> dict[str, Any]:
     table: dict[str, Any] = {}
-    for key in random.sample(KEYS, count):
-        if key in FITTING and random.random() < 0.7:
+    for key in random.sample(KEYS if random.random() < 0.1 else tuple(FITTING), count):
+        if key in FITTING and random.random() < 0.9:
             table[key] = random.choice(FITTING[key])
             continue
         values: Sequence[Any] = PATHS if key in PATH_KEYS and random.random() < 0.8 else (*TEXTS, *OTHERS, *PATHS)
