@@ -141,9 +141,7 @@ def _configuration(random: Random) -> bytes:
         document["check"] = _table(random, 1) | ({"library": random.choice(PATHS)} if random.random() < 0.5 else {})
     robots = {}
     for number in range(random.choice((1, 1, 1, 1, 2, 8))):
-        name = (
-            "bot" if number == 0 and random.random() < 0.7 else random.choice((f"bot{number}", f"bot{number}", *NAMES))
-        )
+        name = f"bot{number or ''}" if random.random() < 0.95 else random.choice(NAMES)
         required = {
             "source": "bot.urdf",
             "package": random.choice((f"Bot{number}", f"Plant.Bot{number}")),
