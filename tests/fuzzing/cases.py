@@ -16,6 +16,8 @@ from collections.abc import Callable, Iterator
 from random import Random
 from types import FrameType
 
+from support.workplace import Fault
+
 CPU_LIMIT = 20.0
 """Seconds of computing after which a case hangs."""
 TIME_LIMIT = 300.0
@@ -24,10 +26,6 @@ LAST_SEED = "last-seed"
 """File in the working folder that holds the seed of the case at work, for those that end the process."""
 _LINES = 6
 """Lines of a traceback that are shown."""
-
-
-class Fault(Exception):  # noqa: N818 - what a case found, not what is wrong with it
-    """Something that must not happen has happened in a case."""
 
 
 class _Hang(BaseException):

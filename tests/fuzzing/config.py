@@ -14,9 +14,9 @@ from random import Random
 from typing import Any
 
 import tomli_w
+from support.workplace import WATCH, Fault, Workplace, changes, contents
 
-from fuzzing.cases import Fault, run_cases
-from fuzzing.project import WATCH, Workplace, changes, contents
+from fuzzing.cases import run_cases
 from fuzzing.state import EDITED, MINE, commit
 from fuzzing.urdf import damaged, small_robot
 

@@ -22,9 +22,9 @@ from typing import Any
 import tomli_w
 from support import crashes
 from support.urdfs import joint, limit, link, robot
+from support.workplace import WATCH, Fault, Workplace, changes, contents
 
-from fuzzing.cases import Fault, run_cases
-from fuzzing.project import WATCH, Workplace, changes, contents
+from fuzzing.cases import run_cases
 from fuzzing.urdf import damaged
 
 MODEL = "modelica/Bot/Links/Arm.mo"

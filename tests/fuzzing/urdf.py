@@ -18,9 +18,9 @@ import msgspec
 from lxml import etree
 from support import corpus
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
+from support.workplace import Fault, Workplace
 
-from fuzzing.cases import Fault, run_cases
-from fuzzing.project import Workplace
+from fuzzing.cases import run_cases
 from urdfsync.config import templates_folder
 from urdfsync.diagnostics import Severity, UrdfsyncError
 from urdfsync.domain import Lookup, Target, Templates

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import os
+import re
 import shutil
 import signal
 import sys
@@ -12,19 +13,27 @@ import tempfile
 import threading
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from types import FrameType
 from unittest import mock
 
-from fuzzing.cases import Fault
 from urdfsync import __main__, hook
 from urdfsync.outcome import Exit
 
 CODES = {int(code) for code in Exit}
 WATCHING = 0.4
 """Seconds for the daemon: it has built by then, or will not."""
+TIME_LIMIT = 60.0
+"""Seconds after which a command hangs."""
 WATCH = ["watch", "--settle", "1", "--sample", "1", "--patience", "0.1"]
 _SHOWN = 300
+_CONTROLS = re.compile("[\\x00-\\x1f\\x7f-\\x9f]")
+"""What must not be in the text of a record either, which otherwise has names as they are."""
 
 Contents = Mapping[str, bytes | str]
+
+
+class Fault(Exception):  # noqa: N818 - what a command did, not what is wrong with it
+    """Something that must not happen has happened."""
 
 
 class Workplace:
@@ -61,7 +70,8 @@ class Workplace:
             raise Fault(f"{' '.join(command)}: {(reports or [said])[0][-2000:]}")
         if code not in CODES:
             raise Fault(f"{' '.join(command)}: exit code {code}: {said[-_SHOWN:]}")
-        if odd := {char for char in said if not char.isprintable() and char != "\n"}:
+        shown = _CONTROLS.findall(said) if command[0] == "record" else (c for c in said if not c.isprintable())
+        if odd := set(shown) - {"\n"}:
             raise Fault(f"{' '.join(command)}: the output has {sorted(odd)!r}: {said[-_SHOWN:]!r}")
         if changed := changes(before, self._others()):
             raise Fault(f"{' '.join(command)}: changes outside of the project: {changed[:5]}")
@@ -87,11 +97,25 @@ class Workplace:
 def _call(command: Sequence[str]) -> int:
     """Call the program that a command names: `hook` is the one of the hooks of git."""
     program, arguments = (hook.main, command[1:]) if command[0] == "hook" else (__main__.main, command)
-    with mock.patch.object(sys, "argv", ["urdfsync", *arguments]):
-        if command[0] != "watch":
-            return program()
-        with _terminated_soon():
-            return program()
+    limit = _terminated_soon() if command[0] == "watch" else _limited_time()
+    with mock.patch.object(sys, "argv", ["urdfsync", *arguments]), limit:
+        return program()
+
+
+@contextlib.contextmanager
+def _limited_time() -> Iterator[None]:
+    """Raise Fault in what waits without end, such as for a writer of a FIFO."""
+
+    def stop(_number: int, _frame: FrameType | None) -> None:
+        raise Fault(f"it hangs: {TIME_LIMIT:g} s are over")
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, TIME_LIMIT)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
 
 
 @contextlib.contextmanager
