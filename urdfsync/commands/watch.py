@@ -43,6 +43,7 @@ def add(commands: arguments.Commands) -> None:
         "--exec", metavar="CMD", default="", help="shell command to run after a build that changed files"
     )
     arguments.add_wait(parser)
+    arguments.add_trust(parser)
     arguments.add_jobs(parser)
     parser.set_defaults(run=run)
     arguments.add_common(parser)

@@ -60,7 +60,8 @@ def load(file: Path) -> Config:
     except OSError as error:
         message, hint = f"the configuration can't be read: {error.strerror}", "name a file that you may read"
     else:
-        return parse(text, file.absolute(), name)
+        place = file.absolute()
+        return parse(text, place.resolve() if ".." in place.parts else place, name)
     raise ConfigError(Diagnostic(Severity.ERROR, code, message, name, line, hint=hint))
 
 

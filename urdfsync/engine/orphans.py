@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -29,9 +30,12 @@ def renamed_robot(old: str, new: str, file: str, line: int) -> Diagnostic:
 
 
 def left_behind(
-    files: PackageFiles, recorded: Manifest, actions: Iterable[Action], folder: str, file: str, line: int
+    files: PackageFiles, recorded: Manifest, is_own: bool, actions: Iterable[Action], folder: str, file: str, line: int
 ) -> list[Diagnostic]:
-    """A warning if something stays in the folder that a package had in the last build."""
+    """A warning if something stays in the folder that a package had in the last build.
+
+    `is_own` says that a build in this checkout wrote that folder.
+    """
     actions = list(actions)
     if any(action.held for action in actions):
         return []
@@ -45,6 +49,10 @@ def left_behind(
     rest = [path for path in _files(old) if path not in gone and new not in path.parents]
     if not rest:
         return []
+    if not is_own:
+        message += "; the old folder was not built in this checkout, so it stays as it is"
+        hint = f"take over what you need, then delete it: `rm -r {shlex.quote(shown(old))}`"
+        return [Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint=hint)]
     theirs = [shown(path) for path in rest[:_FEW]] + ([f"{len(rest) - _FEW} more"] if len(rest) > _FEW else [])
     message += f"; what you wrote or edited, and what that needs, stayed behind: {', '.join(theirs)}"
     hint = "take over what you need, then delete the old folder"

@@ -163,8 +163,8 @@ def _diagnostics(inputs: Inputs, generation: Generation, decision: Decision) -> 
     if inputs.recovered:
         found.append(repair.repaired(inputs.recovered, inputs.robot.name, shown(inputs.store.folder)))
     if inputs.recorded and inputs.old_folder != inputs.folder:
-        actions = decision.actions
-        found += orphans.left_behind(inputs.files, inputs.recorded, actions, inputs.folder, *place)
+        is_own, actions = inputs.old_folder in inputs.own_folders, decision.actions
+        found += orphans.left_behind(inputs.files, inputs.recorded, is_own, actions, inputs.folder, *place)
     found += _uses_of_lost_names(inputs, generation, decision)
     found += _lost_connectors(inputs, generation)
     found += outdated.findings(inputs, decision.actions)
