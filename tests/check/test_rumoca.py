@@ -21,11 +21,11 @@ from urdfsync.check.compilers.compiler import (
     CompileTask,
     Simulation,
     SimulationResult,
-    importable,
     require,
     run_job,
 )
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.processes import importable
 
 DECAY = """
 model M

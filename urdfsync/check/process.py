@@ -22,10 +22,11 @@ from typing import IO, Any, cast
 import msgspec
 
 from urdfsync.check.collector import Step
-from urdfsync.check.compilers.compiler import end_with_parent, importable, python_module, reserve_stdout
+from urdfsync.check.compilers.compiler import end_with_parent
 from urdfsync.check.results import CheckOptions, CheckResult, from_text, to_text
 from urdfsync.config import load
 from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.processes import importable, python_module, reserve_stdout
 
 COMMAND = tuple(python_module("urdfsync.check.process"))
 """Starts the process that checks one robot."""

@@ -14,12 +14,12 @@ from urdfsync.check import process
 from urdfsync.check.cache import UserCache
 from urdfsync.check.collector import Step
 from urdfsync.check.compilers import compiler
-from urdfsync.check.compilers.compiler import exit_cause
 from urdfsync.check.process import Ending, RobotOrder
 from urdfsync.check.results import CheckOptions, CheckResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import Progress
+from urdfsync.processes import exit_cause
 
 _EXPECTED_MEMORY = 1.5e9  # bytes that the check of a robot usually takes, at most
 _SHARE_OF_FREE_MEMORY = 0.9

@@ -9,13 +9,11 @@ import contextlib
 import importlib.util
 import os
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
 import threading
 from collections.abc import Callable, Generator, Iterator, Mapping
-from pathlib import Path
 from typing import IO, cast
 
 import msgspec
@@ -24,6 +22,7 @@ from urdfsync.check.cache import UserCache
 from urdfsync.check.results import CompilerName
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.extras import install_command
+from urdfsync.processes import exit_cause, importable, python_module, reserve_stdout
 
 MISSING = 3
 """The exit code of a worker without a compiler; the last line that it writes to stderr says why there is none."""
@@ -179,13 +178,6 @@ def serve(work: Callable[[CompileJob], Iterator[CompileResult]]) -> int:
     return 0
 
 
-def reserve_stdout() -> IO[bytes]:
-    """The stdout of this process; what native code prints goes to stderr from now on."""
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)
-    return answers
-
-
 def end_with_parent() -> None:
     """End this process and its children when its stdin is closed; call it after the last line was read from there."""
 
@@ -199,20 +191,6 @@ def end_with_parent() -> None:
         os._exit(1)  # the main thread may be in native code
 
     threading.Thread(target=wait, name="end-with-parent", daemon=True).start()
-
-
-def python_module(module: str) -> list[str]:
-    """The command that runs a module with this Python; the working folder has no say in what it imports."""
-    return [sys.executable, "-P", "-m", module]
-
-
-def importable() -> dict[str, str]:
-    """What the environment of such a command needs so that it finds this package, if that is not installed."""
-    home = Path(__file__).parents[3]
-    if home.name in ("site-packages", "dist-packages"):
-        return {}
-    others = os.environ.get("PYTHONPATH")
-    return {"PYTHONPATH": os.pathsep.join([str(home), *([others] if others else [])])}
 
 
 def _environment(compiler: CompilerName, cache: UserCache, folder: str) -> dict[str, str]:
@@ -238,13 +216,3 @@ def _breakdown(compiler: CompilerName, code: int, title: str, last_line: str) ->
     if code == -9:
         hint = "most likely the system for want of memory: check fewer robots at a time"
     return CompilerError(Diagnostic(Severity.ERROR, "compiler-crashed", message, hint=hint))
-
-
-def exit_cause(code: int) -> str:
-    """The exit code of a process in words: `exit code 3`, `signal 11 (SIGSEGV)`."""
-    if code >= 0xC0000000:  # Windows
-        return f"exception 0x{code:08X}"
-    if code >= 0:
-        return f"exit code {code}"
-    names = {one.value: f" ({one.name})" for one in signal.Signals}
-    return f"signal {-code}{names.get(-code, '')}"
