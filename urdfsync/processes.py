@@ -1,4 +1,4 @@
-"""Child processes of a check: how they are started, what they write where, and how they end."""
+"""Start this Python as a helper process, and be one."""
 
 from __future__ import annotations
 
@@ -9,17 +9,15 @@ import threading
 from pathlib import Path
 from typing import IO
 
-import psutil
-
 
 def python_module(module: str, *arguments: str) -> list[str]:
-    """The command that runs a module with this Python; the working folder has no say in what it imports."""
+    """Return the command that runs a module with this Python; the working folder has no say in what it imports."""
     return [sys.executable, "-P", "-m", module, *arguments]
 
 
 def importable() -> dict[str, str]:
-    """What the environment of such a command needs so that it finds this package, if that is not installed."""
-    home = Path(__file__).parents[2]
+    """Return what the environment of such a command needs so that it finds this package, if that is not installed."""
+    home = Path(__file__).parents[1]
     if home.name in ("site-packages", "dist-packages"):
         return {}
     others = os.environ.get("PYTHONPATH")
@@ -27,7 +25,7 @@ def importable() -> dict[str, str]:
 
 
 def reserve_stdout() -> IO[bytes]:
-    """The stdout of this process; what native code prints goes to stderr from now on."""
+    """Return the stdout of this process; what native code prints goes to stderr from now on."""
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     return answers
@@ -39,15 +37,17 @@ def end_with_parent() -> None:
     def wait() -> None:
         while os.read(0, 4096):  # not through sys.stdin, whose lock would disturb the interpreter at its end
             pass
-        for one in psutil.Process().children(recursive=True):
-            one.kill()  # a compiler at work may not let its own thread look at stdin
+        import psutil  # an optional extra, which checks need
+
+        for child in psutil.Process().children(recursive=True):
+            child.kill()  # a compiler at work may not let its own thread look at stdin
         os._exit(1)  # the main thread may be in native code
 
     threading.Thread(target=wait, name="end-with-parent", daemon=True).start()
 
 
 def exit_cause(code: int) -> str:
-    """The exit code of a process in words: `exit code 3`, `signal 11 (SIGSEGV)`."""
+    """Return the exit code of a process in words: `exit code 3`, `signal 11 (SIGSEGV)`."""
     if code >= 0xC0000000:  # Windows
         return f"exception 0x{code:08X}"
     if code >= 0:
