@@ -13,7 +13,7 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.config import RobotConfig
-from urdfsync.dependencies import NO_STAT, stat_of
+from urdfsync.dependencies import NO_STAT, read_unrecorded, stat_of
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.package_files import FileState, state_of
 from urdfsync.watch.debounce import Debouncer
@@ -39,17 +39,12 @@ def read_state(path: str, known: FileState | None = None, *, follow: bool = True
         facts = stat_of(status)
         if known is not None and known.stat == facts:
             return known
-        with open(path, "rb", opener=_open) as file:
-            content = file.read()
+        content = read_unrecorded(path)
     except OSError as error:
         word = "missing" if error.errno in (errno.ENOENT, errno.ENOTDIR) else f"error {error.errno}"
         return FileState(NO_STAT, word, word)
     is_racy = max(facts[-2:]) > time.time_ns() - _COARSE_TICK
     return state_of(NO_STAT if is_racy else facts, content)
-
-
-def _open(path: str, flags: int) -> int:
-    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))  # a pipe that has taken the file's place never blocks
 
 
 def find_changes(old: States, new: States) -> set[str]:

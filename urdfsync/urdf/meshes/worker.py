@@ -16,17 +16,20 @@ from urdfsync.processes import reserve_stdout
 from urdfsync.urdf.meshes.errors import MeshError, damage_is_an_error
 from urdfsync.urdf.meshes.geometry import Triangles, binary_stl, import_form
 from urdfsync.urdf.meshes.plain import PLAIN
-from urdfsync.urdf.meshes.process import CPU_SECONDS, MEMORY, OUT_OF_MEMORY, Answer, Request
+from urdfsync.urdf.meshes.process import MEMORY, OUT_OF_MEMORY, Answer, Request
 
 if sys.platform != "win32":
     import resource
 
+_UNUSED = ("PIL", "httpx", "networkx", "scipy")
+"""Packages that trimesh takes where they are installed, and that no reading of ours needs: half a second, and 60 MB."""
 _GROWN = 200_000
-"""Kilobytes that the process needs at most for an ordinary mesh; its libraries are 120,000 of them."""
+"""Kilobytes that the process needs at most for an ordinary mesh; its libraries are 60,000 of them."""
 
 
 def main() -> None:
     """Answer requests until stdin is closed."""
+    sys.modules.update(dict.fromkeys(_UNUSED))  # type: ignore[arg-type] # None lets an import fail
     requests, answers = sys.stdin.buffer, reserve_stdout()
     while line := requests.readline():
         request = msgspec.json.decode(line, type=Request)
@@ -43,7 +46,7 @@ def _answer(request: Request, requests: IO[bytes]) -> tuple[Answer, bytes]:
     content = requests.read(request.size)
     try:
         read = reader(request.suffix)
-        with _limits():
+        with _limits(request.seconds):
             mesh, facts = import_form(read(content), request.scale)
             stl = binary_stl(mesh)
     except MeshError as error:
@@ -67,7 +70,7 @@ def reader(suffix: str) -> Callable[[bytes], Triangles]:
 
 
 @contextlib.contextmanager
-def _limits() -> Iterator[None]:
+def _limits(seconds: float) -> Iterator[None]:
     """Limit time and memory of one mesh, and let no file be written. Libraries are loaded without limits."""
     if sys.platform == "win32":
         yield
@@ -79,7 +82,7 @@ def _limits() -> Iterator[None]:
     for kind, limit in limits.items():
         resource.setrlimit(kind, (limit, before[kind][1]))
     # ends the process; RLIMIT_CPU counts whole seconds, and all meshes that it has read
-    signal.setitimer(signal.ITIMER_PROF, CPU_SECONDS)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         yield
     finally:
