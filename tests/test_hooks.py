@@ -30,7 +30,7 @@ pytestmark = [
 ]
 
 MODES = pytest.mark.parametrize("mode", ["build", pytest.param("check", marks=pytest.mark.long)])
-"""What differs between them is shown by `test_hook_command.py` without commits."""
+"""What differs between them is shown by `test_hook_command.py` without commits; also what tests marked long show."""
 
 
 @dataclasses.dataclass
@@ -122,6 +122,7 @@ def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[..., S
     assert site.status() == []
 
 
+@pytest.mark.long
 def test_paths_are_those_of_the_folder_in_which_git_was_called(make: Callable[..., Site]) -> None:
     site = make("build")
     resistor(120)
@@ -146,6 +147,7 @@ def test_a_staged_source_with_later_changes(make: Callable[..., Site], mode: str
     assert site.status() == ["MM ladder.json"], "nothing was written, nothing is lost"
 
 
+@pytest.mark.long
 @MODES
 def test_a_change_of_the_source_that_is_not_staged(make: Callable[..., Site], mode: str) -> None:
     site = make(mode)
@@ -160,6 +162,7 @@ def test_a_change_of_the_source_that_is_not_staged(make: Callable[..., Site], mo
     ]
 
 
+@pytest.mark.long
 def test_outputs_that_are_staged_in_part(make: Callable[..., Site]) -> None:
     """The state and a record have changes that are stashed: what a build would write could not stay."""
     site = make("build")
@@ -255,6 +258,7 @@ def numbers(name: str) -> list[str]:
     return text.replace("=", " ").replace(";", " ").replace(")", " ").split()
 
 
+@pytest.mark.long
 @MODES
 def test_all_files(make: Callable[..., Site], mode: str) -> None:
     """Then pre-commit does not stash anything."""
@@ -285,9 +289,10 @@ def test_the_daemon_beside_it(make: Callable[..., Site], project: Path, rc_site:
     """The daemon builds the later change; commits of what was staged before neither lose it nor mix it in."""
     site = make("build")
     store = os.environ["PRE_COMMIT_HOME"]
-    with Watch(project, path=[rc_site, RC_FOLDER], PRE_COMMIT_HOME=store) as watch:
+    quick = ("--settle", "50", "--sample", "20")
+    with Watch(project, *quick, path=[rc_site, RC_FOLDER], PRE_COMMIT_HOME=store) as watch:
         watch.rest()
-        for old, new in ((100, 120), (120, 130), (130, 140)):
+        for old, new in ((100, 120), (120, 130)):
             since = watch.mark
             resistor(new, before=old)
             watch.wait("built", lambda event: bool(event["files"]), since)

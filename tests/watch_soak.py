@@ -5,8 +5,8 @@
 One writer exports as CAD programs do, in place and in pieces; the other saves as editors do, or replaces the whole
 folder, and changes the mesh. The hand editor writes comments into generated files, deletes some, and builds by hand.
 At the end each package has to equal a fresh build of its source but for the comments, and no comment may be missing.
-The exit code is 1 if anything is wrong. `tests/watch/test_watch_soak.py` runs it for a minute, and in CI
-for three.
+The exit code is 1 if anything is wrong. `tests/watch/test_watch_soak.py` runs it for half a minute, and in
+CI for three.
 """
 
 from __future__ import annotations

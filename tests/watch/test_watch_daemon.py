@@ -328,8 +328,8 @@ def test_times_do_not_matter(start: Start, monkeypatch: pytest.MonkeyPatch) -> N
 # Outputs
 
 
-def test_what_a_user_edits_is_left_alone(start: Start) -> None:
-    daemon = start()
+def test_what_a_user_edits_is_left_alone(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
+    daemon = start(rescan=0.02)
     since = daemon.mark
     MODEL.write_text(MODEL.read_text() + "// mine\n")
     kept = daemon.wait(events.Built, since).result.actions
@@ -343,6 +343,17 @@ def test_what_a_user_edits_is_left_alone(start: Start) -> None:
     built = daemon.wait(events.Built, since, lambda event: bool(event.result.conflicts))
     assert built.result.conflicts[0].path == str(RECORD)
     assert "1000" in RECORD.read_text()
+    daemon.rest()
+    since = daemon.mark
+    whole = json.loads(text(330))
+    kept = [element for element in whole["elements"] if element["name"] != "R2"]
+    Path("ladder.json").write_text(json.dumps({**whole, "elements": kept}))
+    orphans = daemon.wait(events.Built, since).result.actions
+    assert [action.path for action in orphans if action.kind is Kind.ORPHAN] == [str(MODEL), str(RECORD)]
+    daemon.rest()
+    since = daemon.mark
+    await_rescans(monkeypatch, 3)
+    assert daemon.mark == since, "each is told once"
 
 
 def _to_folder(path: Path) -> None:

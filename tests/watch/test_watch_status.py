@@ -96,10 +96,6 @@ def test_what_a_check_found_yields_to_what_is_worse() -> None:
     assert words(WRONG, FAILED) == "error: arm.urdf:12: this is no XML"
 
 
-def test_a_new_configuration_knows_of_no_check() -> None:
-    assert words(BUILT, WRONG, started("arm")) == "in step, built at 12:00:01"
-
-
 def test_progress_is_that_of_the_build_under_way() -> None:
     found = board(events.Building("arm"), events.Settling("cart"), robots=("arm", "cart"))
     found.progress("arm", 0, 1)
@@ -111,16 +107,11 @@ def test_progress_is_that_of_the_build_under_way() -> None:
 
 
 def test_a_new_configuration_brings_robots_and_takes_others_away() -> None:
-    found = board(BUILT, events.Settling("cart"), started("crane", "arm"), robots=("arm", "cart"))
+    found = board(BUILT, WRONG, events.Settling("cart"), started("crane", "arm"), robots=("arm", "cart"))
     assert [(status.robot, status.text) for status in found.rows] == [
         ("crane", "not looked at yet"),
         ("arm", "in step, built at 12:00:01"),
     ]
-
-
-def test_a_pause_is_known_until_it_is_over() -> None:
-    assert board(events.Paused("pre-commit runs")).pause_reason == "pre-commit runs"
-    assert board(events.Paused("pre-commit runs"), events.Resumed()).pause_reason == ""
 
 
 def test_where_not_all_find_room_those_that_need_attention_do_in_their_usual_order() -> None:

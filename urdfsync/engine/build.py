@@ -121,8 +121,6 @@ class _Builder:
         files, store = PackageFiles(self._config, robot), Store(self._config.root, shown)
         shared = [change for file in plan.shared if (change := file.change(files)) is not None]
         changes = [*shared, *store.ignoring(), *plan.writes]
-        if self._options.cache:
-            self._options.cache.invalidate(robot.name)
         bases = store.bases(robot.name)
         bases.add(plan.bases)
         folder = files.key(robot.folder)

@@ -24,7 +24,6 @@ class Cache:
     def __init__(self) -> None:
         self._values: dict[str, tuple[Hashable, Any]] = {}
         self._states: dict[str, FileStates] = {}
-        self._current: set[str] = set()
 
     def get(self, kind: str, key: Hashable, make: Callable[[], _Value]) -> _Value:
         """Return the value of a kind that was made from `key`, or make it. If `make` raises, the last value stays.
@@ -46,10 +45,6 @@ class Cache:
         """Return what the last plan of a robot saw of outputs and recorded state."""
         return self._states.get(robot, {})
 
-    def is_current(self, robot: str) -> bool:
-        """Return whether no build wrote since the last plan of a robot."""
-        return robot in self._current
-
     def note_states(
         self, robot: str, states: FileStates, begin: tuple[int, int], read_clock: Callable[[], uptodate.Clock | None]
     ) -> None:
@@ -61,22 +56,10 @@ class Cache:
             elapsed = uptodate.elapsed_since(begin)
             racy = {path: state for path, state in racy.items() if uptodate.is_racy(state.stat, clock, elapsed)}
         self._states[robot] = {**states, **{path: _without_stat(state) for path, state in racy.items()}}
-        self._current.add(robot)
-
-    def invalidate(self, robot: str) -> None:
-        """Note that a build wrote, or that a plan begins to look."""
-        self._current.discard(robot)
 
     def forget_others(self, robots: Collection[str]) -> None:
         """Drop the file states of all other robots."""
         self._states = {robot: states for robot, states in self._states.items() if robot in robots}
-        self._current.intersection_update(robots)
-
-    def rehash_all(self) -> None:
-        """Hash all files again, whatever their stat values."""
-        self._values.clear()
-        for robot, states in self._states.items():
-            self._states[robot] = {path: state and _without_stat(state) for path, state in states.items()}
 
 
 def _without_stat(state: FileState) -> FileState:

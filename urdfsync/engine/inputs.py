@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,7 +12,7 @@ import msgspec
 
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, Severity, StateError, UrdfsyncError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Role, Snapshot, Target, Templates, Version
 from urdfsync.engine import imports, parents, source
 from urdfsync.engine.options import BuildOptions
@@ -226,11 +225,6 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     domain = registry.domain(robot.domain)
     cache = options.cache
     files = PackageFiles(config, robot, cache.states(robot.name) if cache and not options.full else {})
-    if cache:
-        cache.invalidate(robot.name)
-        for path in parents.files(robot):
-            with contextlib.suppress(OutputError):  # it may be a link, which `parents.check` allows
-                files.state(path)
     around = parents.check(config, robot, domain.uses(robot.options))
     store, folder = Store(config.root, shown), files.key(robot.folder)
     state, recovered = _load(store, files, robot.name, options)

@@ -19,7 +19,6 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.plan import plan_if_current
 from urdfsync.hook import STATES, answer_key, find_configurations
 from urdfsync.hooks.checkout import plan_index
 from urdfsync.hooks.index import Index
@@ -98,33 +97,25 @@ def _check_configuration(
     # not told of outputs elsewhere: a checkout of the index is in another folder than the configuration
     dry = msgspec.structs.replace(options, dry=True, compares_state=True, trusted=True)
     config, staged, unstaged = _plan_differing(index, file, dry)
+    same = [robot for robot in config.robots if not unstaged[robot.name]]
+    on_disk = {result.robot: result for result in build(config, same, dry)}
     faults: list[CommitFault] = []
     to_build: list[RobotConfig] = []
-    to_plan: list[tuple[RobotConfig, set[str]]] = []
-    """Robots, and the files that keep a build of them from writing."""
     for robot in config.robots:
-        files, result, inputs = RobotFiles(index, config, robot), staged.get(robot.name), unstaged[robot.name]
+        files, result, here = RobotFiles(index, config, robot), staged.get(robot.name), on_disk.get(robot.name)
         if result is not None and not _needs_build(result):  # what is staged is in step, the working tree differs
             faults += _fault(files, index.unstaged(files.untracked_sources()))
-        elif result is not None and inputs:  # a build of the working tree would not fit the staged source
-            faults += _fault(files, files.to_stage(result.actions), result, inputs)
-        elif (actions := _current_actions(config, robot, dry)) is not None:  # built already, perhaps not staged
-            add = index.unstaged(files.needed(_work(result) if result else actions))
+        elif result is not None and here is None:  # a build of the working tree would not fit the staged source
+            faults += _fault(files, files.to_stage(result.actions), result, unstaged[robot.name])
+        elif here is not None and not _needs_build(here):  # built already, perhaps not staged
+            add = index.unstaged(files.needed(_work(result) if result else here.actions))
             faults += _fault(files, add, None if add else result)
-        else:
+        elif here is not None:
             blocking = _find_blocking(index, files, writing, stashed, dry)
             if writing and not blocking:
                 to_build.append(robot)
             else:
-                to_plan.append((robot, blocking))
-    unplanned = [robot for robot, _ in to_plan if robot.name not in staged]
-    planned = staged | {result.robot: result for result in build(config, unplanned, dry)}
-    for robot, blocking in to_plan:
-        files, result = RobotFiles(index, config, robot), planned[robot.name]
-        if _needs_build(result):
-            faults += _fault(files, files.to_stage(result.actions), result, blocking)
-        else:
-            faults += _fault(files, index.unstaged(files.needed(result.actions)))
+                faults += _fault(files, files.to_stage((result or here).actions), result or here, blocking)
     if to_build:
         faults += _build(index, config, to_build, options, staged)
     names = [robot.name for robot in config.robots]
@@ -189,15 +180,6 @@ def _needs_build(result: Result) -> bool:
 def _work(result: Result) -> list[Action]:
     """Return the actions on files that are not as they should be."""
     return [action for action in result.actions if action.kind not in _IN_STEP]
-
-
-def _current_actions(config: Config, robot: RobotConfig, dry: BuildOptions) -> Sequence[Action] | None:
-    """Return the actions of a build that has nothing to do in the working tree; None if it may have."""
-    try:
-        plan = plan_if_current(config, robot, dry)
-    except (UrdfsyncError, OSError):
-        return None  # the build reports it
-    return plan.actions if plan else None
 
 
 def _find_blocking(

@@ -54,7 +54,7 @@ class CheckQueue:
         self._waiting: dict[str, CheckJob] = {}
         self._running: CheckJob | None = None
         self._thread: threading.Thread | None = None
-        self._last: dict[str, tuple[str | None, events.CheckDone]] = {}
+        self._last: dict[str, Checked] = {}
         self._told: set[Diagnostic] = set()
 
     def __enter__(self) -> Self:
@@ -74,7 +74,7 @@ class CheckQueue:
         self._last.clear()
 
     def check(self, robot: RobotConfig) -> list[events.Event]:
-        """Check the package of a robot as it is now, unless such a check runs or its result is known."""
+        """Check the package of a robot as it is now, unless such a check runs, or found it right."""
         if not robot.checking:
             return []
         key = self._checker.key(robot)
@@ -86,12 +86,9 @@ class CheckQueue:
                 return []
             pending.is_cancelled = True
             self._waiting.pop(robot.name, None)
-        last_key, last = self._last.get(robot.name, (None, None))
-        if last is not None and key is not None and last_key == key:
-            return [last] if pending is not None else []
         if found := self._checker.known(key):
-            event = self._note(CheckJob(robot, key), found)
-            was_right = pending is None and (last is None or last.checked is Checked.RIGHT)
+            was_right = pending is None and self._last.get(robot.name, Checked.RIGHT) is Checked.RIGHT
+            event = self._note(robot, found)
             return [] if was_right and found.checked is Checked.RIGHT else [event]
         self._waiting[robot.name] = CheckJob(robot, key)
         return self._start_next()
@@ -101,7 +98,7 @@ class CheckQueue:
         self._running = None
         if ended.found is None or ended.job.is_cancelled:
             return self._start_next()
-        return [self._note(ended.job, ended.found), *self._start_next()]
+        return [self._note(ended.job.robot, ended.found), *self._start_next()]
 
     def _cancel_all(self) -> None:
         for job in (*self._waiting.values(), *([self._running] if self._running else [])):
@@ -134,10 +131,9 @@ class CheckQueue:
         finally:
             self._queue.put(CheckEnded(job, found))
 
-    def _note(self, job: CheckJob, found: BuildCheck) -> events.CheckDone:
-        """Keep what was found; findings about the machine are told once."""
+    def _note(self, robot: RobotConfig, found: BuildCheck) -> events.CheckDone:
+        """Return the event of a check that has ended; findings about the machine are told once."""
         new = tuple(one for one in found.diagnostics if one not in self._told)
         self._told.update(one for one in new if is_general(one))
-        event = events.CheckDone(job.robot.name, found.checked, round(found.seconds, 3), new)
-        self._last[job.robot.name] = job.key, event
-        return event
+        self._last[robot.name] = found.checked
+        return events.CheckDone(robot.name, found.checked, round(found.seconds, 3), new)

@@ -20,6 +20,12 @@ class Event(msgspec.Struct, frozen=True, tag=str.lower):
     """One event."""
 
 
+class RobotEvent(Event, frozen=True):
+    """One event of the robot that is named first."""
+
+    robot: str
+
+
 class Started(Event, frozen=True):
     """The configuration was read, and these robots are watched from now on."""
 
@@ -29,35 +35,28 @@ class Started(Event, frozen=True):
     """Whether it was read before: then it has changed, or is valid again."""
 
 
-class Settling(Event, frozen=True):
+class Settling(RobotEvent, frozen=True):
     """A file of the robot changed; the robot is built when nothing changes any more."""
 
-    robot: str
 
-
-class Unchanged(Event, frozen=True, tag="calm"):
+class Unchanged(RobotEvent, frozen=True, tag="calm"):
     """The files of the robot are the same as before `Settling`: nothing to build."""
 
-    robot: str
 
-
-class Waiting(Event, frozen=True):
+class Waiting(RobotEvent, frozen=True):
     """The robot is not built for now, although its files have settled.
 
     Either its source is invalid (see `diagnostics`), which an exporter may be about to change; `Failed` follows if that
     lasts. Or the source lost many elements, and is watched a little longer.
     """
 
-    robot: str
     reason: str
     """In words that follow the robot's name, for example `waiting for the exporter`."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-class Building(Event, frozen=True):
+class Building(RobotEvent, frozen=True):
     """The build of the robot begins."""
-
-    robot: str
 
 
 class Built(Event, frozen=True):
@@ -78,16 +77,13 @@ class Failed(Event, frozen=True):
     """Whether the last build failed for the same reason, and the user changed something since."""
 
 
-class Checking(Event, frozen=True):
+class Checking(RobotEvent, frozen=True):
     """The check of the robot's package begins; one that was begun before is cancelled."""
 
-    robot: str
 
-
-class CheckDone(Event, frozen=True, tag="checked"):
+class CheckDone(RobotEvent, frozen=True, tag="checked"):
     """The robot's package was checked as the last build left it."""
 
-    robot: str
     checked: Checked
     seconds: float = 0.0
     """How long that took; 0 if the result is that of an earlier check."""
@@ -118,10 +114,9 @@ class Resumed(Event, frozen=True):
     """Robots are built again."""
 
 
-class Ran(Event, frozen=True):
+class Ran(RobotEvent, frozen=True):
     """The command of `--exec` has ended after a build of the robot; if it failed, `Noted` follows."""
 
-    robot: str
     code: int
     """Its exit code; negative if a signal ended it."""
 
