@@ -7,7 +7,7 @@ Modelica parser. So urdfsync enters its names into files that exist, and makes s
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
 import msgspec
@@ -19,18 +19,6 @@ from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.files import digest
 from urdfsync.modelica.names import LIBRARY, within
 from urdfsync.state.transaction import Change
-
-
-class Parents(msgspec.Struct, frozen=True):
-    """What of the packages above a robot's has to be written."""
-
-    created: Mapping[Path, bytes]
-    """`package.mo` of every parent that does not exist yet."""
-    entered: Mapping[Path, str]
-    """`package.order` files above the parent's, and the created package that each has to name."""
-    listed: bool = True
-    """Whether the parent's `package.order` has to name the robot's package: if it is there, or made with the parent."""
-    diagnostics: tuple[Diagnostic, ...] = ()
 
 
 class SharedFile(msgspec.Struct, frozen=True):
@@ -57,6 +45,16 @@ class SharedFile(msgspec.Struct, frozen=True):
         if new == (old or ""):
             return None
         return Change(self.path, encode(new) if new else None, None if found is None else digest(found))
+
+
+class Parents(msgspec.Struct, frozen=True):
+    """What of the packages above a robot's has to be written."""
+
+    shared: tuple[SharedFile, ...] = ()
+    """Packages that do not exist yet, and order files above the parent's that have to name these."""
+    listed: bool = True
+    """Whether the parent's `package.order` has to name the robot's package: if it is there, or made with the parent."""
+    diagnostics: tuple[Diagnostic, ...] = ()
 
 
 def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -> Parents:
@@ -86,12 +84,12 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
     if parts[0] == LIBRARY and not is_file(output / LIBRARY / "package.mo"):  # tools would not find the library itself
         message = f"`{LIBRARY}` is the library that models need; a package of that name would hide it"
         raise refuse("modelica-name", message, f"choose another top-level package than `{LIBRARY}`")
-    created: dict[Path, bytes] = {}
-    entered: dict[Path, str] = {}
+    shared: list[SharedFile] = []
 
     def is_ordered(package: Path) -> bool:
         """Whether a package has a `package.order`, or gets one because urdfsync makes the package."""
-        return package / "package.mo" in created or is_file(package / "package.order")
+        is_made = any(one.path == package / "package.mo" for one in shared)
+        return is_made or is_file(package / "package.order")
 
     for depth, last in enumerate(parts, start=1):
         folder, name = output.joinpath(*parts[:depth]), ".".join(parts[:depth])
@@ -106,9 +104,9 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
             raise refuse("no-parent", message, "create it, or set `create_parents = true`")
         annotation = f"  annotation ({_uses(uses)});\n" if depth == 1 else ""
         text = f'{within(name)}\npackage {last} "{last}"\n{annotation}end {last};\n'
-        created[folder / "package.mo"] = text.encode()
+        shared.append(SharedFile(folder / "package.mo", text.encode()))
         if depth > 1 and is_ordered(folder.parent):
-            entered[folder.parent / "package.order"] = last
+            shared.append(SharedFile(folder.parent / "package.order", None, (last,)))
 
     top, found = output / parts[0] / "package.mo", tuple[Diagnostic, ...]()
     if len(parts) > 1 and is_file(top):  # does the user's top-level package say which libraries it needs now?
@@ -118,7 +116,7 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
             message = f"package `{parts[0]}` does not say that it needs {' and '.join(name for name, _ in missing)}"
             hint = f"add `{_uses(missing)}` to its annotation"
             found = (Diagnostic(Severity.WARNING, "no-uses", message, shown(top), hint=hint),)
-    return Parents(created, entered, is_ordered(robot.folder.parent), found)
+    return Parents(tuple(shared), is_ordered(robot.folder.parent), found)
 
 
 def _uses(uses: Sequence[tuple[str, str]]) -> str:
