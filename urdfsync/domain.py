@@ -380,6 +380,10 @@ class Domain(Protocol):
         """
         return ""
 
+    def option_for_connector(self, name: str, snapshot: Snapshot, target: Target, options: Any) -> str:
+        """Return the option that gives the main model a connector; empty if none does, or if it has the connector."""
+        return ""
+
     # Differences
 
     def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:

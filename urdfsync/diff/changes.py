@@ -55,13 +55,6 @@ class Change(msgspec.Struct, frozen=True):
             return False
         return bool(abs(self.new - self.old) <= NOISE * max(abs(self.old), abs(self.new)))
 
-    @property
-    def percent(self) -> float | None:
-        """Change of a number relative to its old value; None without one, or if that is zero."""
-        if not (is_number(self.old) and is_number(self.new)) or self.old == 0:
-            return None
-        return float(100 * (self.new - self.old) / abs(self.old))
-
     def __str__(self) -> str:
         """The path as people read it: `joint elbow / origin / xyz[2]`."""
         return " / ".join(self.path)

@@ -15,7 +15,8 @@ import msgspec
 
 from urdfsync import dependencies, machine, profiling
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
+from urdfsync.config.trust import find_untrusted_output
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.engine.actions import DELETES, Actions, Kind
 from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
@@ -68,6 +69,9 @@ class _Builder:
         """Build one robot. Whatever is wrong comes back as diagnostics."""
         result = Result(robot.name, robot.target.package, robot.folder, self._config.root, dry=self._options.dry)
         try:
+            untrusted = None if self._options.trusted else find_untrusted_output(self._config, robot)
+            if untrusted and not self._options.dry:
+                raise ConfigError(untrusted)
             plan = self._plan_and_write(robot)
         except UrdfsyncError as error:
             locked, unfinished = isinstance(error, LockedError), isinstance(error, UnfinishedError)
@@ -77,10 +81,11 @@ class _Builder:
             place = Path(error.filename) if isinstance(error.filename, str) else robot.folder
             found = (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), shown(place)),)
             return msgspec.structs.replace(result, diagnostics=found, failed=True)
+        warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
         return msgspec.structs.replace(
             result,
             actions=plan.actions,
-            diagnostics=plan.diagnostics,
+            diagnostics=(*warnings, *plan.diagnostics),
             changes=plan.changes,
             standoffs=plan.conflicts,
             drawing=plan.drawing,
@@ -120,12 +125,15 @@ class _Builder:
             self._options.cache.invalidate(robot.name)
         bases = store.bases(robot.name)
         bases.add(plan.bases)
+        folder = files.key(robot.folder)
+        store.note_folders(robot.name, {folder, *store.written_folders(plan.former_name or robot.name)})
         if not changes:
             return ()
         applied = self._transactions.apply(robot.name, changes, plan.emptied)
         self.notes += applied.diagnostics
         if plan.mentioned is not None and not applied.overtaken:
             bases.prune(plan.mentioned)
+            store.note_folders(robot.name, [folder], plan.former_name)
             if plan.former_name:
                 store.bases(plan.former_name).prune(())
         return applied.overtaken

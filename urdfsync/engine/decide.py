@@ -73,8 +73,8 @@ def decide_package(
     merge markers.
     """
     files = inputs.files
-    recorded = {key: r for key, r in manifest.files.items() if files.is_inside(key)} if manifest else {}
-    owned = {key: names for key, names in manifest.orders.items() if files.is_inside(key)} if manifest else {}
+    recorded = inputs.own_files(manifest) if manifest else {}
+    owned = inputs.own_orders(manifest) if manifest else {}
     roles = {key: record.role for key, record in recorded.items()} | {key: d.role for key, d in desired.files.items()}
     with profiling.stage("looking"):
         on_disk = {key: files.on_disk(key, role) for key, role in roles.items()}

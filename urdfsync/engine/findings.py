@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterator
 
 from urdfsync.config import Config, shown
@@ -47,7 +48,11 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     gone = {files.path(action.path) for action in actions if action.kind in DELETES}
     below = sorted(path for path in old.rglob("*") if not path.is_dir())
     rest = [path for path in below if path not in gone and new not in path.parents]
-    if rest:
+    if rest and inputs.old_folder not in inputs.own_folders:
+        message += "; the old folder was not built in this checkout, so it stays as it is"
+        hint = f"take over what you need, then delete it: `rm -r {shlex.quote(shown(old))}`"
+        yield Diagnostic(Severity.WARNING, "left-behind", message, *place, hint=hint)
+    elif rest:
         named = [shown(path) for path in rest[:_FEW]] + ([f"{len(rest) - _FEW} more"] if len(rest) > _FEW else [])
         message += f"; what you wrote or edited, and what that needs, stayed behind: {', '.join(named)}"
         hint = "take over what you need, then delete the old folder"

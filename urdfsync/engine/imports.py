@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import stat
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.dependencies import is_file, read_file
+from urdfsync.dependencies import file_type, is_file, read_file
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
 from urdfsync.engine import ros_packages as packages
@@ -67,7 +68,7 @@ def unchanged(dependencies: Sequence[Dependency], records: Mapping[str, Dependen
             return False
         found = _find(dependency)
         known = {(record.source_hash, record.converter), (record.unreadable, record.unreadable_by)}
-        if found and (digest(found[1]), converter) not in known:
+        if isinstance(found, tuple) and (digest(found[1]), converter) not in known:
             return False
     return True
 
@@ -104,20 +105,24 @@ def bring_in(
     """
     result = Imported()
     known: list[Dependency] = []
-    missing: dict[tuple[str, str, str], list[tuple[Dependency, Diagnostic]]] = {}
+    missing: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
     for count, dependency in enumerate(dependencies):
         progress(count, len(dependencies))
         key, target, noun = dependency.key, dependency.target, dependency.noun
         place, name = (source, dependency.line), f"{noun} `{dependency.uri}`"
         record, facts = recorded.records.get(key), recorded.facts.get(key)
         found = _find(dependency)
-        if found is None:
+        if not isinstance(found, tuple):
             trouble = _not_found([dependency], *place)
+            if found is not None:
+                message, hint = f"{name} can't be read: {found.strerror}", f"put a {noun} in its place that can be"
+                trouble = Diagnostic(Severity.WARNING, f"{noun}-unreadable", message, *place, hint=hint)
             trouble = _keep(dependency, recorded, result, trouble)
             if record and record.target_hash is None and record.unreadable is None and not again:
                 known.append(dependency)
             else:  # one warning for all files of a package, whose hint is the same
-                missing.setdefault((trouble.code, trouble.hint, noun), []).append((dependency, trouble))
+                group = (trouble.code, trouble.hint, noun, key if found else "")
+                missing.setdefault(group, []).append((dependency, trouble))
             continue
         path, content = found
         sha256 = digest(content)
@@ -152,10 +157,10 @@ def bring_in(
         # remembered, so that it is tried again only if it changes
         unreadable = {"unreadable": sha256, "unreadable_by": domain.converter}
         result.records[key] = msgspec.structs.replace(result.records[key], **unreadable)
-    for group in missing.values():
-        first = min((trouble for _, trouble in group), key=lambda trouble: trouble.line)
-        if len(group) > 1:
-            message = _not_found([dependency for dependency, _ in group], source).message
+    for alike in missing.values():
+        first = min((trouble for _, trouble in alike), key=lambda trouble: trouble.line)
+        if len(alike) > 1:
+            message = _not_found([dependency for dependency, _ in alike], source).message
             end = "the imported copies are kept" if first.code.endswith("-kept") else "left out"
             first = msgspec.structs.replace(first, message=f"{message}; {end}")
         result.diagnostics.append(first)
@@ -241,15 +246,19 @@ def _guessed(dependency: Dependency) -> Dependency:
     return msgspec.structs.replace(dependency, guessed=_is_found(dependency))
 
 
-def _find(dependency: Dependency) -> tuple[Path, bytes] | None:
-    """The first candidate that is a file and can be read, with its content."""
+def _find(dependency: Dependency) -> tuple[Path, bytes] | OSError | None:
+    """The first candidate that is a file and can be read, with its content; else why one can't be, None for no file."""
+    trouble = None
     for path in dependency.candidates:
-        if _is_file(path):
-            try:
+        try:
+            kind = file_type(path)
+            if kind not in (0, stat.S_IFDIR):
                 return path, read_file(path)
-            except OSError:
-                continue
-    return None
+        except PermissionError:
+            continue  # a folder above it may not let us in, and another candidate is as good
+        except OSError as error:
+            trouble = trouble or error
+    return trouble
 
 
 def _is_file(path: Path) -> bool:

@@ -24,6 +24,7 @@ from urdfsync.state import manifest, repair
 from urdfsync.state.bases import BaseStore
 from urdfsync.state.manifest import Generator, Manifest
 from urdfsync.state.modelfile import Model
+from urdfsync.state.record import FileRecord
 from urdfsync.state.store import State, Store
 
 NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
@@ -66,6 +67,34 @@ class Inputs:
     def old_folder(self) -> str:
         """Key of the package's folder in the last build."""
         return self.recorded.folder if self.recorded else self.folder
+
+    @cached_property
+    def own_folders(self) -> tuple[str, ...]:
+        """Keys of the folders in which a build may delete and move files: the package's, now and in the last build.
+
+        A former folder counts only if a build in this checkout wrote it: a manifest may be a stranger's.
+        """
+        manifests = self.recovered.manifests if self.recovered else filter(None, [self.recorded])
+        former = {manifest.folder for manifest in manifests} - {self.folder}
+        if former:
+            former &= self.store.written_folders(self.former_name or self.robot.name)
+        return self.folder, *sorted(former)
+
+    def own_files(self, recorded: Manifest) -> dict[str, FileRecord]:
+        """Return the recorded files that a build may delete and move, by key."""
+        inside = tuple(f"{folder}/" for folder in self.own_folders)
+        is_inside = self.files.is_inside
+        return {key: record for key, record in recorded.files.items() if key.startswith(inside) and is_inside(key)}
+
+    def own_orders(self, recorded: Manifest) -> dict[str, tuple[str, ...]]:
+        """Return the recorded lines of `package.order` files that a build may take out, by key."""
+        inside = tuple(f"{folder}/" for folder in self.own_folders)
+        is_around = recorded.folder in self.own_folders
+        return {
+            key: names
+            for key, names in recorded.orders.items()
+            if (is_around or key.startswith(inside)) and self.files.is_inside(key)
+        }
 
     def key(self, path: str) -> str:
         """Return the key of a file by its path below the package."""

@@ -61,7 +61,7 @@ class Pool:
     def __enter__(self) -> Self:
         """Connect to the cluster, if there is one. Raises ConfigError if it does not answer."""
         if self._options.executor:
-            self._executor = _cluster(self._options.executor)
+            self._executor = connect_cluster(self._options.executor)
         return self
 
     def __exit__(
@@ -69,11 +69,12 @@ class Pool:
     ) -> None:
         if self._executor is None:
             return
-        if kind is not None and not issubclass(kind, Exception):
+        if kind is not None and not issubclass(kind, Exception) and isinstance(self._executor, ProcessPoolExecutor):
             for child in active_children():  # whoever interrupts does not want to wait
                 child.terminate()
-        for future in self._futures.values():
-            future.cancel()
+        else:  # not of a pool whose processes have ended: it fails with a traceback on futures that are cancelled
+            for future in self._futures.values():
+                future.cancel()
         self._executor.shutdown()
 
     def plan(self, robot: RobotConfig) -> Plan:
@@ -146,7 +147,7 @@ class Pool:
         return plan
 
 
-def _cluster(address: str) -> Executor:
+def connect_cluster(address: str) -> Executor:
     """Connect to the Dask scheduler at an address that the user named. Raises ConfigError.
 
     Its answers are unpickled, so whoever answers at the address is trusted.
@@ -160,7 +161,7 @@ def _cluster(address: str) -> Executor:
         executor: Executor = Client(address, timeout=_PATIENCE, set_as_default=False).get_executor()
     except (OSError, ValueError, TimeoutError) as error:
         message = f"no Dask scheduler answers at `{address}`: {error or 'time is up'}"
-        hint = "start one with `dask scheduler`, or build without `--executor`"
+        hint = "start one with `dask scheduler`, or go without `--executor`"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
     return executor
 

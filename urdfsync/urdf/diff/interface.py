@@ -6,9 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from urdfsync.domain import Effect, ElementKey, Target, Version
 from urdfsync.urdf.drives import can_be_driven, driven_joints
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
-from urdfsync.urdf.model.robot import connector_names
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import MOTION_KINDS, Motion
 from urdfsync.urdf.snapshot import from_snapshot
 
 _RUN: Mapping[Motion, Mapping[str, str]] = {
