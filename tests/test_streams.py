@@ -49,7 +49,7 @@ def built(folder: Path) -> list[str]:
 
 
 @posix
-@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("closed", [">&-", "<&- >&- 2>&-"])
 def test_closed_streams(folder: Path, closed: str) -> None:
     done = shell(folder, f"urdfsync build {closed}")
     assert done.returncode == 0
@@ -58,7 +58,7 @@ def test_closed_streams(folder: Path, closed: str) -> None:
 
 
 @posix
-@pytest.mark.parametrize("options", ["--explain", "--json", "--verbose --svg"])
+@pytest.mark.parametrize("options", ["--json", "--verbose --svg"])
 def test_a_reader_that_goes_away_stops_no_work(folder: Path, options: str) -> None:
     done = shell(folder, f"urdfsync build {options} 2>errors | head -n 1; exit ${{PIPESTATUS[0]}}")
     assert done.returncode == 0
@@ -70,7 +70,7 @@ def test_a_reader_that_goes_away_stops_no_work(folder: Path, options: str) -> No
 
 @posix
 @full
-@pytest.mark.parametrize("command", ["build", "build --json", "library", "--help", "library --json"])
+@pytest.mark.parametrize("command", ["build", "--help", "library --json"])
 def test_a_full_disk_is_told_on_the_error_stream(folder: Path, command: str) -> None:
     done = shell(folder, f"urdfsync {command} > /dev/full")
     assert done.returncode == 2
@@ -86,7 +86,7 @@ def test_an_error_stream_that_is_full_stops_nothing(folder: Path) -> None:
 
 
 @posix
-@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "latin-1"])
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252"])
 def test_characters_that_an_encoding_lacks_are_escaped(folder: Path, encoding: str) -> None:
     (folder / "urdfsync.toml").write_text('[robots.arm]\nsource = "Größe – 腕.urdf"\npackage = "Arm"\n')
     done = shell(folder, "urdfsync build 2>&1", PYTHONIOENCODING=encoding, PYTHONUTF8="0")

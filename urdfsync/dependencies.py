@@ -72,34 +72,30 @@ def stat_of(status: os.stat_result) -> Stat:
     return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
 
 
-def check_path(check: str, path: str) -> tuple[int, ...]:
+def check_path(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
     """What is at a path now, in the form of `Entries`. Raises OSError."""
-    if check == LSTAT:
-        return stat_of(os.lstat(path))
-    if check == STAT:
-        return stat_of(os.stat(path))
-    return (_file_type(path, follow=check == STAT_TYPE),)
+    follow = check in (STAT, STAT_TYPE)
+    if check in (LSTAT, STAT):
+        return stat_of(os.stat(path, follow_symlinks=follow))
+    try:
+        return (stat.S_IFMT(os.stat(path, follow_symlinks=follow).st_mode),)
+    except OSError as error:
+        if error.errno in _ABSENT:
+            return (0,)
+        raise
 
 
 def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
     """The file type (see `stat.S_IFMT`) at a path; 0 for nothing there. Raises OSError if the system does not tell."""
+    check = STAT_TYPE if follow else LSTAT_TYPE
     try:
-        found = _file_type(path, follow=follow)
+        found = check_path(check, path)
     except OSError:
         mark_incomplete()
         raise
     if (dependencies := _current.get()) is not None:
-        dependencies.add(STAT_TYPE if follow else LSTAT_TYPE, path, (found,))
-    return found
-
-
-def _file_type(path: str | os.PathLike[str], *, follow: bool) -> int:
-    try:
-        return stat.S_IFMT(os.stat(path, follow_symlinks=follow).st_mode)
-    except OSError as error:
-        if error.errno in _ABSENT:
-            return 0
-        raise
+        dependencies.add(check, path, found)
+    return found[0]
 
 
 def is_file(path: str | os.PathLike[str]) -> bool:

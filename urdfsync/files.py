@@ -7,7 +7,7 @@ import errno
 import hashlib
 import os
 import stat
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from urdfsync import profiling
@@ -53,21 +53,18 @@ def put(file: Path, content: bytes) -> None:
             temporary.unlink(missing_ok=True)
 
 
-def text_digests(folder: Path) -> dict[str, str]:
-    """The `text_digest` of each file below a folder by its name in it, POSIX; hidden files are left out."""
-    above = len(str(folder)) + 1
-    found = ((path[above:].replace(os.sep, "/"), path) for path in walk_files(folder))
-    return {name: text_digest(read_file(path)) for name, path in found if not name.rpartition("/")[2].startswith(".")}
-
-
-def templates_digest(folders: Sequence[Path], read: Callable[[Path], Mapping[str, str]] = text_digests) -> str:
+def templates_digest(folders: Sequence[Path]) -> str:
     """SHA-256 (hex) over the templates in use, by name and content; an earlier folder hides names of a later one.
 
-    `read` gives the `text_digests` of a folder.
+    Hidden files are left out.
     """
     templates: dict[str, str] = {}
     for folder in reversed(folders):
-        templates |= read(folder)
+        above = len(str(folder)) + 1
+        for path in walk_files(folder):
+            name = path[above:].replace(os.sep, "/")
+            if not name.rpartition("/")[2].startswith("."):
+                templates[name] = text_digest(read_file(path))
     lines = [f"{name}\0{content}\n" for name, content in sorted(templates.items())]
     return digest("".join(lines).encode())
 

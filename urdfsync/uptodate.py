@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from urdfsync import __version__, streams
 from urdfsync.dependencies import LSTAT, STAT, Dependencies, Entries, check_path, stat_of
@@ -43,41 +43,18 @@ class SavedAnswers:
     def __init__(self, checks: list[tuple[str, str]], found: int, answers: dict[str, list[str]]) -> None:
         self.checks, self.found, self.answers = checks, found, answers
 
-    @classmethod
-    def parse(cls, text: str, inode: int, written: int) -> SavedAnswers:
-        """Read the text of a file with this inode and time of change (ns).
-
-        Raises ValueError unless this program wrote it in this very file, and all of it: a copy, such as a committed
-        one, comes from somebody else.
-        """
-        head, checks, *answers, end = [section.split("\0") for section in text.split("\0\0")]
-        *expected, found = head
-        if expected != [_FORMAT, str(inode), str(written), _program()] or end != [str(len(answers))]:
-            raise ValueError("no answers of this program")
-        pairs = list(zip(checks[::2], checks[1::2], strict=True))
-        return cls(pairs, int(found), {key: answer for key, *answer in answers})
-
-    def dumps(self, inode: int, written: int) -> str:
-        """The text of a file with this inode and time. Raises ValueError for texts that it can't hold."""
-        head = [_FORMAT, str(inode), str(written), _program(), str(self.found)]
-        checks = [text for pair in self.checks for text in pair]
-        answers = [[key, *answer] for key, answer in self.answers.items()]
-        sections = [head, checks, *answers, [str(len(answers))]]
-        if any(not text or "\0" in text for section in sections for text in section):
-            raise ValueError("a text is empty, or has the separator in it")
-        return "\0\0".join("\0".join(section) for section in sections)
-
-    def hold(self) -> bool:
-        """Whether nothing that the answers depended on has changed."""
+    def check(self) -> Entries | None:
+        """What is at all paths now; None if anything that the answers depended on has changed."""
         try:
-            return _hash([check_path(check, path) for check, path in self.checks]) == self.found
+            found = {(check, path): check_path(check, path) for check, path in self.checks}
         except (OSError, ValueError):
-            return False
+            return None
+        return found if _hash(found) == self.found else None
 
 
-def _hash(found: Iterable[tuple[int, ...]]) -> int:
+def _hash(found: Entries) -> int:
     """A hash of what was found at all paths; Python gives tuples of integers the same one in each process."""
-    return hash(tuple(found))
+    return hash(tuple(found.values()))
 
 
 def _program() -> str:
@@ -111,13 +88,21 @@ def answer_key(arguments: list[str], config_file: str) -> str:
 
 
 def read_answers(config_file: str) -> SavedAnswers | None:
-    """The answers saved beside a configuration; None if there are none, or somebody else wrote the file."""
+    """The answers saved beside a configuration; None if there are none.
+
+    They count only if this program wrote them in this very file: a copy, such as a committed one, is somebody else's.
+    """
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # a pipe must not hold it up
     path = os.path.join(os.path.dirname(config_file), _FOLDER, _NAME)
     try:
         with open(os.open(path, flags), encoding="utf-8", errors="surrogateescape", newline="") as file:
-            status = os.fstat(file.fileno())
-            return SavedAnswers.parse(file.read(), status.st_ino, status.st_mtime_ns)
+            status, text = os.fstat(file.fileno()), file.read()
+        head, checks, *answers, end = [section.split("\0") for section in text.split("\0\0")]
+        *expected, found = head
+        if expected != [_FORMAT, str(status.st_ino), str(status.st_mtime_ns), _program()] or end != [str(len(answers))]:
+            return None
+        pairs = list(zip(checks[::2], checks[1::2], strict=True))
+        return SavedAnswers(pairs, int(found), {key: answer for key, *answer in answers})
     except (OSError, ValueError):
         return None
 
@@ -126,7 +111,7 @@ def find_answer(config_file: str, key: str) -> list[str] | None:
     """A saved answer whose dependencies have not changed; None if there is none."""
     saved = read_answers(config_file)
     answer = saved.answers.get(key) if saved else None
-    return answer if answer is not None and saved and saved.hold() else None
+    return answer if answer is not None and saved and saved.check() is not None else None
 
 
 def has_answer(arguments: list[str]) -> bool:
@@ -167,49 +152,37 @@ def save_answer(
     has_read = dependencies.complete and (STAT, str(PurePath(config_file))) in recorded  # not so for `--help`
     if not has_read or sum(map(len, answer)) > _MAX_CHARACTERS:
         return
-    recorded.update(_module_files())
+    for name, module in list(sys.modules.items()):  # somebody may be working on urdfsync; Python goes by its version
+        file = getattr(module, "__file__", None)
+        if file and name.partition(".")[0] not in sys.stdlib_module_names and os.path.isfile(file):
+            recorded[STAT, os.path.abspath(file)] = stat_of(os.stat(file))
     folder = os.path.join(os.path.dirname(config_file), _FOLDER)
     clock, elapsed = read_clock(folder), elapsed_since(started)
     stats = [found for (check, _), found in recorded.items() if check in (LSTAT, STAT)]
     if clock is None or any(is_racy(found, clock, elapsed) for found in stats):
         return
-    saved = _merged(read_answers(config_file), recorded, {key: answer})
+    answers, saved = {key: answer}, read_answers(config_file)
+    before = saved.check() if saved and len(saved.answers) < _MAX_ANSWERS else None
+    if saved and before and all(before.get(pair, found) == found for pair, found in recorded.items()):
+        recorded, answers = before | recorded, saved.answers | answers
     try:
-        _write(folder, saved)
+        _write(folder, [text for pair in recorded for text in pair], _hash(recorded), answers)
     except (OSError, ValueError):
         return  # the next command runs, as this one did
 
 
-def _module_files() -> Entries:
-    """The files of all modules in use: somebody may be working on urdfsync. Those of Python go by its version."""
-    found: Entries = {}
-    for name, module in list(sys.modules.items()):
-        file = getattr(module, "__file__", None)
-        if file and name.partition(".")[0] not in sys.stdlib_module_names and os.path.isfile(file):
-            found[STAT, os.path.abspath(file)] = stat_of(os.stat(file))
-    return found
-
-
-def _merged(saved: SavedAnswers | None, recorded: Entries, answers: dict[str, list[str]]) -> SavedAnswers:
-    """New answers, together with the saved ones if these hold and depend on nothing that has changed meanwhile."""
-    if saved and len(saved.answers) < _MAX_ANSWERS:
-        try:
-            before = {(check, path): check_path(check, path) for check, path in saved.checks}
-        except OSError:
-            before = {}
-        holds = before and _hash(before.values()) == saved.found
-        if holds and all(before.get(pair, found) == found for pair, found in recorded.items()):
-            recorded, answers = before | recorded, saved.answers | answers
-    return SavedAnswers([*recorded], _hash(recorded.values()), answers)
-
-
-def _write(folder: str, saved: SavedAnswers) -> None:
-    """Write the file, bound to its inode and time. Raises OSError, or ValueError for texts that it can't hold."""
+def _write(folder: str, checks: list[str], found: int, answers: dict[str, list[str]]) -> None:
+    """Write the file, bound to its inode and time; nothing if it can't hold one of the texts. Raises OSError."""
+    listed = [[key, *answer] for key, answer in answers.items()]
+    if any(not text or "\0" in text for section in (checks, *listed) for text in section):
+        return
     temporary = os.path.join(folder, ".stamp.urdfsync-tmp")
     file = _create(temporary)
     try:
         status = os.fstat(file)
-        os.write(file, saved.dumps(status.st_ino, status.st_mtime_ns).encode("utf-8", "surrogateescape"))
+        head = [_FORMAT, str(status.st_ino), str(status.st_mtime_ns), _program(), str(found)]
+        text = "\0\0".join("\0".join(section) for section in (head, checks, *listed, [str(len(listed))]))
+        os.write(file, text.encode("utf-8", "surrogateescape"))
         os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
         os.replace(temporary, os.path.join(folder, _NAME))
     finally:

@@ -40,14 +40,14 @@ def test_an_order_file_is_not_begun_in_a_package_that_has_other_classes(root: Pa
     plant = package(root / "modelica/Plant")
     assert not check(root, "Plant.Arm").listed
     made = check(root, "Plant.Robots.Arm", create=True)
-    assert set(made.created) == {plant / "Robots/package.mo"}
-    assert made.entered == {}
+    assert [one.path for one in made.shared] == [plant / "Robots/package.mo"]
     assert made.listed, "the file of a package that urdfsync makes is complete"
 
 
 def test_packages_that_are_made_list_each_other(root: Path) -> None:
     made = check(root, "Plant.Robots.Arm", create=True)
-    assert made.entered == {root / "modelica/Plant/package.order": "Robots"}
+    orders = {one.path: one.names for one in made.shared if one.content is None}
+    assert orders == {root / "modelica/Plant/package.order": ("Robots",)}
     assert made.listed
 
 

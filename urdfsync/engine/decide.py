@@ -206,14 +206,12 @@ def _decide_orders(
         actions.append(Action(key, kind, Role.ORDER, "package"))
         if not key.startswith(inside):
             shared.append(SharedFile(files.path(key), None, names, owned))
-    for path, content in inputs.parents.created.items():
-        files.on_disk(files.key(path), Role.PACKAGE)  # refuses a link in its place
-        actions.append(Action(files.key(path), Kind.CREATE, Role.PACKAGE, "parent package"))
-        shared.append(SharedFile(path, content))
-    for path, name in inputs.parents.entered.items():
-        old = files.text(files.key(path))
-        shared.append(SharedFile(path, None, (name,)))
-        if merge_order(old, [name]) != old:
+    for one in inputs.parents.shared:
+        key = files.key(one.path)
+        if one.content is not None:
+            files.on_disk(key, Role.PACKAGE)  # refuses a link in its place
+            actions.append(Action(key, Kind.CREATE, Role.PACKAGE, "parent package"))
+        elif (old := files.text(key)) != merge_order(old, one.names):
             kind = Kind.CREATE if old is None else Kind.UPDATE
-            actions.append(Action(files.key(path), kind, Role.ORDER, "parent package"))
-    return actions, texts, shared
+            actions.append(Action(key, kind, Role.ORDER, "parent package"))
+    return actions, texts, [*shared, *inputs.parents.shared]

@@ -36,16 +36,16 @@ def find_all(generation: Generation, actions: Actions, names: list[Diagnostic]) 
 
 def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     """A warning if something stays in the folder that a package had in the last build."""
-    files, old = inputs.files, inputs.files.path(inputs.old_folder)
+    files, old, new = inputs.files, inputs.files.path(inputs.old_folder), inputs.files.path(inputs.folder)
     if inputs.old_folder == inputs.folder or any(action.held for action in actions):
         return
-    message = f"the package moved from {shown(old)} to {shown(inputs.robot.folder)}"
+    message = f"the package moved from {shown(old)} to {shown(new)}"
     place = shown(inputs.config.file), inputs.robot.lines[""]
     if not files.is_inside(f"{inputs.old_folder}/package.mo"):
         message += ", and the old folder is none of urdfsync's any more"
         yield Diagnostic(Severity.WARNING, "left-behind", message, *place, hint="delete it by hand")
         return
-    gone, new = {files.path(action.path) for action in actions if action.kind in DELETES}, inputs.robot.folder
+    gone = {files.path(action.path) for action in actions if action.kind in DELETES}
     below = sorted(path for path in old.rglob("*") if not path.is_dir())
     rest = [path for path in below if path not in gone and new not in path.parents]
     if rest and inputs.old_folder not in inputs.own_folders:

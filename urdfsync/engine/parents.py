@@ -7,7 +7,7 @@ Modelica parser. So urdfsync enters its names into files that exist, and makes s
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
 import msgspec
@@ -19,18 +19,6 @@ from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.files import digest
 from urdfsync.modelica.names import LIBRARY, within
 from urdfsync.state.transaction import Change
-
-
-class Parents(msgspec.Struct, frozen=True):
-    """What of the packages above a robot's has to be written."""
-
-    created: Mapping[Path, bytes]
-    """`package.mo` of every parent that does not exist yet."""
-    entered: Mapping[Path, str]
-    """`package.order` files above the parent's, and the created package that each has to name."""
-    listed: bool = True
-    """Whether the parent's `package.order` has to name the robot's package: if it is there, or made with the parent."""
-    diagnostics: tuple[Diagnostic, ...] = ()
 
 
 class SharedFile(msgspec.Struct, frozen=True):
@@ -59,98 +47,86 @@ class SharedFile(msgspec.Struct, frozen=True):
         return Change(self.path, encode(new) if new else None, None if found is None else digest(found))
 
 
+class Parents(msgspec.Struct, frozen=True):
+    """What of the packages above a robot's has to be written."""
+
+    shared: tuple[SharedFile, ...] = ()
+    """Packages that do not exist yet, and order files above the parent's that have to name these."""
+    listed: bool = True
+    """Whether the parent's `package.order` has to name the robot's package: if it is there, or made with the parent."""
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
 def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -> Parents:
     """Look at the output folder and at all parents of the robot's package, which needs the libraries `uses`.
 
     Raises OutputError, at the line of the configuration that says so, if the package can't be there.
     """
-    file = shown(config.file)
-    _check_output(config, robot, file)
-    parts = robot.target.package.split(".")
-    _check_library(robot, parts, file)
-    created: dict[Path, bytes] = {}
-    entered: dict[Path, str] = {}
-    for depth in range(1, len(parts) + 1):
-        folder, name = robot.output.joinpath(*parts[:depth]), ".".join(parts[:depth])
-        single = folder.with_name(f"{folder.name}.mo")
-        if is_file(single):
-            message = f"package `{name}` is the single file {shown(single)}; it has to be a folder with a package.mo"
-            raise OutputError(_problem("package-is-file", message, "package", robot, file, "convert it, or move it"))
-        if depth == len(parts) or is_file(folder / "package.mo"):
-            continue
-        if not robot.create_parents:
-            message = f"the parent package `{name}` does not exist in {shown(robot.output)}"
-            hint = "create it, or set `create_parents = true`"
-            raise OutputError(_problem("no-parent", message, "package", robot, file, hint))
-        created[folder / "package.mo"] = _package(name, uses)
-        if depth > 1 and _is_ordered(folder.parent, created):
-            entered[folder.parent / "package.order"] = parts[depth - 1]
-    return Parents(created, entered, _is_ordered(robot.folder.parent, created), tuple(_check_uses(robot, parts, uses)))
 
+    def refuse(code: str, message: str, hint: str, key: str = "package") -> OutputError:
+        place, message = (shown(config.file), robot.lines.get(key, robot.lines[""])), f"robot `{robot.name}`: {message}"
+        return OutputError(Diagnostic(Severity.ERROR, code, message, *place, hint=hint))
 
-def files(robot: RobotConfig) -> Iterator[str]:
-    """The files of the packages around a robot's that `check` may look at, there or not."""
-    for folder in robot.folder.parents[: robot.target.package.count(".")]:
-        yield from (f"{folder}/package.mo", f"{folder}/package.order")
-
-
-def _is_ordered(package: Path, created: Mapping[Path, bytes]) -> bool:
-    """Whether a package has a `package.order`, or gets one because urdfsync makes the package."""
-    return package / "package.mo" in created or is_file(package / "package.order")
-
-
-def _check_library(robot: RobotConfig, parts: Sequence[str], file: str) -> None:
-    """Only the library's own output folder may hold a package of its name: it would hide the library from tools."""
-    if parts[0] == LIBRARY and not is_file(robot.output / LIBRARY / "package.mo"):
-        message = f"`{LIBRARY}` is the library that models need; a package of that name would hide it"
-        hint = f"choose another top-level package than `{LIBRARY}`"
-        raise OutputError(_problem("modelica-name", message, "package", robot, file, hint))
-
-
-def _check_output(config: Config, robot: RobotConfig, file: str) -> None:
-    output = robot.output
+    output, parts = robot.output, robot.target.package.split(".")
     if is_folder(output):
         if is_file(output / "package.mo"):
             message = f"the output folder {shown(output)} is a Modelica package itself"
             hint = "name the folder above it as output, and the package with its full name"
-            raise OutputError(_problem("output-is-package", message, "output", robot, file, hint))
-        return
-    existing = next(folder for folder in (output, *output.parents) if folder.exists() or folder.is_symlink())
-    if not existing.is_dir():
-        message = f"the output folder {shown(output)} can't be made: {shown(existing)} is no folder"
-        raise OutputError(_problem("output-is-file", message, "output", robot, file, "name another folder"))
-    if config.root not in output.parents:
-        message = f"the output folder {shown(output)} does not exist"
-        hint = "create it: urdfsync makes folders only beside or below its configuration"
-        raise OutputError(_problem("no-output", message, "output", robot, file, hint))
+            raise refuse("output-is-package", message, hint, "output")
+    else:
+        existing = next(folder for folder in (output, *output.parents) if folder.exists() or folder.is_symlink())
+        if not existing.is_dir():
+            message = f"the output folder {shown(output)} can't be made: {shown(existing)} is no folder"
+            raise refuse("output-is-file", message, "name another folder", "output")
+        if config.root not in output.parents:
+            hint = "create it: urdfsync makes folders only beside or below its configuration"
+            raise refuse("no-output", f"the output folder {shown(output)} does not exist", hint, "output")
+    if parts[0] == LIBRARY and not is_file(output / LIBRARY / "package.mo"):  # tools would not find the library itself
+        message = f"`{LIBRARY}` is the library that models need; a package of that name would hide it"
+        raise refuse("modelica-name", message, f"choose another top-level package than `{LIBRARY}`")
+    shared: list[SharedFile] = []
 
+    def is_ordered(package: Path) -> bool:
+        """Whether a package has a `package.order`, or gets one because urdfsync makes the package."""
+        is_made = any(one.path == package / "package.mo" for one in shared)
+        return is_made or is_file(package / "package.order")
 
-def _check_uses(robot: RobotConfig, parts: Sequence[str], uses: Sequence[tuple[str, str]]) -> Iterator[Diagnostic]:
-    """A warning if the user's top-level package does not say which libraries it needs now."""
-    top = robot.output / parts[0] / "package.mo"
-    if len(parts) == 1 or not is_file(top):
-        return
-    text = read_file(top).decode(errors="replace")
-    missing = [use for use in uses if use[0] != parts[0] and not re.search(rf"\b{use[0]}\s*\(\s*version", text)]
-    if missing:
-        message = f"package `{parts[0]}` does not say that it needs {' and '.join(name for name, _ in missing)}"
-        hint = f"add `{_uses(missing)}` to its annotation"
-        yield Diagnostic(Severity.WARNING, "no-uses", message, shown(top), hint=hint)
+    for depth, last in enumerate(parts, start=1):
+        folder, name = output.joinpath(*parts[:depth]), ".".join(parts[:depth])
+        single = folder.with_name(f"{folder.name}.mo")
+        if is_file(single):
+            message = f"package `{name}` is the single file {shown(single)}; it has to be a folder with a package.mo"
+            raise refuse("package-is-file", message, "convert it, or move it")
+        if depth == len(parts) or is_file(folder / "package.mo"):
+            continue
+        if not robot.create_parents:
+            message = f"the parent package `{name}` does not exist in {shown(output)}"
+            raise refuse("no-parent", message, "create it, or set `create_parents = true`")
+        annotation = f"  annotation ({_uses(uses)});\n" if depth == 1 else ""
+        text = f'{within(name)}\npackage {last} "{last}"\n{annotation}end {last};\n'
+        shared.append(SharedFile(folder / "package.mo", text.encode()))
+        if depth > 1 and is_ordered(folder.parent):
+            shared.append(SharedFile(folder.parent / "package.order", None, (last,)))
 
-
-def _package(name: str, uses: Sequence[tuple[str, str]]) -> bytes:
-    parent, _, last = name.rpartition(".")
-    annotation = "" if parent else f"  annotation ({_uses(uses)});\n"
-    return f'{within(name)}\npackage {last} "{last}"\n{annotation}end {last};\n'.encode()
+    top, found = output / parts[0] / "package.mo", tuple[Diagnostic, ...]()
+    if len(parts) > 1 and is_file(top):  # does the user's top-level package say which libraries it needs now?
+        text = read_file(top).decode(errors="replace")
+        missing = [use for use in uses if use[0] != parts[0] and not re.search(rf"\b{use[0]}\s*\(\s*version", text)]
+        if missing:
+            message = f"package `{parts[0]}` does not say that it needs {' and '.join(name for name, _ in missing)}"
+            hint = f"add `{_uses(missing)}` to its annotation"
+            found = (Diagnostic(Severity.WARNING, "no-uses", message, shown(top), hint=hint),)
+    return Parents(tuple(shared), is_ordered(robot.folder.parent), found)
 
 
 def _uses(uses: Sequence[tuple[str, str]]) -> str:
     return f"uses({', '.join(f'{name}(version={version!r})' for name, version in uses)})".replace("'", '"')
 
 
-def _problem(code: str, message: str, key: str, robot: RobotConfig, file: str, hint: str) -> Diagnostic:
-    line = robot.lines.get(key, robot.lines[""])
-    return Diagnostic(Severity.ERROR, code, f"robot `{robot.name}`: {message}", file, line, hint=hint)
+def files(robot: RobotConfig) -> Iterator[str]:
+    """The files of the packages around a robot's that `check` may look at, there or not."""
+    for folder in robot.folder.parents[: robot.target.package.count(".")]:
+        yield from (f"{folder}/package.mo", f"{folder}/package.order")
 
 
 def merge_order(text: str | None, names: Sequence[str], owned: Collection[str] = ()) -> str:

@@ -52,7 +52,7 @@ def _plan_if_current(inputs: Inputs) -> Plan | None:
     state, options, store = inputs.state, inputs.options, inputs.store
     if options.full or options.draw or options.choices or inputs.former_name:
         return None
-    if state is None or state.model is None or not state.intact or inputs.parents.created:
+    if state is None or state.model is None or not state.intact or inputs.parents.shared:
         return None
     recorded = state.manifest
     if msgspec.structs.replace(recorded, names={}, dependencies={}, orders={}, files={}) != inputs.heading(
