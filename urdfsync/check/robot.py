@@ -108,6 +108,10 @@ def _check_models(
     if options.physics and compilation.compiler.SIMULATES:
         compilation.compare()
     else:
+        if options.physics:
+            result.gaps = (f"poses and efforts were not compared: `--tool {options.compiler}` only compiles",)
+        else:
+            result.unchecked += ("poses and efforts were not compared: `--physics` does that",)
         compilation.compile_all()
     result.compiled = tuple(sorted(result.compiled, key=lambda one: package.models.index(one.model)))
     if not (result.failed or result.gaps or result.differs):  # what is wrong or missing is looked at again
