@@ -124,8 +124,8 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
         ),
         (
             {ELBOW: ELBW},
-            f"{ELBOW}:{arm.line('model Elbow')}: {JOINT} the class is called `Elbw`, but its file `Elbow`; give class and "
-            "file the same name [wrong-name]",
+            f"{ELBOW}:{arm.line('model Elbow')}: {JOINT} the class is called `Elbw`, but its file `Elbow`; give class "
+            "and file the same name [wrong-name]",
         ),
         (
             {"package.mo": RENAMED},
