@@ -255,17 +255,6 @@ def test_the_page_shows_what_is_printed(capsys: Capture) -> None:
 
 
 @pytest.mark.usefixtures("_terminal")
-def test_with_less_room_the_worst_elements_stand_below(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "80")
-    assert shown(capsys, RIGHT)[:4] == [
-        "          models   equations             pose   torque",
-        "  robot  compile  = unknowns  states    error    error    time",
-        "✓ arm          3       1,204      12  2.0e-16  1.3e-15  12.4 s",
-        "    largest at link hand and joint elbow",
-    ]
-
-
-@pytest.mark.usefixtures("_terminal")
 def test_a_narrow_terminal_shows_step_by_step(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "60")
     assert shown(capsys, WRONG) == [
@@ -289,7 +278,7 @@ def test_a_narrow_terminal_shows_step_by_step(capsys: Capture, monkeypatch: pyte
 
 
 @pytest.mark.usefixtures("_terminal")
-@pytest.mark.parametrize("width", [40, 60, 66, 80, 100, 120, 200])
+@pytest.mark.parametrize("width", [40, 66, 100, 200])
 def test_no_line_is_wider_than_the_terminal(capsys: Capture, monkeypatch: pytest.MonkeyPatch, width: int) -> None:
     monkeypatch.setenv("COLUMNS", str(width))
     lines = shown(capsys, *ALL)
