@@ -155,13 +155,16 @@ def test_it_is_checked_again_when_something_matters_that_a_build_does_not_see(
     assert examiner.asked == ["ladder"] * 2
 
 
-@pytest.mark.parametrize("name", ["_rumoca_version", "__version__"])
+@pytest.mark.parametrize("name", ["rumoca", "urdfsync"])
 def test_it_is_checked_again_with_another_tool_and_by_a_full_build(
     project: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
     examiner = Examiner(RIGHT)
     run(examiner)
-    monkeypatch.setattr(afterbuild, name, (lambda: "99") if name == "_rumoca_version" else "99")
+    if name == "urdfsync":
+        monkeypatch.setattr(afterbuild, "__version__", "99")
+    else:
+        monkeypatch.setattr("urdfsync.check.compilers.installed_version", lambda _: "99")
     run(examiner)
     run(examiner, full=True)
     assert examiner.asked == ["ladder"] * 3

@@ -92,6 +92,12 @@ def without_library(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(libraries, "library_folders", lambda *_: [])
 
 
+@pytest.fixture
+def nothing_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No earlier run of these tests saves this one the work; libraries are in the cache."""
+    monkeypatch.setattr(UserCache, "load", lambda *_: None)
+
+
 def rebuild() -> None:
     loaded = config.load(Path("urdfsync.toml").absolute())
     (result,) = build(loaded, loaded.robots, BuildOptions())
@@ -130,7 +136,7 @@ def lines(result: CheckResult) -> list[str]:
 
 
 @pytest.mark.slow
-def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Path) -> None:
+def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Path, nothing_known: None) -> None:
     """Edits are results, not failures: what is generated agrees with the reference."""
     replace(arm / "Joints" / "ElbowParameters.mo", "damping = 0.1", "damping = 0.2")
     replace(arm / "Links" / "HandParameters.mo", "mass = 0.7", "mass = 0.9")
@@ -156,7 +162,9 @@ def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Pat
 
 
 @pytest.mark.slow
-def test_a_generator_that_is_wrong_is_found_whoever_edited_what(arm: Path, modelica_library: Path) -> None:
+def test_a_generator_that_is_wrong_is_found_whoever_edited_what(
+    arm: Path, modelica_library: Path, nothing_known: None
+) -> None:
     """A template of the user's turns origins about axes that turn along; an assertion ends each simulation."""
     templates = Path("templates")
     shutil.copytree(REPOSITORY / "templates" / "urdf", templates)

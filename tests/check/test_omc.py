@@ -54,7 +54,7 @@ def work(
             return found
 
     library = types.SimpleNamespace(OMCSessionLocal=Session, OMCSessionException=RefusedError)
-    monkeypatch.setitem(sys.modules, "OMPython", library)  # type: ignore[arg-type]
+    monkeypatch.setitem(sys.modules, "OMPython", library)
     return list(omc.work(job)), asked
 
 

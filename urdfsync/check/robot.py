@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import importlib.metadata
-import importlib.util
 import os
 import time
 from collections.abc import Callable, Mapping
@@ -13,7 +11,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import __version__
-from urdfsync.check import layout, libraries, names
+from urdfsync.check import compilers, layout, libraries, names
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilation import Compilation, Progress, system_error
 from urdfsync.check.package import CheckedPackage, irregular_files, missing_resources, read_package
@@ -24,7 +22,6 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.modelica.names import LIBRARY
 
-_MODULES = {"pin": "pinocchio"}  # by distribution, where that has another name
 _COMPILED_FIELDS = ("compiled", "deviations", "effects", "notes", "reference", "megabytes")
 """Fields of the result that follow from compiling alone."""
 
@@ -123,9 +120,9 @@ def _check_models(
 def _result_key(package: CheckedPackage, options: CheckOptions, paths: Mapping[str, Path]) -> str:
     """SHA-256 (hex) over all that compiling and comparing a package rests on; `paths` are those of its libraries."""
     robot = package.robot
-    programs = [name for name in ("rumoca", "OMPython", "pin") if importlib.util.find_spec(_MODULES.get(name, name))]
+    programs = (*compilers.COMPILERS[options.compiler].MODULES, "pin")
     facts = (
-        *(__version__, [importlib.metadata.version(name) for name in programs], options.physics, options.compiler),
+        *(__version__, list(map(compilers.installed_version, programs)), options.physics, options.compiler),
         *(robot.target, robot.options, package.in_step, package.models, package.rendering.content),
         [(name, str(path), libraries.library_state(path)) for name, path in sorted(paths.items())],
         *(sorted(texts.items()) for texts in (package.files.texts, package.generated, package.around)),

@@ -94,9 +94,8 @@ def _fill(parent: Element, tag: str, values: Mapping[str, str], filled: Counter[
         missing = [name for name in values if element.get(name) is None]
         for name in missing:
             element.set(name, values[name])
-        filled[tag] += bool(missing)
-    if not filled[tag]:
-        del filled[tag]
+        if missing:
+            filled[tag] += 1
 
 
 def _massless_links(skeleton: KinematicTree) -> set[str]:

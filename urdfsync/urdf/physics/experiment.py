@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -149,7 +149,12 @@ class PinocchioExperiment:
                 free[joint.name] = FrameMotion(_vector(found, names.places[link]), axes, *moves)
             solved = reference.solve(reference.state(time, self._courses, free))
         mass, centre = solved.mass_and_centre()
-        pairs = [(FORCE, -solved.force), (TORQUE, -solved.torque), (MASS, [mass]), (_CENTRE, centre)]
+        pairs: list[tuple[Sequence[str], Iterable[float]]] = [
+            (FORCE, -solved.force),
+            (TORQUE, -solved.torque),
+            (MASS, [mass]),
+            (_CENTRE, centre),
+        ]
         pairs.append((tuple(names.efforts(self._skeleton).values()), solved.efforts))
         for link in (link.name for link in self._skeleton.links):
             frame = solved.frame(link)

@@ -150,8 +150,8 @@ def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bo
     modifiers = ["checkLimits = false", "fixedStart = false"]
     for joint in free:
         start = motion.free_start(joint)._asdict().items()
-        values = (f"{k}_start = {vector(v) if isinstance(v, tuple) else repr(v)}" for k, v in start)
-        modifiers.append(f"{skeleton.joint(joint.name).component}(fixedStart = true, {', '.join(values)})")
+        texts = (f"{k}_start = {vector(v) if isinstance(v, tuple) else repr(v)}" for k, v in start)
+        modifiers.append(f"{skeleton.joint(joint.name).component}(fixedStart = true, {', '.join(texts)})")
     declarations += ["MovingBase base", f"{names.declaration}{', '.join(modifiers)})"]
     connections = ["base.frame_b, robot.frame_a"]
     for k, joint in enumerate(axes, 1):
