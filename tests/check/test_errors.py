@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from support import arm
 from support.arm import ELBOW
@@ -280,6 +280,7 @@ def test_rules_of_the_layout_have_their_files() -> None:
 # --- whatever else it says --------------------------------------------------------------------------------------------
 
 
+@example(":")
 @given(st.text(st.sampled_from("ab:;'`[]()×╭─\n 12{}.") | st.characters(codec="utf-8"), min_size=1))
 def test_any_text_gives_something(text: str) -> None:
     found = explain(text)

@@ -170,7 +170,11 @@ def _check(
                     fault = _failure(order, "check-out-of-time", f"it was not done after {limit:g} s", hint)
                 elif now - looked >= _INTERVAL:
                     looked = now
-                    if sum(one.memory_info().rss for one in _family(process)) > memory:
+                    used = 0
+                    for one in _family(process):
+                        with contextlib.suppress(psutil.Error):  # it has just ended
+                            used += one.memory_info().rss
+                    if used > memory:
                         if not is_alone:
                             steps[name] = Step(f"{name}: waits for more memory", 0.0, step.result)
                             return None
@@ -188,7 +192,8 @@ def _check(
                 with contextlib.suppress(psutil.Error):
                     one.kill()
             process.wait()
-            stdin.close()
+            with contextlib.suppress(OSError):  # what it did not read is lost
+                stdin.close()
             if reader.ident:
                 reader.join(_PATIENCE)
             stdout.close()
