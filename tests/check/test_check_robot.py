@@ -18,7 +18,7 @@ from urdfsync import config
 from urdfsync.check import libraries
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers.compiler import CompileJob, CompileResult
-from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, Step
+from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, CheckStep
 from urdfsync.check.robot import check_robot
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -104,7 +104,7 @@ def rebuild() -> None:
     assert not result.failed
 
 
-def check(physics: bool = False, steps: list[Step] | None = None) -> CheckResult:
+def check(physics: bool = False, steps: list[CheckStep] | None = None) -> CheckResult:
     loaded = config.load(Path("urdfsync.toml").absolute())
     told, options = [] if steps is None else steps, CheckOptions(physics=physics, compilers=2)
     with UserCache.default().workspace() as folder:
@@ -185,7 +185,7 @@ def test_a_generator_that_is_wrong_is_found_whoever_edited_what(
 def test_what_was_right_is_not_compiled_again_until_something_changes(
     arm: Path, modelica_library: Path, compiler: Compiler
 ) -> None:
-    steps: list[Step] = []
+    steps: list[CheckStep] = []
     first, second = check(steps=steps), check()
     assert steps[0].what == "arm: reading the source and the package"
     assert "arm: checking files and names" in [step.what for step in steps]

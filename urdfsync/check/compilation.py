@@ -22,9 +22,9 @@ from urdfsync.check.results import (
     MOST_SINGLE_EDITS,
     CheckOptions,
     CheckResult,
+    CheckStep,
     CompiledModel,
     EditEffect,
-    Step,
 )
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 
@@ -43,10 +43,10 @@ class _Outcome(msgspec.Struct):
     """Why there are fewer."""
 
 
-class Progress:
+class CheckProgress:
     """Tells the steps of a check, also from several threads; `total` is how many there will be, as far as is known."""
 
-    def __init__(self, result: CheckResult, tell: Callable[[Step], None]) -> None:
+    def __init__(self, result: CheckResult, tell: Callable[[CheckStep], None]) -> None:
         self._result, self._tell, self._lock = result, tell, threading.Lock()
         self._begun, self.total = 0, 6
 
@@ -55,7 +55,7 @@ class Progress:
         with self._lock:
             done = min(self._begun / self.total, 1.0)
             self._begun += 1
-            self._tell(Step(f"{self._result.robot}: {what}", done, self._result))
+            self._tell(CheckStep(f"{self._result.robot}: {what}", done, self._result))
 
 
 class Compilation:
@@ -66,7 +66,7 @@ class Compilation:
         package: CheckedPackage,
         options: CheckOptions,
         result: CheckResult,
-        progress: Progress,
+        progress: CheckProgress,
         cache: UserCache,
         folder: Path,
         standard: StandardLibrary,

@@ -13,10 +13,10 @@ import msgspec
 from urdfsync import __version__
 from urdfsync.check import compilers, layout, libraries, names
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilation import Compilation, Progress, system_error
+from urdfsync.check.compilation import CheckProgress, Compilation, system_error
 from urdfsync.check.package import CheckedPackage, irregular_files, missing_resources, read_package
 from urdfsync.check.report import listed
-from urdfsync.check.results import CheckOptions, CheckResult, Step
+from urdfsync.check.results import CheckOptions, CheckResult, CheckStep
 from urdfsync.config import Config, RobotConfig, library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
@@ -27,11 +27,11 @@ _COMPILED_FIELDS = ("compiled", "deviations", "effects", "notes", "reference", "
 
 
 def check_robot(
-    config: Config, robot: RobotConfig, options: CheckOptions, tell: Callable[[Step], None], folder: Path
+    config: Config, robot: RobotConfig, options: CheckOptions, tell: Callable[[CheckStep], None], folder: Path
 ) -> CheckResult:
     """Check one robot; `tell` gets the result as it grows, `folder` is an empty one for copies of the package."""
     result, begin = CheckResult(robot.name, robot.target.package), time.monotonic()
-    progress = Progress(result, tell)
+    progress = CheckProgress(result, tell)
     try:
         progress.begin("reading the source and the package")
         request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
@@ -73,7 +73,7 @@ def _check_texts(package: CheckedPackage, result: CheckResult) -> str:
 
 
 def _check_models(
-    package: CheckedPackage, options: CheckOptions, result: CheckResult, progress: Progress, folder: Path
+    package: CheckedPackage, options: CheckOptions, result: CheckResult, progress: CheckProgress, folder: Path
 ) -> None:
     """Compile the package, and compare it if that is wanted; without the MSL say why that is not done."""
     robot, configured = package.robot, package.config.check.library
