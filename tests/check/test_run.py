@@ -12,8 +12,8 @@ from pathlib import Path
 import psutil
 import pytest
 
-from urdfsync import config
-from urdfsync.check import child, run
+from urdfsync import config, processes
+from urdfsync.check import run
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
 from urdfsync.config import Config
 from urdfsync.engine.options import Progress, no_progress
@@ -144,7 +144,7 @@ def test_a_robot_that_is_gone_from_the_configuration_is_told(
     robots: Config, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The configuration was changed between the command and its process."""
-    monkeypatch.setattr(run, "COMMAND", child.python_module("urdfsync.check"))
+    monkeypatch.setattr(run, "COMMAND", processes.python_module("urdfsync.check"))
     (tmp_path / "urdfsync.toml").write_text('[robots.leg]\nsource = "leg.urdf"\npackage = "Leg"\n')
     (found,) = check(robots, ["early"], CheckOptions(package_paths=(tmp_path,)))
     assert codes(found) == ["unknown-robot"]

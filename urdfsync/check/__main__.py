@@ -7,7 +7,7 @@ import sys
 import threading
 from pathlib import Path
 
-from urdfsync.check import child
+from urdfsync import processes
 from urdfsync.check.results import CheckResult, CheckStep, from_text, to_text
 from urdfsync.check.robot import check_robot
 from urdfsync.check.run import RobotOrder
@@ -17,9 +17,9 @@ from urdfsync.diagnostics import UrdfsyncError
 
 def main() -> None:
     """Check the robot that is ordered."""
-    answers = child.reserve_stdout()
+    answers = processes.reserve_stdout()
     order = from_text(sys.stdin.buffer.readline(), RobotOrder)
-    child.end_with_parent()
+    processes.end_with_parent()
     lock = threading.Lock()  # compilers of one robot may run at the same time
 
     def answer(step: CheckStep) -> None:

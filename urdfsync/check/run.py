@@ -20,8 +20,8 @@ from typing import IO, cast
 import msgspec
 import psutil
 
-from urdfsync import machine
-from urdfsync.check import child, compilers
+from urdfsync import machine, processes
+from urdfsync.check import compilers
 from urdfsync.check.cache import UserCache
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStep, from_text, to_text
 from urdfsync.config import Config, RobotConfig
@@ -29,7 +29,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import Progress
 from urdfsync.engine.pool import connect_cluster
 
-COMMAND = tuple(child.python_module("urdfsync.check"))
+COMMAND = tuple(processes.python_module("urdfsync.check"))
 """Starts the process that checks one robot."""
 _EXPECTED_MEMORY = 1.5e9  # bytes that the check of a robot usually takes, at most
 _SHARE_OF_FREE_MEMORY = 0.9
@@ -141,7 +141,7 @@ def _check(
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=errors,
-            env={**os.environ, **child.importable()},
+            env={**os.environ, **processes.importable()},
             start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends this process
         )
         stdin, stdout = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stdout)
@@ -201,7 +201,7 @@ def _check(
         errors.seek(0)
         words = errors.read().decode(errors="replace").strip().splitlines()[-1:]
     if fault is None and (process.returncode or not step.is_last):
-        message = ": ".join([f"its process ended with {child.exit_cause(process.returncode)}", *words])
+        message = ": ".join([f"its process ended with {processes.exit_cause(process.returncode)}", *words])
         fault = _failure(order, "check-crashed", message, report)
     if fault:
         step.result.add([fault])

@@ -66,6 +66,13 @@ def add_wait(parser: Parser) -> None:
     parser.add_argument("--wait", type=float, default=60, metavar="S", help="seconds to wait for another build (60)")
 
 
+def add_trust(parser: Parser) -> None:
+    """Whether the user trusts the configuration."""
+    parser.add_argument(
+        "--trust", action="store_true", help="write to an `output` outside of the configuration's folder, too"
+    )
+
+
 def add_profile(parser: Parser) -> None:
     """Whether to measure."""
     parser.add_argument(
@@ -115,6 +122,7 @@ def request(args: argparse.Namespace, console: Console, **options: Any) -> Build
         package_paths=config.ros_package_path(os.environ),
         progress=console.progress,
         wait=getattr(args, "wait", 60.0),
+        trusted=getattr(args, "trust", False),
         jobs=getattr(args, "jobs", None),
         executor=getattr(args, "executor", ""),
         **options,

@@ -36,6 +36,7 @@ def add(commands: arguments.Commands) -> None:
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
     arguments.add_wait(parser)
+    arguments.add_trust(parser)
     arguments.add_jobs(parser)
     arguments.add_executor(parser, "plan")
     arguments.add_profile(parser)

@@ -147,7 +147,7 @@ class UrdfDomain:
     def option_for_connector(self, name: str, snapshot: Snapshot, target: Target, options: Options) -> str:
         """See `urdfsync.domain.Domain`: the frame of a link that `frames` does not name."""
         from urdfsync.urdf.kinematics.tree import KinematicTree
-        from urdfsync.urdf.model.robot import connector_names
+        from urdfsync.urdf.model.connectors import connector_names
 
         tree = KinematicTree.of(from_snapshot(snapshot), (target.name,))
         if name in connector_names(tree, options).frames.values():

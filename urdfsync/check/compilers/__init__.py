@@ -13,7 +13,7 @@ from typing import IO, cast
 
 import msgspec
 
-from urdfsync.check import child
+from urdfsync import processes
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import omc, rumoca
 from urdfsync.check.compilers.compiler import CompileJob, Compiler, CompilerError, CompileResult
@@ -54,11 +54,11 @@ def run_job(name: str, job: CompileJob, cache: UserCache) -> Generator[CompileRe
         tempfile.TemporaryFile() as errors,
     ):
         worker = subprocess.Popen(  # noqa: S603 - a command of ours
-            child.python_module("urdfsync.check.compilers", name),
-            stdin=subprocess.PIPE,  # stays open: see `child.end_with_parent`
+            processes.python_module("urdfsync.check.compilers", name),
+            stdin=subprocess.PIPE,  # stays open: see `processes.end_with_parent`
             stdout=subprocess.PIPE,
             stderr=errors,
-            env={**os.environ, **child.importable(), **compiler.environment(str(cache.compiler), folder)},
+            env={**os.environ, **processes.importable(), **compiler.environment(str(cache.compiler), folder)},
         )
         with worker:
             try:
@@ -78,7 +78,7 @@ def run_job(name: str, job: CompileJob, cache: UserCache) -> Generator[CompileRe
     said = f": {lines[-1].strip()}" if lines[-1] else ""
     if worker.returncode == MISSING:
         raise _missing(compiler, f"{compiler.TITLE} does not start{said}")
-    message = f"{compiler.TITLE} broke down at {job.tasks[done].title}: {child.exit_cause(worker.returncode)}{said}"
+    message = f"{compiler.TITLE} broke down at {job.tasks[done].title}: {processes.exit_cause(worker.returncode)}{said}"
     killed = "most likely the system for want of memory: check fewer robots at a time"
     hint = killed if worker.returncode == -9 else compiler.REPORT
     raise CompilerError(Diagnostic(Severity.ERROR, "compiler-crashed", message, hint=hint))

@@ -6,16 +6,16 @@ import sys
 
 import msgspec
 
-from urdfsync.check import child
+from urdfsync import processes
 from urdfsync.check.compilers import COMPILERS, MISSING
 from urdfsync.check.compilers.compiler import CompileJob
 
 
 def main() -> int:
     """Do one job; returns the exit code."""
-    answers = child.reserve_stdout()
+    answers = processes.reserve_stdout()
     job = msgspec.json.decode(sys.stdin.buffer.readline(), type=CompileJob)
-    child.end_with_parent()
+    processes.end_with_parent()
     try:
         for result in COMPILERS[sys.argv[1]].work(job):
             answers.write(msgspec.json.encode(result) + b"\n")
