@@ -102,34 +102,79 @@ def test_what_is_declared_twice_is_an_error_and_what_is_connected_twice_a_warnin
     assert " warning: " in connected
 
 
+ELBW = arm.text().replace("model Elbow", "model Elbw").replace("end Elbow", "end Elbw")
+SMALL_ELBOW = arm.text().replace("Elbow", "elbow")
+RENAMED = arm.text("package.mo").replace("SixAxisArm", "Arm").replace(".Arm", ".SixAxisArm")
+INSIDE = f"within {arm.NAME};\npackage Joints\n  model Elbow\n  end Elbow;\nend Joints;\n"
+JOINT = "error: joint elbow:"
+CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [wrong-name]"
+
+
 @pytest.mark.parametrize(
-    ("edits", "found"),
+    ("edits", "expected"),
     [
-        pytest.param(
+        (
             arm.changed(WITHIN, "within Arm;"),
-            [
-                f"{ELBOW}:1: error: joint elbow: the file says `within Arm;`, but stands in `{arm.NAME}.Joints`;"
-                f" write `{WITHIN}` [wrong-within]"
-            ],
-            id="another package",
+            f"{ELBOW}:1: {JOINT} the file says `within Arm;`, but stands in `{arm.NAME}.Joints`; write `{WITHIN}` "
+            "[wrong-within]",
         ),
-        pytest.param(
+        (
             arm.changed(WITHIN, ""),
-            [f"{ELBOW}:1: error: joint elbow: the file lacks `{WITHIN}`; put it into the first line [wrong-within]"],
-            id="none",
+            f"{ELBOW}:1: {JOINT} the file lacks `{WITHIN}`; put it into the first line [wrong-within]",
         ),
-        pytest.param(
-            arm.changed(WITHIN, "\n\nwithin;"),
-            [
-                f"{ELBOW}:3: error: joint elbow: the file says `within;`, but stands in `{arm.NAME}.Joints`;"
-                f" write `{WITHIN}` [wrong-within]"
-            ],
-            id="no package",
+        (
+            {ELBOW: ELBW},
+            f"{ELBOW}:{arm.line('model Elbow')}: {JOINT} the class is called `Elbw`, but its file `Elbow`; give class "
+            "and file the same name [wrong-name]",
+        ),
+        (
+            {"package.mo": RENAMED},
+            f"package.mo:{arm.line('package Six', 'package.mo')}: error: the class is called `Arm`, but its folder "
+            "`SixAxisArm`; give class and folder the same name [wrong-name]",
+        ),
+        (
+            {ELBOW: arm.text() + "model Second\nend Second;\n"},
+            f"{ELBOW}:{arm.text().count(chr(10)) + 1}: {JOINT} the file holds `Second` besides `Elbow`; a file in a "
+            "package holds one class: give it one of its own [second-class]",
+        ),
+        (
+            {ELBOW: f"{WITHIN}\n// nothing\n"},
+            f"{ELBOW}: {JOINT} the file holds no class; write the class `Elbow`, or delete the file [no-class]",
+        ),
+        (
+            {ELBOW: arm.text().encode().replace(b"Motion along", b"Bew\xe9gung")},
+            f"{ELBOW}:{arm.line('Motion along')}: {JOINT} the file is not in UTF-8; save it as UTF-8 [not-utf8]",
+        ),
+        ({ORDER: b"Elbow\nSt\xfctze\n"}, f"{ORDER}:2: error: the file is not in UTF-8; save it as UTF-8 [not-utf8]"),
+        (
+            {ELBOW: "\ufeff" + arm.text()},
+            f"{ELBOW}:1: warning: joint elbow: the file begins with a byte order mark; save it without: some compilers "
+            "refuse it [byte-order-mark]",
+        ),
+        ({"Joints/Elbow (copy).mo": arm.text()}, f"Joints/Elbow (copy).mo: error: `Elbow (copy)` {CAN_NOT}"),
+        (
+            {"Joints.mo": f"within {arm.NAME};\npackage Joints\nend Joints;\n"},
+            "Joints.mo: error: `Joints` is both a file and a folder; keep one of them [class-twice]",
+        ),
+        (
+            {"Joints/package.mo": INSIDE},
+            "Joints/package.mo:3: error: `Elbow` is declared here, and is a file as well; keep one of them "
+            "[class-twice]",
+        ),
+        (
+            {"Joints/elbow.mo": SMALL_ELBOW, ORDER: arm.text(ORDER) + "elbow\n"},
+            "Joints/elbow.mo: warning: `elbow` and `Elbow` differ only by case; rename one: file systems that ignore "
+            "case do not hold both [same-but-for-case]",
         ),
     ],
 )
-def test_a_file_says_in_which_package_it_stands(edits: Mapping[str, str], found: list[str]) -> None:
-    assert findings(edits) == found
+def test_each_fault_has_its_place_and_its_words(edits: Mapping[str, str | bytes | None], expected: str) -> None:
+    assert findings(edits) == [expected]
+
+
+def test_the_order_is_not_judged_by_a_package_file_that_does_not_parse() -> None:
+    edits = {"Joints/package.mo": "package Joints\n  constant Real x = ;\n", ORDER: "x\n" + arm.text(ORDER)}
+    assert [one.split("[")[-1] for one in findings(edits)] == ["syntax]"]
 
 
 def test_a_top_level_package_may_say_that_it_is_in_none() -> None:
@@ -138,45 +183,6 @@ def test_a_top_level_package_may_say_that_it_is_in_none() -> None:
     assert check_layout(PackageFiles("Arm", Path("Arm"), {"package.mo": b"package Arm\nend Arm;\n"})) == []
     (found,) = check_layout(PackageFiles("Plant.Arm", Path("Arm"), texts))
     assert found.code == "wrong-within"
-
-
-def test_class_and_file_have_one_name() -> None:
-    edits = {ELBOW: arm.text().replace("model Elbow", "model Elbw").replace("end Elbow", "end Elbw")}
-    message = "the class is called `Elbw`, but its file `Elbow`; give class and file the same name"
-    assert findings(edits) == [f"{ELBOW}:{arm.line('model Elbow')}: error: joint elbow: {message} [wrong-name]"]
-
-
-def test_package_and_folder_have_one_name() -> None:
-    edits = {"package.mo": arm.text("package.mo").replace("SixAxisArm", "Arm").replace(".Arm", ".SixAxisArm")}
-    (found,) = findings(edits)
-    message = "the class is called `Arm`, but its folder `SixAxisArm`; give class and folder the same name"
-    assert found == f"package.mo:{arm.line('package Six', 'package.mo')}: error: {message} [wrong-name]"
-
-
-def test_a_file_holds_one_class() -> None:
-    lines = arm.text().count("\n")
-    hint = "a file in a package holds one class: give it one of its own"
-    assert findings({ELBOW: arm.text() + "model Second\nend Second;\n"}) == [
-        f"{ELBOW}:{lines + 1}: error: joint elbow: the file holds `Second` besides `Elbow`; {hint} [second-class]"
-    ]
-    assert findings({ELBOW: f"{WITHIN}\n// nothing\n"}) == [
-        f"{ELBOW}: error: joint elbow: the file holds no class; write the class `Elbow`, or delete the file [no-class]"
-    ]
-
-
-def test_files_are_in_utf8() -> None:
-    message = "the file is not in UTF-8; save it as UTF-8 [not-utf8]"
-    edits = {ELBOW: arm.text().encode().replace(b"Motion along", b"Bew\xe9gung"), ORDER: b"Elbow\nSt\xfctze\n"}
-    assert findings(edits) == [
-        f"{ELBOW}:{arm.line('Motion along')}: error: joint elbow: {message}",
-        f"{ORDER}:2: error: {message}",
-    ]
-
-
-def test_a_byte_order_mark_is_pointed_out() -> None:
-    (found,) = findings({ELBOW: "\ufeff" + arm.text()})
-    hint = "save it without: some compilers refuse it"
-    assert found == f"{ELBOW}:1: warning: joint elbow: the file begins with a byte order mark; {hint} [byte-order-mark]"
 
 
 # --- folders ----------------------------------------------------------------------------------------------------------
@@ -199,37 +205,6 @@ def test_of_a_folder_that_can_be_no_package_one_thing_is_said(name: str) -> None
     assert findings(edits) == [f"{name}: error: {message} [wrong-name]"]
     order = f"{arm.text('package.order')}{name}\n"
     assert findings({**edits, "package.order": order}) == [f"{name}: error: {message} [wrong-name]"]
-
-
-@pytest.mark.parametrize("name", ["Elbow.old", "Elbow (copy)"])
-def test_of_a_file_that_can_hold_no_class_one_thing_is_said(name: str) -> None:
-    message = f"`{name}` can't be the name of a class; rename the file, or move it elsewhere"
-    assert findings({f"Joints/{name}.mo": arm.text()}) == [f"Joints/{name}.mo: error: {message} [wrong-name]"]
-
-
-def test_a_package_file_with_a_capital_is_found() -> None:
-    content = arm.text("Joints/package.mo")
-    first = findings({"Joints/package.mo": None, "Joints/Package.mo": content})[0]
-    assert first.endswith("but no package.mo; rename `Package.mo` [no-package-file]")
-
-
-def test_a_class_is_there_once() -> None:
-    within = f"within {arm.NAME};"
-    assert findings({"Joints.mo": f"{within}\npackage Joints\nend Joints;\n"}) == [
-        "Joints.mo: error: `Joints` is both a file and a folder; keep one of them [class-twice]"
-    ]
-    inside = f"within {arm.NAME};\npackage Joints\n  model Elbow\n  end Elbow;\nend Joints;\n"
-    assert findings({"Joints/package.mo": inside}) == [
-        "Joints/package.mo:3: error: `Elbow` is declared here, and is a file as well; keep one of them [class-twice]"
-    ]
-
-
-def test_names_that_differ_by_case_only_are_pointed_out() -> None:
-    edits = {"Joints/elbow.mo": arm.text().replace("Elbow", "elbow"), ORDER: arm.text(ORDER) + "elbow\n"}
-    hint = "rename one: file systems that ignore case do not hold both"
-    assert findings(edits) == [
-        f"Joints/elbow.mo: warning: `elbow` and `Elbow` differ only by case; {hint} [same-but-for-case]"
-    ]
 
 
 def test_the_order_names_what_is_there_once() -> None:
@@ -264,11 +239,6 @@ def test_what_a_build_adds_to_an_order_nobody_has_to_add() -> None:
     assert [one.hint for one in check_layout(elsewhere)] == [advice]
 
 
-def test_the_order_is_not_judged_by_a_package_file_that_does_not_parse() -> None:
-    edits = {"Joints/package.mo": "package Joints\n  constant Real x = ;\n", ORDER: "x\n" + arm.text(ORDER)}
-    assert [one.split("[")[-1] for one in findings(edits)] == ["syntax]"]
-
-
 # --- files around the package -----------------------------------------------------------------------------------------
 
 OUTPUT = arm.HOME / "modelica"
@@ -292,16 +262,6 @@ def around(files: Mapping[str, str | bytes]) -> list[str]:
 
 def test_packages_and_libraries_around_are_sound() -> None:
     assert around({}) == []
-
-
-def test_a_file_around_that_does_not_parse_is_named() -> None:
-    lacks = "error: the file lacks a class before `nonsense` [syntax]"
-    broken = "within Plant;\nmodel Broken\n  Real x = ;\nend Broken;\n"
-    assert around({"Tools 2.1/Pump.mo": "nonsense((", "Plant/Broken.mo": broken, "Alone 1.0.mo": b"// \xe9"}) == [
-        "Alone 1.0.mo:1: error: the file is not in UTF-8; save it as UTF-8 [not-utf8]",
-        "Plant/Broken.mo:3: error: the file lacks an expression before `;` [syntax]",
-        f"Tools 2.1/Pump.mo:1: {lacks}",
-    ]
 
 
 @pytest.mark.parametrize(

@@ -205,31 +205,21 @@ def test_verbose_lists_models_and_deviations(capsys: Capture) -> None:
 
 
 @pytest.mark.usefixtures("_terminal")
-def test_a_wide_terminal_shows_a_table(capsys: Capture) -> None:
+def test_a_wide_terminal_shows_a_table_as_on_the_page(capsys: Capture) -> None:
+    page = (Path(__file__).parents[2] / "docs/checking.md").read_text(encoding="utf-8")
+    *example, finding = page.partition("```text\n")[2].partition("```")[0].splitlines()
+    assert finding == f"{BROKEN}"
     lines = shown(capsys, *ALL)
-    cells = "        3       1,204      12  2.0e-16  link hand             1.3e-15  joint elbow           12.4 s"
+    assert lines[: len(example)] == example
+    cells = example[2].removeprefix("✓ arm   ")
     unmeasured = "    what edits do was not measured: the package is not in step with its source"
-    assert lines[:18] == [
-        "           models   equations             pose                         torque",
-        "  robot   compile  = unknowns  states    error  largest at              error  largest at              time",
-        f"✓ arm   {cells}",
-        f"✓ loader{cells}",
-        "    joint elbow: torque differs by 3.2 % since Joints/Elbow.mo was edited",
-        "    Links/Hand.mo was edited; nothing that is compared changed",
-        f"? welder{cells}",
-        "    what edits do was not measured: `robot.hand.body.m` is not declared",
-        "≠ picker        3       1,204      12  2.0e-16  link hand             6.3e-03  joint mimic           12.4 s",
-        "    joint mimic: torque differs from Pinocchio 4.1.0 by 3.2 %, 0.4 N·m where up to 12.5 N·m are expected",
-        "✗ cart          –           –       –        –                              –                         0.9 s",
-        "    nothing was compiled, since the files are not in order",
+    assert lines[len(example) :] == [
         f"! new   {cells}",
         "    there is no package yet, so what `urdfsync build` would write was checked",
         f"! hoist {cells}",
         unmeasured,
         "    the package is not what a build would leave; run `urdfsync build`",
         f"! lift  {cells}",
-    ]
-    assert lines[18:] == [
         unmeasured,
         "    your edits and what is new contradict each other; settle that with `urdfsync resolve`",
         "",
@@ -243,25 +233,6 @@ def test_a_wide_terminal_shows_a_table(capsys: Capture) -> None:
         "for the comparison:",
         "  inertias were made up for 3 links of the generated package only, because the file gives none (arm)",
         "8 robots: 2 right, 1 incomplete, 2 out of step, 1 not built, 1 differs, 1 failed",
-    ]
-
-
-@pytest.mark.usefixtures("_terminal")
-def test_the_page_shows_what_is_printed(capsys: Capture) -> None:
-    page = (Path(__file__).parents[2] / "docs/checking.md").read_text(encoding="utf-8")
-    example = page.partition("```text\n")[2].partition("```")[0].splitlines()
-    assert example[:-1] == shown(capsys, *ALL)[:12]
-    assert example[-1] == f"{BROKEN}"
-
-
-@pytest.mark.usefixtures("_terminal")
-def test_with_less_room_the_worst_elements_stand_below(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "80")
-    assert shown(capsys, RIGHT)[:4] == [
-        "          models   equations             pose   torque",
-        "  robot  compile  = unknowns  states    error    error    time",
-        "✓ arm          3       1,204      12  2.0e-16  1.3e-15  12.4 s",
-        "    largest at link hand and joint elbow",
     ]
 
 
@@ -289,7 +260,7 @@ def test_a_narrow_terminal_shows_step_by_step(capsys: Capture, monkeypatch: pyte
 
 
 @pytest.mark.usefixtures("_terminal")
-@pytest.mark.parametrize("width", [40, 60, 66, 80, 100, 120, 200])
+@pytest.mark.parametrize("width", [40, 66, 100, 200])
 def test_no_line_is_wider_than_the_terminal(capsys: Capture, monkeypatch: pytest.MonkeyPatch, width: int) -> None:
     monkeypatch.setenv("COLUMNS", str(width))
     lines = shown(capsys, *ALL)

@@ -177,30 +177,3 @@ def test_a_worker_ends_with_whoever_started_it_and_prints_only_answers(tmp_path:
         command, input=b"", capture_output=True, timeout=50, check=False, env=processes.importable() or None
     )
     assert (done.returncode, done.stdout, done.stderr) == (1, b"answer", b"noise")
-
-
-@pytest.mark.slow
-def test_with_the_standard_library(modelica_library: Path, tmp_path: Path) -> None:
-    """A pendulum of the library against the physics of a point mass; the cache is empty at first."""
-    from urdfsync.check.libraries import find_standard_library, standard_library_copy
-
-    cache = UserCache(tmp_path / "cache")
-    source = """
-model Pendulum
-  import Modelica;
-  inner Modelica.Mechanics.MultiBody.World world(g = 10);
-  Modelica.Mechanics.MultiBody.Joints.Revolute revolute;
-  Modelica.Mechanics.MultiBody.Parts.Body body(r_CM = {2, 0, 0}, m = 3);
-  Real a = revolute.a;
-equation
-  connect(world.frame_b, revolute.frame_a);
-  connect(revolute.frame_b, body.frame_a);
-end Pendulum;
-"""
-    roots = (str(standard_library_copy(find_standard_library({}, modelica_library), [source.encode()], cache)),)
-    task = CompileTask("Pendulum", source, (Simulation(0.001, 0.001),), ("a",))
-    (pendulum,) = run_job("rumoca", CompileJob(roots, (task,)), cache)
-    assert pendulum.problem == ""
-    inertia = 3 * 2**2 + 0.001  # Body's own default
-    assert pendulum.runs[0].values["a"][0] == pytest.approx(-10 * 3 * 2 / inertia)
-    assert 0 < cache.size() < 100e6

@@ -100,7 +100,18 @@ def test_results_come_in_order_and_a_process_that_breaks_down_fails_its_robot_on
     assert [codes(one) for one in (crash, silent, loud)] == [["check-crashed"]] * 3
     assert "SIGABRT" in crash.diagnostics[0].message or os.name == "nt"
     assert all(0 <= done <= total == 500 for _, done, total in steps)
-    assert any(what.endswith(": at work") and done > 0 for what, done, _ in steps)
+
+
+def test_it_is_told_what_is_being_done(robots: Config, tmp_path: Path) -> None:
+    steps: list[tuple[str, int, int]] = []
+
+    def tell(what: str, done: int, total: int) -> None:
+        steps.append((what, done, total))
+        if what == "late: at work":
+            (tmp_path / "early.done").touch()
+
+    list(check(robots, ["late"], tell=tell))
+    assert ("late: at work", 50, 100) in steps
 
 
 def test_time_and_memory_are_limited_and_what_was_found_until_then_stays(robots: Config) -> None:

@@ -8,7 +8,7 @@ import threading
 from pathlib import Path
 
 from urdfsync import processes
-from urdfsync.check.results import CheckResult, Step, from_text, to_text
+from urdfsync.check.results import CheckResult, CheckStep, from_text, to_text
 from urdfsync.check.robot import check_robot
 from urdfsync.check.run import RobotOrder
 from urdfsync.config import load
@@ -22,7 +22,7 @@ def main() -> None:
     processes.end_with_parent()
     lock = threading.Lock()  # compilers of one robot may run at the same time
 
-    def answer(step: Step) -> None:
+    def answer(step: CheckStep) -> None:
         with lock:
             answers.write(to_text(step).encode() + b"\n")
             answers.flush()
@@ -35,7 +35,7 @@ def main() -> None:
         result = CheckResult(order.robot, "", diagnostics=error.diagnostics)
     else:
         result = check_robot(config, robot, order.options, answer, Path(order.workspace))
-    answer(Step("", 1.0, result, is_last=True))
+    answer(CheckStep("", 1.0, result, is_last=True))
 
 
 main()

@@ -7,14 +7,13 @@ an arm. One that is wrong is checked again after each build: whoever builds twic
 from __future__ import annotations
 
 import hashlib
-import importlib.metadata
 import os
 from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 
 from urdfsync import __version__
-from urdfsync.check import libraries, package, run
+from urdfsync.check import compilers, libraries, package, run
 from urdfsync.check.cache import UserCache
 from urdfsync.check.results import CheckOptions, CheckResult
 from urdfsync.config import Config, RobotConfig
@@ -62,7 +61,7 @@ class BuildChecker:
         contents = [sorted((path, digest(text)) for path, text in found.items()) for found in (texts, around, users)]
         facts = (
             __version__,
-            _rumoca_version(),
+            compilers.installed_version("rumoca"),
             robot.domain,
             str(robot.folder),
             robot.target,
@@ -161,10 +160,3 @@ def _lenient(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
         msgspec.structs.replace(found, severity=Severity.WARNING) if found.code in _ABSENT else found
         for found in diagnostics
     )
-
-
-def _rumoca_version() -> str:
-    try:
-        return importlib.metadata.version("rumoca")
-    except importlib.metadata.PackageNotFoundError:
-        return ""

@@ -82,8 +82,10 @@ class UserCache:
 
     def load(self, key: str, kind: type[T]) -> T | None:
         """What was saved with this key; None if nothing was, or if it can't be read."""
+        file = self.results / f"{key}.json"
         try:
-            return from_text((self.results / f"{key}.json").read_bytes(), kind)
+            os.utime(file)  # its last use is noted
+            return from_text(file.read_bytes(), kind)
         except (OSError, ValueError):
             return None
 

@@ -9,6 +9,7 @@ import threading
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import TypeAlias
 
 import msgspec
 
@@ -21,21 +22,14 @@ from urdfsync.check.results import (
     MOST_SINGLE_EDITS,
     CheckOptions,
     CheckResult,
+    CheckStep,
     CompiledModel,
     EditEffect,
-    Step,
 )
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 
-
-class _Job(msgspec.Struct):
-    """Models to compile with one version of the package, in one process."""
-
-    label: str
-    """Tells it from the other jobs."""
-    texts: Mapping[str, bytes]
-    """The files of the package."""
-    tasks: Sequence[CompileTask]
+Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
+"""The files of a package, and the tasks to do with it in one process."""
 
 
 class _Outcome(msgspec.Struct):
@@ -49,10 +43,10 @@ class _Outcome(msgspec.Struct):
     """Why there are fewer."""
 
 
-class Progress:
+class CheckProgress:
     """Tells the steps of a check, also from several threads; `total` is how many there will be, as far as is known."""
 
-    def __init__(self, result: CheckResult, tell: Callable[[Step], None]) -> None:
+    def __init__(self, result: CheckResult, tell: Callable[[CheckStep], None]) -> None:
         self._result, self._tell, self._lock = result, tell, threading.Lock()
         self._begun, self.total = 0, 6
 
@@ -61,7 +55,7 @@ class Progress:
         with self._lock:
             done = min(self._begun / self.total, 1.0)
             self._begun += 1
-            self._tell(Step(f"{self._result.robot}: {what}", done, self._result))
+            self._tell(CheckStep(f"{self._result.robot}: {what}", done, self._result))
 
 
 class Compilation:
@@ -72,7 +66,7 @@ class Compilation:
         package: CheckedPackage,
         options: CheckOptions,
         result: CheckResult,
-        progress: Progress,
+        progress: CheckProgress,
         cache: UserCache,
         folder: Path,
         standard: StandardLibrary,
@@ -92,101 +86,92 @@ class Compilation:
     def compile_all(self) -> None:
         """Compile all models, in as many processes as may work at the same time."""
         count = max(1, min(self._options.compilers, len(self._package.models)))
-        parts = [list(self._tasks)[k::count] for k in range(count)]
-        jobs = [self._job(f"package{k}", part) for k, part in enumerate(parts)]
-        for part, outcome in zip(parts, self._run_all(jobs), strict=True):
-            self._take(part, outcome.results, outcome)
+        parts = {f"package{k}": list(self._tasks)[k::count] for k in range(count)}
+        outcomes = self._run_all({label: self._job(models) for label, models in parts.items()})
+        for label, models in parts.items():
+            self._take(models, outcomes[label])
 
     def compare(self) -> None:
         """Compile all models, and move the main one: as it is generated against the reference, edited against that."""
         package, result, (main, *others) = self._package, self._result, self._tasks
-        effects: list[EditEffect] = []
-        jobs: list[_Job] = []
-        experiment = plain = None
-        is_same = measures = proves_main = False
+        files = package.meaningful_edits
         try:
             experiment = physics.experiment(package, complete=True)
-            result.notes, result.reference = experiment.notes, experiment.reference
-            result.unchecked += experiment.unchecked
-            is_same = experiment.content == package.rendering.content
-            texts = package.generated if is_same else package.rendering.package(experiment.content)
-            jobs.append(_Job("generated", texts, [physics.moving_task(experiment)]))
-            if package.on_disk and not package.in_step:
-                result.unchecked += ("what edits do was not measured: the package is not in step with its source",)
-            elif package.meaningful_edits:
-                plain, measures = physics.experiment(package, complete=False), True
-            proves_main = measures or (is_same and package.in_step and not package.edits)
+            plain = physics.experiment(package, complete=False) if files else None
         except UrdfsyncError as error:
             result.add(error.diagnostics)
+            self.compile_all()
+            return
+        result.notes, result.reference = experiment.notes, experiment.reference
+        result.unchecked += experiment.unchecked
+        if package.on_disk and not package.in_step:
+            result.unchecked += ("what edits do was not measured: the package is not in step with its source",)
+        is_same = experiment.content == package.rendering.content
+        texts = package.generated if is_same else package.rendering.package(experiment.content)
         move = [physics.moving_task(plain)] if plain else []
-        models = others if proves_main else [main, *others]
-        self._progress.total += len(jobs) + len(move)
-        jobs.append(self._job("package", models, move))
-        *first, last = self._run_all(jobs)
-        baseline = edited = None
-        for outcome in first if experiment else ():
-            generated, said = self._series(outcome)
-            result.add(said)
-            if experiment and generated is not None:
-                result.deviations = tuple(experiment.compare(generated))
-                baseline = generated if is_same else None
-        if plain:
-            edited, said = self._series(last)
-            if said:  # no fault of an edited package
-                result.gaps += (f"what edits do was not measured: {said[0].message}",)
-        self._take(models, last.results[len(move) :], last)
-        has_moved = proves_main and (edited if measures else baseline) is not None
-        files = package.meaningful_edits
-        jobs = [] if has_moved or not proves_main else [self._job("main", [main])]
-        tried = files if edited is not None and 1 < len(files) <= MOST_SINGLE_EDITS else ()
-        own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
-        for file in tried:
-            texts = {**package.generated, **own, file: package.on_disk[file]}
-            jobs.append(_Job(f"with-{file.replace('/', '-').removesuffix('.mo')}", texts, move))
+        # Where the package is moved as it is on disk, its main model need not be compiled by itself.
+        is_moved = bool(plain) or (is_same and package.in_step and not package.edits)
+        models = others if is_moved else [main, *others]
+        self._progress.total += 1 + len(move)
+        moving = (texts, [physics.moving_task(experiment)])
+        outcomes = self._run_all({"generated": moving, "package": self._job(models, move)})
+        generated, said = self._series(outcomes["generated"])
+        result.add(said)
+        if generated is not None:
+            result.deviations = tuple(experiment.compare(generated))
+        edited, said = self._series(outcomes["package"]) if plain else (None, [])
+        if said:  # no fault of an edited package
+            result.gaps += (f"what edits do was not measured: {said[0].message}",)
+        self._take(models, outcomes["package"], len(move))
+        has_moved = is_moved and (edited if plain else generated) is not None
+
+        # The second round: what the first one asks for.
+        jobs = {"main": self._job([main])} if is_moved and not has_moved else {}
         if edited is not None and not is_same:
-            jobs.append(_Job("baseline", package.generated, move))
+            jobs["baseline"] = (package.generated, move)
+        if edited is not None and 1 < len(files) <= MOST_SINGLE_EDITS:
+            own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
+            for file in files:
+                jobs[file] = ({**package.generated, **own, file: package.on_disk[file]}, move)
         outcomes = self._run_all(jobs)
-        if edited is not None and not is_same:
-            baseline, said = self._series(outcomes.pop())
-            result.add(said)
         if has_moved:
             result.compiled += (CompiledModel(main, 0, 0),)
-        elif proves_main:
-            outcome = outcomes.pop(0)
-            self._take([main], outcome.results, outcome)
-        if plain and baseline is not None and edited is not None:
-            moved = {file: self._series(outcome)[0] for file, outcome in zip(tried, outcomes, strict=True)}
-            single = {file: series for file, series in moved.items() if series is not None}
-            effects += physics.find_effects(package, plain, baseline, edited, single)
+        elif is_moved:
+            self._take([main], outcomes["main"])
+        baseline, said = self._series(outcomes["baseline"]) if "baseline" in jobs else (generated, [])
+        result.add(said)
         owners = package.files.owners
         cosmetic = [file for file in package.edits if file not in files]
-        result.effects = (*effects, *(EditEffect((file,), (), (owners[file],)) for file in cosmetic))
+        result.effects = tuple(EditEffect((file,), (), (owners[file],)) for file in cosmetic)
+        if plain and baseline is not None and edited is not None:
+            moved = {file: self._series(outcomes[file])[0] for file in files if file in jobs}
+            single = {file: series for file, series in moved.items() if series is not None}
+            result.effects = (*physics.find_effects(package, plain, baseline, edited, single), *result.effects)
 
-    def _job(self, label: str, models: Sequence[str], first: Sequence[CompileTask] = ()) -> _Job:
+    def _job(self, models: Sequence[str], first: Sequence[CompileTask] = ()) -> Job:
         """A job on the package as it is checked: some tasks, then models by themselves."""
-        return _Job(label, self._package.files.texts, [*first, *(self._tasks[model] for model in models)])
+        return self._package.files.texts, [*first, *(self._tasks[model] for model in models)]
 
-    def _run_all(self, jobs: Sequence[_Job]) -> list[_Outcome]:
-        """Do jobs, some at the same time."""
+    def _run_all(self, jobs: Mapping[str, Job]) -> dict[str, _Outcome]:
+        """Do jobs, some at the same time; both sides are by their labels."""
         with ThreadPoolExecutor(self._options.compilers) as pool:
-            outcomes = list(pool.map(self._run, jobs))
-        for outcome in outcomes:
+            outcomes = dict(zip(jobs, pool.map(self._run, jobs, jobs.values()), strict=True))
+        for outcome in outcomes.values():
             self._result.add(outcome.diagnostics)
-            memory = (one.megabytes for one in outcome.results)
-            self._result.megabytes = max(self._result.megabytes, *memory, 0.0)
+            self._result.megabytes = max([self._result.megabytes, *(one.megabytes for one in outcome.results)])
         return outcomes
 
-    def _run(self, job: _Job) -> _Outcome:
-        robot, parts = self._package.robot, self._standard.parts
+    def _run(self, label: str, job: Job) -> _Outcome:
+        robot, parts, (texts, todo) = self._package.robot, self._standard.parts, job
         copies = {self._standard_copy / name: path for name, path in parts.items() if path.suffix != ".mo"}
-        folder = self._folder / job.label
+        folder = self._folder / label.replace("/", "-")
         outcome = _Outcome([], copies)
         try:
             with cache_errors(self._cache.folder):
-                top = write_package(folder, robot, job.texts, self._package.around)
+                top = write_package(folder, robot, texts, self._package.around)
                 roots = [_readable(path, folder / ".libraries") for path in self._libraries.values()]
             outcome.folders = {**copies, top: robot.output / top.name}
-            tasks = tuple(self._with_imports(task) for task in job.tasks)
+            tasks = tuple(self._with_imports(task) for task in todo)
             whole = CompileJob((str(self._standard_copy), *roots, str(top)), tasks)
             with contextlib.closing(compilers.run_job(self._options.compiler, whole, self._cache)) as results:
                 for number, task in enumerate(tasks):
@@ -205,9 +190,9 @@ class Compilation:
         imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
         return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
 
-    def _take(self, models: Sequence[str], results: Sequence[CompileResult], outcome: _Outcome) -> None:
-        """Take note of models that were compiled by themselves."""
-        for model, one in zip(models, results, strict=False):
+    def _take(self, models: Sequence[str], outcome: _Outcome, skip: int = 0) -> None:
+        """Take note of models that were compiled by themselves, behind `skip` other tasks."""
+        for model, one in zip(models, outcome.results[skip:], strict=False):
             is_users = model in self._users_models
             if one.problem:
                 said = self._explain(one.problem, outcome, model)

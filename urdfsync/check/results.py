@@ -143,7 +143,7 @@ class CheckResult(msgspec.Struct):
         return CheckStatus.INCOMPLETE if self.gaps else CheckStatus.RIGHT
 
 
-class Step(msgspec.Struct, frozen=True):
+class CheckStep(msgspec.Struct, frozen=True):
     """What is being done, how far the check of the robot is (0 to 1), and what is known so far."""
 
     what: str

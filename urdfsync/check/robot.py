@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import importlib.metadata
-import importlib.util
 import os
 import time
 from collections.abc import Callable, Mapping
@@ -13,28 +11,27 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import __version__
-from urdfsync.check import layout, libraries, names
+from urdfsync.check import compilers, layout, libraries, names
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilation import Compilation, Progress, system_error
+from urdfsync.check.compilation import CheckProgress, Compilation, system_error
 from urdfsync.check.package import CheckedPackage, irregular_files, missing_resources, read_package
 from urdfsync.check.report import listed
-from urdfsync.check.results import CheckOptions, CheckResult, Step
+from urdfsync.check.results import CheckOptions, CheckResult, CheckStep
 from urdfsync.config import Config, RobotConfig, library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.modelica.names import LIBRARY
 
-_MODULES = {"pin": "pinocchio"}  # by distribution, where that has another name
 _COMPILED_FIELDS = ("compiled", "deviations", "effects", "notes", "reference", "megabytes")
 """Fields of the result that follow from compiling alone."""
 
 
 def check_robot(
-    config: Config, robot: RobotConfig, options: CheckOptions, tell: Callable[[Step], None], folder: Path
+    config: Config, robot: RobotConfig, options: CheckOptions, tell: Callable[[CheckStep], None], folder: Path
 ) -> CheckResult:
     """Check one robot; `tell` gets the result as it grows, `folder` is an empty one for copies of the package."""
     result, begin = CheckResult(robot.name, robot.target.package), time.monotonic()
-    progress = Progress(result, tell)
+    progress = CheckProgress(result, tell)
     try:
         progress.begin("reading the source and the package")
         request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
@@ -76,7 +73,7 @@ def _check_texts(package: CheckedPackage, result: CheckResult) -> str:
 
 
 def _check_models(
-    package: CheckedPackage, options: CheckOptions, result: CheckResult, progress: Progress, folder: Path
+    package: CheckedPackage, options: CheckOptions, result: CheckResult, progress: CheckProgress, folder: Path
 ) -> None:
     """Compile the package, and compare it if that is wanted; without the MSL say why that is not done."""
     robot, configured = package.robot, package.config.check.library
@@ -108,6 +105,10 @@ def _check_models(
     if options.physics and compilation.compiler.SIMULATES:
         compilation.compare()
     else:
+        if options.physics:
+            result.gaps = (f"poses and efforts were not compared: `--tool {options.compiler}` only compiles",)
+        else:
+            result.unchecked += ("poses and efforts were not compared: `--physics` does that",)
         compilation.compile_all()
     result.compiled = tuple(sorted(result.compiled, key=lambda one: package.models.index(one.model)))
     if not (result.failed or result.gaps or result.differs):  # what is wrong or missing is looked at again
@@ -119,9 +120,9 @@ def _check_models(
 def _result_key(package: CheckedPackage, options: CheckOptions, paths: Mapping[str, Path]) -> str:
     """SHA-256 (hex) over all that compiling and comparing a package rests on; `paths` are those of its libraries."""
     robot = package.robot
-    programs = [name for name in ("rumoca", "OMPython", "pin") if importlib.util.find_spec(_MODULES.get(name, name))]
+    programs = (*compilers.COMPILERS[options.compiler].MODULES, "pin")
     facts = (
-        *(__version__, [importlib.metadata.version(name) for name in programs], options.physics, options.compiler),
+        *(__version__, list(map(compilers.installed_version, programs)), options.physics, options.compiler),
         *(robot.target, robot.options, package.in_step, package.models, package.rendering.content),
         [(name, str(path), libraries.library_state(path)) for name, path in sorted(paths.items())],
         *(sorted(texts.items()) for texts in (package.files.texts, package.generated, package.around)),

@@ -23,7 +23,7 @@ import psutil
 from urdfsync import machine, processes
 from urdfsync.check import compilers
 from urdfsync.check.cache import UserCache
-from urdfsync.check.results import CheckOptions, CheckResult, Step, from_text, to_text
+from urdfsync.check.results import CheckOptions, CheckResult, CheckStep, from_text, to_text
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import Progress
@@ -69,10 +69,11 @@ def check_robots(
     budget = options.memory * 1e9 if options.memory else _SHARE_OF_FREE_MEMORY * psutil.virtual_memory().available
     jobs = min(options.jobs or machine.cores(), len(robots)) or 1
     count = max(1, min(jobs, int(budget // _EXPECTED_MEMORY)))
-    options = msgspec.structs.replace(options, compilers=max(1, machine.cores() // jobs))
+    compilers_each = 1 if cluster else max(1, machine.cores() // jobs)  # other workers may share the machine
+    options = msgspec.structs.replace(options, compilers=compilers_each)
     folder = os.getcwd()  # noqa: PTH109 - as a text
     orders = [RobotOrder(str(config.file), one.name, one.target.package, folder, options) for one in robots]
-    steps: dict[str, Step] = {}
+    steps: dict[str, CheckStep] = {}
     stopped = threading.Event()
     futures: dict[str, Future[CheckResult | None]] = {}
 
@@ -123,7 +124,7 @@ def check_on_worker(order: RobotOrder) -> CheckResult | None:
 
 
 def _check(
-    order: RobotOrder, memory: float, steps: dict[str, Step], stopped: threading.Event, *, is_alone: bool
+    order: RobotOrder, memory: float, steps: dict[str, CheckStep], stopped: threading.Event, *, is_alone: bool
 ) -> CheckResult | None:
     """Check a robot in a process of at most so many bytes; None if they are too few, unless it `is_alone`.
 
@@ -131,7 +132,7 @@ def _check(
     nothing that the process started is left.
     """
     name, limit = order.robot, order.options.timeout
-    step = steps[name] = Step("", 0.0, CheckResult(name, order.package))
+    step = steps[name] = CheckStep("", 0.0, CheckResult(name, order.package))
     report, fault = "report it, with the source", None
     deadline, lines = time.monotonic() + limit, queue.SimpleQueue[bytes]()
     with tempfile.TemporaryFile() as errors, UserCache.default().workspace() as workspace:
@@ -161,7 +162,7 @@ def _check(
                     if not (line := lines.get(timeout=_INTERVAL)):
                         process.wait(_PATIENCE)  # it has closed its stdout
                         break
-                    step = steps[name] = from_text(line, Step)
+                    step = steps[name] = from_text(line, CheckStep)
                 if stopped.is_set():
                     return step.result
                 now = time.monotonic()
@@ -170,9 +171,13 @@ def _check(
                     fault = _failure(order, "check-out-of-time", f"it was not done after {limit:g} s", hint)
                 elif now - looked >= _INTERVAL:
                     looked = now
-                    if sum(one.memory_info().rss for one in _family(process)) > memory:
+                    used = 0
+                    for one in _family(process):
+                        with contextlib.suppress(psutil.Error):  # it has just ended
+                            used += one.memory_info().rss
+                    if used > memory:
                         if not is_alone:
-                            steps[name] = Step(f"{name}: waits for more memory", 0.0, step.result)
+                            steps[name] = CheckStep(f"{name}: waits for more memory", 0.0, step.result)
                             return None
                         message = f"it takes more than the {memory / 1e9:.2g} GB that it may"
                         hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
@@ -188,7 +193,8 @@ def _check(
                 with contextlib.suppress(psutil.Error):
                     one.kill()
             process.wait()
-            stdin.close()
+            with contextlib.suppress(OSError):  # what it did not read is lost
+                stdin.close()
             if reader.ident:
                 reader.join(_PATIENCE)
             stdout.close()

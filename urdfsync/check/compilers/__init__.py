@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import importlib.metadata
 import importlib.util
 import os
 import subprocess
@@ -30,6 +31,14 @@ def require(name: str) -> None:
     absent = next((module for module in compiler.MODULES if importlib.util.find_spec(module) is None), "")
     if reason := f"{absent} is not installed" if absent else compiler.missing_program():
         raise _missing(compiler, reason)
+
+
+def installed_version(distribution: str) -> str:
+    """The version of an installed program; empty if it is not there."""
+    try:
+        return importlib.metadata.version(distribution)
+    except importlib.metadata.PackageNotFoundError:
+        return ""
 
 
 def run_job(name: str, job: CompileJob, cache: UserCache) -> Generator[CompileResult, None, None]:

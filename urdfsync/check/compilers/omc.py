@@ -9,20 +9,13 @@ import os
 import re
 import shutil
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 import msgspec
 
-from urdfsync.check.compilers.compiler import (
-    CompileJob,
-    CompileResult,
-    CompileTask,
-    Complaint,
-    SimulationResult,
-    one_line,
-)
+from urdfsync.check.compilers.compiler import CompileJob, CompileResult, Complaint, SimulationResult, one_line
 from urdfsync.extras import install_command
 
 TITLE = "OpenModelica"
@@ -31,23 +24,15 @@ INSTALL = f"install OpenModelica and `{install_command('omc')}`, or check withou
 REPORT = "check without `--tool omc`, and report it to the authors of OpenModelica"
 SIMULATES = False
 
-Ask: TypeAlias = Callable[[str], str]
-"""Sends an expression to `omc`, and returns its answer as it comes. Raises RefusedError."""
-
+_FIRST = ("Complex", "ModelicaServices", "Modelica")  # what other libraries rest on
 _STRING = re.compile(r'"((?:[^"\\]|\\.)*)"', re.DOTALL)
 _ESCAPED = re.compile(r"\\(.)", re.DOTALL)
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
 _COUNTS = re.compile(r"has (\d+) equation\(s\) and (\d+) variable\(s\)")
-_FIRST = ("Complex", "ModelicaServices", "Modelica")  # what other libraries rest on
-
 _MESSAGE = re.compile(
     r"^(?:\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)-\d+:\d+:\w+\] )?(?P<level>Error|Warning|Notification): ",
     re.MULTILINE,
 )
-
-
-class RefusedError(Exception):
-    """`omc` or its client library gives no answer, but says why."""
 
 
 def missing_program() -> str:
@@ -75,58 +60,66 @@ def complaints(problem: str) -> list[Complaint]:
 
 
 def work(job: CompileJob) -> Iterator[CompileResult]:
-    """Do all tasks in one session, in order. Raises ImportError without OMPython, or if `omc` does not start."""
+    """See `Compiler`: one session; what can't be loaded is the problem of each task."""
+    import OMPython  # an optional extra
+
+    begin: Any = getattr(OMPython, "OMCSessionLocal", None) or OMPython.OMCSessionZMQ  # the name until 4.0
+    names = ("OMSessionException", "OMCSessionException")
+    refused = tuple(getattr(OMPython, name) for name in names if hasattr(OMPython, name))
     try:
-        ask = _session()
-    except (RefusedError, OSError) as error:
+        session = begin()
+    except (*refused, OSError) as error:
         raise ImportError(str(error)) from error
-    yield from results(ask, job)
 
+    def load(call: str) -> str:
+        """Load something; returns what is wrong, empty if it is there."""
+        answer = str(session.sendExpression(f"{call}; getErrorString()", parsed=False))
+        if answer.lstrip().startswith("true"):
+            return ""
+        return "\n".join(filter(None, map(str.strip, strings(answer)))) or "it can't be loaded, and does not say why"
 
-def results(ask: Ask, job: CompileJob) -> Iterator[CompileResult]:
-    """Load the libraries, and do the tasks one by one; what can't be loaded is the problem of each of them."""
+    problem = ""
     try:
-        ask("cd(getTempDirectoryPath())")
-        answers = (load_problem(ask(load_expression(file))) for file in package_files(job.roots))
-        problem = next(filter(None, answers), "")
-    except RefusedError as refused:
-        problem = str(refused)
+        session.sendExpression("cd(getTempDirectoryPath())", parsed=False)
+        calls = (f"loadFile({quoted(file.as_posix())}, uses=false)" for file in _package_files(job))
+        problem = next(filter(None, map(load, calls)), "")
+    except refused as error:
+        problem = str(error)
     for task in job.tasks:
-        started = time.monotonic()
-        result = CompileResult(problem) if problem else _check(ask, task)
+        started, result = time.monotonic(), CompileResult(problem)
+        try:
+            if not problem:
+                result = CompileResult(load(f"loadString({quoted(task.source)}, uses=false)"))
+            if not result.problem:
+                # the messages in the same breath, or the client library takes them for itself
+                call = f"checkModel({task.model}); getErrorString()"
+                said, *messages = strings(answer := str(session.sendExpression(call, parsed=False))) or [answer]
+                counts = _COUNTS.search(said)
+                if "completed successfully" not in said or counts is None:
+                    words = "\n".join(filter(None, map(str.strip, (*messages, said))))
+                    result = CompileResult(words or "the model does not compile")
+                elif counts[1] != counts[2]:
+                    result = CompileResult(f"unbalanced model: {counts[1]} equations, {counts[2]} unknowns")
+                else:
+                    runs = tuple(SimulationResult(problem="OpenModelica only compiles here") for _ in task.runs)
+                    result = CompileResult(unknowns=int(counts[2]), runs=runs)
+        except refused as error:
+            result = CompileResult(str(error))
         yield msgspec.structs.replace(result, seconds=time.monotonic() - started)
 
 
-def package_files(roots: Sequence[str]) -> list[Path]:
-    """The files to load so that everything in `roots` is there: packages, or folders of packages; libraries first."""
+def _package_files(job: CompileJob) -> list[Path]:
+    """The files to load so that all roots are there, which are packages or folders of packages; libraries first."""
     found: list[Path] = []
-    for root in map(Path, roots):
-        if root.is_file() or (root / "package.mo").is_file():
-            found.append(root if root.is_file() else root / "package.mo")
-        else:
-            found += sorted([*root.glob("*/package.mo"), *root.glob("*.mo")])
+    for root in map(Path, job.roots):
+        whole = root if root.is_file() else root / "package.mo"
+        found += [whole] if whole.is_file() else sorted([*root.glob("*/package.mo"), *root.glob("*.mo")])
 
     def rank(file: Path) -> int:
         name = (file.parent if file.name == "package.mo" else file).stem.split(" ")[0]
         return _FIRST.index(name) if name in _FIRST else len(_FIRST)
 
     return sorted(found, key=rank)
-
-
-def load_expression(file: Path) -> str:
-    """The expression that loads a package, and nothing besides that it names as used."""
-    return _with_messages(f"loadFile({quoted(file.as_posix())}, uses=false)")
-
-
-def check_expressions(task: CompileTask) -> tuple[str, str]:
-    """The expressions that make a task's text known and check its model."""
-    load = f"loadString({quoted(task.source)}, uses=false)"
-    return _with_messages(load), _with_messages(f"checkModel({task.model})")
-
-
-def _with_messages(call: str) -> str:
-    """A call and, in the same breath, what there is to say of it: else the client library takes that for itself."""
-    return f"{call}; getErrorString()"
 
 
 def quoted(text: str) -> str:
@@ -137,53 +130,3 @@ def quoted(text: str) -> str:
 def strings(answer: str) -> list[str]:
     """The texts in an answer, without their quotes."""
     return [_ESCAPED.sub(lambda match: _ESCAPES.get(match[1], match[1]), text) for text in _STRING.findall(answer)]
-
-
-def load_problem(answer: str) -> str:
-    """What is wrong according to the answer to a call that loads something; empty if it is there."""
-    if answer.lstrip().startswith("true"):
-        return ""
-    return "\n".join(filter(None, map(str.strip, strings(answer)))) or "it can't be loaded, and does not say why"
-
-
-def check_result(answer: str, task: CompileTask) -> CompileResult:
-    """What became of a task, from the answer to `checkModel`."""
-    said, *messages = strings(answer) or [answer]
-    counts = _COUNTS.search(said)
-    if "completed successfully" not in said or counts is None:
-        return CompileResult("\n".join(filter(None, map(str.strip, (*messages, said)))) or "the model does not compile")
-    equations, unknowns = map(int, counts.groups())
-    if equations != unknowns:
-        return CompileResult(f"unbalanced model: {equations} equations, {unknowns} unknowns")
-    runs = tuple(SimulationResult(problem="OpenModelica only compiles here") for _ in task.runs)
-    return CompileResult(unknowns=unknowns, runs=runs)
-
-
-def _check(ask: Ask, task: CompileTask) -> CompileResult:
-    load, check = check_expressions(task)
-    try:
-        problem = load_problem(ask(load))
-        return CompileResult(problem) if problem else check_result(ask(check), task)
-    except RefusedError as refused:
-        return CompileResult(str(refused))
-
-
-def _session() -> Ask:
-    """Start `omc`. Raises ImportError without its client library, RefusedError or OSError if it does not start."""
-    import OMPython  # an optional extra
-
-    begin: Any = getattr(OMPython, "OMCSessionLocal", None) or OMPython.OMCSessionZMQ  # the name until 4.0
-    names = ("OMSessionException", "OMCSessionException")
-    errors = tuple(getattr(OMPython, name) for name in names if hasattr(OMPython, name))
-
-    def ask(expression: str) -> str:
-        try:
-            return str(session.sendExpression(expression, parsed=False))
-        except errors as error:
-            raise RefusedError(str(error)) from error
-
-    try:
-        session = begin()
-    except errors as error:
-        raise RefusedError(str(error)) from error
-    return ask

@@ -99,6 +99,8 @@ def complaints(problem: str) -> list[Complaint]:
             found.append(Complaint(one_line(words), missing=named["name"] or named["base"], kind=kind))
         else:
             found.append(Complaint(one_line(words)))
+    if not found and text:
+        found.append(Complaint(one_line(text)))
     return [one for one in found if not one.message.startswith(_SHADOW)] or found[:1]
 
 

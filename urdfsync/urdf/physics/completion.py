@@ -6,9 +6,10 @@ carries no mass, only its kinematics could be compared. Package and reference ar
 
 from __future__ import annotations
 
+import contextlib
 import random
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from lxml import etree
@@ -43,12 +44,25 @@ def attribute(element: Element, tag: str, name: str, default: str = "") -> str:
 def completed_for_pinocchio(content: bytes) -> CompletedSource:
     """The URDF in UTF-8, with the elements and attributes that Pinocchio's reader insists on."""
     root = xml.parse_tree(content)
-    counts = Counter(_complete(root))
-    if not counts and _is_utf8(content):
-        return CompletedSource(content)
-    added = ["the robot's name"] * counts.pop("robot", 0) + [
-        f"{count} <{tag}>" for tag, count in sorted(counts.items())
-    ]
+    added = [] if root.get("name") else ["the robot's name"]
+    root.set("name", root.get("name") or "robot")
+    filled = Counter[str]()
+    for joint in children(root, "joint"):
+        if joint.get("type") in ("revolute", "prismatic") and next(children(joint, "limit"), None) is None:
+            etree.SubElement(joint, "limit", lower="-1000", upper="1000")
+        _fill(joint, "limit", {"effort": "1000", "velocity": "1000"}, filled)
+        _fill(joint, "safety_controller", {"k_velocity": "0"}, filled)
+        if not attribute(joint, "dynamics", "friction"):
+            _fill(joint, "dynamics", {"damping": "0"}, filled)
+    for inertial in (part for link in children(root, "link") for part in children(link, "inertial")):
+        for tag, values in (("mass", {"value": "0"}), ("inertia", dict.fromkeys(_TENSOR, "0"))):
+            if next(children(inertial, tag), None) is None:
+                etree.SubElement(inertial, tag)
+            _fill(inertial, tag, values, filled)
+    added += [f"{count} <{tag}>" for tag, count in sorted(filled.items())]
+    with contextlib.suppress(UnicodeDecodeError):
+        if not added and "\0" not in content.decode():
+            return CompletedSource(content)
     notes = (f"what Pinocchio's reader asks for was added: {', '.join(added)}",) if added else ()
     return CompletedSource(_bytes(root), notes)
 
@@ -74,32 +88,14 @@ def with_inertias(content: bytes, skeleton: KinematicTree) -> CompletedSource:
     return CompletedSource(_bytes(root), (note,))
 
 
-def _complete(root: Element) -> Iterator[str]:
-    """Complete the elements below `root`; gives the tag of each that was not complete."""
-    if not root.get("name"):
-        root.set("name", "robot")
-        yield "robot"
-    for joint in children(root, "joint"):
-        if joint.get("type") in ("revolute", "prismatic") and next(children(joint, "limit"), None) is None:
-            etree.SubElement(joint, "limit", lower="-1000", upper="1000")
-        yield from _fill(joint, "limit", ("effort", "velocity"), "1000")
-        yield from _fill(joint, "safety_controller", ("k_velocity",), "0")
-        if not attribute(joint, "dynamics", "friction"):
-            yield from _fill(joint, "dynamics", ("damping",), "0")
-    for inertial in (part for link in children(root, "link") for part in children(link, "inertial")):
-        for tag, names in (("mass", ("value",)), ("inertia", _TENSOR)):
-            if next(children(inertial, tag), None) is None:
-                etree.SubElement(inertial, tag)
-            yield from _fill(inertial, tag, names, "0")
-
-
-def _fill(parent: Element, tag: str, names: Collection[str], value: str) -> Iterator[str]:
+def _fill(parent: Element, tag: str, values: Mapping[str, str], filled: Counter[str]) -> None:
+    """Give the children of that name the attributes that they lack, and count those that lacked any."""
     for element in children(parent, tag):
-        missing = [name for name in names if element.get(name) is None]
+        missing = [name for name in values if element.get(name) is None]
         for name in missing:
-            element.set(name, value)
+            element.set(name, values[name])
         if missing:
-            yield tag
+            filled[tag] += 1
 
 
 def _massless_links(skeleton: KinematicTree) -> set[str]:
@@ -126,21 +122,11 @@ def _made_up_inertial(link: str) -> Element:
         products = sum((i == j) * sum(x * x for x in point) - point[i] * point[j] for point in points)
         tensor[name] = repr(round(products * mass / _POINTS, 6))
     element = etree.Element("inertial")
-    etree.SubElement(element, "origin", xyz=_random_vector(draw, 0.1), rpy=_random_vector(draw, 1))
+    xyz, rpy = (" ".join(repr(round(draw.uniform(-reach, reach), 3)) for _ in range(3)) for reach in (0.1, 1))
+    etree.SubElement(element, "origin", xyz=xyz, rpy=rpy)
     etree.SubElement(element, "mass", value=repr(mass))
     etree.SubElement(element, "inertia", tensor)
     return element
-
-
-def _random_vector(draw: random.Random, reach: float) -> str:
-    return " ".join(repr(round(draw.uniform(-reach, reach), 3)) for _ in range(3))
-
-
-def _is_utf8(content: bytes) -> bool:
-    try:
-        return "\0" not in content.decode()
-    except UnicodeDecodeError:
-        return False
 
 
 def _bytes(root: Element) -> bytes:

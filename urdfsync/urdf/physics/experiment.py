@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -15,14 +15,17 @@ from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import completion, motion
-from urdfsync.urdf.physics.probe import FORCE, MASS, MOMENT, TORQUE, RobotVariables, probe, robot_variables
+from urdfsync.urdf.physics.probe import FORCE, MASS, MOMENT, TORQUE, probe, robot_variables
 from urdfsync.urdf.physics.reading import Array, pinocchio, read
-from urdfsync.urdf.physics.reference import Configuration, FrameMotion, Instant, Reference
+from urdfsync.urdf.physics.reference import Configuration, FrameMotion, Reference
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
 Series: TypeAlias = Mapping[str, Sequence[float]]
+Values: TypeAlias = Mapping[str, float]
+"""By the names of the probe's variables, at one instant."""
 
 _FIRST, _LAST = 0, -1
+_CENTRE = ("centre[1]", "centre[2]", "centre[3]")  # of mass in the world; no variable of the probe, but made from two
 _SOLVER_ERROR = 1e-6  # relative difference between two simulations of free joints that a solver's steps may cause
 
 _BENCHES = {
@@ -71,11 +74,11 @@ class PinocchioExperiment:
 
     def _needs_ballast(self, file: str) -> bool:
         """Whether free joints move no inertia: then bodies hang on the robot, and a note says so."""
-        if not self._reference.is_singular(self._start()):
+        if not self._reference.is_singular(self._start(0.0)):
             return False
         self._reference.hang_ballast(link.name for link in self._skeleton.leaves())
         names = ", ".join(f"'{joint.name}'" for joint in self._free)
-        if self._reference.is_singular(self._start()):
+        if self._reference.is_singular(self._start(0.0)):
             message = f"no simulation can tell how {names} move: what they carry has no inertia"
             hint = "give each link that moves freely a mass and an inertia"
             self._insoluble = Diagnostic(Severity.ERROR, "free-without-inertia", message, file, hint=hint)
@@ -85,17 +88,22 @@ class PinocchioExperiment:
 
     def compare(self, series: Series, baseline: Series | None = None) -> Sequence[Deviation]:
         """See `urdfsync.domain.Experiment`; the first and the last instant count."""
+        if baseline is None and self._insoluble:
+            raise SourceError(self._insoluble)
         greatest: dict[_Key, tuple[float, float]] = {}  # difference, and value of the reference
         with np.errstate(all="ignore"):  # where the simulation gave no number, the reference may have none
             for instant in (_FIRST, _LAST):
-                found = Measured(series, self._skeleton, self._variables, instant)
-                expected = self._expected(found, baseline, instant)
+                found = _at(series, instant)
+                expected = self._reference_values(found, instant) if baseline is None else _at(baseline, instant)
                 tolerated = _SOLVER_ERROR if baseline is not None and self._free and instant == _LAST else 0.0
-                for (key, one), (_, other) in zip(self._values(found), self._values(expected), strict=True):
+                for key, names in self._compared():
+                    one, other = _vector(found, names), _vector(expected, names)
+                    new, size = float(np.max(np.abs(one - other))), float(np.max(np.abs(other)))
+                    size = size if math.isfinite(size) else 0.0
+                    if math.isnan(new):  # what is no number is infinitely far off
+                        new = math.inf
                     difference, value = greatest.get(key, (0.0, 0.0))
-                    new, size = _difference(one, other), _size(other)
-                    new = 0.0 if new <= tolerated * max(1.0, size) else new
-                    greatest[key] = max(difference, new), max(value, size)
+                    greatest[key] = max(difference, 0.0 if new <= tolerated * max(1.0, size) else new), max(value, size)
         sizes: dict[tuple[Quantity, str], float] = {}
         for key, (_, value) in greatest.items():
             sizes[key.quantity, key.unit] = max(sizes.get((key.quantity, key.unit), 0.0), value)
@@ -104,86 +112,62 @@ class PinocchioExperiment:
             for key, (difference, value) in greatest.items()
         ]
 
-    def _values(self, side: Measured | Instant) -> Iterator[tuple[_Key, Array]]:
-        """All that is compared at one instant, from the root outwards."""
-        for link in self._skeleton.links:
-            frame = side.frame(link.name)
-            yield _Key(Quantity.POSITION, f"link {link.name}", "m"), frame.place
-            yield _Key(Quantity.ORIENTATION, f"link {link.name}", ""), frame.axes
-        efforts = dict(zip((joint.name for joint in self._axes), side.efforts, strict=True))
-        for joint in self._skeleton.joints:
+    def _compared(self) -> Iterator[tuple[_Key, Sequence[str]]]:
+        """All that is compared, from the root outwards, with the variables that tell it."""
+        names, skeleton = self._variables, self._skeleton
+        for link in skeleton.links:
+            yield _Key(Quantity.POSITION, f"link {link.name}", "m"), names.places[link.name]
+            yield _Key(Quantity.ORIENTATION, f"link {link.name}", ""), names.axes[link.name]
+        efforts = names.efforts(skeleton)
+        for joint in skeleton.joints:
             if joint.name in efforts:
                 unit = "N·m" if MOTION_KINDS[joint.type] == "rotational" else "N"
-                yield _Key(Quantity.EFFORT, f"joint {joint.name}", unit), efforts[joint.name]
-        root = f"link {self._skeleton.links[0].name}"
-        yield _Key(Quantity.REACTION, root, "N"), side.force
-        yield _Key(Quantity.REACTION, root, "N·m"), side.torque
+                yield _Key(Quantity.EFFORT, f"joint {joint.name}", unit), (efforts[joint.name],)
+        root = f"link {skeleton.links[0].name}"
+        yield _Key(Quantity.REACTION, root, "N"), FORCE
+        yield _Key(Quantity.REACTION, root, "N·m"), TORQUE
         for joint in self._free:
-            linear, angular = side.acceleration(joint.child)
-            yield _Key(Quantity.ACCELERATION, f"link {joint.child}", "m/s²"), linear
-            yield _Key(Quantity.ACCELERATION, f"link {joint.child}", "rad/s²"), angular
-        mass, centre = side.mass_and_centre()
-        yield _Key(Quantity.MASS, "robot", "kg"), np.array(mass)
-        yield _Key(Quantity.CENTRE, "robot", "m"), centre
+            for part, unit in (("a_0", "m/s²"), ("z_a", "rad/s²")):
+                yield _Key(Quantity.ACCELERATION, f"link {joint.child}", unit), names.of_body(joint.child, part)
+        yield _Key(Quantity.MASS, "robot", "kg"), MASS
+        yield _Key(Quantity.CENTRE, "robot", "m"), _CENTRE
 
-    def _expected(self, found: Measured, baseline: Series | None, instant: int) -> Measured | Instant:
-        """The baseline, or else the reference.
+    def _reference_values(self, found: Values, instant: int) -> Values:
+        """The variables of the probe as the reference has them.
 
-        For the reference, where free joints are later on follows from the simulation, whose solver is not tested.
+        Where free joints are later on follows from the simulation, whose solver is not tested.
         """
-        if baseline is not None:
-            return Measured(baseline, self._skeleton, self._variables, instant)
-        if self._insoluble:
-            raise SourceError(self._insoluble)
+        names, time, reference = self._variables, found["time"], self._reference
         if instant == _FIRST:
-            return self._reference.solve(self._start(found.time))
-        free = {joint.name: found.frame(joint.child) for joint in self._free}
-        return self._reference.solve(self._reference.state(found.time, self._courses, free))
+            solved = reference.solve(self._start(time))
+        else:
+            free = {}
+            for joint in self._free:
+                link = joint.child
+                axes = _vector(found, names.axes[link]).reshape(3, 3).T
+                moves = (_vector(found, names.of_body(link, part)) for part in ("v_0", "w_a"))
+                free[joint.name] = FrameMotion(_vector(found, names.places[link]), axes, *moves)
+            solved = reference.solve(reference.state(time, self._courses, free))
+        mass, centre = solved.mass_and_centre()
+        pairs: list[tuple[Sequence[str], Iterable[float]]] = [
+            (FORCE, -solved.force),
+            (TORQUE, -solved.torque),
+            (MASS, [mass]),
+            (_CENTRE, centre),
+        ]
+        pairs.append((tuple(names.efforts(self._skeleton).values()), solved.efforts))
+        for link in (link.name for link in self._skeleton.links):
+            frame = solved.frame(link)
+            pairs += [(names.places[link], frame.place), (names.axes[link], frame.axes.T.ravel())]
+        for link in (joint.child for joint in self._free):
+            linear, angular = solved.acceleration(link)
+            pairs += [(names.of_body(link, "a_0"), linear), (names.of_body(link, "z_a"), angular)]
+        return {name: float(value) for called, values in pairs for name, value in zip(called, values, strict=True)}
 
-    def _start(self, time: float = 0.0) -> Configuration:
+    def _start(self, time: float) -> Configuration:
         """How the robot begins."""
         free = {joint.name: self._reference.start(joint.name, motion.free_start(joint)) for joint in self._free}
         return self._reference.state(time, self._courses, free)
-
-
-class Measured:
-    """The values of the probe at one instant, with the questions that `reference.Instant` answers.
-
-    A value that is missing is NaN.
-    """
-
-    def __init__(self, series: Series, skeleton: KinematicTree, variables: RobotVariables, instant: int) -> None:
-        self._series, self._variables, self._instant = series, variables, instant
-        self.time = self._number("time")
-        self.force, self.torque = -self._array(FORCE), -self._array(TORQUE)
-        self.efforts = self._array(tuple(variables.efforts(skeleton).values()))
-
-    def frame(self, link: str) -> FrameMotion:
-        """How the frame of a link moves; its velocities are known only if a free joint carries it."""
-        axes = self._array(self._variables.axes[link]).reshape(3, 3).T
-        return FrameMotion(
-            self._array(self._variables.places[link]), axes, self._of_body(link, "v_0"), self._of_body(link, "w_a")
-        )
-
-    def acceleration(self, link: str) -> tuple[Array, Array]:
-        """Of a link that a free joint carries: linear, resolved in the world, and angular, resolved in its frame."""
-        return self._of_body(link, "a_0"), self._of_body(link, "z_a")
-
-    def mass_and_centre(self) -> tuple[float, Array]:
-        """Mass of the whole robot and its centre in the world; zero without any mass."""
-        (mass,), moment = self._array(MASS), self._array(MOMENT)
-        return float(mass), moment / mass if mass else moment
-
-    def _of_body(self, link: str, part: str) -> Array:
-        known = link in self._variables.bodies
-        return self._array(self._variables.of_body(link, part)) if known else np.full(3, math.nan)
-
-    def _array(self, names: Sequence[str]) -> Array:
-        return np.array([self._number(name) for name in names])
-
-    def _number(self, name: str) -> float:
-        series = self._series.get(name, ())
-        return series[self._instant] if len(series) else math.nan
 
 
 class _Key(NamedTuple):
@@ -194,16 +178,16 @@ class _Key(NamedTuple):
     unit: str
 
 
-def _difference(found: Array, expected: Array) -> float:
-    """The greatest; what is no number is infinitely far off."""
-    difference = float(np.max(np.abs(found - expected)))
-    return math.inf if math.isnan(difference) else difference
+def _at(series: Series, instant: int) -> Values:
+    """The values of a simulation at one instant, with the centre of mass; one that is missing is NaN."""
+    values = {name: numbers[instant] for name, numbers in series.items() if len(numbers)}
+    (mass,), moment = _vector(values, MASS), _vector(values, MOMENT)
+    centre = moment / mass if mass else moment
+    return {"time": math.nan, **values, **dict(zip(_CENTRE, map(float, centre), strict=True))}
 
 
-def _size(expected: Array) -> float:
-    """The greatest absolute value; 0 if that is no number."""
-    size = float(np.max(np.abs(expected)))
-    return size if math.isfinite(size) else 0.0
+def _vector(values: Values, names: Sequence[str]) -> Array:
+    return np.array([values.get(name, math.nan) for name in names])
 
 
 def _robot(content: bytes, file: str) -> Robot:

@@ -6,7 +6,7 @@ values of planar and floating joints.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 import msgspec
 
@@ -16,7 +16,6 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
-from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.robot import MOTION_KINDS, Motion
 
 _GROUND_DEPTH = 1e9  # m: the contacts of a mobile robot are that far down, and nothing touches
@@ -50,6 +49,7 @@ _BASE = """
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
 TORQUE = tuple(f"base.frame_b.t[{i}]" for i in (1, 2, 3))
 """What the robot does to the base that moves it, resolved in the root link's frame."""
+_BODY = ("v_0", "w_a", "a_0", "z_a")  # of a link behind a free joint: velocities and accelerations
 MASS = ("mass",)
 MOMENT = tuple(f"moment[{i}]" for i in (1, 2, 3))
 """The sum of mass times place over all bodies, in kg·m."""
@@ -141,85 +141,46 @@ def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bo
     With `ballast`, a body hangs on each link without children.
     """
     names = robot_variables(skeleton, target, options)
-    modifiers = ", ".join(["checkLimits = false", "fixedStart = false", *_start_modifiers(skeleton)])
-    loaded = skeleton.leaves() if ballast else ()
+    axes, free = motion.driven_axes(skeleton), motion.free_joints(skeleton)
+    libraries = ["Modelica", "UrdfSync", *(["Visualization2"] if options.visualizer == "visualization2" else [])]
+    imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
+    world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
+    declarations = [f"inner Modelica.Mechanics.MultiBody.World world({world})"]
+    if options.base == "floating":
+        declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})")
+    modifiers = ["checkLimits = false", "fixedStart = false"]
+    for joint in free:
+        start = motion.free_start(joint)._asdict().items()
+        texts = (f"{k}_start = {vector(v) if isinstance(v, tuple) else repr(v)}" for k, v in start)
+        modifiers.append(f"{skeleton.joint(joint.name).component}(fixedStart = true, {', '.join(texts)})")
+    declarations += ["MovingBase base", f"{names.declaration}{', '.join(modifiers)})"]
+    connections = ["base.frame_b, robot.frame_a"]
+    for k, joint in enumerate(axes, 1):
+        course = ", ".join(f"a{power} = {value!r}" for power, value in enumerate(motion.axis_course(joint)))
+        declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Drive drive{k}({course})")
+        connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
+    tensor = ", ".join(f"I_{i}{i} = {value!r}" for i, value in enumerate(motion.BALLAST_INERTIA, 1))
+    body = f"animation = false, m = {motion.BALLAST_MASS!r}, r_CM = {vector(motion.BALLAST_CENTRE)}, {tensor}"
+    for k, leaf in enumerate(skeleton.leaves() if ballast else (), 1):
+        declarations.append(f"Modelica.Mechanics.MultiBody.Parts.Body ballast{k}({body})")
+        connections.append(f"ballast{k}.frame_a, {names.frames[leaf.name]}")
+    declarations += ["Real mass = robot.m", f"Real moment[3] = {names.moment}"]
+    *path, turn = (f"{q!r} + ({v!r})*time + ({a!r})*time^2/2" for q, v, a in (*motion.PATH, motion.TURN))
     lines = [
         "package Probe_",
-        *(f"  import {library};" for library in _libraries(target, options)),
+        *(f"  import {library};" for library in imports),
         DRIVES,
-        _BASE.format(
-            path=", ".join(map(_polynomial, motion.PATH)),
-            turn=_polynomial(motion.TURN),
-            axis=vector(motion.TURN_AXIS),
-        ),
+        _BASE.format(path=", ".join(path), turn=turn, axis=vector(motion.TURN_AXIS)),
         "  model Probe",
-        *(f"    {line};" for line in _world(options)),
-        "    MovingBase base;",
-        f"    {names.declaration}{modifiers});",
-        *(f"    {line};" for line in _drives(skeleton)),
-        *(f"    {_ballast_body(k)};" for k, _ in enumerate(loaded, 1)),
-        "    Real mass = robot.m;",
-        f"    Real moment[3] = {names.moment};",
+        *(f"    {declaration};" for declaration in declarations),
         "  equation",
-        "    connect(base.frame_b, robot.frame_a);",
-        *(
-            f"    connect(drive{k}.flange, {names.flanges[joint.name]});"
-            for k, joint in enumerate(motion.driven_axes(skeleton), 1)
-        ),
-        *(f"    connect(ballast{k}.frame_a, {names.frames[leaf.name]});" for k, leaf in enumerate(loaded, 1)),
+        *(f"    connect({connection});" for connection in connections),
         "  end Probe;",
         "end Probe_;",
         "",
     ]
     stop = motion.duration(skeleton)
-    return Probe("\n".join(lines), "Probe_.Probe", stop, stop / 4, tuple(_values(skeleton, names)))
-
-
-def _values(skeleton: KinematicTree, names: RobotVariables) -> Iterator[str]:
-    for link in skeleton.links:
-        yield from (*names.places[link.name], *names.axes[link.name])
-    for joint in motion.free_joints(skeleton):
-        for part in ("v_0", "w_a", "a_0", "z_a"):
-            yield from names.of_body(joint.child, part)
-    yield from (*names.efforts(skeleton).values(), *FORCE, *TORQUE, *MASS, *MOMENT)
-
-
-def _libraries(target: Target, options: Options) -> dict[str, None]:
-    """Every library has to be named, or the compiler does not load it."""
-    optional = ("Visualization2",) if options.visualizer == "visualization2" else ()
-    return dict.fromkeys(("Modelica", "UrdfSync", *optional, target.package.partition(".")[0]))
-
-
-def _world(options: Options) -> Iterator[str]:
-    world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
-    yield f"inner Modelica.Mechanics.MultiBody.World world({world})"
-    if options.base == "floating":
-        yield f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})"
-
-
-def _start_modifiers(skeleton: KinematicTree) -> Iterator[str]:
-    """Modifiers with the start values of planar and floating joints."""
-    for joint in motion.free_joints(skeleton):
-        start = motion.free_start(joint)._asdict()
-        values = (f"{key}_start = {_literal(value)}" for key, value in start.items())
-        yield f"{skeleton.joint(joint.name).component}(fixedStart = true, {', '.join(values)})"
-
-
-def _drives(skeleton: KinematicTree) -> Iterator[str]:
-    for k, joint in enumerate(motion.driven_axes(skeleton), 1):
-        values = ", ".join(f"a{power} = {value!r}" for power, value in enumerate(motion.axis_course(joint)))
-        yield f"{MOTION_KINDS[joint.type].capitalize()}Drive drive{k}({values})"
-
-
-def _ballast_body(number: int) -> str:
-    tensor = ", ".join(f"I_{i}{i} = {value!r}" for i, value in enumerate(motion.BALLAST_INERTIA, 1))
-    body = f"animation = false, m = {motion.BALLAST_MASS!r}, r_CM = {vector(motion.BALLAST_CENTRE)}, {tensor}"
-    return f"Modelica.Mechanics.MultiBody.Parts.Body ballast{number}({body})"
-
-
-def _polynomial(course: Course) -> str:
-    return f"{course.position!r} + ({course.speed!r})*time + ({course.acceleration!r})*time^2/2"
-
-
-def _literal(value: float | tuple[float, ...]) -> str:
-    return vector(value) if isinstance(value, tuple) else repr(value)
+    values = [name for link in skeleton.links for name in (*names.places[link.name], *names.axes[link.name])]
+    values += [name for one in free for part in _BODY for name in names.of_body(one.child, part)]
+    values += [*names.efforts(skeleton).values(), *FORCE, *TORQUE, *MASS, *MOMENT]
+    return Probe("\n".join(lines), "Probe_.Probe", stop, stop / 4, tuple(values))

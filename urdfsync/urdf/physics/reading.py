@@ -59,12 +59,14 @@ def read(content: bytes, file: str) -> PinocchioRobot:
     root = xml.parse_tree(content)
     unused = "_" * (1 + max(len(element.get("name", "")) for element in root.iter("{*}link", "{*}joint")))
     joints = {joint.get("name", ""): joint for joint in children(root, "joint")}
-    followers = {name: _follower(mimic) for name, joint in joints.items() for mimic in children(joint, "mimic")}
-    planes = {
-        name: Plane((name, f"{name}{unused}2", f"{name}{unused}3"), directions(_normal(joint)))
-        for name, joint in joints.items()
-        if joint.get("type") == "planar"
-    }
+    followers, planes = {}, {}
+    for name, joint in joints.items():
+        for mimic in children(joint, "mimic"):
+            multiplier, offset = float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0"))
+            followers[name] = Follower(mimic.get("joint", ""), multiplier, offset)
+        if joint.get("type") == "planar":
+            normal = np.array([float(number) for number in attribute(joint, "axis", "xyz", "1 0 0").split()])
+            planes[name] = Plane((name, f"{name}{unused}2", f"{name}{unused}3"), directions(normal))
     for name, plane in planes.items():
         _split(root, joints[name], plane)
     text = etree.tostring(root, encoding="unicode") if planes else content.decode("utf-8-sig")
@@ -95,14 +97,6 @@ def directions(normal: Array) -> Array:
     first = other - (other @ axis) * axis
     first /= np.linalg.norm(first)
     return np.array([first, np.cross(axis, first), axis])
-
-
-def _normal(joint: Element) -> Array:
-    return np.array([float(number) for number in attribute(joint, "axis", "xyz", "1 0 0").split()])
-
-
-def _follower(mimic: Element) -> Follower:
-    return Follower(mimic.get("joint", ""), float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0")))
 
 
 def _split(root: Element, joint: Element, plane: Plane) -> None:
