@@ -93,7 +93,8 @@ def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) 
     assert np.ptp(series.values["controller.tau[2]"]) > 10, "it takes torque"
 
 
-@pytest.mark.parametrize("model", [pytest.param("ToolPath", marks=pytest.mark.long), "ToolPathPackage"])
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["ToolPath", "ToolPathPackage"])
 def test_the_tool_follows_the_circle(modelica_library: Path, model: str) -> None:
     """The first part of it, nearly a radius to the side."""
     tool = [f"r_tool[{i}]" for i in (1, 2, 3)]
