@@ -180,9 +180,8 @@ def _tree(head: StyledLine, changes: Changes | None, console: RichConsole, verbo
         tree.add(text(("urdfsync", "bold"), ("  a template, an option or the program itself changed", "")))
     shown = outline(changes, everything=verbose)
     # a first row without a label stands beside the names of its elements
-    titles = [entry.rows[0] for entry in shown.entries if not entry.rows[0].label]
-    named = [msgspec.structs.replace(entry.rows[0], label=entry.title) for entry in shown.entries]
-    beside = _grids([row for row, entry in zip(named, shown.entries, strict=True) if entry.rows[0] in titles], console)
+    heads = [entry for entry in shown.entries if not entry.rows[0].label]
+    beside = _grids([msgspec.structs.replace(entry.rows[0], label=entry.title) for entry in heads], console)
     below = _grids([row for entry in shown.entries for row in entry.rows if row.label], console)
     for entry in shown.entries:
         if entry.rows[0].label:
