@@ -93,7 +93,7 @@ class StoredClasses:
             return None
         if self._gone and name[: len(self._gone)] == self._gone:
             return None
-        if any(name[-1] in (path.stem, path.parent.name * (path.name == _PACKAGE)) for path in self.unread):
+        if name[-1] in {path.parent.name if path.name == _PACKAGE else path.stem for path in self.unread}:
             return UNKNOWN
         file = self._file(name)
         try:
