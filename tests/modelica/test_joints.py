@@ -16,11 +16,11 @@ from support.packages import Package, generate
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
 from urdfsync.domain import Quantity, Target
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, Motion
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Reference
+from urdfsync.urdf.robot import MOTION_KINDS, Motion
 
 pytestmark = pytest.mark.slow
 

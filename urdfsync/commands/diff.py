@@ -22,7 +22,7 @@ from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, headline, more, rich_console, text
 from urdfsync.output.json_values import action_values, change_values, finding_values
 from urdfsync.output.outline import OutlineRow, effect_rows, outline
-from urdfsync.output.phrases import GENERATOR, RESOLVE_HINT, change_classes, counted, error_count
+from urdfsync.output.phrases import RESOLVE_HINT, change_classes, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
 from urdfsync.output.results import action_word
 
@@ -132,10 +132,11 @@ def _summary(found: Comparison) -> str:
     if found.missing:
         return found.missing
     since = f"since {'the last build' if found.against is None else found.against}"
-    if found.result.changes is None:
+    changes = found.result.changes
+    if changes is None:
         return f"nothing changed {since}{'' if found.in_step else ', but files are not as they should be'}"
-    what = change_classes(found.result.changes) if found.result.changes.changes else GENERATOR
-    return f"{what} {since}{', only by rounding' if found.result.changes.noise else ''}"
+    what = change_classes(changes) if changes.changes else generator_change(changes)
+    return f"{what} {since}{', only by rounding' if changes.noise else ''}"
 
 
 # --- text ---------------------------------------------------------------------------------------------------------
@@ -177,7 +178,7 @@ def _tree(head: StyledLine, changes: Changes | None, console: RichConsole, verbo
     if changes is None:
         return tree
     if changes.generator:
-        tree.add(text(("urdfsync", "bold"), ("  a template, an option or the program itself changed", "")))
+        tree.add(text(("urdfsync", "bold"), (f"  {generator_change(changes)}", "")))
     shown = outline(changes, everything=verbose)
     # a first row without a label stands beside the names of its elements
     heads = [entry for entry in shown.entries if not entry.rows[0].label]

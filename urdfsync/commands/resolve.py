@@ -46,6 +46,7 @@ def add(commands: arguments.Commands) -> None:
         choice.add_argument(f"--{kind}", dest="choice", action="store_const", const=kind, help=words)
     parser.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
     arguments.add_wait(parser)
+    arguments.add_trust(parser)
     arguments.add_common(parser)
     parser.set_defaults(run=functools.partial(run, parser))
 

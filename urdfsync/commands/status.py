@@ -19,7 +19,7 @@ from urdfsync.engine.build import build
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.output.console import Console, StyledLine, headline, is_terminal, line, more
 from urdfsync.output.json_values import action_values, result_values
-from urdfsync.output.phrases import GENERATOR, RESOLVE_HINT, change_classes, counted, error_count
+from urdfsync.output.phrases import RESOLVE_HINT, change_classes, counted, error_count, generator_change
 from urdfsync.output.results import FileLine, file_lines
 
 _STALE = 20
@@ -229,7 +229,7 @@ def next_build(found: PackageStatus) -> list[str]:
     """What a robot waits for and what the next build does about it, in a line or two; nothing if nothing is due."""
     changes, changed = found.result.changes, ""
     if changes and changes.generator:
-        changed = GENERATOR
+        changed = generator_change(changes)
     elif changes:
         changed = f"{change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}"
     actions = found.result.actions.decided

@@ -67,6 +67,8 @@ class Changes(msgspec.Struct, frozen=True):
     renames: Mapping[ElementKey, str] = msgspec.field(default_factory=dict)
     generator: bool = False
     """Whether templates, options or the output revision differ."""
+    options: tuple[str, ...] = ()
+    """The options that differ, if nothing else of what turns the model into files does."""
 
     @property
     def change_class(self) -> ChangeClass:

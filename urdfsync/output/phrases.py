@@ -17,7 +17,6 @@ from urdfsync.output.outline import change_row
 if TYPE_CHECKING:
     from urdfsync.diff.changes import Change, Changes
 
-GENERATOR = "a template, an option or urdfsync itself changed"
 RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
 _NAMED = {
     Kind.UPDATE: "{}",
@@ -121,15 +120,24 @@ def _cause(action: Action, changes: Changes) -> str:
         own = [change for change in structural if change.element == action.owner]
         found = own or structural or ([] if changes.generator else found)
     if not found:
-        return GENERATOR if changes.generator else ""
+        return generator_change(changes) if changes.generator else ""
     more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
     place = " / ".join(found[0].path[1:])
     return f"{found[0].element}: {f'{place} ' if place else ''}{_change_value(found[0])}{more}"
 
 
+def generator_change(changes: Changes) -> str:
+    """What else than the model changed: options by their names, if nothing but options did."""
+    if not changes.options:
+        return "a template, an option or urdfsync itself changed"
+    names = " and ".join(f"`{name}`" for name in changes.options)
+    return f"the option{'s' if len(changes.options) > 1 else ''} {names} changed"
+
+
 def change_lines(changes: Changes) -> list[str]:
     """What changed in the model, one line each: `joint elbow / limit / effort: 54 → 60 N.m (+11.1 %)`."""
-    return [*([GENERATOR] if changes.generator else []), *(f"{one}: {_change_value(one)}" for one in changes.changes)]
+    lines = [generator_change(changes)] if changes.generator else []
+    return [*lines, *(f"{change}: {_change_value(change)}" for change in changes.changes)]
 
 
 def _change_value(change: Change) -> str:
