@@ -120,10 +120,6 @@ def test_what_waited_is_written(contradictory: Path) -> None:
     assert not list(Path(".urdfsync/conflicts").rglob("*.*"))
 
 
-def test_no_build_has_to_come_first(clean: Path) -> None:
-    assert resolve(MODEL, "--merge") == 0
-
-
 def test_a_merge_that_is_not_offered_changes_nothing(
     contradictory: Path, capsys: Capture, snapshot_of: Snapshot
 ) -> None:
@@ -145,13 +141,6 @@ def test_a_dry_run_writes_nothing(clean: Path, capsys: Capture, snapshot_of: Sna
     assert resolve(MODEL, "--merge", "--dry-run") == 0
     assert says(capsys) == "ladder: 3 files to write, 1 to merge with your edits"
     assert files(snapshot_of(clean)) == before
-
-
-def test_the_files_that_are_named_are_there(contradictory: Path, capsys: Capture) -> None:
-    assert cli.main(["build", "--json"]) == 3
-    (conflict,) = json.loads(capsys.readouterr().out)["robots"][0]["conflicts"]
-    for name in ("base", "generated", "merge"):
-        assert Path(conflict[name]).is_file()
 
 
 # Several files

@@ -81,7 +81,8 @@ def simulate(library: Path, model: str, stop: float, values: list[str]) -> Serie
     return series
 
 
-@pytest.mark.parametrize("model", ["ComputedTorque", pytest.param("ComputedTorquePackage", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["ComputedTorque", "ComputedTorquePackage"])
 def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) -> None:
     """Gravity, inertia and friction of the arm are all met: the error is a thousandth of the way."""
     errors = [f"controller.error[{i}]" for i in range(1, 7)]
@@ -93,7 +94,8 @@ def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) 
     assert np.ptp(series.values["controller.tau[2]"]) > 10, "it takes torque"
 
 
-@pytest.mark.parametrize("model", [pytest.param("ToolPath", marks=pytest.mark.long), "ToolPathPackage"])
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["ToolPath", "ToolPathPackage"])
 def test_the_tool_follows_the_circle(modelica_library: Path, model: str) -> None:
     """The first part of it, nearly a radius to the side."""
     tool = [f"r_tool[{i}]" for i in (1, 2, 3)]

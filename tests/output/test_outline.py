@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from urdfsync.diff.changes import Change, Changes
 from urdfsync.domain import ChangeClass, ChangeKind, Effect
 from urdfsync.output.outline import LONG, OutlineEntry, OutlineRow, effect_rows, outline
+from urdfsync.output.phrases import change_lines
 
 
 def change(
@@ -106,6 +107,23 @@ def test_what_comes_and_goes_is_told_apart() -> None:
         "  limit removed: lower -1, upper 1.5",
         "link left",
         "  renamed to port",
+    ]
+
+
+def test_a_change_is_one_line_of_a_build() -> None:
+    found = Changes(
+        (
+            change("link a", "a", "b: c", kind=ChangeKind.RENAMED, reach=ChangeClass.STRUCTURAL),
+            change("link a / visual 1", None, {"name": "x"}, kind=ChangeKind.ADDED),
+            change("robot / gazebo", "x", "y", reach=ChangeClass.UNMODELLED),
+            change("joint a / limit / effort", 54.0, 60.0, "N·m"),
+        )
+    )
+    assert change_lines(found) == [
+        "link a: renamed to b: c",
+        "link a / visual 1: added",
+        "robot / gazebo: x → y (not modelled)",
+        "joint a / limit / effort: 54 → 60 N·m (+11.1 %)",
     ]
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -19,11 +18,13 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import ChangeKind
 from urdfsync.engine.actions import CONFLICTS, Kind
 from urdfsync.outcome import Exit
+from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, headline, more, rich_console, text
 from urdfsync.output.json_values import action_values, change_values, finding_values
 from urdfsync.output.outline import OutlineRow, effect_rows, outline
 from urdfsync.output.phrases import RESOLVE_HINT, change_classes, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
+from urdfsync.output.results import action_word
 
 if TYPE_CHECKING:
     from rich.console import Console as RichConsole
@@ -44,7 +45,6 @@ _FILES = 12
 _EFFECTS = 8
 """So many effects are shown at most, unless somebody asks."""
 _SILENT = frozenset({Kind.UNCHANGED, Kind.KEEP, Kind.FORGET})
-_KINDS = {Kind.CREATE: "green", Kind.RESTORE: "green", Kind.UPDATE: "default", Kind.DELETE: "red", Kind.ADOPT: "green"}
 
 
 def add(commands: arguments.Commands) -> None:
@@ -181,9 +181,8 @@ def _tree(head: StyledLine, changes: Changes | None, console: RichConsole, verbo
         tree.add(text(("urdfsync", "bold"), (f"  {generator_change(changes)}", "")))
     shown = outline(changes, everything=verbose)
     # a first row without a label stands beside the names of its elements
-    titles = [entry.rows[0] for entry in shown.entries if not entry.rows[0].label]
-    named = [msgspec.structs.replace(entry.rows[0], label=entry.title) for entry in shown.entries]
-    beside = _grids([row for row, entry in zip(named, shown.entries, strict=True) if entry.rows[0] in titles], console)
+    heads = [entry for entry in shown.entries if not entry.rows[0].label]
+    beside = _grids([msgspec.structs.replace(entry.rows[0], label=entry.title) for entry in heads], console)
     below = _grids([row for entry in shown.entries for row in entry.rows if row.label], console)
     for entry in shown.entries:
         if entry.rows[0].label:
@@ -244,14 +243,12 @@ def _files(found: Comparison, width: int, verbose: bool) -> Iterator[Text]:
     urgent = sum(action.path in found.edited for action in actions)
     few = actions if verbose or len(actions) <= _FILES else actions[: max(_FILES - 1, urgent)]
     for action in few:
-        word = "waiting" if action.held else action.kind.value.removeprefix("unowned-")
-        style = "yellow" if action.held else _KINDS.get(action.kind, "yellow")
-        path = config.shown(Path(os.path.normpath(result.root / action.path)))
+        word, style = action_word(action)
         why = ""
         if action.path in found.edited:
             # the word says already that it waits
             why = "  you edited it" if found.against else f"  {msgspec.structs.replace(action, held=False).reason}"
-        file = text((f"  {word:<9} ", "bold red" if action.kind in CONFLICTS else style), (path, ""))
+        file = text((f"  {word:<9} ", style), (shown_path(result, action.path), ""))
         fits = file.cell_len + len(why) <= width
         yield from [file.append(why, "yellow")] if fits else [file, text((f"{'':<10}{why}", "yellow"))]
     if len(few) < len(actions):

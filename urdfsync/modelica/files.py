@@ -47,7 +47,14 @@ class StoredClasses:
         self.unread: list[Path] = []
         """Files of the user that are no Modelica, or not where their class belongs: its classes are unknown."""
         for path, content in others.items():
-            self._add(path, content, others)
+            found = _parsed(content)
+            within = tuple(found.within.split(".")) if found.within else ()
+            expected = _package_around(path, others)
+            if _is_broken(found) or (expected and within != expected):
+                self.unread.append(path)
+                continue
+            for one in found.classes:
+                self.users.setdefault((*within, one.name.parts[0]), Stored(one, str(path)))
 
     @property
     def own(self) -> list[tuple[str, ...]]:
@@ -86,7 +93,7 @@ class StoredClasses:
             return None
         if self._gone and name[: len(self._gone)] == self._gone:
             return None
-        if any(_may_hold(path, name[-1]) for path in self.unread):
+        if name[-1] in {path.parent.name if path.name == _PACKAGE else path.stem for path in self.unread}:
             return UNKNOWN
         file = self._file(name)
         try:
@@ -96,16 +103,6 @@ class StoredClasses:
 
     def _is_own(self, name: tuple[str, ...]) -> bool:
         return name[: len(self._package)] == self._package
-
-    def _add(self, path: Path, content: bytes, files: Mapping[Path, bytes]) -> None:
-        found = _parsed(content)
-        within = tuple(found.within.split(".")) if found.within else ()
-        expected = _package_around(path, files)
-        if _is_broken(found) or (expected and within != expected):
-            self.unread.append(path)
-            return
-        for one in found.classes:
-            self.users.setdefault((*within, one.name.parts[0]), Stored(one, str(path)))
 
     def _file(self, name: tuple[str, ...]) -> Path | None:
         """Return the file of a library in which a class is stored."""
@@ -179,7 +176,3 @@ def _package_around(path: Path, files: Mapping[Path, bytes]) -> tuple[str, ...]:
         parts.insert(0, folder.name)
         folder = folder.parent
     return tuple(parts)
-
-
-def _may_hold(path: Path, name: str) -> bool:
-    return name in (path.stem, path.parent.name) if path.name == _PACKAGE else path.stem == name

@@ -29,6 +29,7 @@ _ARGUMENT_PREFIXES = ("each",), ("final",)
 _TYPE_PREFIXES = ("flow", "stream"), ("discrete", "parameter", "constant"), ("input", "output")
 _ARITHMETIC = frozenset("+-*/^")
 _OPERATORS = frozenset("or and < <= > >= == <> :".split()) | _ARITHMETIC
+_BRANCHES = {"if": ("elseif", "else"), "when": ("elsewhen",)}
 _CALLED = frozenset({"assert", "der", "initial", "pure"})
 """Keywords that are called like functions."""
 _REPEATABLE = frozenset(
@@ -144,9 +145,6 @@ class _Parser:
             raise _FaultError(f"nests more than {_DEEPEST} deep", self.line)
         self._depth += 1
 
-    def _leave(self) -> None:
-        self._depth -= 1
-
     def _each(self, read: Callable[..., None], *arguments: object) -> None:
         """Read one element or equation and its semicolon; if something is wrong with it, go on behind it."""
         start, uses = self.at, len(self._uses)
@@ -154,7 +152,7 @@ class _Parser:
         try:
             self._enter()
             read(*arguments)
-            self._leave()
+            self._depth -= 1
             self._expect(";")
         except _FaultError as error:
             self.faults.append(error.fault)
@@ -165,15 +163,15 @@ class _Parser:
             if self.word == ";" or self.at == start:
                 self._step()
 
-    def _list(self, opening: str = "(", closing: str = ")") -> Iterator[None]:
-        """Yield before each item of a list in brackets, with commas between its items; it may be empty."""
+    def _list(self, opening: str = "(", closing: str = ")", *, separators: str = ",") -> Iterator[None]:
+        """Yield before each item of a list in brackets; it may be empty."""
         self._expect(opening)
         self._enter()
         if self.word != closing:
             yield
-            while self._accept(","):
+            while self._accept(*separators):
                 yield
-        self._leave()
+        self._depth -= 1
         if not self._accept(closing):
             raise self._lack(f"`,` or `{closing}`")
 
@@ -188,10 +186,11 @@ class _Parser:
                 self._subscripts()
         return Name(tuple(parts), line, is_global)
 
-    def _reference(self) -> None:
+    def _reference(self) -> Name:
         """A reference to a component or function."""
         name = self._name(has_subscripts=True)
         self._uses.append(name._replace(is_called=self.word == "("))
+        return self._uses[-1]
 
     def _subscripts(self) -> None:
         """Subscripts or the sizes of an array, if there are any."""
@@ -205,14 +204,13 @@ class _Parser:
     def _expression(self) -> None:
         while self._accept("if"):
             self._enter()
-            self._expression()
-            self._expect("then")
-            self._expression()
-            while self._accept("elseif"):
+            is_branch = True
+            while is_branch:
                 self._expression()
                 self._expect("then")
                 self._expression()
-            self._leave()
+                is_branch = bool(self._accept("elseif"))
+            self._depth -= 1
             self._expect("else")
         operator = "or"  # a sign may stand at the beginning, as behind any operator that is no arithmetic one
         while operator:
@@ -233,13 +231,9 @@ class _Parser:
             self._step()
         elif word == "(":
             self._group()
-        elif self._accept("["):
-            self._enter()
-            self._expression()
-            while self._accept(",", ";"):
+        elif word == "[" and self.following != "]":
+            for _ in self._list("[", "]", separators=",;"):
                 self._expression()
-            self._leave()
-            self._expect("]")
         elif word == "{":
             for _ in self._list("{", "}"):
                 self._item()
@@ -261,7 +255,7 @@ class _Parser:
                 self._expression()
                 if self.word != ")":
                     self._expect(",")
-        self._leave()
+        self._depth -= 1
         self._expect(")")
         self._subscripts()
 
@@ -345,7 +339,7 @@ class _Parser:
         found = Class(Name((text,), line), kind, frozenset(prefixes), is_extension=is_extension)
         if not is_extension and self._accept("="):
             return self._short_class(found)
-        arguments = self._arguments() if is_extension and self.word == "(" else ()
+        arguments = self._class_modification() if is_extension else ()
         self._description()
         around, self._open = self._open, (*self._open, text)
         outer, self.body = self.body, _Body()
@@ -378,7 +372,7 @@ class _Parser:
             start = len(self._uses)
             name, _ = self._type()
             del self._uses[start:]
-            found = msgspec.structs.replace(found, alias=Extends(name, self._arguments() if self.word == "(" else ()))
+            found = msgspec.structs.replace(found, alias=Extends(name, self._class_modification()))
         self._comment()
         return found
 
@@ -426,7 +420,7 @@ class _Parser:
     def _base(self) -> Extends:
         """A class with its modifiers."""
         name = self._name()
-        return Extends(name, self._arguments() if self.word == "(" else ())
+        return Extends(name, self._class_modification())
 
     def _import(self) -> None:
         alias = ""
@@ -515,10 +509,14 @@ class _Parser:
 
     def _modification(self) -> tuple[Modifier, ...]:
         """Modifiers in parentheses and a value, whose names are added to `_uses`; both may be missing."""
-        arguments = self._arguments() if self.word == "(" else ()
+        arguments = self._class_modification()
         if self._accept("=", ":=") and not self._accept("break"):
             self._expression()
         return arguments
+
+    def _class_modification(self) -> tuple[Modifier, ...]:
+        """Modifiers in parentheses, if there are any."""
+        return self._arguments() if self.word == "(" else ()
 
     def _arguments(self) -> tuple[Modifier, ...]:
         names: set[str] = set()
@@ -585,9 +583,8 @@ class _Parser:
         for mark in ("(", ","):
             self._expect(mark)
             start = self.at
-            self._reference()
+            names.append(self._reference())
             texts.append(self._since(start))
-            names.append(self._uses[-1])  # the names in its subscripts come before
         self._expect(")")
         self.body.connections.append(Connection(*names))
         first, second = sorted(texts)
@@ -596,29 +593,24 @@ class _Parser:
     def _block(self, kind: str, *, repeats: bool) -> None:
         start = len(self._uses)
         indices: set[str] = set()
-        if kind == "for":
-            indices = self._indices()
-        else:
-            self._expression()
-        self._expect("loop" if kind in ("for", "while") else "then")
-        self._equations(repeats=repeats)
-        more = {"if": "elseif", "when": "elsewhen"}.get(kind)
-        while more and self._accept(more):
-            self._expression()
-            self._expect("then")
-            self._equations(repeats=repeats)
-        if kind == "if" and self._accept("else"):
-            self._equations(repeats=repeats)
+        begin = "loop" if kind in ("for", "while") else "then"
+        branch = kind
+        while branch:
+            if branch == "for":
+                indices = self._indices()
+            elif branch != "else":
+                self._expression()
+            if branch != "else":
+                self._expect(begin)
+            seen: set[str] | None = None if repeats else set()
+            while self.word not in _BLOCK_ENDS:
+                self._each(self._equation, seen)
+            branch = self._accept(*_BRANCHES.get(kind, ())) if branch != "else" else ""
         if (self.word, self.following) != ("end", kind):
             raise self._lack(f"`end {kind}`")
         self._step()
         self._step()
         self._forget(indices, start)
-
-    def _equations(self, *, repeats: bool) -> None:
-        seen: set[str] | None = None if repeats else set()
-        while self.word not in _BLOCK_ENDS:
-            self._each(self._equation, seen)
 
 
 def _short(text: str) -> str:

@@ -9,6 +9,7 @@ so what is called missing is missing.
 from __future__ import annotations
 
 import enum
+import functools
 from collections.abc import Iterable, Sequence
 from typing import Final, Literal, NamedTuple, Protocol, TypeAlias
 
@@ -66,7 +67,7 @@ class Sources(Protocol):
         ...
 
 
-class Node(msgspec.Struct, eq=False):
+class Node(msgspec.Struct, eq=False, dict=True):
     """A class at its place. Equal to itself only."""
 
     definition: Class
@@ -76,12 +77,15 @@ class Node(msgspec.Struct, eq=False):
     """As in `Stored`."""
     parent: Node | None = None
     """The class around it."""
-    components: dict[str, Component] = msgspec.field(default_factory=dict)
-    """Its own components by their names."""
     classes: dict[str, Node | Unknown | None] = msgspec.field(default_factory=dict)
     """Its own classes, as far as anybody has asked for them."""
     bases: tuple[Type | Unknown, ...] | None = None
     """What it extends, once that has been resolved."""
+
+    @functools.cached_property
+    def components(self) -> dict[str, Component]:
+        """Its own components by their names."""
+        return {one.name.parts[0]: one for one in self.definition.components}
 
     def __str__(self) -> str:
         return ".".join(self.name)
@@ -139,23 +143,20 @@ class Scopes:
 
     def node(self, name: Sequence[str]) -> Node | Unknown | None:
         """Return the class with this full name, not an inherited one."""
-        found = self._top(name[0]) if name else None
+        if name and name[0] not in self._tops:
+            self._tops[name[0]] = self._read((name[0],), None)
+        found = self._tops[name[0]] if name else None
         for part in name[1:]:
             if not isinstance(found, Node):
                 break
             found = self._child(found, part)
         return found
 
-    def _top(self, name: str) -> Node | Unknown | None:
-        if name not in self._tops:
-            self._tops[name] = self._read((name,), None)
-        return self._tops[name]
-
     def _child(self, node: Node, name: str) -> Node | Unknown | None:
         if name not in node.classes:
             own = next((one for one in node.definition.classes if one.name.parts[0] == name), None)
             if own is not None:
-                node.classes[name] = _placed(own, (*node.name, name), node.file, node)
+                node.classes[name] = Node(own, (*node.name, name), node.file, node)
             elif node.definition.kind == "package":
                 node.classes[name] = self._read((*node.name, name), node)
             else:
@@ -164,7 +165,7 @@ class Scopes:
 
     def _read(self, name: tuple[str, ...], parent: Node | None) -> Node | Unknown | None:
         found = self._sources.stored(name)
-        return _placed(found.definition, name, found.file, parent) if isinstance(found, Stored) else found
+        return Node(found.definition, name, found.file, parent) if isinstance(found, Stored) else found
 
     # --- lookup ---------------------------------------------------------------------------------------------------
 
@@ -273,7 +274,7 @@ class Scopes:
             return Element(name, None, (Type(name),))
         if name in _FUNCTIONS:
             return Element(name, None, (UNKNOWN,))
-        top = self._top(name)
+        top = self.node((name,))
         if isinstance(top, Node):
             return Element(name, top.definition, (Type(top),))
         return UNKNOWN if unknown or top is UNKNOWN else Missing(name)
@@ -372,11 +373,6 @@ class Scopes:
             types = self.types_of(one, node)
             found += () if types == (UNKNOWN,) and one.type.parts[:2] == _ICONS else types
         return found
-
-
-def _placed(definition: Class, name: tuple[str, ...], file: str, parent: Node | None) -> Node:
-    components = {one.name.parts[0]: one for one in definition.components}
-    return Node(definition, name, file, parent, components)
 
 
 def _modified(types: Types, modifiers: Sequence[Scoped]) -> Types:

@@ -71,9 +71,8 @@ class _Walk:
 
     def _class(self, node: Node) -> Iterator[Unresolved]:
         scopes, definition = self._scopes, node.definition
-        for used, scope in ((definition.alias, node.parent), (definition.constraint, node.parent)):
-            if used is not None:
-                yield from self._used(used, scope)
+        for used in filter(None, (definition.alias, definition.constraint)):
+            yield from self._used(used, node.parent)
         if definition.is_extension:
             yield from self._arguments(definition.arguments, scopes.bases(node)[:1], node)
         for base in definition.extends:
@@ -94,11 +93,15 @@ class _Walk:
 
     def _used(self, used: Extends, scope: Node | None) -> Iterator[Unresolved]:
         """Yield what is wrong with a class that is used, and with the modifiers beside it."""
-        yield from self._type(used.type, scope)
+        yield from self._missing(used.type, self._scopes.lookup(used.type, scope), scope, UnresolvedKind.CLASS)
         yield from self._arguments(used.arguments, self._scopes.types_of(used, scope), scope)
 
+    def _use(self, name: Name, scope: Node | None, *, is_part: bool = False) -> Iterator[Unresolved]:
+        kind = UnresolvedKind.FUNCTION if name.is_called else UnresolvedKind.ELEMENT
+        yield from self._missing(name, self._scopes.lookup(name, scope), scope, kind, is_part=is_part)
+
     def _component(self, component: Component, node: Node) -> Iterator[Unresolved]:
-        yield from self._type(component.type, node)
+        yield from self._used(Extends(component.type), node)
         bases = self._scopes.bases(node)
         if "redeclare" in component.prefixes and bases:
             found = self._scopes.part(bases, component.name.parts[0])
@@ -110,49 +113,35 @@ class _Walk:
         for name in component.uses:
             yield from self._use(name, node)
 
-    def _type(self, name: Name, scope: Node | None) -> Iterator[Unresolved]:
-        yield from self._missing(name, self._scopes.lookup(name, scope), scope, UnresolvedKind.CLASS)
-
-    def _use(self, name: Name, scope: Node | None, *, is_part: bool = False) -> Iterator[Unresolved]:
-        kind = UnresolvedKind.FUNCTION if name.is_called else UnresolvedKind.ELEMENT
-        yield from self._missing(name, self._scopes.lookup(name, scope), scope, kind, is_part=is_part)
-
     def _arguments(
         self, arguments: tuple[Modifier, ...], types: Types, scope: Node | None, depth: int = 0
     ) -> Iterator[Unresolved]:
         """Yield what is wrong with modifiers of something that may have one of these types; without any, names pass."""
         for one in arguments:
-            redeclares = one.is_redeclared or one.is_break
             found: object = None
             inside = types
             for part in one.name.parts:
                 found = self._scopes.part(inside or (UNKNOWN,), part)
                 if inside:
-                    name = Name((part,), one.name.line)
-                    yield from self._missing(name, found, scope, UnresolvedKind.ELEMENT, is_part=redeclares)
+                    name, is_part = Name((part,), one.name.line), one.is_redeclared or one.is_break
+                    yield from self._missing(name, found, scope, UnresolvedKind.ELEMENT, is_part=is_part)
                 if not isinstance(found, Element):
                     break
                 inside = found.types
-            if len(one.name.parts) > 1 and isinstance(found, Element):
-                name_ = str(one.name)
-                yield Unresolved(UnresolvedKind.DOTTED_MODIFIER, name_, name_, "", one.name.line)
-            if depth and one.is_redeclared and isinstance(found, Element):
-                owner = next((str(type_) for type_ in types if type_ is not UNKNOWN), "")
-                yield Unresolved(UnresolvedKind.NESTED_REDECLARE, str(one.name), str(one.name), owner, one.name.line)
-            yield from self._redeclared(one, scope)
+            if isinstance(found, Element):
+                text, line = str(one.name), one.name.line
+                if len(one.name.parts) > 1:
+                    yield Unresolved(UnresolvedKind.DOTTED_MODIFIER, text, text, "", line)
+                if depth and one.is_redeclared:
+                    owner = next((str(type_) for type_ in types if type_ is not UNKNOWN), "")
+                    yield Unresolved(UnresolvedKind.NESTED_REDECLARE, text, text, owner, line)
+            new_type = Extends(one.type) if one.type else one.definition.alias if one.definition else None
+            for used in filter(None, (new_type, one.constraint)):
+                yield from self._used(used, scope)
             if isinstance(found, Element):
                 yield from self._arguments(one.arguments, found.types, scope, depth + 1)
             for name in one.uses:
                 yield from self._use(name, scope)
-
-    def _redeclared(self, modifier: Modifier, scope: Node | None) -> Iterator[Unresolved]:
-        """Yield what is wrong with the new type of what is redeclared."""
-        if modifier.type is not None:
-            yield from self._type(modifier.type, scope)
-        if modifier.definition is not None and modifier.definition.alias is not None:
-            yield from self._used(modifier.definition.alias, scope)
-        if modifier.constraint is not None:
-            yield from self._used(modifier.constraint, scope)
 
     def _is_foreign(self, component: Component, types: Types) -> bool:
         """Whether a component is of a class in another library, which is not at hand."""

@@ -76,12 +76,16 @@ class Hunk(NamedTuple):
 
 
 class _Version(NamedTuple):
-    """One side, compared with the version that both come from."""
+    """One side, compared with the version that both come from; keys are indices of lines in that one."""
 
     changes: list[Replacement]
     lines: list[Line]
+    kept: dict[int, Line]
+    """Lines that this version has as well, with their numbers in it."""
     gone: dict[int, Line]
-    """Lines of the old version that this one has not, by their index."""
+    """Lines that it has not."""
+    added: dict[int, list[Line]]
+    """Its own lines, by the line before which they stand."""
 
 
 class _Group(NamedTuple):
@@ -131,52 +135,31 @@ def _hunk(run: Sequence[_Group], old: Sequence[str], versions: Mapping[str, _Ver
     rows: list[Row] = []
     stack: list[tuple[str, Line]] = []
     position = place.start
-    shifts = {side: first.new[side].start - first.old.start for side in versions}
     for group in [*run, None]:
         for index in range(position, group.old.start if group else place.stop):
-            shown = old[index].rstrip(NEWLINE)
-            left, right = (Line(index + shift + 1, shown) for shift in shifts.values())
+            left, right = (version.kept[index] for version in versions.values())
             rows.append(Row(Cell(" ", left), Cell(" ", right)))
             stack.append(("", left))
         if group:
-            rows += _group_rows(group, old, versions, shifts) if has_base else _two_way_rows(group, versions)
+            rows += _group_rows(group, versions) if has_base else _two_way_rows(group, versions)
             stack += _group_stack(group, versions, has_base=has_base)
             position = group.old.stop
-            shifts = {side: lines.stop - group.old.stop for side, lines in group.new.items()}
     start = first.new["mine"].start - (first.old.start - place.start)
     stop = last.new["mine"].stop + (place.stop - last.old.stop)
     sides = frozenset[str]().union(*(group.sides for group in run))
     return Hunk(range(start + 1, stop + 1), sides, any(group.clash for group in run), rows, stack)
 
 
-def _group_rows(
-    group: _Group, old: Sequence[str], versions: Mapping[str, _Version], shifts: Mapping[str, int]
-) -> Iterator[Row]:
+def _group_rows(group: _Group, versions: Mapping[str, _Version]) -> Iterator[Row]:
     """The lines of base with what each side did to them; what is added follows what it replaces."""
-    columns = []
-    for side, version in versions.items():
-        kept: list[Cell | None] = []
-        added: dict[int, list[Cell]] = {}
-        shift = shifts[side]
-        changes = [one for one in version.changes if group.old.start <= one.start and one.stop <= group.old.stop]
-        for index in range(group.old.start, group.old.stop + 1):
-            for change in changes:
-                if change.stop == index:
-                    new = version.lines[change.new_start : change.new_stop]
-                    added[index] = [Cell("+", line) for line in new]
-                    shift = change.new_stop - change.stop
-            if index == group.old.stop:
-                kept.append(None)
-            elif index in version.gone:
-                kept.append(Cell("-", version.gone[index]))
-            else:
-                kept.append(Cell(" ", Line(index + shift + 1, old[index].rstrip(NEWLINE))))
-        columns.append((kept, added))
-    (ours, our_added), (theirs, their_added) = columns
-    for index, left, right in zip(itertools.count(group.old.start), ours, theirs, strict=False):
-        new_lines = zip_longest(our_added.get(index, ()), their_added.get(index, ()))
-        yield from (Row(one, two, group.clash) for one, two in new_lines)
-        if left:
+    for index in range(group.old.start, group.old.stop + 1):
+        new = ([Cell("+", line) for line in version.added.get(index, ())] for version in versions.values())
+        yield from (Row(one, two, group.clash) for one, two in zip_longest(*new))
+        if index < group.old.stop:
+            left, right = (
+                Cell("-", version.gone[index]) if index in version.gone else Cell(" ", version.kept[index])
+                for version in versions.values()
+            )
             yield Row(left, right, group.clash)
 
 
@@ -205,7 +188,12 @@ def _compare(old: Sequence[str], new: Sequence[str]) -> _Version:
     changes = compare(old, new)
     lines = [Line(number, line.rstrip(NEWLINE)) for number, line in enumerate(new, start=1)]
     gone: dict[int, Line] = {}
+    added: dict[int, list[Line]] = {}
+    position = shift = 0
+    kept: dict[int, Line] = {}
     for change in changes:
+        kept |= {index: lines[index + shift] for index in range(position, change.start)}
+        position, shift = change.stop, change.new_stop - change.stop
         before, after = "".join(old[change.start : change.stop]), "".join(new[change.new_start : change.new_stop])
         is_blank = bool(before and after) and "".join(before.split()) == "".join(after.split())
         parts: list[list[range]] = [[], []]
@@ -221,8 +209,10 @@ def _compare(old: Sequence[str], new: Sequence[str]) -> _Version:
             ]
             parts = joined if min(shares, default=1) <= _REWRITTEN else parts
         gone |= {line.number - 1: line for line in _lines(before, change.start, parts[0], is_blank)}
-        lines[change.new_start : change.new_stop] = _lines(after, change.new_start, parts[1], is_blank)
-    return _Version(changes, lines, gone)
+        added[change.stop] = list(_lines(after, change.new_start, parts[1], is_blank))
+        lines[change.new_start : change.new_stop] = added[change.stop]
+    kept |= {index: lines[index + shift] for index in range(position, len(old))}
+    return _Version(changes, lines, kept, gone, added)
 
 
 def _character_ranges(words: Sequence[str], spans: Sequence[tuple[int, int]]) -> list[range]:

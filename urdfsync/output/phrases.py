@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass, Role
+from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.outcome import Checked, Result
 from urdfsync.output.outline import change_row
@@ -122,13 +122,8 @@ def _cause(action: Action, changes: Changes) -> str:
     if not found:
         return generator_change(changes) if changes.generator else ""
     more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
-    return f"{_of_element(found[0])}{more}"
-
-
-def _of_element(change: Change) -> str:
-    """A change as `element: place old → new`."""
-    place, what = " / ".join(change.path[1:]), _change_value(change)
-    return f"{change.element}: {f'{place} ' if place else ''}{what}"
+    place = " / ".join(found[0].path[1:])
+    return f"{found[0].element}: {f'{place} ' if place else ''}{_change_value(found[0])}{more}"
 
 
 def generator_change(changes: Changes) -> str:
@@ -148,7 +143,10 @@ def change_lines(changes: Changes) -> list[str]:
 def _change_value(change: Change) -> str:
     """What happened at one place: `54 → 60 N.m (+11.1 %)`, `renamed to elbow`, `added`."""
     row = change_row(change)
-    what = f"{row.old} → {row.new}" if row.old else row.new.partition(":")[0]
+    if change.kind in (ChangeKind.ADDED, ChangeKind.REMOVED):
+        what = str(change.kind)
+    else:
+        what = f"{row.old} → {row.new}" if row.old else row.new
     return f"{what} ({row.relation})" if row.relation else what
 
 

@@ -48,6 +48,13 @@ class FileLine(NamedTuple):
     reason: str
 
 
+def action_word(action: Action) -> tuple[str, str]:
+    """What happens to a file in a word, and its style."""
+    if action.held:
+        return "waiting", "yellow"
+    return action.kind.value.removeprefix("unowned-"), _STYLES.get(action.kind, "dim")
+
+
 def file_lines(files: Iterable[FileLine], root: Path, *, by_folder: bool) -> Iterator[StyledLine]:
     """A line for each file, those of a folder in succession: with its path, or `by_folder` below the folder's."""
     files = sorted(files, key=lambda file: file.path.rpartition("/"))
@@ -113,8 +120,7 @@ def result_lines(
             actions = [action for action in actions if action.kind in _ALWAYS_LISTED]
         files = []
         for action in actions:
-            word = "waiting" if action.held else action.kind.value.removeprefix("unowned-")
-            style = "yellow" if action.held else _STYLES.get(action.kind, "dim")
+            word, style = action_word(action)
             files.append(FileLine(action.path, f"{word:<9}", style, reason(action, result.changes)))
         yield from file_lines(files, result.root, by_folder=is_terminal(stream) and (verbose or explain))
         if explain and (rest := len(result.actions) - len(actions)):
