@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 import msgspec
 
@@ -37,7 +38,7 @@ _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 _TEXTS = ("name", "link", "joint", "filename", "group")
 
 
-class RobotReading(msgspec.Struct, frozen=True):
+class RobotReading(NamedTuple):
     """What reading a URDF gave: the robot, unless a diagnostic is an error, and the diagnostics.
 
     `lines` maps paths to lines: `robot`, `link NAME`, `joint NAME`, and below them for example

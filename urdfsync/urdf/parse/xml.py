@@ -9,12 +9,12 @@ The parser is expat, since it tells where a start tag begins; lxml tells where i
 from __future__ import annotations
 
 import codecs
+import html
 import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 from xml.parsers import expat
-from xml.sax.saxutils import quoteattr
 
 import msgspec
 
@@ -112,7 +112,8 @@ class Node(msgspec.Struct, eq=False, gc=False):
         end = tag.end() if tag and tag[0].endswith(b"/>") else content.index(b">", self.end) + 1
         text = content[self.start : end].decode()
         # The element around it, which declares all prefixes, is cut off again.
-        declared = "".join(f" {f'xmlns:{p}'.rstrip(':')}={quoteattr(uri)}" for p, uri in known.items())
+        attributes = {f"xmlns:{prefix}" if prefix else "xmlns": uri for prefix, uri in known.items()}
+        declared = "".join([f' {name}="{html.escape(uri)}"' for name, uri in attributes.items()])
         around = f'<urdfsync:it xmlns:urdfsync="{_UNDECLARED}urdfsync"'
         try:
             whole = ElementTree.canonicalize(f"{around}{declared}>{text}</urdfsync:it>", strip_text=True)
