@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfsync.urdf.parse.fields import Element
+from urdfsync.urdf.parse.fields import UrdfElement
 from urdfsync.urdf.parse.link import read_origin
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
@@ -27,7 +27,7 @@ _PARTS = [name for name in Joint.__struct_fields__ if name not in ("name", "type
 _X = (1.0, 0.0, 0.0)
 
 
-def read_joint(element: Element, extensions: list[Extension]) -> Joint | None:
+def read_joint(element: UrdfElement, extensions: list[Extension]) -> Joint | None:
     """Read a joint with its axis as written; return None, after an error, if it connects nothing.
 
     Add what is not modelled to `extensions`. A joint of unknown type is read as a plain fixed one.
@@ -60,7 +60,7 @@ def read_joint(element: Element, extensions: list[Extension]) -> Joint | None:
     )
 
 
-def _read_type(element: Element) -> JointType | None:
+def _read_type(element: UrdfElement) -> JointType | None:
     """Read one of URDF's joint types; return None after an error."""
     text = element.text("type")
     kind = next((known for known in JOINT_KINDS if known == text), None)
@@ -71,7 +71,7 @@ def _read_type(element: Element) -> JointType | None:
     return kind
 
 
-def _read_end(element: Element, tag: str) -> str:
+def _read_end(element: UrdfElement, tag: str) -> str:
     """Read the name of the parent or child link; return an empty one after an error."""
     end = element.child(tag, "link")
     if end is None:
@@ -80,7 +80,7 @@ def _read_end(element: Element, tag: str) -> str:
     return end.text("link")
 
 
-def _read_limit(joint: Element, kind: JointType) -> Limit | None:
+def _read_limit(joint: UrdfElement, kind: JointType) -> Limit | None:
     """Read the limits; what is absent is 0 for a position, and no limit for effort and velocity."""
     element = joint.child("limit", *Limit.__struct_fields__)
     if element is None:
@@ -99,7 +99,7 @@ def _read_limit(joint: Element, kind: JointType) -> Limit | None:
     return element.numbers(Limit)
 
 
-def _read_mimic(joint: Element) -> Mimic | None:
+def _read_mimic(joint: UrdfElement) -> Mimic | None:
     """Read the mimic relation; return None, after an error, if it names no joint."""
     element = joint.child("mimic", "joint", "multiplier", "offset")
     if element is None:
@@ -108,7 +108,7 @@ def _read_mimic(joint: Element) -> Mimic | None:
     return Mimic(leader, multiplier, offset) if leader else None
 
 
-def read_actuated(element: Element) -> Iterator[tuple[str, str]]:
+def read_actuated(element: UrdfElement) -> Iterator[tuple[str, str]]:
     """Yield path and name of each joint that a `<transmission>` or `<ros2_control>` drives.
 
     An example of a path: `transmission wheel_trans / joint wheel`.
@@ -123,4 +123,4 @@ def read_actuated(element: Element) -> Iterator[tuple[str, str]]:
             continue
         for joint in driven:
             if name := joint.attributes.get("name", ""):
-                yield Element(joint, f"{element.path} / joint {name}", element.findings).path, name
+                yield UrdfElement(joint, f"{element.path} / joint {name}", element.findings).path, name

@@ -84,20 +84,20 @@ class Document(msgspec.Struct, eq=False):
     warnings: list[Diagnostic]
 
 
-class Node(msgspec.Struct, eq=False, gc=False):
+class XmlNode(msgspec.Struct, eq=False, gc=False):
     """One XML element; tag and attributes have prefixes as written, `line` is where its start tag begins, from 1."""
 
     tag: str
     attributes: Mapping[str, str]
     line: int
-    children: list[Node]
+    children: list[XmlNode]
     document: Document
     start: int
     """Where its start tag begins in the document, in bytes."""
     end: int = 0
     """Where its end tag begins, if it has one."""
 
-    def walk(self) -> Iterator[Node]:
+    def walk(self) -> Iterator[XmlNode]:
         """Yield this element and all below it, in document order."""
         waiting = [self]
         while waiting:
@@ -123,12 +123,12 @@ class Node(msgspec.Struct, eq=False, gc=False):
         return re.sub(rf' xmlns:[^=]+="{_UNDECLARED}[^"]*"', "", inside)
 
 
-def parse(content: bytes) -> Node:
+def parse(content: bytes) -> XmlNode:
     """Parse an XML file; return its root, whose document has the warnings about the file. Raises ParseError."""
     text, warnings = _decode(content)
     document = Document(text.encode(), {}, warnings)
-    top: list[Node] = []
-    above = [Node("", {}, 0, top, document, 0)]
+    top: list[XmlNode] = []
+    above = [XmlNode("", {}, 0, top, document, 0)]
     used: dict[str, int] = {}  # prefixes, and the line of their first use
     parser = expat.ParserCreate("utf-8")
     parser.specified_attributes = True  # a document type may have others
@@ -138,7 +138,7 @@ def parse(content: bytes) -> Node:
         if len(above) > _DEEPEST:
             message = f"this is not well-formed XML: elements stand inside of one another {_DEEPEST} deep"
             raise ParseError("xml-syntax", message, f"make it less deep, or {_WAIT}", line)
-        node = Node(tag, attributes, line, [], document, parser.CurrentByteIndex)
+        node = XmlNode(tag, attributes, line, [], document, parser.CurrentByteIndex)
         above[-1].children.append(node)
         above.append(node)
         for name in (tag, *attributes):
@@ -191,7 +191,7 @@ def parse_tree(content: bytes) -> etree._Element:
     return etree.fromstring(content, etree.XMLParser(recover=True, no_network=True, resolve_entities=False))
 
 
-def _explain(message: str, around: Node, before: bytes) -> tuple[str, str]:
+def _explain(message: str, around: XmlNode, before: bytes) -> tuple[str, str]:
     """Return what is wrong and what to do, by expat's message, the open element, and the text up to the error."""
     unclosed = expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEMENTS
     if message in unclosed and around.tag:
