@@ -144,10 +144,10 @@ def parse(content: bytes) -> XmlNode:
         for name in (tag, *attributes):
             if ":" not in name and name != "xmlns":
                 continue
-            prefix, _, rest = name.partition(":")
-            if prefix == "xmlns" and attributes.get(name) and rest not in ("xml", "xmlns"):
+            prefix, colon, rest = name.partition(":")
+            if prefix == "xmlns" and attributes.get(name) and (rest or not colon) and rest not in ("xml", "xmlns"):
                 document.namespaces.setdefault(rest, attributes[name])
-            elif prefix not in ("xml", "xmlns"):
+            elif prefix not in ("", "xml", "xmlns"):
                 used.setdefault(prefix, line)
 
     def end(_: str) -> None:
