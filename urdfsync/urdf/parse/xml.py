@@ -43,6 +43,7 @@ _DECLARATION = re.compile(
 )
 # ROS's parser accepts these. They do not name the encoding, since other parsers ignore them.
 _FAULTY_DECLARATION = re.compile(r"\s*<\?xml\s[^<>]*\?>", re.IGNORECASE | re.ASCII)
+_BETWEEN_NAMES = re.compile(r"""[\s<>/="']+""")
 _START_TAG = re.compile(rb"""<(?:[^>"']|"[^"]*"|'[^']*')*>""")
 
 # What is wrong, and what to do: by expat's message, or by the text up to the character that it stops at.
@@ -111,8 +112,10 @@ class XmlNode(msgspec.Struct, eq=False, gc=False):
         tag = _START_TAG.match(content, self.start)
         end = tag.end() if tag and tag[0].endswith(b"/>") else content.index(b">", self.end) + 1
         text = content[self.start : end].decode()
-        # The element around it, which declares all prefixes, is cut off again.
-        attributes = {f"xmlns:{prefix}" if prefix else "xmlns": uri for prefix, uri in known.items()}
+        # The element around it, which declares the prefixes that it has, is cut off again.
+        words = _BETWEEN_NAMES.split(text)
+        prefixes = {"", *(word.partition(":")[0] for word in words if ":" in word)} & known.keys()
+        attributes = {f"xmlns:{prefix}" if prefix else "xmlns": known[prefix] for prefix in prefixes}
         declared = "".join([f' {name}="{html.escape(uri)}"' for name, uri in attributes.items()])
         around = f'<urdfsync:it xmlns:urdfsync="{_UNDECLARED}urdfsync"'
         try:
