@@ -206,6 +206,18 @@ def test_a_build_says_what_changed_since_the_last_one(arm: Path) -> None:
     assert run(arm).changes is None
 
 
+def test_a_rename_and_a_template_are_told_as_such(arm: Path) -> None:
+    run(arm)
+    change(arm, '<joint name="elbow"', '<joint name="knee"')
+    renamed = run(arm).changes
+    assert renamed is not None
+    assert change_lines(renamed) == ["joint elbow: renamed to knee"]
+    (arm / "urdfsync.toml").write_text(CONFIGURATION + "collisions = false\n")
+    other = run(arm).changes
+    assert other is not None
+    assert change_lines(other)[0] == "the option `collisions` changed"
+
+
 CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller">
   <inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
   <joint name="wheel" type="continuous"><parent link="base"/><child link="tyre"/></joint>

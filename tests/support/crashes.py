@@ -73,9 +73,9 @@ def before_each(hook: Hook) -> Iterator[None]:
 
 
 def run(project: Path, **request: Any) -> Result:
-    """Build the only robot of a project."""
+    """Build the only robot of a project, wherever it is built to."""
     loaded = config.load(project / "urdfsync.toml")
-    (result,) = build(loaded, loaded.robots, BuildOptions(**request))
+    (result,) = build(loaded, loaded.robots, BuildOptions(trusted=True, **request))
     return result
 
 
@@ -136,17 +136,17 @@ def copy(project: Path, to: Path) -> Path:
     if to.exists():
         shutil.rmtree(to)
     shutil.copytree(project, to)
-    for journal in (to / ".urdfsync/journal").glob("*.json"):
-        bind(journal)
+    for file in (*(to / ".urdfsync/journal").glob("*.json"), *(to / ".urdfsync").glob("folders.json")):
+        bind(file)
     return to
 
 
-def bind(journal: Path) -> None:
-    """Let a copy of a journal be one that was written in its place."""
+def bind(file: Path) -> None:
+    """Let a copy of a journal, or of the noted folders, be one that was written in its place."""
     with contextlib.suppress(ValueError):  # cut short
-        status, text = journal.stat(), json.loads(journal.read_bytes())
-        journal.write_text(json.dumps({**text, "inode": status.st_ino, "written": status.st_mtime_ns}))
-        os.utime(journal, ns=(status.st_mtime_ns, status.st_mtime_ns))
+        status, text = file.stat(), json.loads(file.read_bytes())
+        file.write_text(json.dumps({**text, "inode": status.st_ino, "written": status.st_mtime_ns}))
+        os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
 
 
 def contents(project: Path) -> Mapping[str, bytes | None]:
@@ -155,10 +155,12 @@ def contents(project: Path) -> Mapping[str, bytes | None]:
     Of the kept bases, those count that the recorded files need: others may be left of an earlier build.
     """
     found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
-    left_out = (".urdfsync/lock", ".urdfsync/journal", ".urdfsync/base")
+    left_out = (".urdfsync/lock", ".urdfsync/journal", ".urdfsync/base", ".urdfsync/folders.json")
     names = [name for name in found if name not in left_out and not name.startswith(".urdfsync/base/")]
     contents = {name: found[name].read_bytes() if found[name].is_file() else None for name in sorted(names)}
-    return contents | {f".urdfsync/base/{robot}": _needed(project, robot) for robot in Store(project).names()}
+    store = Store(project)
+    folders = {f"folders of {robot}": repr(sorted(store.written_folders(robot))).encode() for robot in store.names()}
+    return contents | folders | {f".urdfsync/base/{robot}": _needed(project, robot) for robot in store.names()}
 
 
 def _needed(project: Path, robot: str) -> bytes:

@@ -66,10 +66,27 @@ def add_wait(parser: Parser) -> None:
     parser.add_argument("--wait", type=float, default=60, metavar="S", help="seconds to wait for another build (60)")
 
 
+def add_trust(parser: Parser) -> None:
+    """Whether the user trusts the configuration."""
+    parser.add_argument(
+        "--trust", action="store_true", help="write to an `output` outside of the configuration's folder, too"
+    )
+
+
 def add_profile(parser: Parser) -> None:
     """Whether to measure."""
     parser.add_argument(
         "--profile", action="store_true", help="say where the time went; nothing is answered from memory"
+    )
+
+
+def add_executor(parser: Parser, verb: str) -> None:
+    """A cluster that works instead of processes of this machine; never from the configuration, since it is trusted."""
+    parser.add_argument(
+        "--executor",
+        default="",
+        metavar="ADDRESS",
+        help=f"have workers of a Dask scheduler {verb} the robots (tcp://HOST:PORT); it has to be one that you trust",
     )
 
 
@@ -105,6 +122,7 @@ def request(args: argparse.Namespace, console: Console, **options: Any) -> Build
         package_paths=config.ros_package_path(os.environ),
         progress=console.progress,
         wait=getattr(args, "wait", 60.0),
+        trusted=getattr(args, "trust", False),
         jobs=getattr(args, "jobs", None),
         executor=getattr(args, "executor", ""),
         **options,

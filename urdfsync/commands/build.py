@@ -36,13 +36,9 @@ def add(commands: arguments.Commands) -> None:
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
     arguments.add_wait(parser)
+    arguments.add_trust(parser)
     arguments.add_jobs(parser)
-    parser.add_argument(
-        "--executor",
-        default="",
-        metavar="ADDRESS",
-        help="have the workers of a Dask scheduler plan the robots (tcp://HOST:PORT); it has to be one that you trust",
-    )
+    arguments.add_executor(parser, "plan")
     arguments.add_profile(parser)
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
     parser.add_argument("--repair", action="store_true", help="make a state again that has merge markers or is damaged")

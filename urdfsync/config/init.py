@@ -15,6 +15,7 @@ from urdfsync import registry
 from urdfsync.config import values
 from urdfsync.config.names import is_robot_name
 from urdfsync.config.paths import shown
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
 from urdfsync.files import put
@@ -76,7 +77,7 @@ def make_draft(file: Path, sources: Sequence[Path], domain_name: str) -> Draft:
     broken: list[Diagnostic] = []
     for source in _once(sources or found):
         try:
-            options, diagnostics = _propose(domain, source)
+            options, diagnostics = _propose(domain, source, file.parent)
         except SourceError as error:
             if sources:
                 raise
@@ -130,12 +131,12 @@ def _passed_over(source: Path, error: SourceError) -> Diagnostic:
     return msgspec.structs.replace(first, severity=Severity.WARNING, message=message, hint=hint)
 
 
-def _propose(domain: Domain, source: Path) -> tuple[tuple[Proposal, ...], list[Diagnostic]]:
-    if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(source)):
+def _propose(domain: Domain, source: Path, root: Path) -> tuple[tuple[Proposal, ...], list[Diagnostic]]:
+    if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in _written(source, root)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
         raise SourceError(Diagnostic(Severity.ERROR, "source-name", message, shown(source), hint=hint))
     try:
-        content = source.read_bytes()
+        content = read_unrecorded(source)
     except OSError as error:
         message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
         raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(source), hint=hint)) from None
@@ -149,8 +150,13 @@ def _propose(domain: Domain, source: Path) -> tuple[tuple[Proposal, ...], list[D
 def _guess(root: Path, source: Path, options: tuple[Proposal, ...], taken: Sequence[Guess]) -> Guess:
     stem = source.name.partition(".")[0][:_LONGEST]
     count = "" if _is_free(stem, "", taken) else next(str(n) for n in range(2, 10_000) if _is_free(stem, str(n), taken))
+    return Guess(_robot_name(stem) + count, _written(source, root), class_name(stem) + count, options)
+
+
+def _written(source: Path, root: Path) -> str:
+    """A source's path as the configuration names it."""
     path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
-    return Guess(_robot_name(stem) + count, path.as_posix(), class_name(stem) + count, options)
+    return path.as_posix()
 
 
 def _is_free(stem: str, count: str, taken: Sequence[Guess]) -> bool:

@@ -26,6 +26,8 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Render and compare everything, even if nothing changed."""
     dry: bool = False
     """Write nothing."""
+    trusted: bool = False
+    """Write to outputs outside of the configuration's folder, too."""
     compares_state: bool = False
     """Find out in a dry run, too, whether a build would write to the recorded state: `Result.renews_state`."""
     draw: bool = False

@@ -131,7 +131,8 @@ class Lock:
             self._path.parent.mkdir(exist_ok=True)
             descriptor = self._open_file(os.O_RDWR | os.O_CREAT)
             try:
-                if os.read(descriptor, len(number) + 1) != number:
+                is_alone = os.fstat(descriptor).st_nlink < 2  # else it may be a file of the user's, under another name
+                if is_alone and os.read(descriptor, len(number) + 1) != number:
                     os.lseek(descriptor, 0, os.SEEK_SET)
                     os.ftruncate(descriptor, 0)
                     os.write(descriptor, number)

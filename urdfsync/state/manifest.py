@@ -229,8 +229,8 @@ def _places(manifest: Manifest) -> Iterator[tuple[bool, str, tuple[str, ...]]]:
         yield _is_of_role(path, record.role), path, ("files", path)
         if record.origin is not None:
             yield _is_of_role(record.origin, record.role), record.origin, ("files", path, "origin")
-    for path in manifest.orders:
-        own = path == _PARENT or _is_inside(path)
+    for path, names in manifest.orders.items():
+        own = set(names) <= {steps[-1]} if path == _PARENT else _is_inside(path)
         yield own and posixpath.basename(path) == _ORDER, path, ("orders", path)
     for key, dependency in manifest.dependencies.items():
         yield _is_of_role(dependency.target, Role.IMPORT), dependency.target, ("dependencies", key, "target")
@@ -253,7 +253,7 @@ def _is_of_role(path: str, role: Role) -> bool:
 
 def _is_inside(path: str) -> bool:
     """Whether a path from a folder is that of a file below it."""
-    return bool(_PLAIN.fullmatch(path)) or (_is_normal(path) and path.split("/")[0] not in (".", ".."))
+    return bool(_PLAIN.fullmatch(path)) or (_is_normal(path) and not any(p.startswith(".") for p in path.split("/")))
 
 
 def _order_above(folder: str) -> str:

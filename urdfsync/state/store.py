@@ -8,11 +8,11 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.config import STATE_FOLDER
+from urdfsync.config import STATE_FOLDER, is_robot_name
 from urdfsync.dependencies import is_folder, list_folder
-from urdfsync.diagnostics import Diagnostic, Severity, StateError
-from urdfsync.files import Tree, digest
-from urdfsync.state import manifest, modelfile
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
+from urdfsync.files import TEMPORARY, Tree, digest, failure
+from urdfsync.state import file_operations, manifest, modelfile
 from urdfsync.state.bases import BaseStore
 from urdfsync.state.manifest import Manifest
 from urdfsync.state.modelfile import Model
@@ -24,6 +24,18 @@ _IGNORE = """\
 !/.gitignore
 !/robots/
 """
+
+_FOLDERS = "folders.json"
+
+
+class _WrittenFolders(msgspec.Struct, frozen=True):
+    """A file that says where builds in this checkout wrote. It is bound to its inode and time, so no copy counts."""
+
+    folders: dict[str, tuple[str, ...]]
+    inode: int
+    written: int
+    """Time of change in ns."""
+
 
 Witness: TypeAlias = Mapping[Path, str | None]
 """Files of the state, and the hashes of their bytes when they were loaded; None for a file that was not there."""
@@ -55,7 +67,8 @@ class Store:
             files = list_folder(self.folder / "robots")
         except OSError:  # there is none; that it can't be read is what `load` says
             return []
-        return sorted(name.removesuffix(".toml") for name in files if name.endswith(".toml"))
+        names = (name.removesuffix(".toml") for name in files if name.endswith(".toml"))
+        return sorted(filter(is_robot_name, names))
 
     def load(self, robot: str) -> State | None:
         """The robot's state, None if it was never built. Raises StateError or OutputError if it can't be used."""
@@ -85,6 +98,47 @@ class Store:
         tree = Tree(self._tree.root, self._shown)  # which finds folders that have come since
         found = ((tree.read(path), before) for path, before in witness.items() if path not in but)
         return all((None if content is None else digest(content)) == before for content, before in found)
+
+    def written_folders(self, robot: str) -> frozenset[str]:
+        """The keys of the folders that hold the robot's package, by what builds in this checkout noted.
+
+        A manifest may come from somebody else, together with the hashes of files that are the user's own. So what it
+        says of other folders than the configured one counts only if this says the same.
+        """
+        return frozenset(self._noted_folders().get(robot, ()))
+
+    def note_folders(self, robot: str, folders: Collection[str], former: str | None = None) -> None:
+        """Note which folders hold a robot's package; `former` is a name of the robot that is no more.
+
+        Raises OutputError. For the holder of the build lock only.
+        """
+        noted = self._noted_folders()
+        new = {name: paths for name, paths in noted.items() if name != former} | {robot: tuple(sorted(folders))}
+        if new == noted:
+            return
+        file = self.folder / _FOLDERS
+        temporary = file.with_name(f".{_FOLDERS}{TEMPORARY}")
+
+        def encode(inode: int, written: int) -> bytes:
+            return msgspec.json.encode(_WrittenFolders(new, inode, written))
+
+        self._tree.check_folder(self.folder)
+        try:
+            file_operations.make_folder(self.folder)
+            file_operations.remove(temporary)  # of a build that was killed here
+            file_operations.write_bound(temporary, encode)
+            file_operations.replace(temporary, file)
+        except OSError as error:
+            raise failure(error, self._shown(file)) from None
+
+    def _noted_folders(self) -> Mapping[str, tuple[str, ...]]:
+        """The packages' folders by robot; empty if the file is not there, or was not written in this checkout."""
+        file = self.folder / _FOLDERS
+        try:
+            noted = msgspec.json.decode(self._tree.read(file) or b"", type=_WrittenFolders)
+            return noted.folders if file_operations.is_bound(file, noted.inode, noted.written) else {}
+        except (OSError, OutputError, msgspec.DecodeError, UnicodeDecodeError):
+            return {}
 
     def has_bases(self, robot: str) -> bool:
         """Whether the texts that were written last are kept."""

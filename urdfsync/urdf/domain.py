@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import (
     Artifact,
@@ -31,7 +33,9 @@ from urdfsync.urdf.diff.interface import interface
 from urdfsync.urdf.diff.meanings import describe
 from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.kinematics.base_guess import guess_base
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes.lookup import dependencies
+from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
@@ -102,6 +106,18 @@ class UrdfDomain(Domain):
         """Return the option that brings the record of the whole robot."""
         is_left_out = path == f"{target.name}Parameters.mo" and "record" not in options.approach
         return 'approach = ["package", "record"]' if is_left_out else ""
+
+    def option_for_connector(self, name: str, snapshot: Snapshot, target: Target, options: Options) -> str:
+        """Return the option that brings the frame of a link that `frames` does not name."""
+        tree = KinematicTree.of(from_snapshot(snapshot), (target.name,))
+        if name in connector_names(tree, options).frames.values():
+            return ""
+        frames = connector_names(tree, msgspec.structs.replace(options, frames="all")).frames
+        links = [link for link, frame in frames.items() if frame == name]
+        named = [] if isinstance(options.frames, str) else options.frames
+        return (
+            f"frames = [{', '.join(msgspec.json.encode(link).decode() for link in (*named, *links))}]" if links else ""
+        )
 
     renames = staticmethod(find_renames)
     comparable = staticmethod(comparable)

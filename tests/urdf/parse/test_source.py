@@ -271,6 +271,8 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (b"\x1f\x8b\x08\x00", "file-encoding", 1),
         (b"<?xml version='1.0' encoding='klingon'?><robot/>", "file-encoding", 1),
         (b"<?xml version='1.0' encoding='rot13'?><robot/>", "file-encoding", 1),
+        (b"<?xml version='1.0' encoding='idna'?><robot>\xff</robot>", "file-encoding", 1),
+        (b"<?xml version='1.0' encoding='punycode'?><robot/>", "file-encoding", 1),
         (b"<?xml version='1.0' encoding='undefined'?><robot/>", "file-encoding", 1),
         (b"<!-- cart -->\n<?xml version='1.0'?>\n<robot/>", "xml-syntax", 2),
         (b"<?xml version='1.0'>\n<robot/>", "xml-syntax", 1),

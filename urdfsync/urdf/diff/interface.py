@@ -28,8 +28,11 @@ def interface(
     says so.
     """
     earlier = old.options if isinstance(old.options, Options) else options
-    if "package" not in options.approach or "package" not in earlier.approach:
+    if "package" not in earlier.approach:
         return ()
+    if "package" not in options.approach:
+        hint = 'list "package" in `approach` to keep it, with its connectors'
+        return [Effect(("robot", "model"), target.name, None, hint=hint)]
     before, after = (KinematicTree.of(from_snapshot(version.snapshot), (target.name,)) for version in (old, new))
     return [
         *_connectors(before, after, renames, earlier, options),

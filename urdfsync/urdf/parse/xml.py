@@ -35,6 +35,8 @@ _BYTE_ORDER_MARKS = (
     (b"<\0", "utf-16-le"),
     (b"\0<", "utf-16-be"),
 )
+_NO_ENCODINGS = ("idna", "punycode", "raw-unicode-escape", "unicode-escape")
+"""Codecs of Python for single words: they fail in ways of their own, and one takes minutes for a file of 100 KB."""
 _DECLARATION = re.compile(
     r"""<\?xml\s+version\s*=\s*(["'])(?P<version>[^"'<>]*)\1
     (?:\s+encoding\s*=\s*(["'])(?P<encoding>[A-Za-z][\w.-]*)\3)?
@@ -252,6 +254,8 @@ def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
 def _to_text(content: bytes, encoding: str) -> str:
     """Decode, and unify the line ends as XML asks for."""
     try:
+        if codecs.lookup(encoding).name in _NO_ENCODINGS:
+            raise LookupError  # noqa: TRY301 - as for one that Python does not know
         text = content.decode(encoding)
         if not text.isascii():
             text.encode()

@@ -1,0 +1,136 @@
+"""An `output` outside of the configuration's folder: nothing is written there without the user's word."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from support.daemon import Watch
+from support.git import NEEDS_GIT, Repository
+
+from urdfsync import cli
+
+Capture = pytest.CaptureFixture[str]
+
+
+def run(*arguments: str) -> int:
+    return cli.main(arguments)
+
+
+@pytest.fixture(autouse=True)
+def trusted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The user's file of trusted folders, which is not there yet."""
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "home"))
+    monkeypatch.setattr("platformdirs.user_config_path", lambda *_, **__: tmp_path / "home/urdfsync")
+    file = tmp_path / "home/urdfsync/trusted.toml"
+    file.parent.mkdir(parents=True)
+    return file
+
+
+@pytest.fixture
+def outside(project: Path, tmp_path: Path) -> Path:
+    """A folder beside the project, which the project builds to."""
+    folder = tmp_path / "elsewhere"
+    folder.mkdir()
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write('output = "../elsewhere"\n')
+    return folder
+
+
+@pytest.mark.parametrize("command", [["build"], ["build", "--full", "--repair"], ["build", "--svg"]], ids=" ".join)
+def test_a_build_needs_the_users_word(outside: Path, capsys: Capture, trusted: Path, command: Sequence[str]) -> None:
+    assert run(*command) == 2
+    assert list(outside.iterdir()) == []
+    said = " ".join(capsys.readouterr().err.split())
+    assert f"urdfsync.toml:5: error: `output` leads out of the configuration's folder, to {outside}" in said
+    assert "use --trust" in said
+    assert f"into {trusted}" in said
+
+
+def test_resolve_needs_the_users_word(outside: Path, capsys: Capture) -> None:
+    assert run("build", "--trust") == 0
+    model = outside / "Ladder/Elements/R1Parameters.mo"
+    model.write_text(model.read_text().replace("100", "101"))
+    source = Path("ladder.json")
+    source.write_text(source.read_text().replace("100", "150"))
+    assert run("build", "--trust") == 3
+    before = model.read_text()
+    assert run("resolve", "--all", "--take") == 2
+    assert "[untrusted-output]" in capsys.readouterr().err
+    assert model.read_text() == before
+    assert run("resolve", "--all", "--take", "--trust") == 0
+    assert "150" in model.read_text()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="XDG_CONFIG_HOME says nothing there")
+def test_watch_needs_the_users_word(outside: Path, rc_site: Path) -> None:
+    folder = Path(__file__).parents[1] / "rcnetwork"
+    with Watch(Path.cwd(), path=[rc_site, folder]) as watch:
+        failed = watch.wait("failed")
+        assert "untrusted-output" in json.dumps(failed)
+        assert list(outside.iterdir()) == []
+    with Watch(Path.cwd(), "--trust", path=[rc_site, folder]) as watch:
+        watch.wait("built")
+        assert (outside / "Ladder/package.mo").exists()
+
+
+@pytest.mark.parametrize(
+    ("command", "code"),
+    [(["status"], 0), (["build", "--check"], 1), (["build", "--dry-run"], 0), (["diff"], 1)],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_other_commands_read_and_tell(outside: Path, capsys: Capture, command: Sequence[str], code: int) -> None:
+    assert run(*command) == code
+    assert "warning: `output` leads out of the configuration's folder" in " ".join(capsys.readouterr().err.split())
+    assert list(outside.iterdir()) == []
+
+
+def test_a_folder_in_the_users_own_file_is_trusted(outside: Path, trusted: Path, capsys: Capture) -> None:
+    trusted.write_text(f"folders = ['{Path.cwd()}']\n")
+    assert run("build") == 0
+    assert (outside / "Ladder/package.mo").exists()
+    assert run("status") == 0
+    assert "untrusted-output" not in capsys.readouterr().err
+    trusted.unlink()
+    for _ in range(2):
+        assert run("build") == 2
+
+
+@pytest.mark.parametrize("folder", ["..", "modelica", "/", "~"])
+def test_no_other_folder_is_trusted_with_it(outside: Path, trusted: Path, folder: str) -> None:
+    trusted.write_text(f"folders = ['{Path(os.path.normpath(Path.cwd() / folder))}']\n")
+    assert run("build") == 2
+    assert list(outside.iterdir()) == []
+
+
+@pytest.mark.parametrize("text", ["folders = 1", "folders = [1]", "folder = ['a']", "folders = [", "\udcff"])
+def test_a_broken_file_of_trusted_folders_is_an_error(outside: Path, trusted: Path, capsys: Capture, text: str) -> None:
+    trusted.write_bytes(text.encode(errors="surrogateescape"))
+    assert run("build") == 2
+    assert str(trusted) in capsys.readouterr().err.replace("\n", "")
+    assert list(outside.iterdir()) == []
+
+
+def test_a_configuration_that_is_named_by_a_detour_writes_to_its_own_folder(project: Path) -> None:
+    Path("deep").mkdir()
+    os.chdir("deep")
+    assert run("build", "--config", "../urdfsync.toml") == 0
+
+
+@NEEDS_GIT
+def test_a_hook_takes_the_word_from_the_users_own_file(
+    outside: Path, trusted: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    Repository(Path.cwd(), monkeypatch).git("add", "-A")
+    assert run("hook", "build") == 2
+    assert "[untrusted-output]" in capsys.readouterr().err
+    assert list(outside.iterdir()) == []
+    assert run("hook", "check") == 1
+    assert "untrusted" not in capsys.readouterr().err
+    trusted.write_text(f"folders = ['{Path.cwd()}']\n")
+    assert run("hook", "build") == 1  # the state is to be added
+    assert (outside / "Ladder/package.mo").exists()

@@ -1,0 +1,199 @@
+"""The folder of the last build: nothing in it is deleted or moved unless a build in this very checkout wrote it."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+import tomli
+import tomli_w
+from support.git import NEEDS_GIT, Repository
+
+from urdfsync import cli
+from urdfsync.files import digest
+from urdfsync.state.store import Store
+
+Capture = pytest.CaptureFixture[str]
+MANIFEST = ".urdfsync/robots/ladder.toml"
+OWN = {"Pump.mo": b"within Mine;\nmodel Pump\nend Pump;\n", "Resources/table.csv": b"1,2\n", "package.order": b"Pump\n"}
+"""A package of the user's own."""
+
+
+def run(*arguments: str) -> int:
+    return cli.main(arguments)
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def rewrite(manifest: Path, **changes: Any) -> None:
+    document = tomli.loads(manifest.read_text())
+    manifest.write_text(tomli_w.dumps({**document, **changes}))
+
+
+def move(project: Path, package: str = "Filter") -> None:
+    file = project / "urdfsync.toml"
+    file.write_text(file.read_text().replace('"Ladder"', f'"{package}"'))
+
+
+@pytest.fixture
+def hostile(project: Path) -> Path:
+    """A clone whose manifest says that a package of the user's is where the robot was; with a forged local state."""
+    assert run("build") == 0
+    for name, content in OWN.items():
+        (project / "modelica/Mine" / name).parent.mkdir(parents=True, exist_ok=True)
+        (project / "modelica/Mine" / name).write_bytes(content)
+    rewrite(
+        project / MANIFEST,
+        package="Mine",
+        folder="modelica/Mine",
+        orders={"package.order": ["Pump"]},
+        files={
+            "Pump.mo": {"owner": "", "role": "model", "base": digest(OWN["Pump.mo"])},
+            "Resources/table.csv": {"owner": "", "role": "import", "base": digest(OWN["Resources/table.csv"])},
+        },
+    )
+    noted = project / ".urdfsync/folders.json"
+    noted.write_text(noted.read_text().replace("modelica/Ladder", "modelica/Mine"))
+    shutil.rmtree(project / "modelica/Ladder")
+    return project
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["build"],
+        ["build", "--full"],
+        ["build", "--repair"],
+        ["build", "--dry-run"],
+        ["build", "--check"],
+        ["status"],
+        ["diff"],
+        ["resolve", "--all", "--take"],
+    ],
+    ids=" ".join,
+)
+def test_a_strangers_manifest_deletes_nothing_of_the_users(hostile: Path, command: Sequence[str]) -> None:
+    run(*command)
+    assert contents(hostile / "modelica/Mine") == OWN
+    run("build")
+    assert contents(hostile / "modelica/Mine") == OWN
+
+
+def test_a_strangers_manifest_moves_no_edits(hostile: Path) -> None:
+    mine = hostile / "modelica/Mine/Ladder.mo"
+    mine.write_text("within Mine;\nmodel Ladder\nend Ladder;\n")
+    written = digest(b"what urdfsync wrote")
+    rewrite(hostile / MANIFEST, files={"Ladder.mo": {"owner": "circuit ladder", "role": "model", "base": written}})
+    assert run("build") == 0
+    assert mine.read_text() == "within Mine;\nmodel Ladder\nend Ladder;\n"
+
+
+def test_what_stays_is_told_once_with_the_command_that_removes_it(hostile: Path, capsys: Capture) -> None:
+    capsys.readouterr()
+    assert run("build") == 0
+    said = " ".join(capsys.readouterr().err.split())
+    assert (
+        "the package moved from modelica/Mine to modelica/Ladder; the old folder was not built in this checkout, so it "
+        "stays as it is; take over what you need, then delete it: `rm -r modelica/Mine` [left-behind]"
+    ) in said
+    assert run("build") == 0
+    assert "left-behind" not in capsys.readouterr().err
+
+
+def test_a_fresh_clone_leaves_a_former_folder_and_this_checkout_does_not(project: Path, tmp_path: Path) -> None:
+    assert run("build") == 0
+    built = contents(project / "modelica/Ladder")
+    clone = tmp_path / "clone"
+    shutil.copytree(project, clone, ignore=shutil.ignore_patterns("base", "folders.json", "stamp"))
+    for folder in (clone, project):
+        move(folder)
+        assert run("build", "--config", str(folder / "urdfsync.toml")) == 0
+    assert contents(clone / "modelica/Ladder") == built
+    assert not (project / "modelica/Ladder").exists()
+    assert contents(clone / "modelica/Filter") == contents(project / "modelica/Filter")
+
+
+def test_a_clone_that_has_built_moves_its_package(project: Path, tmp_path: Path) -> None:
+    assert run("build") == 0
+    clone = tmp_path / "clone"
+    shutil.copytree(project, clone, ignore=shutil.ignore_patterns("base", "folders.json", "stamp"))
+    config = str(clone / "urdfsync.toml")
+    assert run("build", "--config", config) == 0
+    move(clone)
+    assert run("build", "--config", config) == 0
+    assert not (clone / "modelica/Ladder").exists()
+
+
+def _rename_robot(project: Path) -> None:
+    file = project / "urdfsync.toml"
+    file.write_text(file.read_text().replace("[robots.ladder]", "[robots.filter]"))
+
+
+def _move_output(project: Path) -> None:
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write('output = "packages"\n')
+
+
+@pytest.mark.parametrize("steps", [[_rename_robot, move], [move, _rename_robot], [_move_output], [_move_output, move]])
+def test_renamed_robots_and_moved_packages_take_their_files_along(
+    project: Path, steps: Sequence[Callable[[Path], None]]
+) -> None:
+    assert run("build") == 0
+    for step in steps:
+        step(project)
+        assert run("build") == 0
+    packages = [path.parent.name for path in project.rglob("package.mo") if path.parent.name != "Elements"]
+    assert packages == ["Filter" if move in steps else "Ladder"]
+    assert Store(project).written_folders("ladder" if _rename_robot not in steps else "filter") == {
+        path.parent.relative_to(project).as_posix()
+        for path in project.rglob("package.mo")
+        if path.parent.name != "Elements"
+    }
+
+
+@pytest.mark.parametrize(
+    "path", ["../x/Pump.mo", ".git/Pump.mo", "a/.ssh/Pump.mo", "Pump.txt", "package.order", "a/Resources/b.csv"]
+)
+@pytest.mark.parametrize("role", ["model", "import"])
+def test_a_recorded_file_is_judged_by_its_role(project: Path, capsys: Capture, path: str, role: str) -> None:
+    assert run("build") == 0
+    rewrite(project / MANIFEST, files={path: {"owner": "", "role": role, "base": "0" * 64}})
+    assert run("build") == 2
+    assert "[broken-state]" in capsys.readouterr().err
+
+
+def test_a_recorded_line_of_the_parents_order_is_the_packages_own(project: Path, capsys: Capture) -> None:
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write("create_parents = true\n")
+    move(project, "Plant.Ladder")
+    assert run("build") == 0
+    order = project / "modelica/Plant/package.order"
+    order.write_text("Ladder\nPump\n")
+    rewrite(project / MANIFEST, orders={"../package.order": ["Ladder", "Pump"]})
+    assert run("build") == 2
+    assert "[broken-state]" in capsys.readouterr().err
+    assert order.read_text() == "Ladder\nPump\n"
+
+
+def test_a_manifest_with_a_name_that_no_robot_can_have_is_no_state(project: Path) -> None:
+    assert run("build") == 0
+    (project / ".urdfsync/robots/...toml").write_text((project / MANIFEST).read_text())
+    _rename_robot(project)
+    (project / MANIFEST).unlink()
+    ignore = (project / ".urdfsync/.gitignore").read_bytes()
+    assert run("build") == 0
+    assert (project / ".urdfsync/.gitignore").read_bytes() == ignore
+    assert Store(project).names() == ["filter"]
+
+
+@NEEDS_GIT
+@pytest.mark.parametrize("mode", ["build", "check"])
+def test_a_hook_deletes_nothing_either(hostile: Path, mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    Repository(hostile, monkeypatch).git("add", "-A")
+    run("hook", mode)
+    assert contents(hostile / "modelica/Mine") == OWN

@@ -1,0 +1,45 @@
+"""Whether the user trusts a configuration whose `output` leads out of its own folder."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import platformdirs
+
+from urdfsync import dependencies, tomlfile
+from urdfsync.config.paths import shown
+from urdfsync.config.settings import Config, RobotConfig
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+
+
+def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | None:
+    """An error if a robot's output lies outside of the configuration's folder, and the user has not named that folder.
+
+    Raises ConfigError if the user's file of trusted folders can't be read. That file is no part of a repository.
+    """
+    if robot.output.is_relative_to(config.root):
+        return None
+    file = platformdirs.user_config_path("urdfsync", appauthor=False) / "trusted.toml"
+    if os.path.realpath(config.root) in _trusted_folders(file):
+        return None
+    message = f"`output` leads out of the configuration's folder, to {shown(robot.output)}"
+    hint = f'if you trust this configuration, use --trust, or write `folders = ["{config.root}"]` into {file}'
+    line = robot.lines.get("output", 0)
+    return Diagnostic(Severity.ERROR, "untrusted-output", message, shown(config.file), line, hint=hint)
+
+
+def _trusted_folders(file: Path) -> set[str]:
+    try:
+        text = dependencies.read_file(file).decode()
+    except FileNotFoundError:
+        return set()
+    except (OSError, UnicodeDecodeError) as error:
+        message, hint = f"it can't be read: {error}", "make it a text in UTF-8 that you may read"
+        raise ConfigError(Diagnostic(Severity.ERROR, "trusted-folders", message, str(file), hint=hint)) from None
+    document = tomlfile.parse(text, str(file), ConfigError)
+    folders = document.get("folders", [])
+    if document.keys() - {"folders"} or not isinstance(folders, list) or not all(isinstance(f, str) for f in folders):
+        message, hint = "it must hold one list of strings, `folders`", 'write `folders = ["/home/me/robots"]`'
+        raise ConfigError(Diagnostic(Severity.ERROR, "trusted-folders", message, str(file), hint=hint))
+    return {os.path.realpath(Path(folder).expanduser()) for folder in folders}
