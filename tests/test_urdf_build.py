@@ -62,6 +62,8 @@ def test_a_build_on_another_path_gives_the_same_bytes(arm: Path, tmp_path: Path)
     for project in (arm, other):
         assert not run(project).diagnostics
     assert contents(other / "modelica") == contents(arm / "modelica")
+    for project in (arm, other):  # it is of one checkout: bound to its inode and the time of writing
+        (project / ".urdfsync" / "folders.json").unlink()
     assert contents(other / ".urdfsync") == contents(arm / ".urdfsync")
 
 
