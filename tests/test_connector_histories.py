@@ -16,6 +16,7 @@ from typing import NamedTuple
 import pytest
 from lxml import etree
 from support import replay
+from support.marks import LONG
 from support.packages import RENDERER, read
 from support.replay import Project
 
@@ -34,7 +35,7 @@ FILES = ("package.mo", "Bot.mo", "BotRun.mo")
 pytestmark = pytest.mark.slow
 
 Key = tuple[str, str]
-"""UnresolvedKind (`link` or `joint`) and name of an element of the URDF."""
+"""Kind (`link` or `joint`) and name of an element of the URDF."""
 
 
 # --- what a version offers, from its generated text ---------------------------------------------------------------
@@ -283,7 +284,7 @@ STEPS = ("upkie_camera", "stompymicro_robot_fixed", "so101_new_calib")
 """Histories with leaves that get children, joints that stop, and names that come back."""
 
 
-@pytest.mark.parametrize("ending", STEPS)
+@pytest.mark.parametrize("ending", [STEPS[0], *(pytest.param(step, marks=LONG) for step in STEPS[1:])])
 def test_build_and_diff_name_each_case(
     corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], ending: str
 ) -> None:

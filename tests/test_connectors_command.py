@@ -42,20 +42,6 @@ def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(proje
     assert "connector-changed" not in said(capsys, "build")
 
 
-def test_the_option_keeps_it(project: Path, capsys: Capture) -> None:
-    (project / "urdfsync.toml").write_text(CONFIG + 'frames = ["arm"]\n')
-    (project / "arm.urdf").write_text(urdfs.robot(*LINKS, SWING, GRIP))
-    assert "connector-changed" not in said(capsys, "build")
-    assert "connect(arm_link.frame_a, arm_linkFrame)" in (project / "modelica/Arm/Arm.mo").read_text()
-
-
-def test_a_joint_that_moves_no_more_loses_its_flanges(project: Path, capsys: Capture) -> None:
-    (project / "arm.urdf").write_text(urdfs.robot(*LINKS[:2], SWING.replace("continuous", "fixed")))
-    found = said(capsys, "build")
-    assert "joint swing: its axis `swingAxis` is gone" in found
-    assert "joint swing: its support `swingSupport` is gone" in found
-
-
 def test_numbers_change_no_connector(project: Path, capsys: Capture) -> None:
     (project / "arm.urdf").write_text(urdfs.robot(urdfs.link("base", 2.0), LINKS[1], SWING))
     assert "connector-changed" not in said(capsys, "build")
@@ -85,17 +71,6 @@ def test_a_joint_that_is_driven_no_more_is_named_with_what_run_loses(project: Pa
     for variable in ("position in Run `swing_phi`", "effort in Run `swing_tau`"):
         assert f'joint swing: its {variable} is gone; list "swing" in `driven`' in found
     assert "swingAxis" not in found, "the robot keeps its connectors"
-
-
-def test_inputs_by_name_that_become_a_vector_are_named_and_back(project: Path, capsys: Capture) -> None:
-    configure(project, 'inputs = "vector"\n')
-    found = said(capsys, "build")
-    assert 'joint swing: its position in Run `swing_phi` is gone; set `inputs = "names"` to keep it' in found
-    assert "swing_tau" not in found
-    configure(project, "")
-    found = said(capsys, "build")
-    assert 'robot: its input of Run `positions` is gone; set `inputs = "vector"` to keep it' in found
-    assert "swing_phi" not in found
 
 
 def test_a_model_that_is_asked_for_no_more_is_named_with_the_key_that_keeps_it(project: Path, capsys: Capture) -> None:

@@ -169,62 +169,41 @@ def test_both_parsers_notice_mistakes(text: str) -> None:
 
 
 @each_source
-def test_texts_are_tidy(files: Sequence[str], corpus: Path) -> None:
+def test_texts_are_tidy_belong_where_they_are_and_are_full_copies(files: Sequence[str], corpus: Path) -> None:
     """LF at every end of a line, no tabs, brackets in pairs, all words known."""
-    for _, text, place in models(files):
+    for path, text, place in models(files):
         assert text.endswith("\n"), place
         assert not set("\t\r\f\v") & set(text), place
         assert not unbalanced(words(text)), place
+        assert_belongs(path, text, "Bot", place)
+        if path.startswith(("Links/", "Joints/")):
+            names = qualified_names(without_annotations(words(text)))
+            assert not [name for name in names if name.startswith(("UrdfSync.Links", "UrdfSync.Joints"))], place
 
 
 # Layout
 
 
-def classes(package: Package) -> Mapping[str, set[str]]:
-    """Names of classes per folder of the package, as its files say."""
-    found: dict[str, set[str]] = {}
-    for path in map(PurePosixPath, package.models):
-        if path.name != "package.mo":
-            found.setdefault(str(path.parent), set()).add(path.stem)
-        elif path.parent.name:
-            found.setdefault(str(path.parent.parent), set()).add(path.parent.name)
-    return found
-
-
 @each_source
-def test_package_order_is_complete(files: Sequence[str], corpus: Path) -> None:
+def test_orders_are_complete_and_names_are_distinct(files: Sequence[str], corpus: Path) -> None:
+    """Neither two files nor two components of a robot model have one name, case folded."""
     for made in map(package, files):
-        orders = {
-            str(PurePosixPath(path).parent): sorted(text.splitlines())
-            for path, text in made.texts.items()
-            if made.roles[path] is Role.ORDER
+        classes: dict[str, list[str]] = {}
+        for path in map(PurePosixPath, made.texts):
+            assert len(path.parts) <= 2
+            assert not path.is_absolute()
+            if path.name == "package.mo" and path.parent.name:
+                classes.setdefault("package.order", []).append(path.parent.name)
+            elif path.suffix == ".mo" and path.name != "package.mo":
+                classes.setdefault(str(path.parent / "package.order"), []).append(path.stem)
+        orders = {path: text.split() for path, text in made.texts.items() if made.roles[path] is Role.ORDER}
+        assert {path: sorted(names) for path, names in orders.items()} == {
+            path: sorted(names) for path, names in classes.items()
         }
-        assert orders == {folder: sorted(names) for folder, names in classes(made).items()}
-
-
-@each_source
-def test_no_name_is_there_twice(files: Sequence[str], corpus: Path) -> None:
-    """Neither of two files, case folded, nor of a component and a class of one robot model."""
-    for made in map(package, files):
         components = [identifier.component for identifier in made.skeleton.names.values()]
         for names in ([*made.texts], components):
             assert len({name.lower() for name in names}) == len(names)
         assert all(map(is_identifier, components))
-
-
-@each_source
-def test_every_path_is_inside_the_package(files: Sequence[str], corpus: Path) -> None:
-    for file in files:
-        for path in map(PurePosixPath, package(file).texts):
-            assert not path.is_absolute()
-            assert len(path.parts) <= 2
-            assert ".." not in path.parts
-
-
-@each_source
-def test_every_file_says_where_it_belongs(files: Sequence[str], corpus: Path) -> None:
-    for path, text, place in models(files):
-        assert_belongs(path, text, "Bot", place)
 
 
 def assert_belongs(path: str, text: str, package: str, place: str) -> None:
@@ -305,21 +284,16 @@ def test_the_compiler_notices_an_unknown_name(tmp_path: Path) -> None:
 
 
 @each_source
-def test_link_and_joint_models_are_full_copies(files: Sequence[str], corpus: Path) -> None:
-    for path, text, place in models(files):
-        if path.startswith(("Links/", "Joints/")):
-            names = qualified_names(without_annotations(words(text)))
-            assert not [name for name in names if name.startswith(("UrdfSync.Links", "UrdfSync.Joints"))], place
-
-
-@each_source
 def test_models_contain_no_number_of_the_urdf(files: Sequence[str], corpus: Path) -> None:
-    """A robot with all its numbers changed has other records, and the same models to the byte."""
+    """A robot with all its numbers changed has other records, and the same models to the byte; benches have none."""
     for made in map(package, files):
         other = scaled(made, 1.37)
         for path, text in made.texts.items():
             if made.roles[path] is not Role.RECORD:
                 assert other.texts[path] == text, path
+        for suffix in ("Run", "Test"):
+            sequence = without_annotations(words(made.texts[f"Bot{suffix}.mo"]))
+            assert [word.text for word in sequence if word.kind == "number"] == []
 
 
 def test_the_change_of_all_numbers_changes_records() -> None:
@@ -327,14 +301,6 @@ def test_the_change_of_all_numbers_changes_records() -> None:
     made = generate(robot(link("arm", 2.0)).encode(), BOT)
     other = scaled(made, 1.37)
     assert {path for path in made.texts if made.texts[path] != other.texts[path]} == {"Links/ArmParameters.mo"}
-
-
-@each_source
-def test_benches_have_no_numbers(files: Sequence[str], corpus: Path) -> None:
-    for made in map(package, files):
-        for suffix in ("Run", "Test"):
-            sequence = without_annotations(words(made.texts[f"Bot{suffix}.mo"]))
-            assert [word.text for word in sequence if word.kind == "number"] == []
 
 
 # Names that break careless generators

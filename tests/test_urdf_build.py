@@ -62,6 +62,8 @@ def test_a_build_on_another_path_gives_the_same_bytes(arm: Path, tmp_path: Path)
     for project in (arm, other):
         assert not run(project).diagnostics
     assert contents(other / "modelica") == contents(arm / "modelica")
+    for project in (arm, other):  # it is of one checkout: bound to its inode and the time of writing
+        (project / ".urdfsync" / "folders.json").unlink()
     assert contents(other / ".urdfsync") == contents(arm / ".urdfsync")
 
 
@@ -152,36 +154,6 @@ def test_missing_meshes_are_one_warning_for_each_package_and_a_note_from_the_sec
     assert told(full=True) == warnings
 
 
-def test_a_mesh_that_changes_renews_its_copy_and_the_records_with_its_numbers_only(arm: Path) -> None:
-    run(arm)
-    mesh = arm / "ws/src/six_axis_arm/meshes/carousel.obj"
-    mesh.write_text(mesh.read_text().replace("\nv ", "\nv 9", 1))
-    written = [action.path for action in run(arm).actions if action.writes]
-    assert written
-    assert all("/Resources/carousel_" in path or path.endswith("Parameters.mo") for path in written)
-
-
-def test_a_package_elsewhere_in_the_workspace_is_found_by_its_name(arm: Path) -> None:
-    meshes = arm / "ws/src/vendor-main/robots/arm-2.1"
-    shutil.move(arm / "ws/src/six_axis_arm/meshes", meshes / "meshes")
-    (meshes / "package.xml").write_text("<package><name>six_axis_arm</name></package>")
-    assert {found.code for found in run(arm).diagnostics} == {"mesh-not-found"}
-    (arm / "urdfsync.toml").write_text(CONFIGURATION + 'package_paths = ["ws/src"]\n')
-    assert not run(arm).diagnostics
-    assert run(arm).in_step
-
-
-def test_a_package_whose_folder_has_another_name_is_a_guess(arm: Path) -> None:
-    run(arm)
-    before = contents(arm / "modelica")
-    (arm / "ws/src/six_axis_arm").rename(arm / "ws/src/arm-main")
-    (arm / "urdfsync.toml").write_text(CONFIGURATION.replace("ws/src/six_axis_arm/", "ws/src/arm-main/"))
-    assert {found.code for found in run(arm, full=True).diagnostics} == {"mesh-guessed"}
-    assert contents(arm / "modelica") == before
-    (arm / "ws/src/arm-main/package.xml").write_text("<package><name>six_axis_arm</name></package>")
-    assert not run(arm, full=True).diagnostics
-
-
 def test_a_package_of_the_name_goes_before_a_guess(arm: Path) -> None:
     vendor, mesh = arm / "vendor/arm-2.1", "meshes/carousel.obj"
     (arm / "ws/src/six_axis_arm").rename(arm / "ws/src/arm-main")
@@ -236,18 +208,6 @@ def test_a_build_says_what_changed_since_the_last_one(arm: Path) -> None:
     assert run(arm).changes is None
 
 
-def test_what_is_not_modelled_is_told_and_writes_nothing(arm: Path) -> None:
-    run(arm)
-    change(arm, '<transmission name="turret_transmission"', '<transmission name="gear"')
-    result = run(arm)
-    assert result.changes is not None
-    assert change_lines(result.changes) == [
-        "robot / transmission gear: added (not modelled)",
-        "robot / transmission turret_transmission: removed (not modelled)",
-    ]
-    assert result.in_step
-
-
 def test_a_rename_and_a_template_are_told_as_such(arm: Path) -> None:
     run(arm)
     change(arm, '<joint name="elbow"', '<joint name="knee"')
@@ -288,18 +248,7 @@ def test_passive_joints_are_noted_by_a_build_that_reads_the_source_and_by_no_oth
     assert not run(cart).diagnostics
 
 
-def test_a_drive_that_comes_is_a_structural_change(cart: Path) -> None:
-    run(cart)
-    (cart / "cart.urdf").write_text(CART.replace('"t">', '"t"><joint name="caster"/>'))
-    result = run(cart)
-    assert result.changes is not None
-    assert "joint caster / drive: passive → driven" in change_lines(result.changes)
-    assert result.changes.change_class is ChangeClass.STRUCTURAL
-
-
-@pytest.mark.parametrize(
-    "line", ['frames = ["base"]', 'frames = "all"', 'driven = ["caster"]', "driven = []", 'inputs = "vector"']
-)
+@pytest.mark.parametrize("line", ['frames = "all"', "driven = []", 'inputs = "vector"'])
 def test_a_choice_of_connectors_is_one_of_the_generator(cart: Path, line: str) -> None:
     """So the package is rendered again, whatever depends on it."""
     run(cart)
@@ -308,23 +257,6 @@ def test_a_choice_of_connectors_is_one_of_the_generator(cart: Path, line: str) -
     assert result.changes is not None
     assert result.changes.generator
     assert run(cart).changes is None
-
-
-@pytest.mark.parametrize("line", ['frames = ["hand"]', 'driven = ["wheels"]'])
-def test_a_name_that_the_robot_does_not_have_stops_its_build(cart: Path, line: str) -> None:
-    run(cart)
-    (cart / "urdfsync.toml").write_text(f"[defaults]\n{line}\n{CART_CONFIGURATION}")
-    (cart / "cart.urdf").write_text(CART.replace("roller", "ball"))
-    before = contents(cart)
-    for full in (False, True):
-        result = run(cart, full=full)
-        (error,) = result.diagnostics
-        assert result.failed
-        assert (error.severity, Path(error.file).name, error.line) == (Severity.ERROR, "urdfsync.toml", 2)
-        assert error.message.startswith("robot `cart`: ")
-    assert contents(cart) == before
-    (cart / "urdfsync.toml").write_text(CART_CONFIGURATION)
-    assert not run(cart).failed
 
 
 def test_a_link_that_goes_with_its_frame_stops_the_build_too(cart: Path) -> None:

@@ -104,12 +104,6 @@ def kept(variant: str) -> dict[str, str]:
     return {path.relative_to(folder).as_posix(): path.read_bytes().decode() for path in files}
 
 
-def description(text: str) -> str:
-    """The description string of a file's class, read back."""
-    literal = next(word.text for word in words(text) if word.kind == "string")
-    return literal[1:-1].replace('\\"', '"').replace("\\\\", "\\")
-
-
 def package_of(*elements: str, package: str = "Own", **options: Any) -> Package:
     return generate(urdfs.robot(*elements).encode(), Target(package, package.rpartition(".")[2]), **options)
 
@@ -172,28 +166,6 @@ def test_every_template_is_in_use() -> None:
     for path in TEMPLATES.rglob("*.jinja"):
         used.update(re.findall(r'<%-? (?:import|include) "([^"]+\.jinja)"', path.read_text(encoding="utf-8")))
     assert used == {path.relative_to(TEMPLATES).as_posix() for path in TEMPLATES.rglob("*.jinja")}
-
-
-@every_variant
-def test_every_class_says_which_element_it_is(variant: str) -> None:
-    package = menagerie(variant)
-    for kind, elements in (("link", package.robot.links), ("joint", package.robot.joints)):
-        for element in elements:
-            identifier = package.skeleton.names[kind, element.name]
-            for name in (identifier.type, identifier.record):
-                text = package.texts[f"{kind.capitalize()}s/{name}.mo"]
-                assert f'{kind} "{element.name}"' in description(text).replace("Link", "link")
-
-
-@every_variant
-def test_package_orders_name_every_class_once(variant: str) -> None:
-    package = menagerie(variant)
-    for folder in ("", "Links/", "Joints/"):
-        inside = [path.removeprefix(folder) for path in package.texts if path.startswith(folder)]
-        files = {path.removesuffix(".mo") for path in inside if "/" not in path and path.endswith(".mo")}
-        folders = {path.partition("/")[0] for path in inside if "/" in path}
-        names = package.texts[f"{folder}package.order"].split()
-        assert sorted(names) == sorted((files | folders) - {"package"})
 
 
 def test_roles_and_owners() -> None:
@@ -263,30 +235,6 @@ def test_a_robot_of_one_link_has_no_joints_and_no_drives(base: str) -> None:
     assert package.texts["package.order"].split()[-1] == "Links"
     assert "connect(stone.frame_a, stoneFrame)" in package.texts["Own.mo"]
     assert not re.search("Rotational|Translational", package.texts["Own.mo"] + package.texts["OwnRun.mo"])
-
-
-def test_without_a_collision_there_is_no_height_to_stand_at() -> None:
-    assert (
-        "height" not in package_of(urdfs.link("ghost", 1), base="floating").texts["OwnStance.mo"].split("annotation")[0]
-    )
-
-
-def test_what_is_asked_for_is_there_and_nothing_else() -> None:
-    floating, plain = menagerie("floating").texts["Links/Chassis.mo"], menagerie("fixed").texts["Links/Chassis.mo"]
-    assert floating.count("UrdfSync.Contacts.") == 5
-    assert "UrdfSync.Contacts." not in plain
-    assert "Hull" not in menagerie("fixed").texts["Links/ChassisParameters.mo"]
-    assert "collision" not in menagerie("no-collisions").texts["Links/ChassisParameters.mo"]
-    assert "UrdfSync.Visualizers." not in menagerie("visualization2").texts["Links/Chassis.mo"]
-
-
-def test_a_mesh_that_is_not_to_be_found_is_left_out_and_the_others_keep_their_numbers() -> None:
-    text = menagerie("floating").texts["Links/Chassis.mo"]
-    assert "visual5(" in text
-    assert "visual6" not in text
-    assert "visual7(" in text
-    assert "collision6" not in text
-    assert "contact6" not in text
 
 
 @pytest.mark.parametrize(

@@ -109,15 +109,3 @@ def test_passive_joints_are_a_note_unless_the_option_says_what_is_driven() -> No
     assert found(WITH_DRIVE) == [("driven", Severity.NOTE, note)]
     assert found(WITH_DRIVE, driven=("wheel",)) == []
     assert found(WITH_DRIVE, approach=("record",)) == []
-
-
-def test_of_many_passive_joints_the_first_are_named() -> None:
-    casters = range(1, 13)
-    urdf = urdfs.robot(
-        *map(urdfs.link, ("base", "tyre", *(f"roller {number}" for number in casters))),
-        urdfs.joint("wheel", "continuous", "base", "tyre"),
-        *(urdfs.joint(f"caster {number}", "continuous", "base", f"roller {number}") for number in casters),
-        TRANSMISSION,
-    )
-    ((_, _, note),) = found(urdf)
-    assert "`caster 1`, `caster 2`, `caster 3`, `caster 4`, `caster 5` and 7 more: others" in note

@@ -17,14 +17,13 @@ import msgspec
 from urdfsync import spelling
 from urdfsync.diagnostics import Severity
 from urdfsync.urdf.robot import (
+    JOINT_KINDS,
     Box,
     Capsule,
     Cylinder,
     Geometry,
     Inertia,
-    Inertial,
     Joint,
-    Limit,
     Link,
     Mesh,
     Robot,
@@ -32,13 +31,7 @@ from urdfsync.urdf.robot import (
     Vector,
 )
 
-SCALAR = ("continuous", "revolute", "prismatic")
-"""Joint types with one degree of freedom: these alone can mimic and be mimicked."""
-LIMITED = ("revolute", "prismatic")
-"""Joint types whose position has limits."""
-
-# Joint types that have an axis; that of a planar joint is the normal of its plane.
-_WITH_AXIS = (*SCALAR, "planar")
+_ERROR, _WARNING = Severity.ERROR, Severity.WARNING
 _EXACT = 1e-12
 _ROUNDING = 1e-6
 _INERTIA_TOLERANCE = 1e-6
@@ -85,7 +78,7 @@ def check_actuated(actuated: Iterable[tuple[str, str]], joints: Collection[str])
             meant = nearest(name, joints)
             hint = f"perhaps {meant!r} is meant" if meant else "correct its name, or take it out"
             message = f"{path.partition(' / ')[0]} drives joint {name!r}, which does not exist"
-            yield _warning("unknown-actuated-joint", path, message, hint)
+            yield Finding(_WARNING, "unknown-actuated-joint", path, message, hint)
 
 
 def nearest(name: str, names: Collection[str], likeness: float = 0.7) -> str:
@@ -124,20 +117,14 @@ def _unit_vector(axis: Vector) -> Vector:
     return (scaled[0] / length + 0.0, scaled[1] / length + 0.0, scaled[2] / length + 0.0)
 
 
-def _error(code: str, path: str, message: str, hint: str) -> Finding:
-    return Finding(Severity.ERROR, code, path, message, hint)
-
-
-def _warning(code: str, path: str, message: str, hint: str) -> Finding:
-    return Finding(Severity.WARNING, code, path, message, hint)
-
-
 def _check_names(kind: str, names: Iterable[str]) -> Iterator[Finding]:
     """Names are unique among the links and among the joints; a link and a joint may share one."""
     for name, count in Counter(names).items():
         for number in range(2, count + 1):
             message = f"there is another {kind} {name!r} above"
-            yield _error(f"duplicate-{kind}", f"{kind} {name} #{number}", message, f"rename or remove one {kind}")
+            yield Finding(
+                _ERROR, f"duplicate-{kind}", f"{kind} {name} #{number}", message, f"rename or remove one {kind}"
+            )
 
 
 def _check_tree(robot: Robot, complete: bool) -> Iterator[Finding]:
@@ -145,7 +132,7 @@ def _check_tree(robot: Robot, complete: bool) -> Iterator[Finding]:
     links = {link.name for link in robot.links}
     if not links:
         if complete:
-            yield _error("no-link", "robot", "the robot has no link", "check that the export is complete")
+            yield Finding(_ERROR, "no-link", "robot", "the robot has no link", "check that the export is complete")
         return
     parents: dict[str, Joint] = {}
     for path, joint in numbered("joint", robot.joints):
@@ -155,21 +142,21 @@ def _check_tree(robot: Robot, complete: bool) -> Iterator[Finding]:
                 meant = nearest(name, links)
                 hint = f"perhaps {meant!r} is meant" if meant else "add the link, or correct its name"
                 message = f"the {end} of joint {joint.name!r} is link {name!r}, which does not exist"
-                yield _error(f"unknown-{end}", f"{path} / {end}", message, hint)
+                yield Finding(_ERROR, f"unknown-{end}", f"{path} / {end}", message, hint)
         first = parents.setdefault(joint.child, joint)
         if first.name != joint.name:
             message = f"link {joint.child!r} is the child of joint {joint.name!r} and of joint {first.name!r}"
-            yield _error("two-parents", path, message, "a link has one parent: remove one joint")
+            yield Finding(_ERROR, "two-parents", path, message, "a link has one parent: remove one joint")
     above = {child: joint.parent for child, joint in parents.items()}
     for cycle in _cycles((link.name for link in robot.links), above):
         message = f"links form a cycle: {' → '.join(map(repr, [*reversed(cycle), cycle[-1]]))}"
         path = f"joint {parents[cycle[0]].name}"
-        yield _error("cycle", path, message, "a URDF is a tree: remove a joint of the cycle")
+        yield Finding(_ERROR, "cycle", path, message, "a URDF is a tree: remove a joint of the cycle")
     roots = list(dict.fromkeys(link.name for link in robot.links if link.name not in parents))
     if len(roots) > 1 and complete:
         names = ", ".join(map(repr, roots))
         hint = "connect them by joints, or remove what does not belong to the robot"
-        yield _error("several-roots", f"link {roots[1]}", f"{len(roots)} links have no parent: {names}", hint)
+        yield Finding(_ERROR, "several-roots", f"link {roots[1]}", f"{len(roots)} links have no parent: {names}", hint)
 
 
 def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list[str]]:
@@ -187,35 +174,32 @@ def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list
 
 
 def _check_link(path: str, link: Link) -> Iterator[Finding]:
-    """Bodies can have the mass properties of the link, and its shapes are not empty."""
+    """Some body has the mass properties of the link, and its shapes are not empty."""
     if link.inertial is not None:
-        yield from _check_inertial(f"{path} / inertial", link.inertial)
-    shapes = [(f"{path} / visual {number}", shape.geometry) for number, shape in enumerate(link.visuals, start=1)]
-    shapes += [
-        (f"{path} / collision {number}", shape.geometry) for number, shape in enumerate(link.collisions, start=1)
-    ]
-    for shape_path, geometry in shapes:
+        mass, place = link.inertial.mass, f"{path} / inertial"
+        if mass < 0:
+            hint = "correct the mass; a massless link has none, or 0"
+            message = f"{place}: the mass {mass:g} kg is negative"
+            yield Finding(_ERROR, "negative-mass", f"{place} / mass", message, hint)
+        low, middle, high = principal_moments(link.inertial.inertia)
+        tolerance = _INERTIA_TOLERANCE * max(abs(low), abs(high)) + max(mass, 0) * _POINT**2
+        moments = f"{low:.6g}, {middle:.6g} and {high:.6g} kg·m²"
+        hint = "export the inertia again; simulation may not be physical"
+        if low < -tolerance:
+            message = f"{place}: the inertia is not positive semi-definite: its principal moments are {moments}"
+            yield Finding(_WARNING, "inertia-not-positive", f"{place} / inertia", message, hint)
+        elif low + middle < high - tolerance:
+            message = (
+                f"{place}: no body has this inertia: of its principal moments {moments} one exceeds the others' sum"
+            )
+            yield Finding(_WARNING, "inertia-triangle", f"{place} / inertia", message, hint)
+    shapes = {f"visual {number}": visual.geometry for number, visual in enumerate(link.visuals, start=1)}
+    shapes |= {f"collision {number}": shape.geometry for number, shape in enumerate(link.collisions, start=1)}
+    for name, geometry in shapes.items():
         if _is_empty(geometry):
-            place = f"{shape_path} / {geometry.__struct_config__.tag}"
+            place = f"{path} / {name} / {geometry.__struct_config__.tag}"
             message = f"{place}: a size is zero or negative, so that the shape is empty"
-            yield _warning("shape-size", place, message, "correct the size, or remove the shape")
-
-
-def _check_inertial(path: str, inertial: Inertial) -> Iterator[Finding]:
-    """A body has mass of one sign, and principal moments of inertia that some distribution of mass has."""
-    if inertial.mass < 0:
-        hint = "correct the mass; a massless link has none, or 0"
-        yield _error("negative-mass", f"{path} / mass", f"{path}: the mass {inertial.mass:g} kg is negative", hint)
-    low, middle, high = principal_moments(inertial.inertia)
-    tolerance = _INERTIA_TOLERANCE * max(abs(low), abs(high)) + max(inertial.mass, 0) * _POINT**2
-    moments = f"{low:.6g}, {middle:.6g} and {high:.6g} kg·m²"
-    place, hint = f"{path} / inertia", "export the inertia again; simulation may not be physical"
-    if low < -tolerance:
-        message = f"{path}: the inertia is not positive semi-definite: its principal moments are {moments}"
-        yield _warning("inertia-not-positive", place, message, hint)
-    elif low + middle < high - tolerance:
-        message = f"{path}: no body has this inertia: of its principal moments {moments} one exceeds the others' sum"
-        yield _warning("inertia-triangle", place, message, hint)
+            yield Finding(_WARNING, "shape-size", place, message, "correct the size, or remove the shape")
 
 
 def principal_moments(inertia: Inertia) -> Vector:
@@ -265,44 +249,34 @@ def _is_empty(geometry: Geometry) -> bool:
 
 def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
     """The axis has a direction, the limits are a range and magnitudes, and the joint loses energy if it has losses."""
-    if joint.type in _WITH_AXIS:
-        yield from _check_axis(path, joint.axis)
-    if joint.limit is not None:
-        yield from _check_limit(path, joint, joint.limit)
-    losses = [("damping", joint.dynamics.damping), ("friction", joint.dynamics.friction)] if joint.dynamics else []
-    if joint.type in ("fixed", "floating"):
-        if any(value for _, value in losses):
-            message = f"{path}: damping and friction have no effect on a {joint.type} joint"
-            yield _warning("dynamics-without-effect", f"{path} / dynamics", message, "remove them, or change the type")
-        return
-    for name, value in losses:
-        if value < 0:
-            message = f"{path}: the {name} {value:g} is negative, so that the joint gains energy"
-            yield _warning("negative-dynamics", f"{path} / dynamics", message, "correct its sign")
-
-
-def _check_axis(path: str, axis: Vector) -> Iterator[Finding]:
-    """The axis has a direction; its length should be 1."""
-    length = math.hypot(*axis)
-    place = f"{path} / axis"
-    if length == 0:
-        yield _error("zero-axis", place, f"{path}: the axis has no direction", 'write for example xyz="0 0 1"')
-    elif abs(length - 1) > _ROUNDING:
-        shown = " ".join(f"{value:g}" for value in axis)
+    kind = JOINT_KINDS[joint.type]
+    length = math.hypot(*joint.axis)
+    if kind.has_axis and length == 0:
+        message = f"{path}: the axis has no direction"
+        yield Finding(_ERROR, "zero-axis", f"{path} / axis", message, 'write for example xyz="0 0 1"')
+    elif kind.has_axis and abs(length - 1) > _ROUNDING:
+        shown = " ".join(f"{value:g}" for value in joint.axis)
         message = f"{path}: the axis {shown} has length {length:g}, and is normalised"
-        yield _warning("axis-not-unit", place, message, "write a unit vector")
-
-
-def _check_limit(path: str, joint: Joint, limit: Limit) -> Iterator[Finding]:
-    """The range of positions is not empty, and effort and velocity are magnitudes."""
-    place = f"{path} / limit"
-    if joint.type in LIMITED and limit.lower > limit.upper:
-        message = f"{path}: the lower limit {limit.lower:g} is above the upper limit {limit.upper:g}"
-        yield _error("limit-order", place, message, "exchange or correct the limits")
-    for name, value in (("effort", limit.effort), ("velocity", limit.velocity)):
-        if value is not None and value < 0:
-            message = f"{path}: the {name} limit {value:g} is negative, so that it is always exceeded"
-            yield _warning("negative-limit", place, message, "limits of effort and velocity are magnitudes")
+        yield Finding(_WARNING, "axis-not-unit", f"{path} / axis", message, "write a unit vector")
+    if limit := joint.limit:
+        place = f"{path} / limit"
+        if kind.has_limits and limit.lower > limit.upper:
+            message = f"{path}: the lower limit {limit.lower:g} is above the upper limit {limit.upper:g}"
+            yield Finding(_ERROR, "limit-order", place, message, "exchange or correct the limits")
+        for name, value in (("effort", limit.effort), ("velocity", limit.velocity)):
+            if value is not None and value < 0:
+                message = f"{path}: the {name} limit {value:g} is negative, so that it is always exceeded"
+                hint = "limits of effort and velocity are magnitudes"
+                yield Finding(_WARNING, "negative-limit", place, message, hint)
+    if dynamics := joint.dynamics:
+        place, losses = f"{path} / dynamics", (("damping", dynamics.damping), ("friction", dynamics.friction))
+        if not kind.has_axis and any(value for _, value in losses):
+            message = f"{path}: damping and friction have no effect on a {joint.type} joint"
+            yield Finding(_WARNING, "dynamics-without-effect", place, message, "remove them, or change the type")
+        for name, value in losses if kind.has_axis else ():
+            if value < 0:
+                message = f"{path}: the {name} {value:g} is negative, so that the joint gains energy"
+                yield Finding(_WARNING, "negative-dynamics", place, message, "correct its sign")
 
 
 def _check_mimics(robot: Robot) -> Iterator[Finding]:
@@ -317,7 +291,9 @@ def _check_mimics(robot: Robot) -> Iterator[Finding]:
             yield from _check_mimic(f"{path} / mimic", joint, joint.mimic.joint, joints)
     for cycle in _cycles(leaders, leaders):
         message = f"joints mimic each other in a cycle: {' → '.join(map(repr, [*cycle, cycle[0]]))}"
-        yield _error("mimic-cycle", f"joint {cycle[0]} / mimic", message, "one joint of the cycle must move by itself")
+        yield Finding(
+            _ERROR, "mimic-cycle", f"joint {cycle[0]} / mimic", message, "one joint of the cycle must move by itself"
+        )
 
 
 def _check_mimic(path: str, joint: Joint, target: str, joints: Mapping[str, Joint]) -> Iterator[Finding]:
@@ -325,19 +301,21 @@ def _check_mimic(path: str, joint: Joint, target: str, joints: Mapping[str, Join
     leader = joints.get(target)
     if joint.type == "fixed":
         message = f"joint {joint.name!r} is fixed, so that its mimic has no effect"
-        yield _warning("mimic-without-effect", path, message, "remove the mimic, or change the type")
-    elif joint.type not in SCALAR:
+        yield Finding(_WARNING, "mimic-without-effect", path, message, "remove the mimic, or change the type")
+    elif not JOINT_KINDS[joint.type].motion:
         message = f"joint {joint.name!r} is {joint.type}, and can't mimic a single position"
-        yield _error("mimic-type", path, message, "remove the mimic, or change the type")
+        yield Finding(_ERROR, "mimic-type", path, message, "remove the mimic, or change the type")
     elif leader is None:
         # A target without the prefix of its side means the joint of the same side, else the one most alike.
         same_end = [name for name in joints if name.endswith(target) and name != joint.name]
         meant = nearest(joint.name, same_end, 0) or nearest(target, joints)
         hint = f"perhaps {meant!r} is meant" if meant else "add the joint, or correct its name"
-        yield _error("unknown-mimic", path, f"joint {joint.name!r} mimics joint {target!r}, which does not exist", hint)
+        yield Finding(
+            _ERROR, "unknown-mimic", path, f"joint {joint.name!r} mimics joint {target!r}, which does not exist", hint
+        )
     elif leader.type == "fixed":
         message = f"joint {joint.name!r} mimics the fixed joint {target!r}, and is held at its offset"
-        yield _warning("mimic-of-fixed", path, message, "make it fixed, or let it mimic a joint that moves")
-    elif leader.type not in SCALAR:
+        yield Finding(_WARNING, "mimic-of-fixed", path, message, "make it fixed, or let it mimic a joint that moves")
+    elif not JOINT_KINDS[leader.type].motion:
         message = f"joint {joint.name!r} mimics joint {target!r}, which is {leader.type} and has no single position"
-        yield _error("mimic-type", path, message, "let it mimic a revolute, continuous or prismatic joint")
+        yield Finding(_ERROR, "mimic-type", path, message, "let it mimic a revolute, continuous or prismatic joint")

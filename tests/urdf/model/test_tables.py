@@ -111,20 +111,6 @@ def test_the_text_of_a_chain_of_mimic_joints_grows_with_its_length() -> None:
     assert large - middle == pytest.approx(2 * (middle - small), rel=0.01)
 
 
-def test_ten_numbers_stand_on_a_line() -> None:
-    chain = [Joint(f"j{n}", "revolute", f"l{n}", f"l{n + 1}") for n in range(24)]
-    (bodies,) = (text for text in record_tables(skeleton(*chain)) if text.startswith("linkBodies"))
-    rows = bodies.splitlines()[1:]
-    assert [len(re.findall(r"\d+", row)) for row in rows] == [10, 10, 5]
-    assert rows[2].split(",")[0].strip() == "21"
-
-
-def test_tables_that_would_be_empty_are_left_out() -> None:
-    found = texts_of(skeleton(Joint("j", "revolute", "a", "b")))
-    assert not {"translationalAxes", "translationalJoints", "followers", "followerMultipliers"} & found.keys()
-    assert found["rotationalAxes"] == "1"
-
-
 @pytest.mark.parametrize("kind", ["planar", "floating"])
 def test_planar_and_floating_joints_have_no_place(kind: str) -> None:
     joint = Joint("j", kind, "a", "b")  # type: ignore[arg-type]

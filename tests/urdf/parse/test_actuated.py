@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import pytest
-from lxml import etree
 from support import urdfs
-from support.corpus import distinct_files
 
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 
@@ -99,16 +96,3 @@ def test_a_drive_of_a_joint_that_does_not_exist_is_told_with_its_line() -> None:
 def test_what_a_joint_with_an_error_leaves_out_is_no_second_finding() -> None:
     reading = read('<transmission name="t"><joint name="bad"/></transmission>', '<joint name="bad" type="fixed"/>')
     assert {found.code for found in reading.diagnostics} == {"missing-element"}
-
-
-@pytest.mark.parametrize("file", distinct_files())
-def test_real_robots(corpus: Path, file: str) -> None:
-    """The second opinion is a search by XPath."""
-    content = (corpus / file).read_bytes()
-    reading = read_robot(content, file, cross_check=False)
-    if reading.robot is None:
-        pytest.skip("a file with errors")
-    root = etree.fromstring(content, etree.XMLParser(recover=True))
-    named = {str(name) for name in root.xpath("/robot/transmission/joint/@name")}
-    assert actuated(reading) == sorted(named & {joint.name for joint in reading.robot.joints})
-    assert not [found for found in reading.diagnostics if found.code == "unknown-actuated-joint"]

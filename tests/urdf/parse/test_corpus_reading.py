@@ -168,12 +168,16 @@ def test_nothing_is_dropped_and_every_line_is_right(file: str) -> None:
     assert sum(len(link.collisions) for link in reading.robot.links) == len(root.findall("link/collision"))
     known = ("link", "joint", "material", etree.Comment)
     assert sum(not e.owner for e in reading.robot.extensions) == sum(child.tag not in known for child in root)
+    named = {str(name) for name in root.xpath("/robot/transmission/joint/@name")}
+    actuated = {joint.name for joint in reading.robot.joints if joint.actuated}
+    assert actuated == named & {joint.name for joint in reading.robot.joints}
     lines = (CORPUS / file).read_text(encoding="utf-8").split("\n")
     for kind in ("link", "joint"):
         for element in root.findall(kind):
             assert f"<{kind}" in lines[reading.lines[f"{kind} {element.get('name')}"] - 1]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("file", [file for file in ROBOTS if file not in FAULTY])
 def test_the_order_of_elements_makes_no_difference_to_the_snapshot(file: str) -> None:
     root = etree.parse(CORPUS / file).getroot()

@@ -131,6 +131,7 @@ def layout(tree: KinematicTree, names: Connectors) -> Diagram:
     leaders = {joint.name: mimic.joint for joint, mimic in tree.followers() if motions[mimic.joint]}
     across, along = _detours(leaders, joints)
 
+    # Heights of rows from the top, and the columns' trunks from the left.
     banded = {joints[name][0] for name in names.couplings}
     driven = {joints[name][0] for name in names.axes}
     framed = {links[name][0] for name in names.frames if name in continued}
@@ -152,6 +153,7 @@ def layout(tree: KinematicTree, names: Connectors) -> Diagram:
         trunks.append(trunks[-1] + _COLUMN + _TRACK * max(0, _count(along.get(column, {})) - 1))
     right = trunks[-1] + _MARGIN + _SIZE
 
+    # Places of components, in the order in which they are drawn.
     link_boxes, joint_boxes = {}, {}
     for name, (row, column) in links.items():
         link_boxes[name] = Placement.around((trunks[column] + _LINK_X, rows[row].spine - _LINK_Y))
@@ -175,6 +177,7 @@ def layout(tree: KinematicTree, names: Connectors) -> Diagram:
         row, column = joints[name]
         placements[coupling] = Placement.around((trunks[column] + _LINK_X, rows[row].band))
 
+    # Lines: of frames link by link, then of flanges, then of couplings.
     lines: dict[tuple[str, str], tuple[LineKind, Path]] = {}
     children = tree.children()
     for name, (row, column) in links.items():

@@ -26,11 +26,11 @@ def effects(old: Version, new: Version) -> Sequence[Effect]:
     ]
 
 
-def _mass(skeleton: KinematicTree) -> tuple[float, Vector | None]:
+def _mass(tree: KinematicTree) -> tuple[float, Vector | None]:
     """Return total mass and centre of mass; summed exactly, so that names and order make no difference."""
-    poses = link_poses(skeleton, {})
+    poses = link_poses(tree, {})
     masses, moments = [], []
-    for link in skeleton.links:
+    for link in tree.links:
         if link.inertial is not None:
             _, centre = compose(poses[link.name], pose(link.inertial.origin))
             masses.append(link.inertial.mass)

@@ -11,25 +11,13 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 from urdfsync.domain import ChangeClass, ChangeKind, Difference, Import, Meaning, Version
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Mesh, Motion
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, JointType, Mesh, Motion
 
 _ABSENT = object()
 _Group: TypeAlias = Literal["visuals", "collisions"]
 
-_SCALAR = frozenset(MOTION_KINDS)
-_MODELLED = {
-    "axis": _SCALAR | {"planar"},
-    "limit": _SCALAR,
-    "dynamics": _SCALAR | {"planar"},
-    "mimic": _SCALAR,
-    "calibration": _SCALAR,
-    "safety_controller": _SCALAR,
-}
-"""Per part of a joint, the types of joints that have it in Modelica; all others are in every joint."""
 _STRUCTURE = frozenset({("type",), ("parent",), ("child",), ("dynamics",), ("mimic",), ("mimic", "joint")})
 """Parts of a joint that its model says, as far as they are modelled; records have the rest."""
-_UNLIMITED = frozenset({("limit", "lower"), ("limit", "upper")})
-"""Limits that a continuous joint does not have."""
 _UNSCALED = lookup.key(Mesh(""))
 """End of the key of a mesh without a scale."""
 
@@ -42,27 +30,18 @@ _UNITS = {
     "mass": "kg",
     **dict.fromkeys(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), "kg·m²"),
 }
+_POSITION: Mapping[Motion, str] = {"rotational": "rad", "translational": "m"}
+_LOADS: Mapping[Motion, str] = {"rotational": "N·m", "translational": "N"}
+_LOSSES: Mapping[Motion, str] = {"rotational": "N·m·s/rad", "translational": "N·s/m"}
 _POSITIONS = ("lower", "upper", "offset", "rising", "falling", "soft_lower_limit", "soft_upper_limit")
-_JOINT_UNITS: Mapping[Motion, Mapping[str, str]] = {
-    "rotational": {
-        **dict.fromkeys(_POSITIONS, "rad"),
-        "velocity": "rad/s",
-        "effort": "N·m",
-        "damping": "N·m·s/rad",
-        "friction": "N·m",
-        "k_velocity": "N·m·s/rad",
-        "k_position": "1/s",
-    },
-    "translational": {
-        **dict.fromkeys(_POSITIONS, "m"),
-        "velocity": "m/s",
-        "effort": "N",
-        "damping": "N·s/m",
-        "friction": "N",
-        "k_velocity": "N·s/m",
-        "k_position": "1/s",
-    },
+_JOINT_UNITS: Mapping[str, Mapping[Motion, str]] = {
+    **dict.fromkeys(_POSITIONS, _POSITION),
+    **dict.fromkeys(("effort", "friction"), _LOADS),
+    **dict.fromkeys(("damping", "k_velocity"), _LOSSES),
+    "velocity": {"rotational": "rad/s", "translational": "m/s"},
+    "k_position": {"rotational": "1/s", "translational": "1/s"},
 }
+"""Units that depend on the motion of the joint."""
 
 
 def describe(
@@ -206,8 +185,8 @@ def _of_joint(name: str, fields: Sequence[str | int], versions: Sequence[Version
     place = tuple(field for field in fields if isinstance(field, str))
     classes, units = [], []
     for joints in (version.snapshot["joints"] for version in versions):
-        kind, value = joints[name]["type"], joints[name]
-        if kind not in _MODELLED.get(place[0], (kind,)) or (kind == "continuous" and place in _UNLIMITED):
+        value = joints[name]
+        if not _is_modelled(value["type"], place):
             classes.append(ChangeClass.UNMODELLED)
         else:
             classes.append(ChangeClass.STRUCTURAL if place in _STRUCTURE else ChangeClass.PARAMETER)
@@ -219,6 +198,20 @@ def _of_joint(name: str, fields: Sequence[str | int], versions: Sequence[Version
     return Meaning(words, max(classes, key=lambda c: c.rank), unit)
 
 
+def _is_modelled(joint_type: JointType, place: tuple[str, ...]) -> bool:
+    """Return whether something in Modelica depends on a part of a joint of this type."""
+    kind = JOINT_KINDS[joint_type]
+    match place:
+        case ("axis" | "dynamics", *_):
+            return kind.has_axis
+        case ("limit", "lower" | "upper"):
+            return kind.has_limits
+        case ("limit" | "mimic" | "calibration" | "safety_controller", *_):
+            return kind.motion is not None
+        case _:
+            return True
+
+
 def _joint_unit(joint: Mapping[str, Any], joints: Mapping[str, Any], field: str) -> str:
     """Return the unit of a number of a joint; `joints` are all of the version: a multiplier depends on its leader.
 
@@ -226,11 +219,11 @@ def _joint_unit(joint: Mapping[str, Any], joints: Mapping[str, Any], field: str)
     """
     motion = MOTION_KINDS.get(joint["type"])
     if field != "multiplier":
-        return _UNITS.get(field, "") or (_JOINT_UNITS[motion].get(field, "") if motion else "")
+        return _UNITS.get(field, "") or (_JOINT_UNITS.get(field, {}).get(motion, "") if motion else "")
     leader = MOTION_KINDS.get(joints[joint["mimic"]["joint"]]["type"])
     if motion is None or leader is None or motion == leader:
         return ""
-    return f"{_JOINT_UNITS[motion]['lower']}/{_JOINT_UNITS[leader]['lower']}"
+    return f"{_POSITION[motion]}/{_POSITION[leader]}"
 
 
 def _of_drive(name: str, kind: ChangeKind, options: Options) -> Meaning | None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import functools
 from collections import Counter, defaultdict
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 
 from urdfsync.domain import ElementKey, Snapshot
@@ -96,12 +96,17 @@ class _Matching:
         return [(name, name) for name in same]
 
     def _siblings(self, gone: Sequence[str], came: Sequence[str]) -> dict[str, str]:
-        found = _only_matches(gone, came, lambda tree, name: self._alike(tree, name), self.old, self.new)
+        found = _only_matches(
+            {name: self._alike(self.old, name) for name in gone}, {name: self._alike(self.new, name) for name in came}
+        )
         taken = set(found.values())
         gone = [name for name in gone if name not in found]
         came = [name for name in came if name not in taken]
         if gone and came:
-            found |= _only_matches(gone, came, lambda tree, name: self._subtrees[id(tree), name], self.old, self.new)
+            found |= _only_matches(
+                {name: self._subtrees[id(self.old), name] for name in gone},
+                {name: self._subtrees[id(self.new), name] for name in came},
+            )
         return found
 
     def _alike(self, tree: _Tree, name: str) -> Hashable:
@@ -138,39 +143,30 @@ class _Matching:
                 wrong += followers[name]
 
 
-def _only_matches(
-    gone: Sequence[str], came: Sequence[str], key: Callable[[_Tree, str], Hashable], old: _Tree, new: _Tree
-) -> dict[str, str]:
+def _only_matches(before: Mapping[str, Hashable], after: Mapping[str, Hashable]) -> dict[str, str]:
     """Return pairs of names with equal keys, as far as each key occurs once on both sides."""
-    before = _once((key(old, name), name) for name in gone)
-    after = _once((key(new, name), name) for name in came)
-    return {before[shared]: after[shared] for shared in before if shared in after}
-
-
-def _once(items: Iterable[tuple[Hashable, str]]) -> Mapping[Hashable, str]:
-    items = list(items)
-    counts = Counter(key for key, _ in items)
-    return {key: name for key, name in items if counts[key] == 1}
+    counts = Counter(before.values()), Counter(after.values())
+    names = {key: name for name, key in after.items()}
+    return {name: names[key] for name, key in before.items() if counts[0][key] == counts[1][key] == 1}
 
 
 def _joint(joint: Mapping[str, Any]) -> Hashable:
     """Return numbers and type of a joint."""
-    plain = {key: value for key, value in joint.items() if key not in _NAMES["joint"]}
-    if "mimic" in plain:
-        plain["mimic"] = {key: value for key, value in plain["mimic"].items() if key not in _NAMES["mimic"]}
-    return _frozen(plain)
+    plain = _without_names(joint, "joint")
+    return _frozen({**plain, "mimic": _without_names(plain["mimic"], "mimic")} if "mimic" in plain else plain)
 
 
 def _link(link: Mapping[str, Any]) -> Hashable:
     """Return numbers and shapes of a link."""
-    return _frozen({**link, **{group: [_shape(shape) for shape in link[group]] for group in ("visuals", "collisions")}})
+    shapes = {group: [_without_names(shape, "shape") for shape in link[group]] for group in ("visuals", "collisions")}
+    for shape in shapes["visuals"]:
+        if "material" in shape:
+            shape["material"] = _without_names(shape["material"], "material")
+    return _frozen({**link, **shapes})
 
 
-def _shape(shape: Mapping[str, Any]) -> Mapping[str, Any]:
-    plain = {key: value for key, value in shape.items() if key not in _NAMES["shape"]}
-    if "material" in plain:
-        plain["material"] = {key: value for key, value in plain["material"].items() if key not in _NAMES["material"]}
-    return plain
+def _without_names(block: Mapping[str, Any], kind: str) -> dict[str, Any]:
+    return {key: value for key, value in block.items() if key not in _NAMES[kind]}
 
 
 def _frozen(value: Any) -> Hashable:

@@ -11,9 +11,9 @@ from urdfsync.urdf.model.connectors import connector_names, visual_names
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.model.tables import has_tables, tables
 from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Motion
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Limit, Motion
 
-NO_LIMITS: Mapping[str, None] = {"lower": None, "upper": None, "velocity": None, "effort": None}
+NO_LIMITS: Mapping[str, None] = dict.fromkeys(Limit.__struct_fields__)
 """Limits of a joint that has none, for the template of its record."""
 _VECTORS: Mapping[Motion, str] = {"rotational": "rotationalAxis", "translational": "translationalAxis"}
 

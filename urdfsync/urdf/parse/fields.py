@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.urdf.parse.xml import Node
+from urdfsync.urdf.parse.xml import XmlNode
 from urdfsync.urdf.robot import Extension, Vector
 from urdfsync.urdf.validate import Finding, nearest
 
@@ -86,10 +86,10 @@ class Findings:
         return tuple(sorted(shown, key=lambda found: (found.line, found.column)))
 
 
-class Element(msgspec.Struct, frozen=True, eq=False, gc=False):
+class UrdfElement(msgspec.Struct, frozen=True, eq=False, gc=False):
     """An element of the URDF with its place in the robot, for example `joint elbow / limit`."""
 
-    node: Node
+    node: XmlNode
     path: str
     findings: Findings
 
@@ -104,15 +104,15 @@ class Element(msgspec.Struct, frozen=True, eq=False, gc=False):
         """Add a warning about this element."""
         self.findings.warn(code, self.node.line, message, hint)
 
-    def child(self, tag: str, *attributes: str) -> Element | None:
+    def child(self, tag: str, *attributes: str) -> UrdfElement | None:
         """Return the first child with this tag; `attributes` are those that URDF knows, to find misspelt ones."""
         found = [node for node in self.node.children if node.tag == tag]
         if not found:
             return None
-        element = Element(found[0], f"{self.path} / {tag}", self.findings)
+        element = UrdfElement(found[0], f"{self.path} / {tag}", self.findings)
         if len(found) > 1:
             message = f"{self.path} has {len(found)} <{tag}> elements, of which the first counts"
-            extra = Element(found[1], f"{element.path} #2", self.findings)
+            extra = UrdfElement(found[1], f"{element.path} #2", self.findings)
             extra.warn("duplicate-element", message, "remove the others")
         element.expect(attributes)
         return element

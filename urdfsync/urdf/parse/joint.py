@@ -7,11 +7,11 @@ transmissions and by its joints that have a `<command_interface>`; those without
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import get_args
 
-from urdfsync.urdf.parse.fields import Element
+from urdfsync.urdf.parse.fields import UrdfElement
 from urdfsync.urdf.parse.link import read_origin
 from urdfsync.urdf.robot import (
+    JOINT_KINDS,
     Calibration,
     Dynamics,
     Extension,
@@ -21,14 +21,13 @@ from urdfsync.urdf.robot import (
     Mimic,
     SafetyController,
 )
-from urdfsync.urdf.validate import LIMITED, SCALAR, nearest
+from urdfsync.urdf.validate import nearest
 
-_TYPES: tuple[JointType, ...] = get_args(JointType)
 _PARTS = [name for name in Joint.__struct_fields__ if name not in ("name", "type", "actuated")]
 _X = (1.0, 0.0, 0.0)
 
 
-def read_joint(element: Element, extensions: list[Extension]) -> Joint | None:
+def read_joint(element: UrdfElement, extensions: list[Extension]) -> Joint | None:
     """Read a joint with its axis as written; return None, after an error, if it connects nothing.
 
     Add what is not modelled to `extensions`. A joint of unknown type is read as a plain fixed one.
@@ -61,18 +60,18 @@ def read_joint(element: Element, extensions: list[Extension]) -> Joint | None:
     )
 
 
-def _read_type(element: Element) -> JointType | None:
+def _read_type(element: UrdfElement) -> JointType | None:
     """Read one of URDF's joint types; return None after an error."""
     text = element.text("type")
-    kind = next((known for known in _TYPES if known == text), None)
+    kind = next((known for known in JOINT_KINDS if known == text), None)
     if kind is None and text:
-        meant = nearest(text.lower(), _TYPES)
-        hint = f"perhaps {meant!r} is meant" if meant else f"use one of {', '.join(_TYPES)}"
+        meant = nearest(text.lower(), JOINT_KINDS)
+        hint = f"perhaps {meant!r} is meant" if meant else f"use one of {', '.join(JOINT_KINDS)}"
         element.error("unknown-joint-type", f"{element.path} has the unknown type {text!r}", hint)
     return kind
 
 
-def _read_end(element: Element, tag: str) -> str:
+def _read_end(element: UrdfElement, tag: str) -> str:
     """Read the name of the parent or child link; return an empty one after an error."""
     end = element.child(tag, "link")
     if end is None:
@@ -81,17 +80,17 @@ def _read_end(element: Element, tag: str) -> str:
     return end.text("link")
 
 
-def _read_limit(joint: Element, kind: JointType) -> Limit | None:
+def _read_limit(joint: UrdfElement, kind: JointType) -> Limit | None:
     """Read the limits; what is absent is 0 for a position, and no limit for effort and velocity."""
     element = joint.child("limit", *Limit.__struct_fields__)
     if element is None:
-        if kind in LIMITED:
+        if JOINT_KINDS[kind].has_limits:
             message = f"{joint.path} is {kind} but has no <limit>: it moves without limits"
             joint.warn("missing-limit", message, "add <limit>, or make a revolute joint continuous")
         return None
     given = element.node.attributes
-    zero = [name for name in ("lower", "upper") if name not in given and kind in LIMITED]
-    unlimited = [name for name in ("effort", "velocity") if name not in given and kind in SCALAR]
+    zero = [name for name in ("lower", "upper") if name not in given and JOINT_KINDS[kind].has_limits]
+    unlimited = [name for name in ("effort", "velocity") if name not in given and JOINT_KINDS[kind].motion]
     if zero or unlimited:
         absent = [f"{' and '.join(zero)}, taken as 0"] if zero else []
         absent += [f"{' and '.join(unlimited)}, taken as unlimited"] if unlimited else []
@@ -100,7 +99,7 @@ def _read_limit(joint: Element, kind: JointType) -> Limit | None:
     return element.numbers(Limit)
 
 
-def _read_mimic(joint: Element) -> Mimic | None:
+def _read_mimic(joint: UrdfElement) -> Mimic | None:
     """Read the mimic relation; return None, after an error, if it names no joint."""
     element = joint.child("mimic", "joint", "multiplier", "offset")
     if element is None:
@@ -109,7 +108,7 @@ def _read_mimic(joint: Element) -> Mimic | None:
     return Mimic(leader, multiplier, offset) if leader else None
 
 
-def read_actuated(element: Element) -> Iterator[tuple[str, str]]:
+def read_actuated(element: UrdfElement) -> Iterator[tuple[str, str]]:
     """Yield path and name of each joint that a `<transmission>` or `<ros2_control>` drives.
 
     An example of a path: `transmission wheel_trans / joint wheel`.
@@ -124,4 +123,4 @@ def read_actuated(element: Element) -> Iterator[tuple[str, str]]:
             continue
         for joint in driven:
             if name := joint.attributes.get("name", ""):
-                yield Element(joint, f"{element.path} / joint {name}", element.findings).path, name
+                yield UrdfElement(joint, f"{element.path} / joint {name}", element.findings).path, name

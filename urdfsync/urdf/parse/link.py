@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 import msgspec
 
-from urdfsync.urdf.parse.fields import Element, Findings, parse_numbers, quoted
+from urdfsync.urdf.parse.fields import Findings, UrdfElement, parse_numbers, quoted
 from urdfsync.urdf.robot import (
     Box,
     Capsule,
@@ -35,7 +35,7 @@ _UNIT = (1.0, 1.0, 1.0)
 _ZERO = (0.0, 0.0, 0.0)
 
 
-def read_link(element: Element, extensions: list[Extension]) -> Link:
+def read_link(element: UrdfElement, extensions: list[Extension]) -> Link:
     """Read a link, without looking up its materials; add what is not modelled to `extensions`."""
     name = element.text("name")
     owner = f"link {name}"
@@ -59,7 +59,7 @@ def read_link(element: Element, extensions: list[Extension]) -> Link:
     return Link(name, _read_inertial(inertial) if inertial else None, tuple(visuals), tuple(collisions))
 
 
-def read_origin(element: Element) -> Origin:
+def read_origin(element: UrdfElement) -> Origin:
     """Read the `<origin>` in an element; the identity if there is none."""
     origin = element.child("origin", "xyz", "rpy")
     if origin is None:
@@ -70,7 +70,7 @@ def read_origin(element: Element) -> Origin:
     return Origin(origin.vector("xyz", _ZERO), origin.vector("rpy", _ZERO))
 
 
-def _read_inertial(element: Element) -> Inertial:
+def _read_inertial(element: UrdfElement) -> Inertial:
     """Read mass, centre of mass and inertia; what is absent is 0, with a warning."""
     components = Inertia.__struct_fields__
     mass, inertia = element.child("mass", "value"), element.child("inertia", *components)
@@ -87,7 +87,7 @@ def _read_inertial(element: Element) -> Inertial:
     )
 
 
-def _shapes(link: Element, tag: str) -> Iterator[tuple[Element, Element]]:
+def _shapes(link: UrdfElement, tag: str) -> Iterator[tuple[UrdfElement, UrdfElement]]:
     """Yield each visual or collision that can be drawn, with the element of its shape.
 
     The others are left out with a warning, and do not count in the numbers of paths.
@@ -103,16 +103,16 @@ def _shapes(link: Element, tag: str) -> Iterator[tuple[Element, Element]]:
             link.findings.warn("unknown-geometry", node.line, message, f"use one of {', '.join(_SHAPES)}")
             continue
         number += 1
-        shape = Element(node, f"{link.path} / {tag} {number}", link.findings)
+        shape = UrdfElement(node, f"{link.path} / {tag} {number}", link.findings)
         shape.expect(("name",))
         shape.child("geometry")
         if len(shapes) > 1:
             message = f"{shape.path} has {len(shapes)} geometries, of which the first counts"
             shape.warn("duplicate-element", message, f"write one {tag} for each")
-        yield shape, Element(shapes[0], f"{shape.path} / {shapes[0].tag}", link.findings)
+        yield shape, UrdfElement(shapes[0], f"{shape.path} / {shapes[0].tag}", link.findings)
 
 
-def _read_geometry(element: Element) -> Geometry:
+def _read_geometry(element: UrdfElement) -> Geometry:
     kind = _SHAPES[element.node.tag]
     element.expect(kind.__struct_fields__)
     match element.node.tag:
@@ -127,7 +127,7 @@ def _read_geometry(element: Element) -> Geometry:
             return round_kind(element.required("radius"), element.required("length"))
 
 
-def read_material(element: Element) -> Material:
+def read_material(element: UrdfElement) -> Material:
     """Read a material as it is written; its colour is None if it is absent or, after a warning, faulty."""
     color, texture = element.child("color", "rgba"), element.child("texture", "filename")
     return Material(
@@ -137,7 +137,7 @@ def read_material(element: Element) -> Material:
     )
 
 
-def _read_color(element: Element) -> tuple[float, float, float, float] | None:
+def _read_color(element: UrdfElement) -> tuple[float, float, float, float] | None:
     """Read red, green, blue and opacity from 0 to 1. A faulty colour is a warning: the robot can be built without."""
     text = element.node.attributes.get("rgba")
     if text is None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 import msgspec
 
@@ -15,10 +16,10 @@ from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf import validate
 from urdfsync.urdf.parse import xml
-from urdfsync.urdf.parse.fields import Element, Findings
+from urdfsync.urdf.parse.fields import Findings, UrdfElement
 from urdfsync.urdf.parse.joint import read_actuated, read_joint
 from urdfsync.urdf.parse.link import read_link, read_material, resolve_materials
-from urdfsync.urdf.parse.xml import Node, ParseError
+from urdfsync.urdf.parse.xml import ParseError, XmlNode
 from urdfsync.urdf.robot import Joint, Robot
 
 _MODELLED = ("link", "joint", "material")
@@ -37,7 +38,7 @@ _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 _TEXTS = ("name", "link", "joint", "filename", "group")
 
 
-class RobotReading(msgspec.Struct, frozen=True):
+class RobotReading(NamedTuple):
     """What reading a URDF gave: the robot, unless a diagnostic is an error, and the diagnostics.
 
     `lines` maps paths to lines: `robot`, `link NAME`, `joint NAME`, and below them for example
@@ -76,7 +77,7 @@ def _cross_check(content: bytes, robot: Robot, findings: Findings) -> None:
     findings.extend_checks(compare_readers(content, robot))
 
 
-def _is_urdf(root: Node, findings: Findings) -> bool:
+def _is_urdf(root: XmlNode, findings: Findings) -> bool:
     """Return whether this is a URDF that xacro has expanded; if not, add one error that says what it is."""
     if root.tag != "robot":
         kind, _, hint = _OTHER_ROOTS.get(root.tag, "no URDF; name the URDF file instead").partition("; ")
@@ -87,9 +88,9 @@ def _is_urdf(root: Node, findings: Findings) -> bool:
     if not any(sign in root.document.content for sign in (b"xacro:", b"$", b"&")):
         return True
     has_links = any(child.tag == "link" for child in root.children)
-    tags: list[Node] = []
-    expressions: list[Node] = []
-    unexpanded: list[Node] = []
+    tags: list[XmlNode] = []
+    expressions: list[XmlNode] = []
+    unexpanded: list[XmlNode] = []
     for child in root.children:
         for node in child.walk():
             if node.tag.startswith("xacro:"):
@@ -110,9 +111,9 @@ def _is_urdf(root: Node, findings: Findings) -> bool:
     return True
 
 
-def _read_robot(root: Node, findings: Findings) -> Robot:
+def _read_robot(root: XmlNode, findings: Findings) -> Robot:
     """Return the robot; it is of use only if no diagnostic is an error."""
-    top = Element(root, "robot", findings)
+    top = UrdfElement(root, "robot", findings)
     top.expect(("name",))
     name = root.attributes.get("name", "")
     if not name.strip():
@@ -120,8 +121,8 @@ def _read_robot(root: Node, findings: Findings) -> Robot:
     children = _children_by_tag(root)
     extensions = list(top.extensions("", _MODELLED))
 
-    def elements(*tags: str) -> Iterator[Element]:
-        return (Element(node, path, findings) for tag in tags for path, node in children[tag])
+    def elements(*tags: str) -> Iterator[UrdfElement]:
+        return (UrdfElement(node, path, findings) for tag in tags for path, node in children[tag])
 
     actuated = [named for element in elements("transmission", "ros2_control") for named in read_actuated(element)]
     materials = [(element.path, read_material(element)) for element in elements("material")]
@@ -140,10 +141,10 @@ def _read_robot(root: Node, findings: Findings) -> Robot:
     return validate.normalise_axes(robot)
 
 
-def _children_by_tag(root: Node) -> Mapping[str, Sequence[tuple[str, Node]]]:
+def _children_by_tag(root: XmlNode) -> Mapping[str, Sequence[tuple[str, XmlNode]]]:
     """Return the children of the root by tag, with their paths; those that share a name are told apart by numbers."""
     names: Counter[tuple[str, str]] = Counter()
-    children: defaultdict[str, list[tuple[str, Node]]] = defaultdict(list)
+    children: defaultdict[str, list[tuple[str, XmlNode]]] = defaultdict(list)
     for node in root.children:
         name, others = node.attributes.get("name", ""), children[node.tag]
         path = f"{node.tag} {name}" if name.strip() else f"{node.tag} number {len(others) + 1}"

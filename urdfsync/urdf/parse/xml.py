@@ -9,12 +9,12 @@ The parser is expat, since it tells where a start tag begins; lxml tells where i
 from __future__ import annotations
 
 import codecs
+import html
 import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 from xml.parsers import expat
-from xml.sax.saxutils import quoteattr
 
 import msgspec
 
@@ -45,6 +45,7 @@ _DECLARATION = re.compile(
 )
 # ROS's parser accepts these. They do not name the encoding, since other parsers ignore them.
 _FAULTY_DECLARATION = re.compile(r"\s*<\?xml\s[^<>]*\?>", re.IGNORECASE | re.ASCII)
+_BETWEEN_NAMES = re.compile(r"""[\s<>/="']+""")
 _START_TAG = re.compile(rb"""<(?:[^>"']|"[^"]*"|'[^']*')*>""")
 
 # What is wrong, and what to do: by expat's message, or by the text up to the character that it stops at.
@@ -86,20 +87,20 @@ class Document(msgspec.Struct, eq=False):
     warnings: list[Diagnostic]
 
 
-class Node(msgspec.Struct, eq=False, gc=False):
+class XmlNode(msgspec.Struct, eq=False, gc=False):
     """One XML element; tag and attributes have prefixes as written, `line` is where its start tag begins, from 1."""
 
     tag: str
     attributes: Mapping[str, str]
     line: int
-    children: list[Node]
+    children: list[XmlNode]
     document: Document
     start: int
     """Where its start tag begins in the document, in bytes."""
     end: int = 0
     """Where its end tag begins, if it has one."""
 
-    def walk(self) -> Iterator[Node]:
+    def walk(self) -> Iterator[XmlNode]:
         """Yield this element and all below it, in document order."""
         waiting = [self]
         while waiting:
@@ -113,8 +114,11 @@ class Node(msgspec.Struct, eq=False, gc=False):
         tag = _START_TAG.match(content, self.start)
         end = tag.end() if tag and tag[0].endswith(b"/>") else content.index(b">", self.end) + 1
         text = content[self.start : end].decode()
-        # The element around it, which declares all prefixes, is cut off again.
-        declared = "".join(f" {f'xmlns:{p}'.rstrip(':')}={quoteattr(uri)}" for p, uri in known.items())
+        # The element around it, which declares the prefixes that it has, is cut off again.
+        words = _BETWEEN_NAMES.split(text)
+        prefixes = {"", *(word.partition(":")[0] for word in words if ":" in word)} & known.keys()
+        attributes = {f"xmlns:{prefix}" if prefix else "xmlns": known[prefix] for prefix in prefixes}
+        declared = "".join([f' {name}="{html.escape(uri)}"' for name, uri in attributes.items()])
         around = f'<urdfsync:it xmlns:urdfsync="{_UNDECLARED}urdfsync"'
         try:
             whole = ElementTree.canonicalize(f"{around}{declared}>{text}</urdfsync:it>", strip_text=True)
@@ -124,12 +128,12 @@ class Node(msgspec.Struct, eq=False, gc=False):
         return re.sub(rf' xmlns:[^=]+="{_UNDECLARED}[^"]*"', "", inside)
 
 
-def parse(content: bytes) -> Node:
+def parse(content: bytes) -> XmlNode:
     """Parse an XML file; return its root, whose document has the warnings about the file. Raises ParseError."""
     text, warnings = _decode(content)
     document = Document(text.encode(), {}, warnings)
-    top: list[Node] = []
-    above = [Node("", {}, 0, top, document, 0)]
+    top: list[XmlNode] = []
+    above = [XmlNode("", {}, 0, top, document, 0)]
     used: dict[str, int] = {}  # prefixes, and the line of their first use
     parser = expat.ParserCreate("utf-8")
     parser.specified_attributes = True  # a document type may have others
@@ -139,16 +143,16 @@ def parse(content: bytes) -> Node:
         if len(above) > _DEEPEST:
             message = f"this is not well-formed XML: elements stand inside of one another {_DEEPEST} deep"
             raise ParseError("xml-syntax", message, f"make it less deep, or {_WAIT}", line)
-        node = Node(tag, attributes, line, [], document, parser.CurrentByteIndex)
+        node = XmlNode(tag, attributes, line, [], document, parser.CurrentByteIndex)
         above[-1].children.append(node)
         above.append(node)
         for name in (tag, *attributes):
             if ":" not in name and name != "xmlns":
                 continue
-            prefix, _, rest = name.partition(":")
-            if prefix == "xmlns" and attributes.get(name) and rest not in ("xml", "xmlns"):
+            prefix, colon, rest = name.partition(":")
+            if prefix == "xmlns" and attributes.get(name) and (rest or not colon) and rest not in ("xml", "xmlns"):
                 document.namespaces.setdefault(rest, attributes[name])
-            elif prefix not in ("xml", "xmlns"):
+            elif prefix not in ("", "xml", "xmlns"):
                 used.setdefault(prefix, line)
 
     def end(_: str) -> None:
@@ -192,7 +196,7 @@ def parse_tree(content: bytes) -> etree._Element:
     return etree.fromstring(content, etree.XMLParser(recover=True, no_network=True, resolve_entities=False))
 
 
-def _explain(message: str, around: Node, before: bytes) -> tuple[str, str]:
+def _explain(message: str, around: XmlNode, before: bytes) -> tuple[str, str]:
     """Return what is wrong and what to do, by expat's message, the open element, and the text up to the error."""
     unclosed = expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEMENTS
     if message in unclosed and around.tag:

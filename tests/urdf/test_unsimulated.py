@@ -1,11 +1,13 @@
-"""What the generic robot can't take is a warning at its line, if the record approach is asked for, and a way out."""
+"""What the generic robot or the package can't move is a warning at its line, and a way out."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import pytest
 from support import urdfs
 
-from urdfsync.diagnostics import Severity
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 
@@ -69,19 +71,11 @@ def test_a_planar_joint_is_named_with_its_line_and_what_to_do(approach: tuple[st
 
 
 def test_a_floating_joint_at_the_root_is_what_a_floating_base_is_for() -> None:
+    (inside,) = warnings(FREE_INSIDE, "record")
+    assert "joint 'drift'; write it as three prismatic joints and three continuous ones" in inside
     (warning,) = warnings(FREE_ROOT, "record")
     assert warning.startswith("own.urdf:5: warning: the generic robot has no floating joints")
     assert 'leave it out with its parent link and let the base float (`base = "floating"` in a project)' in warning
-
-
-def test_a_floating_joint_elsewhere_can_be_taken_apart() -> None:
-    (warning,) = warnings(FREE_INSIDE, "record")
-    assert "joint 'drift'; write it as three prismatic joints and three continuous ones" in warning
-
-
-@pytest.mark.parametrize("mass", [1, None])
-def test_a_robot_that_does_not_move_is_a_rigid_body(mass: float | None) -> None:
-    assert warnings(STATUE, "record") == warnings(urdfs.robot(urdfs.link("base", mass)), "record") == []
 
 
 def test_a_joint_that_moves_no_mass_is_named_with_its_line_and_what_to_do() -> None:
@@ -130,3 +124,72 @@ def test_a_robot_without_any_mass_says_so_once() -> None:
 @pytest.mark.parametrize("urdf", [PLANAR, FREE_ROOT, FREE_INSIDE, STATUE, LIGHT, FEATHER, TWINS])
 def test_the_package_approach_has_no_reason_to_warn(urdf: str) -> None:
     assert warnings(urdf, "package") == []
+
+
+# Passive joints of the package
+
+DRIVE = '<transmission name="t"><joint name="wheel"/></transmission>'
+CART = urdfs.robot(
+    urdfs.link("base", 1),
+    urdfs.link("tyre", 1),
+    urdfs.link("roller"),
+    urdfs.joint("wheel", "continuous", "base", "tyre", axis="0 1 0", xyz="0 0 0.1"),
+    urdfs.joint("caster", "continuous", "base", "roller", axis="0 0 1"),
+).replace("</robot>", f"{DRIVE}</robot>")
+"""Going by the source, the wheel is driven and the caster is passive."""
+CLUTCH = urdfs.robot(
+    urdfs.link("base", 1),
+    urdfs.link("ring"),
+    urdfs.link("arm", 1),
+    urdfs.joint("first", "continuous", "base", "ring", axis="0 0 1"),
+    urdfs.joint("second", "continuous", "ring", "arm", axis="0 0 1", xyz="0 0 0.3", rpy="0 0 0"),
+)
+"""Two joints on one axis, and nothing between them."""
+
+
+def passive_warnings(urdf: str, **options: Any) -> list[Diagnostic]:
+    found = DOMAIN.read(urdf.encode(), "own.urdf", Options(cross_check=False, **options)).diagnostics
+    return [one for one in found if one.code == "passive-moves-no-mass"]
+
+
+def test_a_caster_without_a_mass_is_named_with_its_line_and_what_to_do() -> None:
+    (found,) = passive_warnings(CART)
+    assert found.severity is Severity.WARNING
+    assert str(found) == (
+        "own.urdf:7: warning: joint 'caster' is not driven and moves no mass where it starts, so nothing determines "
+        "its motion in Run and Test; give a link behind it an <inertial>, drive it (`driven`), or make it a fixed "
+        "joint [passive-moves-no-mass]"
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "names"),
+    [
+        ({"driven": ("wheel", "caster")}, []),
+        ({"driven": ("caster",)}, []),
+        ({"driven": ("wheel",)}, ["caster"]),
+        ({"approach": ("record",)}, []),
+        ({"approach": ("package", "record")}, ["caster"]),
+    ],
+)
+def test_what_is_driven_counts_and_so_does_the_approach(options: dict[str, Any], names: list[str]) -> None:
+    assert [found.message.split("'")[1] for found in passive_warnings(CART, **options)] == names
+
+
+@pytest.mark.parametrize(
+    ("driven", "names"),
+    [((), ["first"]), (("second",), []), (("first",), []), (("first", "second"), [])],
+)
+def test_a_driven_joint_behind_a_passive_one_does_not_undo_its_motion(
+    driven: tuple[str, ...], names: list[str]
+) -> None:
+    assert [found.message.split("'")[1] for found in passive_warnings(CLUTCH, driven=driven)] == names
+
+
+def test_a_passive_leader_moves_what_its_followers_move() -> None:
+    def led(mass: float | None) -> str:
+        follow = urdfs.joint("follow", "continuous", "base", "thumb", axis="0 0 1", inside=[urdfs.mimic("caster", 2)])
+        return CART.replace("</robot>", f"{urdfs.link('thumb', mass)}{follow}</robot>")
+
+    assert passive_warnings(led(1)) == []
+    assert len(passive_warnings(led(None))) == 1
