@@ -53,12 +53,14 @@ def placed(mesh: Triangles, pose: Array) -> Triangles:
 
 
 def joined(parts: Iterable[Triangles]) -> Triangles:
-    """All triangles as one mesh. Raises MeshError if there are more than `MAX_TRIANGLES`."""
+    """All triangles as one mesh. Raises MeshError for more than `MAX_TRIANGLES`, and for a corner that is no point."""
     points, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)]
     count = triangles = 0
     for part in parts:
         triangles += len(part.faces)
         check_count(triangles)
+        if len(part.faces) and (part.faces.min() < 0 or part.faces.max() >= len(part.points)):
+            raise MeshError("one of its faces has an index that no vertex has")
         points.append(part.points)
         faces.append(part.faces + count)
         count += len(part.points)
