@@ -26,7 +26,8 @@ MAX_TRIANGLES = 1_000_000
 _HEADER = b"binary STL, written by urdfsync".ljust(80)
 _STEPS = 36  # directions on each great circle
 _TIE = 1e-9  # of the size: what is meant to be equal differs by rounding
-_THIN = 1e-7  # of the size: points in a plane that lie so near to one line are on it
+_CROWD = 1000  # points in a plane: if they are on a line, so many are extreme in dozens of directions, and take minutes
+_THIN = 1e-7  # of the size: points that lie so near to a line are on it
 _MARGIN = 1e-5  # of the size: far above the error of single precision
 _CHUNK = 1 << 14  # points whose products with all directions stay in the cache
 _MANY = 4  # directions in which a point is extreme, on average, before that looks odd
@@ -53,12 +54,14 @@ def placed(mesh: Triangles, pose: Array) -> Triangles:
 
 
 def joined(parts: Iterable[Triangles]) -> Triangles:
-    """All triangles as one mesh. Raises MeshError if there are more than `MAX_TRIANGLES`."""
+    """All triangles as one mesh. Raises MeshError for more than `MAX_TRIANGLES`, and for a corner that is no point."""
     points, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)]
     count = triangles = 0
     for part in parts:
         triangles += len(part.faces)
         check_count(triangles)
+        if len(part.faces) and (part.faces.min() < 0 or part.faces.max() >= len(part.points)):
+            raise MeshError("one of its faces has an index that no vertex has")
         points.append(part.points)
         faces.append(part.faces + count)
         count += len(part.points)
@@ -123,9 +126,9 @@ def support_points(points: Array) -> list[list[float]]:
     """
     size = float(np.ptp(points, axis=0).max())
     chosen = []
-    for direction, near in zip(_DIRECTIONS, _nearly_extreme(points, _DIRECTIONS, size), strict=True):
-        heights = _products(near, direction[np.newaxis])[:, 0]
-        chosen.append(_corners(near[heights >= heights.max() - _TIE * size], direction, size))
+    for number, near in enumerate(_nearly_extreme(points, _DIRECTIONS, size)):
+        heights = _products(near, _DIRECTIONS[number : number + 1])[:, 0]
+        chosen.append(_corners(near[heights >= heights.max() - _TIE * size], number, size))
     rounded = np.round(np.concatenate(chosen), _DIGITS) + 0.0  # -0.0 becomes 0.0
     return [_plain(point) for point in np.unique(rounded, axis=0)]
 
@@ -140,6 +143,8 @@ def _directions() -> Array:
 
 
 _DIRECTIONS = _directions()
+_NORMALS = np.cross(_DIRECTIONS[:, np.newaxis], _DIRECTIONS)  # per pair of directions
+_CROSSING = np.linalg.norm(_NORMALS, axis=2) > _MARGIN  # the pairs that are not parallel
 
 
 def _nearly_extreme(points: Array, directions: Array, size: float) -> list[Array]:
@@ -174,15 +179,13 @@ def _is_first(points: Array) -> npt.NDArray[np.bool_]:
     return first
 
 
-def _corners(tied: Array, direction: Array, size: float) -> Array:
-    """Of points in a plane normal to `direction`: those extreme along the other directions, two where these tie too."""
-    axis = np.ptp(tied, axis=0).argmax()
-    ends = tied[[tied[:, axis].argmin(), tied[:, axis].argmax()]]
-    offsets = np.cross(tied - ends[0], ends[1] - ends[0])
-    if (np.abs(offsets) <= _THIN * size * np.linalg.norm(ends[1] - ends[0])).all():
+def _corners(tied: Array, number: int, size: float) -> Array:
+    """Of points in a plane normal to a direction: those extreme along the other directions, two where these tie too."""
+    if (tied == tied[0]).all():
+        return tied[:1]
+    if len(tied) > _CROWD and (ends := _ends_of_line(tied, size)) is not None:
         return ends
-    along = np.cross(direction, _DIRECTIONS)
-    others = np.linalg.norm(along, axis=1) > _MARGIN
+    along, others = _NORMALS[number], _CROSSING[number]
     if len(tied) > _CHUNK:
         tied = np.unique(np.concatenate(_nearly_extreme(tied, _DIRECTIONS[others], size)), axis=0)
     parts = math.ceil(np.count_nonzero(others) * len(tied) / _PRODUCTS)
@@ -195,6 +198,15 @@ def _corners(tied: Array, direction: Array, size: float) -> Array:
         found.append(np.where(extreme, positions, np.inf).argmin(axis=0))
     corners: Array = tied[np.unique(np.concatenate(found))]
     return corners
+
+
+def _ends_of_line(points: Array, size: float) -> Array | None:
+    """The ends of the line on which all points are; None if they are on none."""
+    axis = np.ptp(points, axis=0).argmax()
+    ends: Array = points[[points[:, axis].argmin(), points[:, axis].argmax()]]
+    offsets = np.cross(points - ends[0], ends[1] - ends[0])
+    is_line = (np.abs(offsets) <= _THIN * size * np.linalg.norm(ends[1] - ends[0])).all()
+    return ends if is_line else None
 
 
 def _products(points: Array, directions: Array) -> Array:

@@ -8,6 +8,7 @@ import signal
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
+from pathlib import Path
 from typing import IO
 
 import msgspec
@@ -23,8 +24,8 @@ if sys.platform != "win32":
 
 _UNUSED = ("PIL", "httpx", "networkx", "scipy")
 """Packages that trimesh takes where they are installed, and that no reading of ours needs: half a second, and 60 MB."""
-_GROWN = 200_000
-"""Kilobytes that the process needs at most for an ordinary mesh; its libraries are 60,000 of them."""
+_GROWN = 200_000_000
+"""Bytes that the process has allocated when it has read a large mesh; its libraries are 70 MB of them."""
 
 
 def main() -> None:
@@ -51,8 +52,14 @@ def _answer(request: Request, requests: IO[bytes]) -> tuple[Answer, bytes]:
             stl = binary_stl(mesh)
     except MeshError as error:
         return Answer(problem=str(error)), b""
-    is_last = sys.platform == "linux" and resource.getrusage(resource.RUSAGE_SELF).ru_maxrss > _GROWN
-    return Answer(len(stl), facts, is_last=is_last), stl
+    return Answer(len(stl), facts, is_last=_allocated() > _GROWN), stl
+
+
+def _allocated() -> int:
+    """Bytes that the memory limit counts; 0 where there is none. What was freed may still be among them."""
+    if sys.platform != "linux":
+        return 0
+    return int(Path("/proc/self/statm").read_text().split()[5]) * resource.getpagesize()
 
 
 def reader(suffix: str) -> Callable[[bytes], Triangles]:
