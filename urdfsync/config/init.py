@@ -15,6 +15,7 @@ from urdfsync import registry
 from urdfsync.config import values
 from urdfsync.config.names import is_robot_name
 from urdfsync.config.paths import shown
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
 from urdfsync.files import put
@@ -135,7 +136,7 @@ def _propose(domain: Domain, source: Path, root: Path) -> tuple[tuple[Proposal, 
         message, hint = "the name of the source can't be written into a configuration", "rename it"
         raise SourceError(Diagnostic(Severity.ERROR, "source-name", message, shown(source), hint=hint))
     try:
-        content = source.read_bytes()
+        content = read_unrecorded(source)
     except OSError as error:
         message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
         raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(source), hint=hint)) from None

@@ -45,13 +45,9 @@ def find(start: Path) -> Path:
 def load(file: Path) -> Config:
     """Read a configuration file. Raises ConfigError with everything that is wrong in it."""
     name, code = shown(file), "unreadable-config"
-    if file.exists() and not file.is_file():  # reading a FIFO would never end
-        message, hint = "the configuration is no regular file", f"name a {FILE_NAME}"
-        raise ConfigError(Diagnostic(Severity.ERROR, code, message, name, hint=hint))
     line = 0
     try:
-        dependencies.depend_on(file)
-        text = file.read_text(encoding="utf-8-sig")
+        text = dependencies.read_file(file).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except FileNotFoundError:
         message, hint, code = "the configuration does not exist", "write one with `urdfsync init SOURCE`", "no-config"
     except UnicodeDecodeError as error:

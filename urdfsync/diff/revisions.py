@@ -16,6 +16,7 @@ import msgspec
 
 from urdfsync import git
 from urdfsync.config import shown
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Dependency
 from urdfsync.files import digest
@@ -125,7 +126,7 @@ class VersionedSource(msgspec.Struct, frozen=True):
 def from_file(path: Path, *others: Path) -> VersionedSource:
     """Read the version in a file; references are looked for beside it, then beside `others`. Raises SourceError."""
     try:
-        content = path.read_bytes()
+        content = read_unrecorded(path)
     except OSError as error:
         message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
         raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(path), hint=hint)) from None
@@ -143,9 +144,10 @@ def from_revision(name: str, path: Path, scratch: Path) -> VersionedSource:
 
 def _is_on_disk(path: Path, content: bytes) -> bool:
     """Whether the file has this content, or the one that a pointer of Git LFS stands for."""
-    if not (os.access(path, os.R_OK) and path.is_file()):
+    try:
+        now, pointer = read_unrecorded(path), _LFS_POINTER.match(content)
+    except OSError:
         return False
-    now, pointer = path.read_bytes(), _LFS_POINTER.match(content)
     return now == content or (pointer is not None and digest(now) == pointer[1].decode())
 
 

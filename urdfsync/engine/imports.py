@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import stat
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.dependencies import is_file, read_file
+from urdfsync.dependencies import file_type, is_file, read_file
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
 from urdfsync.engine import ros_packages as packages
@@ -61,7 +62,7 @@ def unchanged(dependencies: Sequence[Dependency], records: Mapping[str, Dependen
             return False
         found = _find(dependency)
         known = {(record.source_hash, record.converter), (record.unreadable, record.unreadable_by)}
-        if found and (digest(found[1]), converter) not in known:
+        if isinstance(found, tuple) and (digest(found[1]), converter) not in known:
             return False
     return True
 
@@ -102,10 +103,11 @@ def bring_in(
     for count, dependency in enumerate(dependencies):
         progress(count, len(dependencies))
         found = _find(dependency)
-        if found is None:
+        if not isinstance(found, tuple):
             record = recorded.records.get(dependency.key)
             was_missing = record is not None and record.target_hash is None and record.unreadable is None
-            trouble = _keep(dependency, recorded, result, _not_found([dependency], source))
+            reason = _unreadable(dependency, source, found) if found else _not_found([dependency], source)
+            trouble = _keep(dependency, recorded, result, reason)
             if was_missing and not again:
                 known.append(dependency)
             else:
@@ -121,9 +123,10 @@ def bring_in(
 
 def _merge_alike(missing: Sequence[tuple[Dependency, Diagnostic]], source: str) -> Iterator[Diagnostic]:
     """One warning for all files of a package, whose hint is the same."""
-    groups: dict[tuple[str, str, str], list[tuple[Dependency, Diagnostic]]] = {}
+    groups: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
     for dependency, trouble in missing:
-        groups.setdefault((trouble.code, trouble.hint, dependency.noun), []).append((dependency, trouble))
+        place = "" if "not-found" in trouble.code else dependency.key
+        groups.setdefault((trouble.code, trouble.hint, dependency.noun, place), []).append((dependency, trouble))
     for group in groups.values():
         first = min((trouble for _, trouble in group), key=lambda trouble: trouble.line)
         if len(group) > 1:
@@ -163,15 +166,19 @@ def _guessed(dependency: Dependency) -> Dependency:
     return msgspec.structs.replace(dependency, guessed=_is_found(dependency))
 
 
-def _find(dependency: Dependency) -> tuple[Path, bytes] | None:
-    """The first candidate that is a file and can be read, with its content."""
+def _find(dependency: Dependency) -> tuple[Path, bytes] | OSError | None:
+    """The first candidate that is a file and can be read, with its content; else why one can't be, None for no file."""
+    trouble = None
     for path in dependency.candidates:
-        if _is_file(path):
-            try:
+        try:
+            kind = file_type(path)
+            if kind not in (0, stat.S_IFDIR):
                 return path, read_file(path)
-            except OSError:
-                continue
-    return None
+        except PermissionError:
+            continue  # a folder above it may not let us in, and another candidate is as good
+        except OSError as error:
+            trouble = trouble or error
+    return trouble
 
 
 def _is_file(path: Path) -> bool:
@@ -238,6 +245,12 @@ def _refuse(
 def _pointer(dependency: Dependency, source: str) -> Diagnostic:
     message = f"{dependency.noun} `{dependency.uri}` can't be read: it is a Git LFS pointer"
     hint = "get the file itself with `git lfs pull`"
+    return Diagnostic(Severity.WARNING, "unreadable", message, source, hint=hint)
+
+
+def _unreadable(dependency: Dependency, source: str, error: OSError) -> Diagnostic:
+    message = f"{dependency.noun} `{dependency.uri}` can't be read: {error.strerror}"
+    hint = f"put a {dependency.noun} in its place that can be"
     return Diagnostic(Severity.WARNING, "unreadable", message, source, hint=hint)
 
 

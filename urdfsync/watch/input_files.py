@@ -9,7 +9,7 @@ import time
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TypeAlias
 
-from urdfsync.dependencies import NO_STAT, stat_of
+from urdfsync.dependencies import NO_STAT, read_unrecorded, stat_of
 from urdfsync.engine.package_files import FileState, state_of
 
 InputStates: TypeAlias = Mapping[str, FileState]
@@ -36,8 +36,7 @@ class InputFiles:
         if known is not None and known.stat == state.stat:
             return known
         try:
-            with open(path, "rb", opener=_open) as file:
-                state = state_of(state.stat, file.read())
+            state = state_of(state.stat, read_unrecorded(path))
         except OSError as error:
             return _unreadable(error)
         # a file that changed just now may change again and keep its stat values, so it is hashed again next time;
@@ -96,7 +95,3 @@ def _state_without_content(path: str) -> FileState:
 def _unreadable(error: OSError) -> FileState:
     word = f"error {error.errno}"
     return MISSING if error.errno in (errno.ENOENT, errno.ENOTDIR) else FileState(NO_STAT, word, word)
-
-
-def _open(path: str, flags: int) -> int:
-    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))  # a pipe that has taken the file's place never blocks

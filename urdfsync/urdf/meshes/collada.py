@@ -118,8 +118,6 @@ def _primitives(geometry: Any) -> Iterator[Triangles]:
     for primitive in geometry.primitives:
         part = primitive.triangleset() if isinstance(primitive, polylist.Polylist) else primitive
         if isinstance(part, triangleset.TriangleSet) and part.vertex is not None:
-            if part.vertex_index.min() < 0:
-                raise MeshError("it has a negative index")
             yield Triangles(part.vertex.astype(np.float64), part.vertex_index)
 
 

@@ -26,6 +26,7 @@ MAX_TRIANGLES = 1_000_000
 _HEADER = b"binary STL, written by urdfsync".ljust(80)
 _STEPS = 36  # directions on each great circle
 _TIE = 1e-9  # of the size: what is meant to be equal differs by rounding
+_THIN = 1e-7  # of the size: points in a plane that lie so near to one line are on it
 _MARGIN = 1e-5  # of the size: far above the error of single precision
 _CHUNK = 1 << 14  # points whose products with all directions stay in the cache
 _MANY = 4  # directions in which a point is extreme, on average, before that looks odd
@@ -44,18 +45,22 @@ class Triangles(NamedTuple):
 
 def placed(mesh: Triangles, pose: Array) -> Triangles:
     """Triangles moved by an affine transformation (4 × 4); one that mirrors keeps their outer sides."""
-    x, y, z = (mesh.points[:, axis, np.newaxis] for axis in range(3))
-    points = x * pose[:3, 0] + y * pose[:3, 1] + z * pose[:3, 2] + pose[:3, 3]
+    points = np.empty(mesh.points.shape)
+    for start in range(0, len(points), _CHUNK):
+        x, y, z = (mesh.points[start : start + _CHUNK, axis, np.newaxis] for axis in range(3))
+        points[start : start + _CHUNK] = x * pose[:3, 0] + y * pose[:3, 1] + z * pose[:3, 2] + pose[:3, 3]
     return Triangles(points, mesh.faces[:, ::-1] if np.linalg.det(pose[:3, :3]) < 0 else mesh.faces)
 
 
 def joined(parts: Iterable[Triangles]) -> Triangles:
-    """All triangles as one mesh. Raises MeshError if there are more than `MAX_TRIANGLES`."""
+    """All triangles as one mesh. Raises MeshError for more than `MAX_TRIANGLES`, and for a corner that is no point."""
     points, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)]
     count = triangles = 0
     for part in parts:
         triangles += len(part.faces)
         check_count(triangles)
+        if len(part.faces) and (part.faces.min() < 0 or part.faces.max() >= len(part.points)):
+            raise MeshError("one of its faces has an index that no vertex has")
         points.append(part.points)
         faces.append(part.faces + count)
         count += len(part.points)
@@ -75,16 +80,22 @@ def import_form(mesh: Triangles, scale: Vector) -> tuple[Triangles, Facts]:
     """
     if not len(mesh.faces):
         raise MeshError("it has no triangles")
-    is_used = np.zeros(len(mesh.points), dtype=np.bool_)
-    is_used[mesh.faces] = True
-    if not np.isfinite(mesh.points[is_used]).all():
+    if not np.isfinite(bounds(_used_points(mesh))).all():
         raise MeshError("it has coordinates that aren't finite numbers")
     with np.errstate(over="ignore", invalid="ignore"):
         scaled = placed(mesh, np.diag((*scale, 1.0)))
-    points = scaled.points[is_used]
-    if not (np.abs(points) <= np.finfo(np.float32).max).all():
+    points = _used_points(scaled)
+    extent = bounds(points)
+    if not (np.abs(extent) <= np.finfo(np.float32).max).all():
         raise MeshError("its coordinates are too large for single precision")
-    return scaled, {"bounds": bounds(points), "hull": support_points(points)}
+    return scaled, {"bounds": extent, "hull": support_points(points)}
+
+
+def _used_points(mesh: Triangles) -> Array:
+    is_used = np.zeros(len(mesh.points), dtype=np.bool_)
+    is_used[mesh.faces] = True
+    used: Array = mesh.points[is_used]
+    return used
 
 
 def binary_stl(mesh: Triangles) -> bytes:
@@ -97,7 +108,7 @@ def binary_stl(mesh: Triangles) -> bytes:
         lengths = np.sqrt(normals[:, 0] ** 2 + normals[:, 1] ** 2 + normals[:, 2] ** 2)[:, np.newaxis]
         facets["normal"][part] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
         facets["corners"][part] = np.stack((a, b, c), axis=1)
-    return b"".join((_HEADER, struct.pack("<I", len(facets)), facets.tobytes()))
+    return b"".join((_HEADER, struct.pack("<I", len(facets)), facets.view(np.uint8).data))
 
 
 def bounds(points: Array) -> list[list[float]]:
@@ -167,8 +178,11 @@ def _is_first(points: Array) -> npt.NDArray[np.bool_]:
 
 def _corners(tied: Array, direction: Array, size: float) -> Array:
     """Of points in a plane normal to `direction`: those extreme along the other directions, two where these tie too."""
-    if not np.ptp(tied, axis=0).any():
-        return tied[:1]
+    axis = np.ptp(tied, axis=0).argmax()
+    ends = tied[[tied[:, axis].argmin(), tied[:, axis].argmax()]]
+    offsets = np.cross(tied - ends[0], ends[1] - ends[0])
+    if (np.abs(offsets) <= _THIN * size * np.linalg.norm(ends[1] - ends[0])).all():
+        return ends
     along = np.cross(direction, _DIRECTIONS)
     others = np.linalg.norm(along, axis=1) > _MARGIN
     if len(tied) > _CHUNK:

@@ -28,7 +28,8 @@ def read_stl(content: bytes) -> Triangles:
     if len(content) == _STL_COUNT.stop + announced * FACET.itemsize:  # some of these begin with `solid`, too
         check_count(announced)
         points = np.frombuffer(content, FACET, offset=_STL_COUNT.stop)["corners"].reshape(-1, _AXES)
-        return _separate(points.astype(np.float64))
+        with np.errstate(invalid="ignore"):  # numbers that are none are found later
+            return _separate(points.astype(np.float64))
     if content.lstrip()[:5].lower() == b"solid":
         return _read_ascii_stl(content)
     if not announced:

@@ -25,6 +25,7 @@ WALL_SECONDS = 60.0
 """For one mesh, everywhere. A busy machine may need so long for the CPU time."""
 OUT_OF_MEMORY = 3
 """The exit code of a process that needs more."""
+_PATIENCE = 1.0  # s for a process to end that has closed its stdout
 _MAX_LINE = 10_000_000
 _MAX_STL = 60_000_000
 
@@ -37,6 +38,8 @@ class Request(msgspec.Struct, frozen=True):
     suffix: str
     scale: Vector
     size: int
+    seconds: float
+    """CPU time that reading it may take."""
 
 
 class Answer(msgspec.Struct, frozen=True):
@@ -68,10 +71,12 @@ class MeshProcess:
             timer = threading.Timer(WALL_SECONDS, process.kill)
             timer.start()
             try:
-                answer, stl = _ask(process, Request(suffix, scale, len(content)), content)
+                answer, stl = _ask(process, Request(suffix, scale, len(content), CPU_SECONDS), content)
                 if answer.is_last:
                     self.end()
-            except (OSError, ValueError) as error:  # it has ended, or the answer is none
+            except (OSError, ValueError) as error:  # it ends, or the answer is none
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    process.wait(_PATIENCE)
                 self.end()
                 raise MeshError(_reason(process.returncode, time.monotonic() - began)) from error
             except BaseException:  # an interruption leaves the rest of an answer in the pipe

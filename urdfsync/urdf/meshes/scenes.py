@@ -36,16 +36,13 @@ class _NoOtherFiles(Mapping[str, bytes]):
 
 def read_scene(suffix: str, content: bytes) -> Triangles:
     """Read all triangles, moved by the nodes of the scene; in metres, or the file's unit. Raises MeshError."""
-    if suffix == ".gltf":
-        try:
-            json.loads(content)  # where this fails, trimesh looks for another file
-        except ValueError as error:
-            raise MeshError(f"its content isn't JSON: {error}") from error
     if suffix in (".gltf", ".glb"):
         for compression in _COMPRESSIONS:
             if compression in content:
                 raise MeshError(f"it is compressed ({compression.decode()})")
     with damage_is_an_error():
+        if suffix == ".gltf":
+            json.loads(content)  # where this fails, trimesh looks for another file
         mesh = joined(_parts(suffix, content))
         announced = _ANNOUNCED[suffix].search(content) if suffix in _ANNOUNCED else None
         if announced and len(mesh.faces) < int(announced[1]):  # trimesh passes over those that are missing

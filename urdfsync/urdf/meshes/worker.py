@@ -8,6 +8,7 @@ import signal
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
+from pathlib import Path
 from typing import IO
 
 import msgspec
@@ -16,17 +17,20 @@ from urdfsync.processes import reserve_stdout
 from urdfsync.urdf.meshes.errors import MeshError, damage_is_an_error
 from urdfsync.urdf.meshes.geometry import Triangles, binary_stl, import_form
 from urdfsync.urdf.meshes.plain import PLAIN
-from urdfsync.urdf.meshes.process import CPU_SECONDS, MEMORY, OUT_OF_MEMORY, Answer, Request
+from urdfsync.urdf.meshes.process import MEMORY, OUT_OF_MEMORY, Answer, Request
 
 if sys.platform != "win32":
     import resource
 
-_GROWN = 200_000
-"""Kilobytes that the process needs at most for an ordinary mesh; its libraries are 120,000 of them."""
+_UNUSED = ("PIL", "httpx", "networkx", "scipy")
+"""Packages that trimesh takes where they are installed, and that no reading of ours needs: half a second, and 60 MB."""
+_GROWN = 200_000_000
+"""Bytes that the process has allocated when it has read a large mesh; its libraries are 70 MB of them."""
 
 
 def main() -> None:
     """Answer requests until stdin is closed."""
+    sys.modules.update(dict.fromkeys(_UNUSED))  # type: ignore[arg-type] # None lets an import fail
     requests, answers = sys.stdin.buffer, reserve_stdout()
     while line := requests.readline():
         request = msgspec.json.decode(line, type=Request)
@@ -43,13 +47,19 @@ def _answer(request: Request, requests: IO[bytes]) -> tuple[Answer, bytes]:
     content = requests.read(request.size)
     try:
         read = reader(request.suffix)
-        with _limits():
+        with _limits(request.seconds):
             mesh, facts = import_form(read(content), request.scale)
             stl = binary_stl(mesh)
     except MeshError as error:
         return Answer(problem=str(error)), b""
-    is_last = sys.platform == "linux" and resource.getrusage(resource.RUSAGE_SELF).ru_maxrss > _GROWN
-    return Answer(len(stl), facts, is_last=is_last), stl
+    return Answer(len(stl), facts, is_last=_allocated() > _GROWN), stl
+
+
+def _allocated() -> int:
+    """Bytes that the memory limit counts; 0 where there is none. What was freed may still be among them."""
+    if sys.platform != "linux":
+        return 0
+    return int(Path("/proc/self/statm").read_text().split()[5]) * resource.getpagesize()
 
 
 def reader(suffix: str) -> Callable[[bytes], Triangles]:
@@ -67,7 +77,7 @@ def reader(suffix: str) -> Callable[[bytes], Triangles]:
 
 
 @contextlib.contextmanager
-def _limits() -> Iterator[None]:
+def _limits(seconds: float) -> Iterator[None]:
     """Limit time and memory of one mesh, and let no file be written. Libraries are loaded without limits."""
     if sys.platform == "win32":
         yield
@@ -79,7 +89,7 @@ def _limits() -> Iterator[None]:
     for kind, limit in limits.items():
         resource.setrlimit(kind, (limit, before[kind][1]))
     # ends the process; RLIMIT_CPU counts whole seconds, and all meshes that it has read
-    signal.setitimer(signal.ITIMER_PROF, CPU_SECONDS)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         yield
     finally:

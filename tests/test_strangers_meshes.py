@@ -1,0 +1,255 @@
+"""Meshes of a stranger's: each ends in one finding within its limits, whatever command meets it."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import psutil
+import pytest
+from support.daemon import Watch
+from support.git import NEEDS_GIT, Repository
+from support.meshes import HOSTILE, VERTICES, dae, tenfold, write_hostile
+from support.urdfs import link, robot
+
+from urdfsync import cli
+from urdfsync.urdf.meshes import process
+from urdfsync.urdf.meshes.errors import MeshError
+from urdfsync.urdf.meshes.process import MeshProcess
+
+Capture = pytest.CaptureFixture[str]
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere not all limits hold")
+UNIT = (1.0, 1.0, 1.0)
+SOUND = dae().encode()
+ENDLESS = tenfold(11, "").encode()
+
+
+@pytest.fixture
+def reader() -> Iterator[MeshProcess]:
+    found = MeshProcess()
+    yield found
+    found.end()
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def _configure(*meshes: str) -> None:
+    """A robot whose base shows these meshes, and one that shows none."""
+    shapes = "".join(f'<visual><geometry><mesh filename="{mesh}"/></geometry></visual>' for mesh in meshes)
+    Path("arm.urdf").write_text(robot(f'<link name="base">{shapes}</link>'))
+    Path("other.urdf").write_text(robot(link("base", 1.0)))
+    tables = [f'[robots.{name}]\nsource = "{name}.urdf"\npackage = "{name.title()}"\n' for name in ("arm", "other")]
+    Path("urdfsync.toml").write_text("".join(["[defaults]\ncross_check = false\n", *tables]))
+
+
+def _run(capsys: Capture, *arguments: str) -> tuple[int, str]:
+    capsys.readouterr()
+    code = cli.main(arguments)
+    said = "".join(capsys.readouterr())
+    assert "Traceback" not in said
+    assert "[internal]" not in said
+    return code, said
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_each_ends_in_one_finding_within_its_limits(folder: Path, capsys: Capture, name: str) -> None:
+    write_hostile(folder, name)
+    _configure(name)
+    before = time.process_time()
+    code, said = _run(capsys, "build", "arm", "--dry-run", "--verbose")
+    assert code == 0
+    (finding,) = [line for line in said.splitlines() if "warning:" in line]
+    assert finding.startswith("arm.urdf:3: warning:")
+    assert name in finding
+    assert finding.endswith("[mesh-unreadable]")
+    assert re.search(HOSTILE[name][1], finding), finding
+    assert time.process_time() - before < 5
+
+
+COMMANDS = {
+    "status": (0, True),
+    "diff": (1, True),
+    "build --check": (1, True),
+    "build --dry-run": (0, True),
+    "resolve --all --take": (0, False),
+    "record arm.urdf": (0, False),
+    "build": (0, True),
+    "build --full": (0, True),
+}
+"""By command: its exit code, and whether it tells what was left out."""
+
+
+def test_every_command_goes_on_without_them(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(process, "CPU_SECONDS", 0.5)
+    names = ("tenfold.dae", "expression.off", "list.ply", "accessor.gltf", "corners.obj", "sparse.stl", "pipe.obj")
+    for name in names:
+        write_hostile(folder, name)
+    _configure(*names)
+    for command, (expected, tells) in COMMANDS.items():
+        code, said = _run(capsys, *command.split(), *(() if command.startswith(("rec", "res")) else ("--verbose",)))
+        assert code == expected, (command, said)
+        told = [line for line in said.splitlines() if "[mesh-unreadable]" in line]
+        assert len(told) == (len(names) if tells else 0), (command, said)
+    assert _run(capsys, "build", "--check")[0] == 0, "a mesh that can't be read is remembered"
+    assert Path("modelica/Other/Other.mo").is_file()
+
+
+@NEEDS_GIT
+def test_hooks_go_on_without_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONSAFEPATH", "1")
+    repository = Repository(tmp_path / "project", monkeypatch)
+    monkeypatch.chdir(tmp_path / "project")
+    for name in ("expression.off", "list.ply"):
+        write_hostile(Path.cwd(), name)
+    _configure("expression.off", "list.ply")
+    repository.git("add", "-A")
+    for mode in ("check", "build"):
+        hook = Path(sys.executable).with_name("urdfsync-hook")
+        done = subprocess.run([hook, mode], capture_output=True, text=True, check=False, timeout=60)
+        assert (done.returncode, "Traceback" in done.stderr) == (1, False), done.stderr
+
+
+@pytest.mark.parametrize("make", [os.mkfifo, HOSTILE["sparse.stl"][0]], ids=["pipe", "sparse"])
+@pytest.mark.parametrize(
+    "command",
+    [("init", "odd.urdf"), ("record", "odd.urdf"), ("diff",), ("build",), ("status",)],
+)
+def test_a_source_is_a_file_of_a_size_that_can_be_read(
+    folder: Path, capsys: Capture, make: object, command: tuple[str, ...]
+) -> None:
+    assert callable(make)
+    make(folder / "odd.urdf")
+    if command[0] != "init":
+        Path("urdfsync.toml").write_text('[robots.arm]\nsource = "odd.urdf"\npackage = "Arm"\n')
+    code, said = _run(capsys, *command)
+    assert code == 2
+    assert "no regular file" in said or "more than 100,000,000 bytes" in said
+
+
+@pytest.mark.parametrize("make", [os.mkfifo, HOSTILE["sparse.stl"][0]], ids=["pipe", "sparse"])
+@pytest.mark.parametrize("command", ["build", "status", "diff", "check", "resolve --all --take", "watch"])
+def test_a_configuration_is_a_file_of_a_size_that_can_be_read(
+    folder: Path, capsys: Capture, make: object, command: str
+) -> None:
+    assert callable(make)
+    make(folder / "odd.toml")
+    code, said = _run(capsys, *command.split(), "--config", "odd.toml")
+    assert code == 2
+    assert "no regular file" in said or "more than 100,000,000 bytes" in said
+
+
+# --- the process ------------------------------------------------------------------------------------------------------
+
+
+def _pid(reader: MeshProcess) -> int:
+    """The process that reads."""
+    found = reader._process
+    assert found is not None
+    return found.pid
+
+
+def test_the_process_is_kept_until_a_mesh_breaks_a_limit(reader: MeshProcess, monkeypatch: pytest.MonkeyPatch) -> None:
+    stl, facts = reader.read(".dae", UNIT, SOUND)
+    assert (len(stl), facts["bounds"]) == (134, [[0, 0, 0], [1, 1, 0]])
+    first = _pid(reader)
+    with pytest.raises(MeshError, match="well-formed"):
+        reader.read(".dae", UNIT, b"<a")
+    assert (reader.read(".dae", UNIT, SOUND), _pid(reader)) == ((stl, facts), first)
+    monkeypatch.setattr(process, "CPU_SECONDS", 0.3)
+    with pytest.raises(MeshError, match=r"more than 0\.3 s"):
+        reader.read(".dae", UNIT, ENDLESS)
+    assert not psutil.pid_exists(first)
+    monkeypatch.undo()
+    assert reader.read(".dae", UNIT, SOUND) == (stl, facts)
+    assert _pid(reader) != first
+
+
+def test_time_by_the_clock_is_limited_too(reader: MeshProcess, monkeypatch: pytest.MonkeyPatch) -> None:
+    reader.read(".dae", UNIT, SOUND)
+    os.kill(_pid(reader), signal.SIGSTOP)
+    monkeypatch.setattr(process, "WALL_SECONDS", 0.2)
+    with pytest.raises(MeshError, match=r"longer than 0\.2 s"):
+        reader.read(".dae", UNIT, SOUND)
+
+
+def test_a_crash_and_a_wrong_answer_are_told(reader: MeshProcess, monkeypatch: pytest.MonkeyPatch) -> None:
+    for program, words in (
+        ("import os; os.abort()", r"ended the process .*SIGABRT"),
+        ("print('{\"size\": 1000000000}', flush=True); input()", "ended the process"),
+        ("print('no answer', flush=True); input()", "ended the process"),
+        ('print(\'{"problem": "it \\\\u001b[2J\\\\n is wrong"}\', flush=True); input()', r"it  \[2J  is wrong"),
+    ):
+        command = [sys.executable, "-c", program]
+        monkeypatch.setattr(process, "python_module", lambda _module, command=command: command)
+        with pytest.raises(MeshError, match=words):
+            reader.read(".dae", UNIT, SOUND)
+        reader.end()
+
+
+def test_an_interruption_is_heard_while_a_mesh_is_read(reader: MeshProcess) -> None:
+    reader.read(".dae", UNIT, SOUND)
+    first = _pid(reader)
+    signal.setitimer(signal.ITIMER_REAL, 0.5)
+    before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            reader.read(".dae", UNIT, ENDLESS)
+    finally:
+        signal.signal(signal.SIGALRM, before)
+    assert not psutil.pid_exists(first)
+    assert reader.read(".dae", UNIT, SOUND)
+
+
+def test_the_process_ends_with_whoever_started_it(tmp_path: Path) -> None:
+    program = (
+        "import os; from urdfsync.urdf.meshes.process import MeshProcess; reader = MeshProcess();"
+        f"reader.read('.dae', (1.0, 1.0, 1.0), {SOUND!r}); print(reader._process.pid, flush=True);"
+        "os.kill(os.getpid(), 9)"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    end = time.monotonic() + 30
+    while psutil.pid_exists(int(done.stdout)) and psutil.Process(int(done.stdout)).status() != psutil.STATUS_ZOMBIE:
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def test_it_imports_nothing_from_the_working_folder_and_writes_nothing(folder: Path, reader: MeshProcess) -> None:
+    for name in ("collada", "numpy", "msgspec", "urdfsync", "signal", "resource", "sitecustomize"):
+        (folder / f"{name}.py").write_text(f"open({str(folder / 'mark')!r}, 'w').close()\n")
+    assert reader.read(".dae", UNIT, SOUND)
+    assert not (folder / "mark").exists()
+
+
+def test_small_stl_and_obj_files_need_neither_the_process_nor_libraries(folder: Path) -> None:
+    Path("a.obj").write_bytes(VERTICES + b"f 1 2 3\n")
+    Path("b.stl").write_bytes(b"solid b\nfacet vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endfacet\nendsolid b\n")
+    _configure("a.obj", "b.stl")
+    program = (
+        "import sys; from urdfsync import cli; from urdfsync.urdf.meshes import convert;"
+        "assert cli.main(['build', '--quiet', 'arm']) == 0;"
+        "assert not {'trimesh', 'collada'} & sys.modules.keys() and convert._process._process is None"
+    )
+    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
+    assert len(list(Path("modelica/Arm/Resources").iterdir())) == 2
+
+
+@pytest.mark.slow
+def test_the_daemon_builds_the_others_and_ends_at_once(folder: Path) -> None:
+    for name in ("tenfold.dae", "many.gltf", "pipe.obj"):
+        write_hostile(folder, name)
+    _configure("tenfold.dae", "many.gltf", "pipe.obj")
+    with Watch(folder, "--settle", "10", "--sample", "10") as watch:
+        watch.wait("built", lambda event: event["robot"] == "other")
+        watch.process.send_signal(signal.SIGTERM)
+        assert watch.process.wait(30) == 0
