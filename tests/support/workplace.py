@@ -22,8 +22,8 @@ from urdfsync.outcome import Exit
 CODES = {int(code) for code in Exit}
 WATCHING = 0.4
 """Seconds for the daemon: it has built by then, or will not."""
-TIME_LIMIT = 60.0
-"""Seconds after which a command hangs."""
+TIME_LIMIT = 300.0
+"""Seconds after which a command hangs, however busy the machine is."""
 WATCH = ["watch", "--settle", "1", "--sample", "1", "--patience", "0.1"]
 _SHOWN = 300
 _CONTROLS = re.compile("[\\x00-\\x1f\\x7f-\\x9f]")
