@@ -26,8 +26,8 @@ from pathlib import Path
 
 KINDS = {"URDF": "fuzzing.urdf", "mesh": "fuzzing.mesh", "state": "fuzzing.state", "config": "fuzzing.config"}
 _LAST_SEED = "last-seed"
-_FOUND = 1
-"""Exit code of a worker that found faults; any other but 0 means that a case ended the process."""
+_FOUND = 3
+"""Exit code of a worker that found faults; any other but 0 means that a case ended the process, by a time limit say."""
 
 
 def main() -> int:
@@ -40,7 +40,7 @@ def main() -> int:
     parser.add_argument("--worker", action="store_true", help=argparse.SUPPRESS)
     args = parser.parse_args()
     if args.worker:
-        return int(importlib.import_module(KINDS[args.kind]).run(args.count, args.seed) > 0)
+        return _FOUND if importlib.import_module(KINDS[args.kind]).run(args.count, args.seed) else 0
     share, rest = divmod(args.count, args.jobs)
     counts = [share + (number < rest) for number in range(args.jobs)]
     seeds = [args.seed + sum(counts[:number]) for number in range(args.jobs)]

@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import threading
 from pathlib import Path
 from typing import IO
 
 
-def python_module(module: str) -> list[str]:
+def python_module(module: str, *arguments: str) -> list[str]:
     """Return the command that runs a module with this Python; the working folder has no say in what it imports."""
-    return [sys.executable, "-P", "-m", module]
+    return [sys.executable, "-P", "-m", module, *arguments]
 
 
 def importable() -> dict[str, str]:
@@ -28,6 +29,21 @@ def reserve_stdout() -> IO[bytes]:
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     return answers
+
+
+def end_with_parent() -> None:
+    """End this process and its children when its stdin is closed; call it after the last line was read from there."""
+
+    def wait() -> None:
+        while os.read(0, 4096):  # not through sys.stdin, whose lock would disturb the interpreter at its end
+            pass
+        import psutil  # an optional extra, which checks need
+
+        for child in psutil.Process().children(recursive=True):
+            child.kill()  # a compiler at work may not let its own thread look at stdin
+        os._exit(1)  # the main thread may be in native code
+
+    threading.Thread(target=wait, name="end-with-parent", daemon=True).start()
 
 
 def exit_cause(code: int) -> str:

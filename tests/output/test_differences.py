@@ -8,14 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.merge import merge
-from urdfsync.output.hunks import CONTEXT, Cell, Hunk, Line, hunks
+from urdfsync.output.differences import CONTEXT, Cell, Hunk, Line, find_hunks
 
 TEXTS = st.lists(st.sampled_from("abcdefgh"), max_size=30).map(lambda lines: "".join(f"{line}\n" for line in lines))
 LETTERS = "".join(f"{letter}\n" for letter in "abcdefghijklmnop")
 
 
 def three(base: str, mine: str, generated: str) -> list[Hunk]:
-    return hunks(base, mine, generated, merge(base, mine, generated))
+    return find_hunks(base, mine, generated, merge(base, mine, generated))
 
 
 def shown(hunk: Hunk) -> list[str]:
@@ -28,7 +28,7 @@ def half(cell: Cell | None) -> str:
 
 
 def stacked(hunk: Hunk) -> list[str]:
-    return [f"{label} {line.number} {line.text}" for label, line, _ in hunk.stack]
+    return [f"{label} {line.number} {line.text}" for label, line in hunk.stack]
 
 
 def test_each_side_stands_against_base() -> None:
@@ -77,7 +77,7 @@ def test_numbers_are_those_of_each_version() -> None:
 
 
 def test_without_a_base_only_the_difference_is_known() -> None:
-    (hunk,) = hunks(None, "a\nb\nc\n", "a\nx\ny\nc\n", None)
+    (hunk,) = find_hunks(None, "a\nb\nc\n", "a\nx\ny\nc\n", None)
     assert shown(hunk) == ["1 a | 1 a", "2*b | 2*x", " | 3*y", "3 c | 4 c"]
     assert stacked(hunk) == [" 1 a", "mine 2 b", "generated 2 x", "generated 3 y", " 3 c"]
 
@@ -133,11 +133,11 @@ def test_all_versions_can_be_read_from_the_rows(base: str, mine: str, generated:
 @given(TEXTS, TEXTS, TEXTS)
 def test_all_versions_can_be_read_from_the_stack(base: str, mine: str, generated: str) -> None:
     for hunk in three(base, mine, generated):
-        own = [line for label, line, _ in hunk.stack if label in ("", "mine", "both") and line.number]
+        own = [line for label, line in hunk.stack if label in ("", "mine", "both") and line.number]
         lines = mine.split("\n")
         assert {line.number for line in own} <= set(hunk.lines)
         assert all(line.text == lines[line.number - 1] for line in own)
-        theirs = [line for label, line, _ in hunk.stack if label == "generated" and line.number]
+        theirs = [line for label, line in hunk.stack if label == "generated" and line.number]
         assert all(line.text == generated.split("\n")[line.number - 1] for line in theirs)
-        unchanged = [len(list(run)) for label, run in groupby(hunk.stack, lambda part: part.label) if not label]
+        unchanged = [len(list(run)) for label, run in groupby(hunk.stack, lambda part: part[0]) if not label]
         assert max(unchanged, default=0) <= 2 * CONTEXT

@@ -10,8 +10,8 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from urdfsync.diff.changes import Change, Changes
-from urdfsync.diff.outline import LONG, OutlineEntry, OutlineRow, Tone, effect_rows, outline
 from urdfsync.domain import ChangeClass, ChangeKind, Effect
+from urdfsync.output.outline import LONG, OutlineEntry, OutlineRow, effect_rows, outline
 
 
 def change(
@@ -151,8 +151,8 @@ def test_a_long_outline_is_condensed_to_a_row_per_element() -> None:
     assert found.condensed
     assert found.entries[0].title == "link 0"
     assert found.entries[0].rows == (
-        OutlineRow("", Tone.CHANGED, new="2 in visual; 1 by rounding"),
-        OutlineRow("type", Tone.CHANGED, "a", "b"),
+        OutlineRow("", new="2 in visual; 1 by rounding"),
+        OutlineRow("type", ChangeKind.CHANGED, "a", "b"),
     )
     assert len(found.entries) == 2, "all others have the same row"
     everything = outline(Changes((*numbers, noise, kind)), everything=True)
