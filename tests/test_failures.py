@@ -12,10 +12,13 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from support.git import NEEDS_GIT, Repository
+from support.workplace import changes, contents
 
 import urdfsync
 from urdfsync import cli, config, extras
 from urdfsync.state.lock import Lock
+from urdfsync.urdf.domain import UrdfDomain
 
 Capture = pytest.CaptureFixture[str]
 
@@ -74,6 +77,47 @@ def test_what_nobody_foresaw_ends_in_2_with_its_traceback_in_a_file(
     (file,) = traces.iterdir()
     assert f"please report it with the traceback in {file} [internal]" in line
     assert type(error).__name__ in file.read_text()
+
+
+@NEEDS_GIT
+@pytest.mark.parametrize(
+    "command",
+    [
+        *(["build"], ["build", "--check"], ["build", "--dry-run"], ["status"], ["diff"]),
+        *(["resolve", "--all", "--take"], ["record", "arm.urdf"], ["init", "--config", "new.toml", "arm.urdf"]),
+        *(["hook", "check"], ["hook", "build"]),
+    ],
+    ids=" ".join,
+)
+@pytest.mark.parametrize("error", [MemoryError(), RecursionError("too deep")], ids=repr)
+def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
+    tmp_path: Path,
+    traces: Path,
+    capsys: Capture,
+    monkeypatch: pytest.MonkeyPatch,
+    command: list[str],
+    error: Exception,
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise error
+
+    repository = Repository(tmp_path / "project", monkeypatch)
+    monkeypatch.chdir(repository.folder)
+    Path("arm.urdf").write_text(URDF)
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n')
+    assert cli.main(["build", "--quiet"]) == 0
+    Path("arm.urdf").write_text(URDF.replace("1 1 1", "1 1 2"))
+    repository.commit()
+    before = contents(repository.folder)
+    capsys.readouterr()
+    monkeypatch.setattr(UrdfDomain, "read", fail)
+    assert cli.main(command) == 2
+    said = capsys.readouterr().err
+    assert len([line for line in said.splitlines() if "error: " in line]) == 1, said
+    assert "[internal]" in said
+    assert "Traceback" not in said
+    changed = changes(before, contents(repository.folder))
+    assert [name for name in changed if not name.startswith((".urdfsync/lock", ".git/index"))] == []
 
 
 def test_so_does_what_fails_while_an_answer_is_saved(

@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 from support import hostile
 from support.git import NEEDS_GIT, Repository
+from support.marks import LONG
 from support.urdfs import joint, limit, link, robot
 from support.workplace import WATCH, Workplace, changes, contents
 
@@ -143,7 +144,15 @@ def _attack(work: Workplace, stale: Path, name: str, commands: Sequence[Sequence
         assert [path for path in changed if not path.startswith(ALLOWED)] == [], command
 
 
-@pytest.mark.parametrize("name", [name for name in hostile.ATTACKS if "module" not in name and "domain" not in name])
+IN_PROCESS = [
+    pytest.param(name, marks=LONG if name == "a long chain" else ())
+    for name in hostile.ATTACKS
+    if name not in ("modules", "a domain of the repository")
+]
+"""Modules of the working folder can only meet programs; thousands of files take seconds a command."""
+
+
+@pytest.mark.parametrize("name", IN_PROCESS)
 def test_an_attack_meets_every_command(tmp_path: Path, stale: Path, name: str) -> None:
     work = Workplace(tmp_path)
     _attack(work, stale, name, READING, afresh=False)
@@ -152,7 +161,7 @@ def test_an_attack_meets_every_command(tmp_path: Path, stale: Path, name: str) -
         _attack(work, stale, name, OF_SOURCES, afresh=False)
 
 
-@pytest.mark.parametrize("name", hostile.ATTACKS)
+@pytest.mark.parametrize("name", IN_PROCESS)
 @pytest.mark.parametrize("command", LONGER, ids=lambda command: str(command[0]))
 @pytest.mark.long
 @pytest.mark.slow

@@ -10,6 +10,8 @@ LIST_INDEX = ("ls-files", "-z", "-v", "--stage", "--modified", "--full-name", "-
 """Lists the index, and once more each file that is modified or deleted. Where times differ, git compares contents,
 filters applied."""
 
+_NO_EMBEDDED = ("-c", "safe.bareRepository=explicit")
+"""Files of a stranger's may form a repository in the repository, whose settings name a program for git to run."""
 _PATHSPECS = {f"GIT_{kind}_PATHSPECS" for kind in ("LITERAL", "GLOB", "NOGLOB", "ICASE")}
 
 
@@ -20,7 +22,7 @@ def run(folder: str | os.PathLike[str], *arguments: str, content: bytes = b"") -
     """
     variables = {name: value for name, value in os.environ.items() if name not in _PATHSPECS}  # they redefine `:/`
     variables |= {"LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}  # English messages; git must not refresh the index
-    command = ["git", "-C", os.fspath(folder), *arguments]
+    command = ["git", *_NO_EMBEDDED, "-C", os.fspath(folder), *arguments]
     return subprocess.run(command, input=content, capture_output=True, env=variables, check=False)  # noqa: S603
 
 

@@ -177,6 +177,7 @@ def _damage(work: Workplace, random: Random) -> None:
 
 _NAMES = (
     *("journal/prepare.json", "journal/apply.json", "journal/done.json", "journal/undo.json", "undo/1", "stamp"),
+    *("folders.json", "folders.json"),
     *("journal/new.urdfsync-tmp", "lock", "watch.lock", "robots/other.toml", "robots/bot.json", "robots/bot.toml"),
     *("robots/BOT.toml", "robots/-x.toml", "robots/.toml", "robots/\x1b[2J.toml", "robots/a.b.toml", "conflicts/bot/x"),
     *("svg/bot.svg", ".gitignore", "config", "robots/bot.toml.urdfsync-tmp", "conflicts/bot/Links/Arm.merge.mo.txt"),

@@ -177,6 +177,20 @@ def _manifest_folder(folder: str) -> Callable[[Path, Path], None]:
     return make
 
 
+def _former_folder(project: Path, outside: Path) -> None:
+    """A manifest and a list of folders, both of which say that the user's package is a former place of urdfsync's."""
+    _manifest_folder("modelica/Other")(project, outside)
+    entry = {"modelica/Other": ["Mine.mo"], "arm": ["modelica/Other"]}
+    file = project / ".urdfsync/folders.json"
+    file.write_text(json.dumps({"folders": entry, "inode": 1, "written": 1}))
+    status = file.stat()  # as it was where the stranger wrote it
+    file.write_text(json.dumps({"folders": entry, "inode": status.st_ino, "written": status.st_mtime_ns}))
+
+
+def _deep_folders(project: Path, outside: Path) -> None:
+    (project / ".urdfsync/folders.json").write_text('{"x":' + "[" * 200_000)
+
+
 # 5. Links, and outputs elsewhere
 
 
@@ -313,6 +327,8 @@ ATTACKS: Mapping[str, Attack] = {
     "a manifest with the configuration": Attack(_manifest_file("urdfsync.toml")),
     "a manifest of a package outside": Attack(_manifest_folder(OUTSIDE)),
     "a manifest of the user's package": Attack(_manifest_folder("modelica/Other")),
+    "a list of former folders": Attack(_former_folder),
+    "a deep list of former folders": Attack(_deep_folders),
     "state that is a link": Attack(_link(".urdfsync", "state")),
     "manifests that are a link": Attack(_link(".urdfsync/robots", "state")),
     "a manifest that is a link": Attack(_link(MANIFEST, "victim.mo")),
@@ -358,6 +374,7 @@ TOGETHER = tuple(
         "manifests that are a link",
         "a manifest that is a link",
         "a manifest of the user's package",  # there can be one former package
+        "a list of former folders",
         "a journal that is a link",
         "a package that is a link",
         "an output folder that is a link",

@@ -22,10 +22,11 @@ from urdfsync.outcome import Exit
 CODES = {int(code) for code in Exit}
 WATCHING = 0.4
 """Seconds for the daemon: it has built by then, or will not."""
-TIME_LIMIT = 60.0
-"""Seconds after which a command hangs."""
+TIME_LIMIT = 300.0
+"""Seconds after which a command hangs, however busy the machine is."""
 WATCH = ["watch", "--settle", "1", "--sample", "1", "--patience", "0.1"]
 _SHOWN = 300
+_REPORTS = "urdfsync-*.traceback.txt"
 _CONTROLS = re.compile("[\\x00-\\x1f\\x7f-\\x9f]")
 """What must not be in the text of a record either, which otherwise has names as they are."""
 
@@ -46,11 +47,13 @@ class Workplace:
 
     def fill(self, template: Path) -> None:
         """Make the project a copy of another one, and all else as new."""
-        for place in (self.project, self.outside, self._temporary):
+        for place in (self.project, self.outside):
             shutil.rmtree(place, ignore_errors=True)
         shutil.copytree(template, self.project, symlinks=True)
         self._home.mkdir(parents=True, exist_ok=True)
-        self._temporary.mkdir()
+        self._temporary.mkdir(exist_ok=True)  # it stays, since multiprocessing keeps a folder in it
+        for report in self._temporary.glob(_REPORTS):
+            report.unlink()
         (self.outside / "folder").mkdir(parents=True)
         (self.outside / "victim.mo").write_text("precious")
         (self.outside / "folder/package.order").write_text("precious\n")
@@ -65,7 +68,7 @@ class Workplace:
         with self._surroundings(), _output() as output:
             code = _call(command)
         said = output.getvalue().decode(errors="replace")
-        reports = [path.read_text() for path in self._temporary.glob("urdfsync-*.traceback.txt")]
+        reports = [path.read_text() for path in self._temporary.glob(_REPORTS)]
         if reports or "Traceback (most" in said:
             raise Fault(f"{' '.join(command)}: {(reports or [said])[0][-2000:]}")
         if code not in CODES:

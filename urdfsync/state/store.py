@@ -137,7 +137,7 @@ class Store:
         try:
             noted = msgspec.json.decode(self._tree.read(file) or b"", type=_WrittenFolders)
             return noted.folders if file_operations.is_bound(file, noted.inode, noted.written) else {}
-        except (OSError, OutputError, msgspec.DecodeError, UnicodeDecodeError):
+        except (OSError, OutputError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return {}
 
     def has_bases(self, robot: str) -> bool:
