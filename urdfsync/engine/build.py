@@ -100,7 +100,8 @@ class _Builder:
         for _ in range(_ATTEMPTS):
             self._recover()
             plan = self._pool.plan(robot) if self._pool else plan_robot(self._config, robot, self._options)
-            if self._options.dry or not (plan.writes or plan.bases or any(action.writes for action in plan.actions)):
+            writes = plan.writes or plan.bases or not plan.is_noted or any(action.writes for action in plan.actions)
+            if self._options.dry or not writes:
                 if not self._options.dry or self._is_current(plan):
                     return plan
                 continue
@@ -126,15 +127,14 @@ class _Builder:
             self._options.cache.invalidate(robot.name)
         bases = store.bases(robot.name)
         bases.add(plan.bases)
-        folder = files.key(robot.folder)
-        store.note_folders(robot.name, {folder, *store.written_folders(plan.former_name or robot.name)})
+        former = {plan.former_folder} & store.written_folders(robot.name)
+        store.note_folders(robot.name, {files.key(robot.folder), *former}, plan.former_name)
         if not changes:
             return ()
         applied = self._transactions.apply(robot.name, changes, plan.emptied)
         self.notes += applied.diagnostics
         if plan.mentioned is not None and not applied.overtaken:
             bases.prune(plan.mentioned)
-            store.note_folders(robot.name, [folder], plan.former_name)
             if plan.former_name:
                 store.bases(plan.former_name).prune(())
         return applied.overtaken

@@ -48,6 +48,10 @@ class Plan(msgspec.Struct, frozen=True):
     """Texts to keep as bases that are not kept yet, by their hashes."""
     mentioned: frozenset[str] | None = None
     """Hashes of all bases that the manifest mentions then; None if others may be needed as well."""
+    is_noted: bool = True
+    """Whether a build in this checkout noted the package's folder."""
+    former_folder: str = ""
+    """Key of the package's folder in the last build, if it has another one now."""
     former_name: str | None = None
     """The name that the robot had in the last build, if it has another one now."""
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -118,7 +122,19 @@ def _plan_if_current(inputs: Inputs) -> Plan | None:
             tuple(store.changes(inputs.robot.name, manifest.dumps(renewed), None, None)) if renewed != recorded else ()
         )
     left_out = imports.reminder(dependencies, recorded.dependencies, shown(inputs.robot.source))
-    return Plan(decision.actions, store.witness(), shared=decision.shared, writes=writes, diagnostics=left_out)
+    return Plan(
+        decision.actions,
+        store.witness(),
+        shared=decision.shared,
+        writes=writes,
+        is_noted=options.dry or _is_noted(inputs),
+        diagnostics=left_out,
+    )
+
+
+def _is_noted(inputs: Inputs) -> bool:
+    """Return whether a build in this checkout noted the package's folder."""
+    return inputs.folder in inputs.store.written_folders(inputs.robot.name)
 
 
 def _plan_generation(inputs: Inputs, generation: Generation) -> Plan:
@@ -150,6 +166,8 @@ def _plan_generation(inputs: Inputs, generation: Generation) -> Plan:
         emptied=tuple(emptied),
         bases=bases,
         mentioned=mentioned,
+        is_noted=_is_noted(inputs),
+        former_folder=inputs.old_folder if inputs.old_folder != inputs.folder else "",
         former_name=inputs.former_name,
         drawing=drawing,
     )
