@@ -34,10 +34,11 @@ from urdfsync.check.libraries import find_standard_library
 from urdfsync.check.results import EFFORTS, MASSES, POSES
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Target
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import completion, motion
+from urdfsync.urdf.robot import MOTION_KINDS
 
 COUNTED = ("file", "moving joints", "axes", "links")
 FUNCTIONS = ("found", "mass", "inertias", "bias", "gravity", "jacobian", "places", "turns")

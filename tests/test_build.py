@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from support.crashes import Operation, before_each
 
 from urdfsync import config, files
 from urdfsync.engine import imports
@@ -125,12 +126,6 @@ def heavy_after_a_build(*folders: Path) -> list[str]:
     return done.stdout.splitlines()
 
 
-def test_a_no_op_imports_nothing_heavy(project: Path, rc_site: Path) -> None:
-    run()
-    rc_folder = Path(sys.modules["rc_domain"].__file__ or "").parent
-    assert heavy_after_a_build(rc_site, rc_folder) == ["ladder: in step, 14 files", "[]"]
-
-
 def test_a_no_op_of_a_urdf_imports_nothing_heavy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     mesh = '<visual><geometry><mesh filename="tip.stl"/></geometry></visual>'
@@ -151,12 +146,6 @@ def test_a_dry_run_writes_nothing_and_says_the_same(project: Path, snapshot_of: 
     planned = run(dry=True)
     assert snapshot_of(project) == before
     assert planned.actions == run().actions
-
-
-def test_changed_numbers_touch_only_their_record(project: Path) -> None:
-    run()
-    edit(project / "ladder.json", "220.5", "221")
-    assert kinds(run()) == {"Elements/R2Parameters.mo": Kind.UPDATE}
 
 
 def test_changed_white_space_touches_nothing(project: Path, snapshot_of: Snapshot) -> None:
@@ -197,15 +186,6 @@ def test_a_changed_option_or_template_renders_again(project: Path) -> None:
     edit(template, "record", "record  ")
     assert set(kinds(run()).values()) == {Kind.UPDATE}
     assert run().in_step
-
-
-def test_another_package_moves_everything(project: Path) -> None:
-    run()
-    configure(project, package='"Filter"')
-    result = run()
-    assert {action.kind for action in result.actions} == {Kind.CREATE, Kind.DELETE}
-    assert not (project / LADDER).exists()
-    assert (project / "modelica/Filter/Filter.mo").exists()
 
 
 def test_a_package_that_moves_takes_edits_along_and_leaves_what_is_the_users(project: Path) -> None:
@@ -266,13 +246,6 @@ def test_a_robot_with_another_name_takes_its_state_along(project: Path) -> None:
     states = {path.name for path in (project / ".urdfsync/robots").iterdir()}
     assert states == {"filter.toml", "filter.json"}
     assert run().diagnostics == ()
-
-
-def test_a_renamed_robot_without_changes_takes_its_state_along(project: Path) -> None:
-    run()
-    rename_robot(project)
-    assert kinds(run()) == {}
-    assert {path.name for path in (project / ".urdfsync/robots").iterdir()} == {"filter.toml", "filter.json"}
 
 
 def test_state_of_robots_that_are_gone_is_mentioned_once_and_kept(project: Path) -> None:
@@ -337,6 +310,41 @@ def test_an_edited_file_survives(project: Path) -> None:
     assert manifest_of(project)["files"]["Elements/R1.mo"]["state"] == "edited"
 
 
+def test_a_build_may_only_record_what_the_user_did(project: Path, snapshot_of: Snapshot) -> None:
+    run()
+    edit(project / LADDER / "Elements/R1.mo", "end R1;", "// mine\nend R1;")
+    before, package = snapshot_of(project), snapshot_of(project / LADDER)
+    result = run()
+    assert result.in_step
+    assert result.renews_state
+    assert snapshot_of(project / LADDER) == package
+    after = snapshot_of(project)
+    assert [path for path in after if before.get(path) != after[path]] == [".urdfsync/robots/ladder.toml"]
+    assert not run().renews_state
+    assert snapshot_of(project) == after
+
+
+def test_what_was_written_before_a_save_came_in_between_is_told(project: Path) -> None:
+    run()
+    edit(project / "ladder.json", '"ohm": 100', '"ohm": 120')
+    edit(project / "ladder.json", "220.5", "330")
+    record, count = project / LADDER / "Elements/R2Parameters.mo", 0
+
+    def save(operation: Operation) -> None:
+        nonlocal count
+        if operation.name in ("exchange", "replace") and record in operation.paths and count == 0:
+            count += 1
+            edit(record, "end R2", "// mine\nend R2")
+
+    with before_each(save):
+        result = run()
+    assert count == 1
+    assert kinds(result) == {"Elements/R1Parameters.mo": Kind.UPDATE, "Elements/R2Parameters.mo": Kind.CONFLICT}
+    assert result.changes is not None
+    assert {change.element for change in result.changes.changes} == {"R1", "R2"}
+    assert "// mine" in record.read_text()
+
+
 def test_line_endings_are_no_edit(project: Path) -> None:
     run()
     model = project / LADDER / "Elements/R1.mo"
@@ -350,14 +358,6 @@ def test_a_deleted_file_comes_back(project: Path) -> None:
     (project / LADDER / "Elements/R1.mo").unlink()
     (project / LADDER / "Elements/package.order").unlink()
     assert kinds(run()) == {"Elements/R1.mo": Kind.RESTORE, "Elements/package.order": Kind.RESTORE}
-
-
-def test_a_deleted_package_comes_back(project: Path, snapshot_of: Snapshot) -> None:
-    run()
-    before = {path: content for path, (_, content) in snapshot_of(project).items()}
-    shutil.rmtree(project / "modelica")
-    assert set(kinds(run()).values()) == {Kind.RESTORE}
-    assert {path: content for path, (_, content) in snapshot_of(project).items()} == before
 
 
 def test_a_class_made_a_package_counts_as_edited(project: Path) -> None:
@@ -390,14 +390,6 @@ def test_a_conflict_holds_back_structure_but_not_numbers(project: Path, snapshot
     after = snapshot_of(project / LADDER)
     assert {path for path in before if before[path] != after[path]} == {"Ladder.mo", "Elements/R1Parameters.mo"}
     assert b"// mine" in after["Ladder.mo"][1]
-
-
-def test_numbers_are_renewed_while_models_wait(project: Path) -> None:
-    run()
-    edit(project / LADDER / "Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
-    edit(project / "ladder.json", '"R2"', '"R3"')
-    edit(project / "ladder.json", "4.7e-6", "1e-5")
-    assert kinds(run()) == {"Ladder.mo": Kind.CONFLICT, "Elements/C2Parameters.mo": Kind.UPDATE}
 
 
 def test_a_conflict_stays_until_it_is_settled(project: Path) -> None:
@@ -465,17 +457,6 @@ def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: P
     gone = {"Elements/R2.mo": Kind.FORGET, "Elements/R2Parameters.mo": Kind.DELETE}
     assert kinds(run()) == {**gone, "Elements/package.order": Kind.UPDATE}
     assert kinds(run()) == {}
-
-
-def test_a_crash_before_the_manifest_heals(project: Path, snapshot_of: Snapshot) -> None:
-    run()
-    recorded = (project / ".urdfsync/robots/ladder.toml").read_bytes()
-    edit(project / "ladder.json", '"ohm": 100', '"ohm": 120')
-    run()
-    before = snapshot_of(project / LADDER)
-    (project / ".urdfsync/robots/ladder.toml").write_bytes(recorded)
-    assert kinds(run()) == {"Elements/R1Parameters.mo": Kind.ADOPT}
-    assert snapshot_of(project / LADDER) == before
 
 
 def test_lost_state_is_found_again_as_far_as_files_agree(project: Path) -> None:
@@ -721,35 +702,10 @@ def test_a_recorded_model_of_the_wrong_shape_is_read_again(project: Path) -> Non
     assert run().in_step
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("one\n<< element.nme >>\n", "element/model.mo.jinja:2: error: the template can't be rendered"),
-        ("one\n<< 1/0 >>\n", "element/model.mo.jinja:2: error: the template can't be rendered"),
-        ("one\n\n<% if %>", "element/model.mo.jinja:3: error: "),
-        ("<% include 'nothing' %>", "there is no template `nothing`"),
-    ],
-)
-def test_a_broken_template_is_named_with_its_line(project: Path, text: str, words: str) -> None:
-    (project / "own/element").mkdir(parents=True)
-    (project / "own/element/model.mo.jinja").write_text(text)
-    configure(project, templates='"own"')
-    assert words in failure().replace("\\", "/")
-    assert not (project / "modelica").exists()
-
-
 def test_state_of_a_newer_program_is_refused(project: Path) -> None:
     run()
     edit(project / ".urdfsync/robots/ladder.toml", "revision = 1", "revision = 2")
     assert "a newer urdfsync built robot `ladder`" in failure()
-
-
-def test_state_with_merge_markers_is_refused(project: Path, snapshot_of: Snapshot) -> None:
-    run()
-    edit(project / ".urdfsync/robots/ladder.toml", "[source]", "<<<<<<< HEAD\n[source]")
-    before = snapshot_of(project)
-    assert "unresolved merge markers" in failure()
-    assert snapshot_of(project) == before
 
 
 def test_state_can_not_reach_files_elsewhere(project: Path, tmp_path: Path) -> None:
@@ -780,13 +736,6 @@ def test_one_broken_robot_does_not_stop_the_others(project: Path) -> None:
 
 
 # Imports
-
-
-def test_a_changed_dependency_is_imported_again(project: Path) -> None:
-    run()
-    edit(project / "step.csv", "0.1,5", "0.1,7")
-    assert kinds(run()) == {"Resources/step.txt": Kind.UPDATE}
-    assert run().in_step
 
 
 def test_a_dependency_that_was_never_found_is_left_out(project: Path) -> None:
@@ -884,15 +833,6 @@ def test_a_copy_that_is_deleted_in_the_midst_of_a_build(project: Path, monkeypat
         words = "it changed while urdfsync looked at it; build again [restless]"
         assert failure() == f"{copy.relative_to(project)}: error: {words}"
     assert kinds(run()) == {"Resources/step.txt": Kind.RESTORE, "Elements/R1Parameters.mo": Kind.UPDATE}
-
-
-def test_a_dependency_that_cant_be_used_is_a_warning(project: Path) -> None:
-    (project / "step.csv").write_text("no numbers\n")
-    result = run()
-    assert [(found.code, found.file, found.line) for found in result.diagnostics] == [
-        ("table-unreadable", "ladder.json", 3)
-    ]
-    assert exit_code([result]) is Exit.IN_STEP
 
 
 def test_package_paths_are_searched(project: Path, tmp_path: Path) -> None:

@@ -98,6 +98,22 @@ def test_inputs_by_name_that_become_a_vector_are_named_and_back(project: Path, c
     assert "swing_phi" not in found
 
 
+def test_a_model_that_is_asked_for_no_more_is_named_with_the_key_that_keeps_it(project: Path, capsys: Capture) -> None:
+    configure(project, 'approach = ["record"]\n')
+    found = said(capsys, "build", "--explain")
+    assert "the option `approach` changed" in found
+    assert 'robot: its model `Arm` is gone; list "package" in `approach` to keep it, with its connectors' in found
+
+
+def test_options_are_named_only_if_nothing_else_changed(project: Path, capsys: Capture) -> None:
+    configure(project, 'frames = "all"\ncollisions = false\n')
+    assert "the options `collisions` and `frames` changed" in said(capsys, "build", "--dry-run")
+    (project / "mine").mkdir()
+    configure(project, 'frames = "all"\ntemplates = "mine"\n')
+    (project / "mine/robot.mo.jinja").write_text("")
+    assert "a template, an option or urdfsync itself changed" in said(capsys, "build", "--dry-run")
+
+
 def test_a_state_without_options_counts_as_built_with_those_of_now(project: Path, capsys: Capture) -> None:
     """As it was recorded before; the next build records them."""
     configure(project, 'frames = "all"\n')

@@ -144,7 +144,7 @@ def test_an_option_that_changed(built: Path, capsys: Capture) -> None:
     with (built / "urdfsync.toml").open("a") as file:
         file.write('prefix = "n"\n')
     code, lines = said(capsys, "ladder")
-    assert (code, lines[0]) == (1, "ladder: a template, an option or urdfsync itself changed since the last build")
+    assert (code, lines[0]) == (1, "ladder: the option `prefix` changed since the last build")
 
 
 def test_every_robot_of_a_source(built: Path, capsys: Capture) -> None:

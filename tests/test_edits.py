@@ -97,25 +97,12 @@ def test_a_merge_with_markers_is_not_put_aside_as_modelica(project: Path) -> Non
     assert not (project / ASIDE / "R1Parameters.merge.mo").exists()
 
 
-def test_what_is_put_aside_goes_when_the_conflict_is_settled(conflict: Path) -> None:
-    run()
-    run(choices={R1: Choice.KEEP})
-    assert not (conflict / ".urdfsync/conflicts").exists()
-
-
 def test_what_is_put_aside_comes_back_if_somebody_deletes_it(conflict: Path, snapshot_of: Snapshot) -> None:
     run()
     before = snapshot_of(conflict)
     shutil.rmtree(conflict / ".urdfsync/conflicts")
     run()
     assert {path: text for path, (_, text) in snapshot_of(conflict).items()} == {p: t for p, (_, t) in before.items()}
-
-
-def test_a_conflict_that_stays_writes_nothing_again(conflict: Path, snapshot_of: Snapshot) -> None:
-    run()
-    before = snapshot_of(conflict)
-    run()
-    assert snapshot_of(conflict) == before
 
 
 def test_keep_is_remembered_until_something_new_would_be_written(conflict: Path) -> None:
@@ -128,14 +115,6 @@ def test_keep_is_remembered_until_something_new_would_be_written(conflict: Path)
     assert (conflict / R1).read_bytes() == mine
     source('"farad": 1e-9', '"ohm": 7')
     assert kinds(run())[R1] is Kind.CONFLICT
-
-
-def test_take_replaces_the_users_text(conflict: Path) -> None:
-    run()
-    run(choices={R1: Choice.TAKE})
-    assert "Documentation" not in (conflict / R1).read_text()
-    assert run().in_step
-    assert kinds(run()) == {}
 
 
 def test_settling_one_conflict_releases_what_waited(conflict: Path) -> None:
@@ -199,15 +178,6 @@ def test_a_record_with_an_edit_elsewhere_merges(project: Path) -> None:
     run()
     assert "// measured in May" in Path(RECORD).read_text()
     assert "150" not in Path(RECORD).read_text()
-
-
-def test_merge_by_name_does_the_same(project: Path) -> None:
-    run()
-    edit(RECORD, "end R1", "  // measured in May\nend R1")
-    source('"ohm": 100', '"ohm": 150')
-    assert kinds(run())[RECORD] is Kind.CONFLICT
-    assert kinds(run(choices={RECORD: Choice.MERGE}))[RECORD] is Kind.MERGE
-    assert "150" in Path(RECORD).read_text()
 
 
 def test_contradicting_edits_are_never_merged(project: Path) -> None:
@@ -326,28 +296,6 @@ def test_a_file_that_the_user_renamed_himself_is_merged_in_its_place(project: Pa
     assert kinds(run())[new] is Kind.MERGE
     assert "model Shunt" in Path(new).read_text()
     assert "// a sensor here" in Path(new).read_text()
-
-
-def test_an_element_with_another_name_whose_file_became_a_folder(project: Path) -> None:
-    run()
-    folder = Path(R1).with_suffix("")
-    folder.mkdir()
-    Path(R1).rename(folder / "package.mo")
-    rename("R1", "Shunt")
-    assert kinds(run())[f"{LADDER}/Elements/Shunt.mo"] is Kind.CREATE
-    assert (folder / "package.mo").exists()
-
-
-def test_a_file_of_the_users_at_the_new_place_is_left_alone(project: Path) -> None:
-    run()
-    new = f"{LADDER}/Elements/Shunt.mo"
-    edit(R1, "equation", "  // a sensor here\nequation")
-    mine = Path(R1).read_bytes()
-    Path(new).write_text('model Shunt "mine"\nend Shunt;\n')
-    rename("R1", "Shunt")
-    result = run()
-    assert kinds(result)[new] is Kind.UNOWNED
-    assert Path(R1).read_bytes() == mine
 
 
 # Bases that are lost
@@ -502,19 +450,6 @@ def test_an_edit_made_while_a_rename_waits_follows_it(project: Path) -> None:
     run(choices={RECORD.replace("R1", "R2"): Choice.KEEP})
     assert "// a sensor here" in Path(f"{LADDER}/Elements/Shunt.mo").read_text()
     assert not Path(R1).exists()
-
-
-def test_an_orphan_that_the_user_deletes_leaves_nothing(project: Path) -> None:
-    run()
-    edit(R1, "equation", "// mine\nequation")
-    source('"R1", "between": ["in", "middle"], "ohm": 100', '"R9", "between": ["in", "out"], "ohm": 1')
-    run()
-    model = project / ".urdfsync/robots/ladder.json"
-    assert "// Values" not in model.read_text()
-    assert json.loads(model.read_text())["bases"]
-    Path(R1).unlink()
-    run()
-    assert "Elements/R1.mo" not in json.loads(model.read_text())["bases"]
 
 
 # What a kept file needs
@@ -675,13 +610,6 @@ def test_uses_of_a_renamed_element_get_its_new_name(project: Path) -> None:
     write_user(project)
     rename("C1", "Tank")
     assert sorted(warnings(run()))[2].endswith("no `C1` any more; it is `Tank` now; also in lines 4, 5, 7")
-
-
-def test_nobody_is_told_of_names_that_are_still_there(project: Path) -> None:
-    run()
-    write_user(project)
-    drop("R2")
-    assert not run().diagnostics
 
 
 def test_a_package_that_moves_is_told_by_its_new_name(project: Path) -> None:

@@ -28,7 +28,6 @@ URDF = """<robot name="arm">
 """
 COMMANDS = [
     ["build"],
-    ["build", "--check"],
     ["status"],
     ["diff"],
     ["check"],
@@ -46,13 +45,12 @@ def traces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 @pytest.mark.parametrize(
-    ("error", "words"),
+    ("command", "error", "words"),
     [
-        (MemoryError(), "there is not enough memory"),
-        (RecursionError("too deep"), "RecursionError in test_failures.py, line "),
-        (ValueError("no number"), "ValueError in test_failures.py, line "),
+        (["build", "--check"], MemoryError(), "there is not enough memory"),
+        (["status"], RecursionError("too deep"), "RecursionError in test_failures.py, line "),
+        *((command, ValueError("no number"), "ValueError in test_failures.py, line ") for command in COMMANDS),
     ],
 )
 def test_what_nobody_foresaw_ends_in_2_with_its_traceback_in_a_file(

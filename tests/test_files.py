@@ -54,24 +54,6 @@ def test_a_tree_refuses_links_folders_and_what_is_outside(tmp_path: Path) -> Non
             tree.read(path)
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes on this system")
-def test_a_folder_that_comes_later_is_found_by_another_tree(tmp_path: Path) -> None:
-    tree, file = Tree(tmp_path), tmp_path / "a/b.mo"
-    assert tree.read(file) is None
-    file.parent.mkdir()
-    file.write_bytes(b"b")
-    assert tree.read(file) is None
-    assert Tree(tmp_path).read(file) == b"b"
-
-
-def test_a_tree_does_not_wait_for_a_pipe(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "pipe")
-    with pytest.raises(OutputError, match="no regular file is where urdfsync would write a file"):
-        Tree(tmp_path).read(tmp_path / "pipe")
-    os.mkfifo(tmp_path / "pipe.jinja")
-    assert templates_digest([tmp_path]) == templates_digest([])
-
-
 def test_templates_count_by_name_and_content(tmp_path: Path) -> None:
     own, ours = tmp_path / "own", tmp_path / "ours"
     for folder in (own, ours):

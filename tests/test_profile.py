@@ -37,15 +37,6 @@ def test_each_moment_counts_for_the_innermost_stage(monkeypatch: pytest.MonkeyPa
     assert profile.results() == ({OTHER: 2, "deciding": 10 + 1000, "rendering": 100}, {"rendered": 2})
 
 
-def test_without_a_profile_nothing_is_measured() -> None:
-    with profiling.stage("rendering"):
-        profiling.count("rendered")
-    assert profiling.current() is None
-    with pytest.raises(ValueError, match="stopped"), profiling.measured():
-        raise ValueError("stopped")
-    assert profiling.current() is None
-
-
 def test_a_build_says_where_the_time_went(project: Path, capsys: Capture) -> None:
     assert cli.main(["build", "--profile"]) == 0
     said = capsys.readouterr()
@@ -63,14 +54,6 @@ def test_the_profile_of_programs_adds_up(project: Path, capsys: Capture) -> None
     assert names == [name for name in (*STAGES, OTHER) if name in names], "in the order of the flow"
     assert found["ms"] == pytest.approx(sum(stage["ms"] for stage in found["stages"]), abs=0.01)
     assert found["counts"]["rendered"] == 11
-
-
-def test_a_profile_of_nothing_to_do_looks_all_the_same(project: Path, capsys: Capture) -> None:
-    cli.main(["build"])
-    capsys.readouterr()
-    for command in ("build", "status", "diff"):
-        assert cli.main([command, "--profile"]) == 0
-        assert "looking at files" in capsys.readouterr().err
 
 
 def test_it_says_that_a_stamp_would_have_answered(

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.check.package import CheckedPackage
+from urdfsync.check.package import read_package
 from urdfsync.config import load
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import Kind
@@ -55,7 +55,7 @@ class Project:
     def models(self) -> tuple[str, ...]:
         """What a check would compile."""
         config = load(self.file)
-        return tuple(CheckedPackage(config, config.robots[0], BuildOptions(dry=True)).models)
+        return tuple(read_package(config, config.robots[0], BuildOptions(dry=True)).models)
 
 
 @pytest.fixture

@@ -26,11 +26,6 @@ def test_braces_are_modelica_and_angle_brackets_are_ours(tmp_path: Path) -> None
     assert rendered(tmp_path, text, x="1") == "extent={{-10, 90}, {10, 110}} 1 {% {# #} %}\n"
 
 
-def test_a_line_with_a_block_alone_leaves_nothing_behind(tmp_path: Path) -> None:
-    text = "a\n  <% for n in [1, 2] %>\n  << n >>\n  <% endfor %>\nb\n"
-    assert rendered(tmp_path, text) == "a\n  1\n  2\nb\n"
-
-
 def test_the_literals_are_filters(tmp_path: Path) -> None:
     numbers = "<< x | real >> << v | vector >> << [v] | matrix(2) >>"
     texts = "<< s | string >> << s | html >> << s | capitalize_first >>"
@@ -64,15 +59,6 @@ def test_an_item_of_a_dict_goes_before_its_methods(tmp_path: Path) -> None:
 
 def test_a_template_has_what_jinja_has_everywhere(tmp_path: Path) -> None:
     assert rendered(tmp_path, "<< range(2) | list >><% set range = 3 %><< range >>") == "[0, 1]3"
-
-
-def test_a_template_is_looked_for_once(tmp_path: Path) -> None:
-    templates = folder(tmp_path / "templates", t="<% include 'part.jinja' %>", part="old")
-    renderer = Renderer([templates])
-    assert renderer.render("t.jinja", {}) == "old"
-    (templates / "part.jinja").write_text("new")
-    assert renderer.render("t.jinja", {}) == "old"
-    assert Renderer([templates]).render("t.jinja", {}) == "new"
 
 
 def test_once_joins_what_a_macro_makes_of_values(tmp_path: Path) -> None:

@@ -1,4 +1,7 @@
-"""A repository of a stranger's: no command runs code that lies in it, whether as a module or in a template."""
+"""A repository of a stranger's: no command runs code of it, writes outside of it, hangs, or ends in a traceback.
+
+The attacks of `support.hostile` meet every command in this process; modules of the working folder meet the programs.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +11,14 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from support import hostile
 from support.git import NEEDS_GIT, Repository
 from support.urdfs import joint, limit, link, robot
+from support.workplace import WATCH, Workplace, changes, contents
 
 from urdfsync import cli, render
 from urdfsync.engine import source
@@ -94,6 +100,66 @@ def _watch(folder: Path, word: str) -> str:
             daemon.send_signal(signal.SIGTERM)
             daemon.wait(PATIENCE)
     return output.read_text()
+
+
+# --- every attack meets every command ---------------------------------------------------------------------------------
+
+READING = (["build", "--check"], ["build", "--dry-run"], ["status"], ["diff"], ["hook", "check"])
+WRITING = (["build"], ["build", "--repair"], ["resolve", "--all", "--take"], ["hook", "build"])
+OF_SOURCES = (["record", "arm.urdf"], ["init", "--config", "new.toml"])
+"""Commands that read no configuration and no state."""
+SOURCES = ("source", "chain", "entities", "numbers", "terminal")
+"""Words of the attacks that those commands can meet."""
+LONGER = (["check"], WATCH)
+ALLOWED = ("modelica/Arm", ".urdfsync", "new.toml", ".git/index", "modelica/package.order")
+"""What commands may change in the project; a link is changed only where it leads, which is outside."""
+
+
+@pytest.fixture(scope="module")
+def stale(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A project that is built and committed, with a source that has changed since."""
+    work = Workplace(tmp_path_factory.mktemp("built"))
+    hostile.write_project(work.folder / "new")
+    work.fill(work.folder / "new")
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        repository = Repository(work.project, monkeypatch)
+        assert work.run(["build"])[0] == 0
+        repository.commit()
+    hostile.make_stale(work.project)
+    return work.project
+
+
+def _attack(work: Workplace, stale: Path, name: str, commands: Sequence[Sequence[str]], afresh: bool) -> None:
+    """Run commands in a project under attack; with `afresh` each in one of its own."""
+    for number, command in enumerate(commands):
+        if number == 0 or afresh:
+            work.fill(stale)
+            hostile.ATTACKS[name].make(work.project, work.outside)
+            if hostile.ATTACKS[name].is_committed:
+                subprocess.run(["git", "add", "-A"], cwd=work.project, check=True, capture_output=True)
+            before = contents(work.project)
+        work.run(command)  # which looks for changes outside, for tracebacks and for what a terminal obeys
+        changed = changes(before, contents(work.project))
+        assert [path for path in changed if not path.startswith(ALLOWED)] == [], command
+
+
+@pytest.mark.parametrize("name", [name for name in hostile.ATTACKS if "module" not in name and "domain" not in name])
+def test_an_attack_meets_every_command(tmp_path: Path, stale: Path, name: str) -> None:
+    work = Workplace(tmp_path)
+    _attack(work, stale, name, READING, afresh=False)
+    _attack(work, stale, name, WRITING, afresh=True)
+    if any(word in name for word in SOURCES):
+        _attack(work, stale, name, OF_SOURCES, afresh=False)
+
+
+@pytest.mark.parametrize("name", hostile.ATTACKS)
+@pytest.mark.parametrize("command", LONGER, ids=lambda command: str(command[0]))
+@pytest.mark.long
+@pytest.mark.slow
+def test_an_attack_meets_the_commands_that_take_longer(
+    tmp_path: Path, stale: Path, name: str, command: Sequence[str]
+) -> None:
+    _attack(Workplace(tmp_path), stale, name, [command], afresh=True)
 
 
 # --- modules in the working folder ------------------------------------------------------------------------------------

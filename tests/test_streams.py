@@ -69,12 +69,6 @@ def test_a_reader_that_goes_away_stops_no_work(folder: Path, options: str) -> No
 
 
 @posix
-def test_the_exit_code_is_that_of_the_work_even_if_nobody_reads(folder: Path) -> None:
-    (folder / "arm.urdf").write_text("<robot")
-    assert shell(folder, "urdfsync build --json 2>&1 | true; exit ${PIPESTATUS[0]}").returncode == 2
-
-
-@posix
 @full
 @pytest.mark.parametrize("command", ["build", "build --json", "library", "--help", "library --json"])
 def test_a_full_disk_is_told_on_the_error_stream(folder: Path, command: str) -> None:

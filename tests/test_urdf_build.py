@@ -257,7 +257,7 @@ def test_a_rename_and_a_template_are_told_as_such(arm: Path) -> None:
     (arm / "urdfsync.toml").write_text(CONFIGURATION + "collisions = false\n")
     other = run(arm).changes
     assert other is not None
-    assert change_lines(other)[0] == "a template, an option or urdfsync itself changed"
+    assert change_lines(other)[0] == "the option `collisions` changed"
 
 
 CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller">

@@ -17,6 +17,8 @@ Stat = tuple[int, int, int, int, int, int]
 NO_STAT: Stat = (0, 0, 0, 0, 0, 0)
 """Of a path at which nothing is."""
 
+MAX_FILE = 100_000_000
+"""Bytes of a file that is read. More is no source, mesh or output, but may be a stranger's, to fill the memory."""
 _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
 """Errors that say that nothing is at a path; the same as for pathlib."""
 
@@ -111,11 +113,28 @@ def is_folder(path: str | os.PathLike[str]) -> bool:
 
 
 def read_file(path: str | os.PathLike[str]) -> bytes:
-    """Read a file. Raises OSError."""
+    """Read a regular file of at most `MAX_FILE` bytes. Raises OSError, for anything else as well."""
     if (dependencies := _current.get()) is not None:
         _add(dependencies, path)
-    with open(path, "rb", buffering=0) as file:
-        return file.read()
+    return read_unrecorded(path)
+
+
+def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
+    """Read a file as `read_file` does, without recording it: where `read_stat` has, or nobody asks for dependencies."""
+    with open(path, "rb", buffering=0, opener=_open_at_once) as file:
+        status = os.fstat(file.fileno())
+        if not stat.S_ISREG(status.st_mode):
+            raise OSError(errno.EINVAL, "it is no regular file", os.fspath(path))
+        if status.st_size > MAX_FILE:
+            raise OSError(errno.EFBIG, f"it has more than {MAX_FILE:,} bytes", os.fspath(path))
+        if status.st_size:
+            return file.read()
+        # a file of the system may say that it is empty, and never end
+        return file.read(MAX_FILE) or b""
+
+
+def _open_at_once(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))  # a pipe would wait for somebody who writes to it
 
 
 def read_stat(path: str | os.PathLike[str]) -> os.stat_result | None:

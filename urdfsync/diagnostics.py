@@ -49,6 +49,10 @@ class UrdfsyncError(Exception):
         super().__init__("\n".join(map(str, diagnostics)))
         self.diagnostics = diagnostics
 
+    def __reduce__(self) -> tuple[type[UrdfsyncError], tuple[Diagnostic, ...]]:
+        """Pickle the diagnostics: workers of a pool raise errors in the process of the command."""
+        return type(self), self.diagnostics
+
 
 class ConfigError(UrdfsyncError):
     """The configuration can't be used."""

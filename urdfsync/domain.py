@@ -380,6 +380,10 @@ class Domain(Protocol):
         """
         return ""
 
+    def option_for_connector(self, name: str, snapshot: Snapshot, target: Target, options: Any) -> str:
+        """Return the option that gives the main model a connector; empty if none does, or if it has the connector."""
+        return ""
+
     # Differences
 
     def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
@@ -436,13 +440,7 @@ class Domain(Protocol):
 
     # Commands beside `build`
 
-    def drawing(
-        self,
-        snapshot: Snapshot,
-        imports: Mapping[str, Import],
-        target: Target,
-        options: Any,
-    ) -> str | None:
+    def drawing(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> str | None:
         """Return the main model's diagram as SVG text, or None if the domain draws none. Pure."""
         return None
 
@@ -450,13 +448,7 @@ class Domain(Protocol):
         """Return the classes that have to compile by themselves, by name below the package, the main one first."""
         return (target.name,)
 
-    def record(
-        self,
-        reading: Reading,
-        file: str,
-        target: Target,
-        options: Any,
-    ) -> Standalone | None:
+    def record(self, reading: Reading, file: str, target: Target, options: Any) -> Standalone | None:
         """Return the whole model as one record that needs nothing around it, or None if the domain has none.
 
         `reading` has a snapshot, `file` is the source's name in diagnostics. `target.name` is the record's class,
@@ -464,14 +456,7 @@ class Domain(Protocol):
         """
         return None
 
-    def experiment(
-        self,
-        content: bytes,
-        file: str,
-        target: Target,
-        options: Any,
-        complete: bool,
-    ) -> Experiment | None:
+    def experiment(self, content: bytes, file: str, target: Target, options: Any, complete: bool) -> Experiment | None:
         """Return a comparison of the generated package with an independent reference; None if there is none.
 
         `file` is the source's name in diagnostics. With `complete`, what the source lacks for a telling comparison

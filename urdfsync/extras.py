@@ -1,7 +1,7 @@
 """The optional extras of urdfsync, as commands that install them wherever urdfsync itself was installed from."""
 
 PACKAGES = {
-    "check": ("filelock", "psutil", "rumoca"),
+    "check": ("rumoca",),
     "cluster": ("distributed",),
     "omc": ("OMPython",),
     "physics": ("pin",),
@@ -10,5 +10,5 @@ PACKAGES = {
 
 
 def install_command(*extras: str) -> str:
-    """`pip install psutil rumoca`."""
+    """`pip install rumoca`."""
     return " ".join(["pip install", *(name for extra in extras for name in PACKAGES[extra])])

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync import profiling
-from urdfsync.dependencies import file_type, read_file, read_stat, walk_files
+from urdfsync.dependencies import file_type, read_file, read_stat, read_unrecorded, walk_files
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 
 TEMPORARY = ".urdfsync-tmp"
@@ -138,8 +138,7 @@ class Tree:
         """The content of a file of which `status` was asked, None if it is gone since. Raises OutputError as `read`."""
         profiling.count("read")
         try:
-            with open(path, "rb", buffering=0) as file:  # noqa: PTH123
-                return file.read()
+            return read_unrecorded(path)
         except (FileNotFoundError, NotADirectoryError):
             return None
         except OSError as error:

@@ -1,4 +1,4 @@
-"""Calls of git. The hooks ask for the index with them, `diff` for revisions."""
+"""Calls of git, with which the hooks ask for the index."""
 
 from __future__ import annotations
 

@@ -1,109 +1,127 @@
 """All benchmarks, by one command.
 
-    python tests/benchmarks [--rounds N] [--peers FOLDER] [--published FOLDER] [NAME …]
+    python tests/benchmarks [--rounds N] [--published FOLDER [--python PYTHON]] [NAME …]
 
-Every round takes each measurement once, each round in another order, so that other load on the machine meets all of
-them alike; a ratio is the median of those of the single rounds. `--peers` is a folder with the programs of other tools
-(ninja, doit, dvc), for example the `bin` of an environment of their own; without it, those on PATH are taken along.
-`--published` is the folder of `urdf_to_package.py`; it is run by the `python` among the peers, if there is one, which
-has to have the package urdf_parser_py. What is not there is left out, and that is said. Needs a POSIX system.
+Each pair of measurements is taken in turn, in random order; a figure is the median over the rounds of the figures of
+the single rounds. `--published` is the folder of `urdf_to_package.py`; `--python` runs it and has the package
+urdf_parser_py. Without it, rows beside the published tool are left out. Needs a POSIX system.
 """
 
 from __future__ import annotations
 
 import argparse
-import dataclasses
-import shutil
+import os
+import platform
 import signal
+import statistics
+import subprocess
 import sys
+import sysconfig
 import tempfile
-from collections.abc import Callable
+import venv
 from pathlib import Path
-from typing import TextIO
 
 # not this folder: its names are those of other packages, too; and what is measured is the tree that it is part of
 sys.path[:1] = [str(folder) for folder in Path(__file__).resolve().parents[1:3]]
 
 from rich.console import Console  # noqa: E402
+from rich.table import Table  # noqa: E402
+from support.corpus import REPOSITORY  # noqa: E402
 
-from benchmarks import build, check, hook, machine, noop, published, scale, tables, watch  # noqa: E402
-from benchmarks.study import Figures, Finding, Study, find, measured  # noqa: E402
-from benchmarks.tools import Tools, install, search_path  # noqa: E402
+from benchmarks.measuring import Result, compare  # noqa: E402
+from benchmarks.published import Published  # noqa: E402
+from benchmarks.rows import TABLES, Tools  # noqa: E402
 
-BENCHMARKS = {module.__name__.rpartition(".")[2]: module for module in (noop, build, scale, watch, hook, check)}
-_WIDTH = 200
-"""Characters of a line where there is no terminal."""
+_HEADINGS = ("what", "against", "at most", "measured", "spread", "cost", "cost of the other", "pairs")
+_SCRIPTS = {"empty": "benchmark:main", "urdfsync": "urdfsync.__main__:main", "urdfsync-hook": "urdfsync.hook:main"}
 
 
 def main() -> None:
-    """Measure, print a table of each study, and at last one of all bars."""
+    """Measure, and print one table."""
     options = _options()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended"))  # so that daemons end and folders are removed
-    out, aside, left_out = _console(sys.stdout), _console(sys.stderr), dict[str, None]()
-    found: list[tuple[str, Finding]] = []
-    with tempfile.TemporaryDirectory() as name, aside.status("preparing") as status:
-        tools = _tools(Path(name), options, left_out)
-        out.out("".join(f"- {line}\n" for line in machine.described(tools)), highlight=False)
-        for chosen in dict.fromkeys(options.names or BENCHMARKS):
-            status.update(f"preparing {chosen}")
-            folder = tools.folder / chosen
+    status = Console(stderr=True)
+    published = None
+    if options.published:
+        published = Published(options.python, options.published.absolute() / "urdf_to_package.py")
+        if missing := published.missing():
+            sys.exit(missing)
+    rows: list[tuple[str, ...]] = []
+    with tempfile.TemporaryDirectory() as name, status.status("preparing") as spinner:
+        scripts = _install(Path(name) / "environment")
+        for chosen in options.names or TABLES:
+            title, pairs = TABLES[chosen]
+            folder = Path(name) / chosen
             folder.mkdir()
-            for study in BENCHMARKS[chosen].studies(dataclasses.replace(tools, folder=folder)):
-                findings = _findings(study, options, status.update)
-                found += [(study.title, finding) for finding in findings]
-                grid = tables.figures(study) if isinstance(study, Figures) else tables.pairs(study.title, findings)
-                _print(out, grid, options)
-                status.update(f"preparing more of {chosen}")
-    _print(out, tables.bars(found), options)
-    for line in left_out:
-        aside.print(line, markup=False)
+            for pair in pairs(Tools(folder, scripts, published)):
+                spinner.update(f"{title}: {pair.what}")
+                rows += _rows(title, compare(pair, options.slow_rounds if pair.is_slow else options.rounds))
+    _print(rows, is_markdown=options.markdown)
 
 
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="benchmarks", description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"only these of {', '.join(BENCHMARKS)}")
-    parser.add_argument("--rounds", type=int, default=15, help="how often to measure everything (default: 15)")
-    slow = "and so often what takes minutes (default: 3)"
-    parser.add_argument("--slow-rounds", type=int, default=3, metavar="ROUNDS", help=slow)
-    parser.add_argument("--peers", type=Path, metavar="FOLDER", help="the folder of the other tools' programs")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"only these of {', '.join(TABLES)}")
+    parser.add_argument("--rounds", type=int, default=15, help="pairs to measure (default: 15)")
+    parser.add_argument("--slow-rounds", type=int, default=3, metavar="N", help="pairs that take minutes (default: 3)")
     parser.add_argument("--published", type=Path, metavar="FOLDER", help="the folder of urdf_to_package.py")
-    parser.add_argument("--markdown", action="store_true", help="print tables to paste into a page")
-    parser.add_argument("--idle", type=float, default=60, metavar="S", help="watch: seconds to idle (default: 60)")
-    rebuilds = "watch: so many, to see how memory grows (default: 500)"
-    parser.add_argument("--rebuilds", type=int, default=500, metavar="N", help=rebuilds)
+    parser.add_argument("--python", default=sys.executable, help="the Python that runs it (default: this one)")
+    parser.add_argument("--markdown", action="store_true", help="print a table to paste into a page")
     options = parser.parse_args()
-    if unknown := set(options.names) - set(BENCHMARKS):
+    if unknown := set(options.names) - set(TABLES):
         parser.error(f"no such benchmark: {', '.join(sorted(unknown))}")
     if min(options.rounds, options.slow_rounds) < 1:
         parser.error("at least one round is needed")
     return options
 
 
-def _tools(folder: Path, options: argparse.Namespace, left_out: dict[str, None]) -> Tools:
-    peers = options.peers.absolute() if options.peers else None
-    python = peers and shutil.which("python", path=str(peers))
-    other = published.find(options.published, python or sys.executable, left_out.setdefault)
-    scripts = install(folder / "environment")
-    return Tools(folder, scripts, search_path(peers), other, left_out.setdefault, options.idle, options.rebuilds)
+def _install(folder: Path) -> Path:
+    """Make an environment with the console scripts, which sees the packages of this one; return the scripts' folder."""
+    venv.create(folder, symlinks=True)
+    scripts = folder / "bin"
+    python = str(scripts / "python")
+    asked = [python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]
+    libraries = Path(subprocess.run(asked, check=True, capture_output=True, text=True).stdout.strip())
+    (libraries / "benchmark.pth").write_text(f"{REPOSITORY}\n{sysconfig.get_path('purelib')}\n")
+    (libraries / "benchmark.py").write_text("def main():\n    return 0\n")
+    for name, entry in _SCRIPTS.items():  # as pip writes them
+        module, _, function = entry.partition(":")
+        start = f'if __name__ == "__main__":\n    sys.exit({function}())\n'
+        (scripts / name).write_text(f"#!{python}\nimport sys\nfrom {module} import {function}\n{start}")
+        (scripts / name).chmod(0o755)
+    return scripts
 
 
-def _findings(study: Study | Figures, options: argparse.Namespace, tell: Callable[[str], None]) -> list[Finding]:
-    """Measure what has to be measured."""
-    if isinstance(study, Figures):
-        return []
-    rounds = measured(study, options.rounds, options.slow_rounds, tell)
-    return [found for row in study.rows if (found := find(row, rounds)) is not None]
+def _rows(title: str, result: Result) -> list[tuple[str, ...]]:
+    """The lines of the table for one pair, in the order of `_HEADINGS`."""
+    pair, lines = result.pair, []
+    for reading, values in zip(pair.readings, result.values, strict=True):
+        median = statistics.median(values)
+        bar = "" if reading.at_most is None else f"{reading.at_most:g}"
+        mark = "**" if reading.at_most is not None and median > reading.at_most else ""
+        what = f"{title}: {pair.what}" + (f", {reading.what}" if reading.what else "")
+        spread = f"{min(values):.3g} to {max(values):.3g}"
+        costs = [f"{cost.wall * 1e3:,.0f} ms" for cost in (result.mine, result.other)]
+        if reading.what == "peak memory":
+            costs = [f"{cost.peak / 1e6:,.0f} MB" for cost in (result.mine, result.other)]
+        measured = f"{mark}{median:.3g}{mark}"
+        lines.append((what, pair.against, bar, measured, spread, *costs, str(len(values))))
+    return lines
 
 
-def _print(out: Console, grid: tables.Grid, options: argparse.Namespace) -> None:
-    if options.markdown:
-        out.out(tables.markdown(grid), highlight=False)
-    elif grid.rows:
-        out.print(tables.table(grid))
-
-
-def _console(stream: TextIO) -> Console:
-    return Console(file=stream, width=None if stream.isatty() else _WIDTH)
+def _print(rows: list[tuple[str, ...]], *, is_markdown: bool) -> None:
+    """Print the table; what does not meet its bar stands between asterisks."""
+    machine = (
+        f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}"
+    )
+    if is_markdown:
+        lines = [_HEADINGS, tuple("---" for _ in _HEADINGS), *rows]
+        sys.stdout.write(f"{machine}\n\n" + "".join(f"| {' | '.join(line)} |\n" for line in lines))
+        return
+    table = Table(*_HEADINGS, title=machine)
+    for row in rows:
+        table.add_row(*row)
+    Console(width=None if sys.stdout.isatty() else 200).print(table)
 
 
 if __name__ == "__main__":

@@ -1,13 +1,9 @@
-"""Run a command as the only child, and say what it cost: `python -I -S child.py OUTPUT COMMAND …`.
+"""Run a command as the only child and print its cost: `python -I -S child.py OUTPUT COMMAND …`.
 
-It is a process of its own, and small: the peak memory that the kernel reports of a process is at least that of the
-one that started it. What the command says goes to the file OUTPUT. What is printed: exit code, wall-clock
-seconds, processor seconds of it and of all that it started, peak memory in bytes of the command itself (or of the
-largest process that it waited for), and of the largest process that it left to itself, such as the workers of a fork
-server.
+This process is small, since the kernel reports of a process at least the peak memory of the one that started it.
+The output of the command goes to the file OUTPUT. Printed are: the exit code, wall-clock seconds, processor seconds of
+the command and of all that it started, and the peak memory of the command in bytes.
 """
-
-from __future__ import annotations
 
 import ctypes
 import os
@@ -15,10 +11,7 @@ import signal
 import sys
 import time
 
-_SUBREAPER = 36
-"""PR_SET_CHILD_SUBREAPER: orphans of the command become children of this process, which so learns what they cost."""
-_UNIT = 1 if sys.platform == "darwin" else 1024
-"""Bytes in which the kernel counts peak memory."""
+_SUBREAPER = 36  # PR_SET_CHILD_SUBREAPER: orphans of the command become children of this process, which counts them
 
 
 def main(output: str, *command: str) -> None:
@@ -32,18 +25,18 @@ def main(output: str, *command: str) -> None:
     try:
         _, status, usage = os.wait4(group, 0)
         wall = time.perf_counter() - begin
-        processor, peak, orphans = usage.ru_utime + usage.ru_stime, usage.ru_maxrss, 0
+        processor, peak = usage.ru_utime + usage.ru_stime, usage.ru_maxrss
         while True:
             try:
                 _, _, usage = os.wait4(-group, 0)
             except ChildProcessError:
                 break
             processor += usage.ru_utime + usage.ru_stime
-            orphans = max(orphans, usage.ru_maxrss)
     except KeyboardInterrupt:
         os.killpg(group, signal.SIGKILL)
         raise
-    print(os.waitstatus_to_exitcode(status), wall, processor, peak * _UNIT, orphans * _UNIT)  # noqa: T201
+    unit = 1 if sys.platform == "darwin" else 1024  # bytes in which the kernel counts peak memory
+    print(os.waitstatus_to_exitcode(status), wall, processor, peak * unit)  # noqa: T201
 
 
 if __name__ == "__main__":

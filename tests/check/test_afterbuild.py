@@ -12,11 +12,11 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import cli, config, dependencies
+from urdfsync import cli, config
 from urdfsync.check import afterbuild
+from urdfsync.check import run as check_run
 from urdfsync.check.compilers.compiler import CompilerError
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
-from urdfsync.commands.build import build_and_check
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.engine.build import build
@@ -51,8 +51,9 @@ class Examiner:
 
 
 @pytest.fixture
-def project(project: Path) -> Path:
-    """The project with a check after each build."""
+def project(project: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The project with a check after each build, and a cache of its own."""
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: project.parent / "cache")
     add(project, 'on_build = "check"\n')
     return project
 
@@ -65,17 +66,13 @@ def add(project: Path, text: str) -> None:
 def run(examiner: Examiner, **wishes: Any) -> list[Result]:
     """Build and check all robots."""
     loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1, **wishes)
-    return list(afterbuild.with_checks(loaded, request, build(loaded, loaded.robots, request), examiner))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(check_run, "check_robots", examiner)
+        return list(afterbuild.with_checks(loaded, request, build(loaded, loaded.robots, request)))
 
 
-def stand_in(monkeypatch: pytest.MonkeyPatch, examiner: Examiner) -> None:
-    """Commands use this examiner."""
-    with_checks = afterbuild.with_checks
-    monkeypatch.setattr(afterbuild, "with_checks", lambda one, two, three: with_checks(one, two, three, examiner))
-
-
-def note(project: Path) -> Path:
-    return project / ".urdfsync" / "checked" / "ladder.json"
+def notes(project: Path) -> list[Path]:
+    return sorted((project.parent / "cache" / "results").glob("*.json"))
 
 
 def test_a_package_that_is_right_is_checked_once(project: Path) -> None:
@@ -100,14 +97,9 @@ def test_a_package_that_is_wrong_is_checked_after_each_build_until_it_is_right(p
 
 
 def test_what_is_wrong_is_not_taken_for_what_was_right_before(project: Path) -> None:
-    original = (project / "ladder.json").read_text()
     run(Examiner(RIGHT))
-    (project / "ladder.json").write_text(original.replace("220.5", "330"))
-    run(Examiner(WRONG))
-    (project / "ladder.json").write_text(original)
-    examiner = Examiner(RIGHT)
-    run(examiner)
-    assert examiner.asked == ["ladder"], "only the last check is remembered"
+    run(Examiner(WRONG), full=True)
+    assert notes(project) == []
 
 
 def write(file: Path, text: str) -> None:
@@ -176,45 +168,26 @@ def test_it_is_checked_again_when_something_matters_that_a_build_does_not_see(
     assert examiner.asked == ["ladder"] * 2
 
 
-@pytest.mark.parametrize("name", ["_version", "__version__"])
-def test_it_is_checked_again_with_another_tool(project: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+@pytest.mark.parametrize("name", ["_rumoca_version", "__version__"])
+def test_it_is_checked_again_with_another_tool_and_by_a_full_build(
+    project: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
     examiner = Examiner(RIGHT)
     run(examiner)
-    monkeypatch.setattr(afterbuild, name, (lambda _: "99") if name == "_version" else "99")
-    run(examiner)
-    assert examiner.asked == ["ladder"] * 2
-
-
-def test_a_full_build_checks_in_any_case(project: Path) -> None:
-    examiner = Examiner(RIGHT)
+    monkeypatch.setattr(afterbuild, name, (lambda: "99") if name == "_rumoca_version" else "99")
     run(examiner)
     run(examiner, full=True)
-    assert examiner.asked == ["ladder"] * 2
+    assert examiner.asked == ["ladder"] * 3
 
 
-@pytest.mark.parametrize("content", [b"", b"\xff", b"[]", b'{"key": "0", "checked": "right"}'])
-def test_what_is_remembered_may_be_lost(project: Path, content: bytes) -> None:
+def test_what_is_remembered_may_be_lost_and_is_no_part_of_the_project(project: Path) -> None:
     examiner = Examiner(RIGHT)
-    run(examiner)
-    note(project).write_bytes(content)
-    assert run(examiner)[0].checked is Checked.RIGHT
-    assert examiner.asked == ["ladder"] * 2
-
-
-def test_nothing_is_written_through_a_link(project: Path, tmp_path: Path) -> None:
-    outside = tmp_path / "outside"
-    outside.mkdir()
-    (project / ".urdfsync").mkdir()
-    (project / ".urdfsync" / "checked").symlink_to(outside)
-    run(Examiner(RIGHT))
-    assert list(outside.iterdir()) == []
-
-
-def test_git_ignores_what_is_remembered(project: Path) -> None:
-    run(Examiner(RIGHT))
-    assert note(project).is_file()
-    assert [path.name for path in note(project).parent.iterdir()] == ["ladder.json"], "no temporary file is left"
-    assert "/*\n" in (project / ".urdfsync" / ".gitignore").read_text()
+    for count, content in enumerate([b"", b"\xff", b"[]", b'{"key": "0"}'], start=1):
+        run(examiner)
+        (note,) = notes(project)
+        assert examiner.asked == ["ladder"] * count
+        note.write_bytes(content)
+    assert not (project / ".urdfsync" / "checked").exists()
 
 
 def test_a_check_is_not_remembered_if_somebody_saves_meanwhile(project: Path) -> None:
@@ -277,15 +250,6 @@ def test_what_keeps_one_package_from_being_checked_keeps_all(project: Path) -> N
     assert [result.checked for result in without] == [Checked.UNCHECKED] * 2
 
 
-def test_a_gap_is_said_also_if_something_compiles(project: Path) -> None:
-    verdict = msgspec.structs.replace(
-        RIGHT, gaps=("half of it was not compiled",), unchecked=("poses were not compared",)
-    )
-    (result,) = run(Examiner(verdict))
-    assert result.checked is Checked.INCOMPLETE
-    assert [str(found) for found in result.diagnostics] == ["warning: half of it was not compiled [not-checked]"]
-
-
 def test_without_the_extra_the_real_check_says_what_to_install(
     project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -295,7 +259,7 @@ def test_without_the_extra_the_real_check_says_what_to_install(
     streams = capsys.readouterr()
     assert streams.out.splitlines()[0].endswith("files written; not checked")
     assert "warning: there is no compiler: " in streams.err
-    assert "pip install filelock psutil rumoca" in streams.err
+    assert "pip install rumoca" in streams.err
 
 
 def test_robots_that_are_not_to_be_checked_are_not(project: Path) -> None:
@@ -348,12 +312,13 @@ def test_results_keep_their_order_and_the_lock_is_free_while_packages_are_checke
     assert examiner.asked == ["ladder", "last"]
 
 
-def test_who_interrupts_a_check_is_told_what_was_built(project: Path) -> None:
+def test_who_interrupts_a_check_is_told_what_was_built(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1)
     told: list[Result] = []
     results = build(loaded, loaded.robots, request)
+    monkeypatch.setattr(check_run, "check_robots", Examiner(KeyboardInterrupt()))
     with pytest.raises(KeyboardInterrupt):
-        told.extend(afterbuild.with_checks(loaded, request, results, Examiner(KeyboardInterrupt())))
+        told.extend(afterbuild.with_checks(loaded, request, results))
     assert names(told) == ["ladder"]
     assert told[0].checked is None
 
@@ -361,7 +326,7 @@ def test_who_interrupts_a_check_is_told_what_was_built(project: Path) -> None:
 def test_people_see_what_a_check_said(
     project: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    stand_in(monkeypatch, Examiner(WRONG, RIGHT))
+    monkeypatch.setattr(check_run, "check_robots", Examiner(WRONG, RIGHT))
     assert cli.main(["build"]) == 2
     streams = capsys.readouterr()
     assert streams.err.splitlines() == [f"{MODEL}:3: error: there is no class `Foo` [compile]"]
@@ -378,7 +343,7 @@ def test_what_is_resolved_is_built_and_checked(
     project: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run(Examiner(RIGHT))
-    stand_in(monkeypatch, Examiner(WRONG))
+    monkeypatch.setattr(check_run, "check_robots", Examiner(WRONG))
     record, source = project / "modelica" / "Ladder" / "Elements" / "R2Parameters.mo", project / "ladder.json"
     record.write_text(record.read_text().replace("220.5", "221"))
     source.write_text(source.read_text().replace("220.5", "330"))
@@ -386,11 +351,3 @@ def test_what_is_resolved_is_built_and_checked(
     assert "checked" not in capsys.readouterr().out
     assert cli.main(["resolve", "--all", "--take"]) == 2
     assert "checked: 1 error" in capsys.readouterr().out
-
-
-def test_what_a_check_said_is_never_said_again_without_a_look(project: Path) -> None:
-    loaded = config.load(Path("urdfsync.toml"))
-    run(Examiner(RIGHT))
-    with dependencies.record_dependencies() as looks:
-        assert [result.in_step for result in build_and_check(loaded, loaded.robots, BuildOptions(wait=1))] == [True]
-    assert not looks.complete

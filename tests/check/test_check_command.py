@@ -15,7 +15,6 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity
 from urdfsync.engine.options import Progress
-from urdfsync.output.phrases import byte_size
 
 Capture = pytest.CaptureFixture[str]
 
@@ -137,37 +136,6 @@ def test_bad_usage(checker: Checker, capsys: Capture, arguments: list[str]) -> N
     assert checker.robots == []
 
 
-@pytest.mark.parametrize("option", ["--timeout", "--memory"])
-def test_a_limit_that_is_no_number_is_named(checker: Checker, capsys: Capture, option: str) -> None:
-    assert cli.main(["check", option, "abc"]) == 2
-    assert f"argument {option}: 'abc' is no limit; give a number greater than 0" in capsys.readouterr().err
-    assert checker.robots == []
-
-
-def test_emptying_the_cache_takes_no_compiler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    monkeypatch.setattr("urdfsync.check.compilers.compiler._SHARED", ("not_installed_anywhere",))
-    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path)
-    assert cli.main(["check", "--clear-cache"]) == 0
-    assert capsys.readouterr().out == "the cache was empty\n"
-
-
-def test_whoever_looks_sees_that_the_cache_is_being_emptied(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
-) -> None:
-    seen = []
-
-    def clear(_: object) -> int:
-        seen.append(capsys.readouterr().err)
-        return 48
-
-    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
-    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path)
-    monkeypatch.setattr("urdfsync.check.cache.UserCache.clear", clear)
-    assert cli.main(["check", "--clear-cache"]) == 0
-    assert "emptying the cache" in seen[0]
-    assert capsys.readouterr().out == "cache emptied, 48 bytes freed\n"
-
-
 def test_the_cache_is_emptied_without_a_configuration(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
@@ -184,10 +152,3 @@ def test_the_cache_is_emptied_without_a_configuration(
     assert capsys.readouterr().out == "the cache was empty\n"
     assert cli.main(["check", "--clear-cache", "--quiet"]) == 0
     assert capsys.readouterr().out == ""
-
-
-@pytest.mark.parametrize(
-    ("number", "said"), [(1, "1 byte"), (999, "999 bytes"), (1500, "1.5 kB"), (48_123_904, "48 MB"), (2**30, "1.1 GB")]
-)
-def test_sizes_are_in_the_unit_that_suits(number: int, said: str) -> None:
-    assert byte_size(number) == said

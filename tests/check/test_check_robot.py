@@ -1,11 +1,13 @@
-"""The check of one robot from end to end, with the real compiler and Pinocchio, on a robot with two joints."""
+"""The check of one robot from end to end, on a robot with two joints; where it matters with compiler and Pinocchio."""
 
 from __future__ import annotations
 
 import itertools
 import os
+import re
 import shutil
-from collections.abc import Callable, Iterator
+import sys
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -13,10 +15,10 @@ from support.corpus import REPOSITORY
 from support.urdfs import dynamics, joint, limit, link, robot
 
 from urdfsync import config
+from urdfsync.check import libraries
 from urdfsync.check.cache import UserCache
-from urdfsync.check.collector import Step
 from urdfsync.check.compilers.compiler import CompileJob, CompileResult
-from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, exit_code
+from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, Step
 from urdfsync.check.robot import check_robot
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -28,18 +30,66 @@ ARM = robot(
     joint("shoulder", "revolute", "base", "arm", axis="0 1 0", rpy="0.4 0.5 0.6", inside=[limit(), dynamics(0.5, 0.2)]),
     joint("elbow", "continuous", "arm", "hand", axis="0 0 1", inside=[dynamics(0.1, 0.0)]),
 )
+BROKEN = {
+    "MyArm.mo": """\
+within;
+model MyArm
+  extends Arm.Arm(redeclare Arm.Joints.Elbow elbo, elbow(parameters(dynamics(dampin = 5))));
+  Arm.Links.Hnd other;
+  parameter Real load = 2;
+equation
+  connect(elbwo.axis, elbow.axis);
+end MyArm;
+""",
+    "Bench/MyBench.mo": """\
+model MyBench
+  extends Arm.ArmTest(robot(redeclare Arm.Joints.Elbow elbow));
+  MyArm mine;
+  Real x = mine.laod + robot.elbow.axs.tau;
+  Real y = whatever.it.is;
+end MyBench;
+""",
+    "Notes.mo": "model Notes\n  Nothing here;\nend Notes;\n",
+    "Draft.mo": "model Draft\n  Arm.Arm arm\nend Draft;\n",
+}
 
-Check = Callable[..., CheckResult]
+
+class Compiler:
+    """A stand-in that says the same of every model, and knows which ones it was given."""
+
+    def __init__(self) -> None:
+        self.problem, self.models, self.roots = "", list[str](), list[str]()
+
+    def __call__(self, name: str, job: CompileJob, cache: UserCache) -> Iterator[CompileResult]:
+        self.roots += job.roots
+        self.models += [task.title for task in job.tasks]
+        yield from (CompileResult(self.problem, 7, 2) for _ in job.tasks)
 
 
 @pytest.fixture
 def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A project with the robot, built; the package's folder."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "arm.urdf").write_text(ARM)
-    (tmp_path / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n')
+    Path("arm.urdf").write_text(ARM)
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n')
     rebuild()
     return tmp_path / "modelica" / "Arm"
+
+
+@pytest.fixture
+def compiler(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Compiler:
+    """A stand-in for the compiler, and a cache in which nothing is yet."""
+    found = Compiler()
+    monkeypatch.setattr("urdfsync.check.compilers.run_job", found)
+    monkeypatch.setattr(libraries, "standard_library_copy", lambda *_: tmp_path)
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache")
+    return found
+
+
+@pytest.fixture
+def without_library(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No Modelica Standard Library: nothing is compiled."""
+    monkeypatch.setattr(libraries, "library_folders", lambda *_: [])
 
 
 def rebuild() -> None:
@@ -50,8 +100,15 @@ def rebuild() -> None:
 
 def check(physics: bool = False, steps: list[Step] | None = None) -> CheckResult:
     loaded = config.load(Path("urdfsync.toml").absolute())
-    told = [] if steps is None else steps
-    return check_robot(loaded, loaded.robots[0], CheckOptions(physics=physics, compilers=2), told.append)
+    told, options = [] if steps is None else steps, CheckOptions(physics=physics, compilers=2)
+    with UserCache.default().workspace() as folder:
+        return check_robot(loaded, loaded.robots[0], options, told.append, folder)
+
+
+def write(files: dict[str, str]) -> None:
+    for path, text in files.items():
+        (Path("modelica") / path).parent.mkdir(exist_ok=True, parents=True)
+        (Path("modelica") / path).write_text(text)
 
 
 def replace(file: Path, old: str, new: str) -> None:
@@ -64,15 +121,29 @@ def codes(result: CheckResult) -> list[str]:
     return [one.code for one in result.diagnostics if one.severity == "error"]
 
 
+def lines(result: CheckResult) -> list[str]:
+    """The findings as people read them."""
+    return [
+        f"{one.file.removeprefix('modelica/')}:{one.line}: {one.severity}: {one.message}; {one.hint}"
+        for one in result.diagnostics
+    ]
+
+
 @pytest.mark.slow
 def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Path) -> None:
     """Edits are results, not failures: what is generated agrees with the reference."""
     replace(arm / "Joints" / "ElbowParameters.mo", "damping = 0.1", "damping = 0.2")
     replace(arm / "Links" / "HandParameters.mo", "mass = 0.7", "mass = 0.9")
     replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
+    (arm / "Own.mo").write_text("within Arm;\nmodel Own\n  Real x;\nend Own;\n")
     result = check(physics=True)
     assert codes(result) == []
-    assert [one.model for one in result.compiled] == ["Arm", "ArmRun", "ArmTest"]
+    assert [(one.code, one.file) for one in result.diagnostics if one.code == "unbalanced"] == [
+        ("unbalanced", "modelica/Arm/Own.mo")
+    ]
+    assert [(one.model, one.unknowns > 100) for one in result.compiled] == [
+        *(("Arm", False), ("ArmRun", True), ("ArmTest", True))
+    ]
     assert result.deviations
     assert not result.differs
     assert (result.status(strict=False), result.status(strict=True)) == (CheckStatus.RIGHT, CheckStatus.DIFFERS)
@@ -85,85 +156,108 @@ def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Pat
 
 
 @pytest.mark.slow
-def test_an_edited_robot_that_can_not_be_moved_is_not_right(arm: Path, modelica_library: Path) -> None:
-    """It compiles, and an assertion of the user's ends every simulation."""
-    replace(arm / "Joints" / "Elbow.mo", "equation\n", 'equation\n  assert(false, "not ready yet");\n')
-    result = check(physics=True)
-    assert codes(result) == []
-    assert len(result.compiled) == 3
-    assert result.status(strict=False) is CheckStatus.INCOMPLETE
-    (gap,) = result.gaps
-    assert "not ready yet" in gap
-    assert (exit_code([result], strict=False), exit_code([result], strict=True)) == (0, 1)
-
-
-@pytest.mark.slow
 def test_a_generator_that_is_wrong_is_found_whoever_edited_what(arm: Path, modelica_library: Path) -> None:
-    """A template of the user's turns origins in the wrong order: roll, pitch and yaw about axes that turn along."""
+    """A template of the user's turns origins about axes that turn along; an assertion ends each simulation."""
     templates = Path("templates")
     shutil.copytree(REPOSITORY / "templates" / "urdf", templates)
     replace(templates / "macros.jinja", "{3, 2, 1}", "{1, 2, 3}")
     with Path("urdfsync.toml").open("a") as file:
         file.write('templates = "templates"\n')
     rebuild()
+    replace(arm / "Joints" / "Elbow.mo", "equation\n", 'equation\n  assert(false, "not ready yet");\n')
     result = check(physics=True)
+    assert codes(result) == []
+    assert len(result.compiled) == 3, "the edited robot compiles, although it can't be moved"
     assert result.status(strict=False) is CheckStatus.DIFFERS
     assert max(one.relative for one in result.deviations or ()) > 1e-2
+    (gap,) = result.gaps
+    assert "not ready yet" in gap
 
 
-@pytest.mark.slow
-def test_a_package_that_is_not_in_step_is_compiled_and_said_to_be_so(arm: Path, modelica_library: Path) -> None:
+def test_what_was_right_is_not_compiled_again_until_something_changes(
+    arm: Path, modelica_library: Path, compiler: Compiler
+) -> None:
+    steps: list[Step] = []
+    first, second = check(steps=steps), check()
+    assert steps[0].what == "arm: reading the source and the package"
+    assert "arm: checking files and names" in [step.what for step in steps]
+    assert all(0 <= one.done <= other.done <= 1 for one, other in itertools.pairwise(steps))
+    assert sorted(compiler.models) == ["Arm.Arm", "Arm.ArmRun", "Arm.ArmTest"]
+    assert [one.model for one in first.compiled] == ["Arm", "ArmRun", "ArmTest"]
+    assert first.compiled == second.compiled
+    assert (second.status(strict=True), second.unchecked) == (CheckStatus.RIGHT, first.unchecked)
+    replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
+    compiler.problem = "something is wrong"
+    assert [check().failed for _ in range(2)] == [True, True]
+    assert len(compiler.models) == 9, "what is wrong is compiled again"
+    compiler.problem = ""
     replace(Path("arm.urdf"), 'type="continuous"', 'type="fixed"')
     result = check()
     assert (result.in_step, result.status(strict=False)) == (False, CheckStatus.DIFFERS)
     assert [one.model for one in result.compiled] == ["Arm", "ArmRun", "ArmTest"]
-    assert all(one.unknowns > 100 for one in result.compiled)
 
 
-def test_what_was_right_is_not_compiled_again_until_something_changes(
-    arm: Path, modelica_library: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.skipif(sys.platform != "linux", reason="names of files are Unicode there")
+def test_in_a_folder_that_is_not_utf8_the_compiler_gets_copies(
+    arm: Path, modelica_library: Path, compiler: Compiler, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    jobs: list[str] = []
-    problems = [""]
+    folder = tmp_path / os.fsdecode(b"caf\xe9")
+    folder.mkdir()
+    for name in ("arm.urdf", "urdfsync.toml"):
+        shutil.copy(name, folder)
+    monkeypatch.chdir(folder)
+    rebuild()
+    write({"Pumps/package.mo": "package Pumps\n  model Small\n  end Small;\nend Pumps;\n"})
+    write(
+        {
+            "Arm/Own.mo": "within Arm;\nmodel Own\n  Pumps.Small pump;\nend Own;\n",
+            "Bench.mo": "model Bench\n  Arm.Arm a;\nend Bench;\n",
+        }
+    )
+    result = check()
+    assert (result.status(strict=True), len(result.compiled)) == (CheckStatus.RIGHT, 3)
+    assert "modelica/Bench.mo" in result.unchecked[0]
+    assert any(root.endswith("/Pumps") for root in compiler.roots)
+    assert all(root.encode() for root in compiler.roots)
 
-    def run_job(name: str, job: CompileJob, cache: UserCache) -> Iterator[CompileResult]:
-        jobs.extend(task.title for task in job.tasks)
-        yield from (CompileResult(problems[0], 7, 2) for _ in job.tasks)
 
-    monkeypatch.setattr("urdfsync.check.compilers.compiler.run_job", lambda *given: (one for one in run_job(*given)))
-    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache")
-    first, second = check(), check()
-    assert len(jobs) == 3
-    assert first.compiled == second.compiled
-    assert (second.status(strict=True), second.unchecked) == (CheckStatus.RIGHT, first.unchecked)
-    replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
-    problems[0] = "something is wrong"
-    assert [check().failed for _ in range(2)] == [True, True]
-    assert len(jobs) == 9, "what is wrong is compiled again"
-
-
-def test_without_a_library_nothing_is_compiled(arm: Path) -> None:
-    """The configuration names a folder with nothing in it."""
+@pytest.mark.parametrize("built", [True, False])
+def test_without_a_library_nothing_is_compiled(arm: Path, built: bool) -> None:
+    """The configuration names a folder with nothing in it; a robot that is not built is checked as it would be."""
+    if not built:
+        shutil.rmtree(arm)
+        shutil.rmtree(".urdfsync")
     Path("nothing").mkdir()
     with Path("urdfsync.toml").open("a") as file:
         file.write('[check]\nlibrary = "nothing"\n')
     result = check()
+    assert (result.built, result.in_step) == (built, built)
     assert codes(result) == ["wrong-library-folder"]
     assert any("nothing was compiled" in sentence for sentence in result.gaps)
 
 
-def test_nothing_is_compiled_that_does_not_parse(arm: Path) -> None:
+@pytest.mark.skipif(os.name == "nt", reason="links need rights there")
+def test_nothing_is_compiled_that_does_not_parse_and_what_is_no_file_is_told(arm: Path) -> None:
+    (arm / "Links" / "Gone.mo").symlink_to("nowhere.mo")
     (arm / "Joints" / "Elbow.mo").write_text("within Arm.Joints;\nmodel Elbow\n  Real x = ;\nend Elbow;\n")
     result = check()
     assert result.failed
-    assert [(one.file, one.line) for one in result.diagnostics if one.severity == "error"] == [
-        ("modelica/Arm/Joints/Elbow.mo", 3)
+    assert [(one.code, one.file, one.line) for one in result.diagnostics] == [
+        ("syntax", "modelica/Arm/Joints/Elbow.mo", 3),
+        ("no-file", "modelica/Arm/Links/Gone.mo", 0),
     ]
     assert result.compiled == ()
-    assert any("nothing was compiled" in sentence for sentence in result.gaps)
+    assert result.gaps == ("nothing was compiled, since the files are not in order",)
 
 
-def test_a_file_that_the_package_refers_to_and_that_is_not_there_is_named(arm: Path) -> None:
+def test_a_source_with_errors_is_told(arm: Path) -> None:
+    Path("arm.urdf").write_text(ARM[: len(ARM) // 2])
+    result = check()
+    assert result.failed
+    assert result.diagnostics[0].file == "arm.urdf"
+
+
+def test_a_file_that_the_package_refers_to_and_that_is_not_there_is_named(arm: Path, without_library: None) -> None:
     """A mesh of the user's; a link in the documentation is none of its business."""
     hand = arm / "Links" / "Hand.mo"
     visual = '  parameter String cover = "modelica://Arm/Resources/cover.stl";\n'
@@ -177,38 +271,83 @@ def test_a_file_that_the_package_refers_to_and_that_is_not_there_is_named(arm: P
     assert "missing-resource" not in codes(check())
 
 
-def test_it_is_told_what_is_being_done_and_how_far_it_is(arm: Path) -> None:
-    steps: list[Step] = []
-    check(steps=steps)
-    assert steps[0].what == "arm: reading the source and the package"
-    assert "arm: checking files and names" in [step.what for step in steps]
-    assert all(0 <= one.done <= other.done <= 1 for one, other in itertools.pairwise(steps[:4]))
+# --- names ------------------------------------------------------------------------------------------------------------
 
 
-def test_a_source_with_errors_is_told(arm: Path) -> None:
-    Path("arm.urdf").write_text(ARM[: len(ARM) // 2])
+def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_library: Path, compiler: Compiler) -> None:
+    write(BROKEN)
     result = check()
-    assert result.failed
-    assert result.diagnostics[0].file == "arm.urdf"
-
-
-def test_a_robot_that_was_not_built_is_out_of_step(arm: Path) -> None:
-    """What would be generated is checked as far as it goes: here there is no library."""
-    shutil.rmtree(arm)
-    shutil.rmtree(".urdfsync")
-    Path("nothing").mkdir()
-    with Path("urdfsync.toml").open("a") as file:
-        file.write('[check]\nlibrary = "nothing"\n')
-    result = check()
-    assert (result.built, result.in_step) == (False, False)
-    assert codes(result) == ["wrong-library-folder"]
-
-
-@pytest.mark.skipif(os.name == "nt", reason="links need rights there")
-def test_what_is_no_file_is_told_and_no_more(arm: Path) -> None:
-    (arm / "Links" / "Gone.mo").symlink_to("nowhere.mo")
-    (arm / "Joints" / "Elbow.mo").write_text("within Arm.Joints;\nmodel Elbow\n  Real x = ;\nend Elbow;\n")
-    found = check().diagnostics
-    assert [(one.code, one.file) for one in found if one.code == "no-file"] == [
-        ("no-file", "modelica/Arm/Links/Gone.mo")
+    nested = "the redeclaration of `elbow` inside of another modifier is not checked: rumoca ignores it"
+    assert lines(result) == [
+        "Draft.mo:0: warning: this file can't be read as Modelica, so its names were not checked; "
+        "open it in a Modelica tool",
+        f"Bench/MyBench.mo:2: warning: {nested}; "
+        "write a model that says `extends Arm.Arm(redeclare … elbow)`, and use that instead",
+        "Bench/MyBench.mo:4: error: MyArm has no parameter `laod`; did you mean `mine.load`?",
+        "Bench/MyBench.mo:4: error: Elbow has no connector `axs`; did you mean `robot.elbow.axis.tau`?",
+        "Bench/MyBench.mo:5: error: MyBench has no element `whatever`; ",
+        "MyArm.mo:3: error: Arm has no joint `elbo`; did you mean `elbow`?",
+        "MyArm.mo:3: error: RotationalDynamics has no field `dampin`; did you mean `damping`?",
+        "MyArm.mo:4: error: there is no class `Arm.Links.Hnd`; did you mean `Arm.Links.Hand`?",
+        "MyArm.mo:7: error: MyArm has no joint `elbwo`; did you mean `elbow.axis`?",
     ]
+    assert result.failed
+    assert len(result.compiled) == 3, "the package itself is right"
+    files = "modelica/Bench/MyBench.mo, modelica/Draft.mo and modelica/MyArm.mo"
+    assert result.unchecked[0] == f"{files} outside of the package: names were checked, but nothing there was compiled"
+
+
+def test_the_package_is_not_compiled_if_names_in_it_mean_nothing(arm: Path, without_library: None) -> None:
+    replace(arm / "Arm.mo", "connect(shoulder.frame_b, ", "connect(sholder.frame_b, ")
+    result = check()
+    (line,) = lines(result)
+    assert "error: robot: Arm has no joint `sholder`; did you mean `shoulder.frame_b`?" in line
+    assert line.endswith("the file was edited by hand")
+    assert result.gaps == ("nothing was compiled, since names in the package mean nothing",)
+
+
+def test_a_frame_that_the_configuration_does_not_list_is_told_with_its_key(arm: Path, without_library: None) -> None:
+    bench = "model Bench\n  Arm.Arm robot;\nequation\n  connect(robot.%s, robot.frame_a);\nend Bench;\n"
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('frames = ["arm"]\n')
+    rebuild()
+    frames = re.findall(r"Frame_b (\w+)", (arm / "Arm.mo").read_text())
+    (name,) = [name for name in frames if "arm" in name.lower()]
+    write({"Bench.mo": bench % name})
+    assert lines(check()) == []
+    replace(Path("urdfsync.toml"), 'frames = ["arm"]\n', 'frames = ["base"]\n')
+    rebuild()
+    assert lines(check()) == [
+        f"Bench.mo:4: error: Arm has no connector `{name}`; "
+        '`frames = ["base", "arm"]` in the configuration brings it back'
+    ]
+
+
+@pytest.mark.parametrize(
+    ("files", "expected"),
+    [
+        (  # joints extend classes of that library, so of their elements nothing can be said; the robot itself has icons
+            {"MyArm.mo": BROKEN["MyArm.mo"]},
+            [
+                "MyArm.mo:3: error: Arm has no joint `elbo`",
+                "MyArm.mo:4: error: there is no class `Arm.Links.Hnd`",
+                "MyArm.mo:7: error: MyArm has no joint `elbwo`",
+            ],
+        ),
+        ({"Own.mo": "model Own\n  extends Arm.Joints.Elbow;\n  Real x = inherited.x;\nend Own;\n"}, []),
+        ({".backup/MyArm.mo": BROKEN["MyArm.mo"], "Resources/MyArm.mo": BROKEN["MyArm.mo"]}, []),
+    ],
+)
+def test_without_the_standard_library_nothing_is_said_of_what_it_may_hold(
+    arm: Path, without_library: None, files: dict[str, str], expected: Sequence[str]
+) -> None:
+    write(files)
+    assert [line.partition(";")[0] for line in lines(check())] == expected
+
+
+def test_packages_of_other_robots_are_left_alone(arm: Path, without_library: None) -> None:
+    shutil.copytree(arm, arm.parent / "Other")
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "arm.urdf"\npackage = "Other"\n')
+    write({"Other/Bad.mo": "within Other;\nmodel Bad\n  Arm.Bad bad;\nend Bad;\n"})
+    assert lines(check()) == []

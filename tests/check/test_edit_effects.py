@@ -1,52 +1,17 @@
-"""Which files were edited, and what each edit does by itself."""
+"""What each edit does by itself."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.check.package import edited_files, is_cosmetic
 from urdfsync.check.physics import edit_effects, unexplained
 from urdfsync.check.results import TOLERANCE
 from urdfsync.domain import Deviation, Quantity
 
-GENERATED = {
-    "package.mo": b"package Arm\n",
-    "package.order": b"Arm\n",
-    "Arm.mo": b"robot\n",
-    "Joints/Elbow.mo": b"elbow\n",
-    "Links/Hand.mo": b"hand\n",
-}
-
 
 def torque(joint: str, difference: float) -> Deviation:
     return Deviation(Quantity.EFFORT, f"joint {joint}", difference, 10.0, 50.0, "N·m")
-
-
-def test_line_ends_are_no_edit() -> None:
-    disk = {**GENERATED, "Links/Hand.mo": b"hand\r\n", "Joints/Elbow.mo": b"flexible elbow\n"}
-    assert edited_files(GENERATED, disk) == ["Joints/Elbow.mo"]
-
-
-def test_order_files_and_files_of_the_users_own_do_not_count() -> None:
-    disk = {**GENERATED, "package.order": b"Mine\nArm\n", "Mine.mo": b"mine\n"}
-    assert edited_files(GENERATED, disk) == []
-
-
-@pytest.mark.parametrize(
-    ("text", "cosmetic"),
-    [
-        (b"model Elbow // mine\n  Real x = 1;\nend Elbow;\n", True),
-        (b"model Elbow\n\n  Real x  =  1; /* hm */\nend Elbow;", True),
-        (b"model Elbow\n  Real x = 2;\nend Elbow;\n", False),
-        (b'model Elbow "// mine"\n  Real x = 1;\nend Elbow;\n', False),
-    ],
-)
-def test_comments_and_blanks_are_cosmetic(text: bytes, cosmetic: bool) -> None:
-    assert is_cosmetic(b"model Elbow\n  Real x = 1;\nend Elbow;\n", text) is cosmetic
 
 
 def test_one_edited_file_does_it_all() -> None:
@@ -60,13 +25,6 @@ def test_edits_are_told_apart() -> None:
     first, second = edit_effects(["A.mo", "B.mo"], [torque("elbow", 2.0)], single, [torque("elbow", 1e-14)])
     assert (first.files, first.deviations) == (("A.mo",), (torque("elbow", 2.0),))
     assert (second.files, second.deviations) == (("B.mo",), ())
-
-
-def test_effects_come_in_the_order_of_the_files() -> None:
-    """Whichever compiler was through first."""
-    single = {"B.mo": [torque("elbow", 1.0)], "A.mo": [torque("elbow", 2.0)]}
-    found = edit_effects(["A.mo", "B.mo"], [torque("elbow", 3.0)], single, [])
-    assert [effect.files for effect in found] == [("A.mo",), ("B.mo",)]
 
 
 def test_edits_that_only_together_change_anything_are_told_together_beside_others() -> None:
@@ -83,13 +41,6 @@ def test_edits_that_only_together_change_anything_are_told_together_beside_other
     assert (together.files, together.deviations) == (("Elbow.mo", "ElbowParameters.mo"), (torque("elbow", 4.0),))
 
 
-def test_a_file_that_does_not_work_alone_is_not_blamed_for_what_others_do() -> None:
-    single = {"Shoulder.mo": [torque("shoulder", 0.3)]}
-    alone, other = edit_effects(["Arm.mo", "Shoulder.mo"], [torque("shoulder", 0.3)], single, [])
-    assert (alone.files, bool(alone.deviations)) == (("Shoulder.mo",), True)
-    assert (other.files, other.deviations) == (("Arm.mo",), ())
-
-
 def test_a_rest_that_is_small_beside_the_whole_is_no_effect_of_its_own() -> None:
     """Two turns one after the other are not quite the sum of both."""
     single = {"A.mo": [torque("elbow", 2.0)], "B.mo": [torque("elbow", 1.0)]}
@@ -97,31 +48,10 @@ def test_a_rest_that_is_small_beside_the_whole_is_no_effect_of_its_own() -> None
     assert [effect.files for effect in found] == [("A.mo",), ("B.mo",)]
 
 
-def test_a_value_that_is_missing_counts() -> None:
-    (effect,) = edit_effects(["A.mo"], [torque("elbow", float("inf"))], {}, [])
-    assert [one.element for one in effect.deviations] == ["joint elbow"]
-
-
 def test_what_is_left_over_is_what_single_edits_do_not_explain() -> None:
     baseline, whole = {"x": [1.0, 2.0]}, {"x": [1.5, 7.0]}
     found = unexplained(baseline, whole, [{"x": [1.5, 2.0]}, {"x": [1.0, 4.0]}])
     assert found == {"x": [1.0, 5.0]}
-
-
-names = st.sampled_from(["A.mo", "Joints/B.mo", "Links/C.mo", "Links/D.mo", "package.order"])
-packages = st.dictionaries(names, st.sampled_from([b"", b"x\n", b"x\r\n", b"y\n"]))
-
-
-@given(generated=packages, disk=packages)
-def test_edited_files_are_those_that_differ_beyond_line_ends(
-    generated: Mapping[str, bytes], disk: Mapping[str, bytes]
-) -> None:
-    generated = {path: content.replace(b"\r", b"") for path, content in generated.items()}
-    found = edited_files(generated, disk)
-    for path in generated.keys() & disk.keys():
-        differs = disk[path].replace(b"\r\n", b"\n") != generated[path]
-        assert (path in found) == (differs and path.endswith(".mo"))
-    assert set(found) <= generated.keys() & disk.keys()
 
 
 numbers = st.integers(-8, 8).map(lambda number: number / 4)

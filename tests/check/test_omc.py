@@ -15,7 +15,7 @@ from support import fake_omc
 from support.modelica import URDFSYNC
 
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers import omc
+from urdfsync.check.compilers import omc, run_job
 from urdfsync.check.compilers.compiler import (
     CompileJob,
     CompilerError,
@@ -23,10 +23,9 @@ from urdfsync.check.compilers.compiler import (
     CompileTask,
     Simulation,
     compile_task,
-    run_job,
 )
 from urdfsync.check.errors import explain
-from urdfsync.check.files import PackageFiles
+from urdfsync.check.package import PackageFiles
 
 TASK = CompileTask("Probe_", 'model Probe_ "a \\ b"\nend Probe_;\n')
 BALANCED = '"Check of Probe_ completed successfully.\nClass Probe_ has 4 equation(s) and 4 variable(s).\n1 of these."\n'
@@ -85,7 +84,7 @@ def test_an_unbalanced_model_is_a_problem() -> None:
 def test_errors_keep_their_places() -> None:
     found = omc.check_result(f'""\n"{LOST}Error: Error occurred while flattening model Probe_\n"\n', TASK)
     package = PackageFiles("Arm", Path("/robots/Arm"), {})
-    (first,) = explain(found.problem, package, {Path("/ws/Arm"): package.folder})
+    (first,) = explain(found.problem, omc.complaints(found.problem), package, {Path("/ws/Arm"): package.folder})
     assert (Path(first.file), first.line, first.column) == (Path("/robots/Arm/Joints/Elbow.mo"), 76, 3)
     assert first.message == 'Variable orgin.frame_a not found in scope "Arm"'
 

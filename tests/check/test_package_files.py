@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import errno
 import os
 from pathlib import Path
@@ -10,8 +11,8 @@ from typing import Any
 import pytest
 
 from urdfsync import config
-from urdfsync.check import files
-from urdfsync.check.files import PackageFiles
+from urdfsync.check import package as files
+from urdfsync.check.package import PackageFiles
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import OutputError
 
@@ -142,23 +143,12 @@ def test_packages_around_that_do_not_exist_are_made_up(rc_domain: None, tmp_path
     }
 
 
-def test_the_folder_holds_what_is_given_and_nothing_else(plant: Config, tmp_path: Path) -> None:
-    arm, folder = robot(plant, "arm"), tmp_path / "work"
-    write(folder, **{"Plant/Robots/Arm/Joints/Old.mo": "model Old"})
-    root = files.write_package(folder, arm, {"Arm.mo": b"model Arm"}, {"Plant/package.mo": b"package Plant"})
-    assert root == folder / "Plant"
-    there = {path.relative_to(folder).as_posix() for path in folder.rglob("*")}
-    assert there == {"Plant", "Plant/package.mo", "Plant/Robots", "Plant/Robots/Arm", "Plant/Robots/Arm/Arm.mo"}
-
-
-def test_files_that_are_right_are_left_alone(plant: Config, tmp_path: Path) -> None:
-    arm, folder = robot(plant, "arm"), tmp_path / "work"
-    files.write_package(folder, arm, {"Arm.mo": b"model Arm", "Leg.mo": b"1"}, {})
-    before = (folder / "Plant/Robots/Arm/Arm.mo").stat()
-    files.write_package(folder, arm, {"Arm.mo": b"model Arm", "Leg.mo": b"2"}, {})
-    after = (folder / "Plant/Robots/Arm/Arm.mo").stat()
-    assert (before.st_ino, before.st_mtime_ns) == (after.st_ino, after.st_mtime_ns)
-    assert (folder / "Plant/Robots/Arm/Leg.mo").read_bytes() == b"2"
+def test_a_package_is_written_where_its_name_says_without_byte_order_marks(plant: Config, tmp_path: Path) -> None:
+    texts = {"Arm.mo": codecs.BOM_UTF8 + b"model Arm"}
+    root = files.write_package(tmp_path / "work", robot(plant, "arm"), texts, {"Plant/package.mo": b"package Plant"})
+    assert root == tmp_path / "work" / "Plant"
+    assert (root / "Robots/Arm/Arm.mo").read_bytes() == b"model Arm"
+    assert (root / "package.mo").read_bytes() == b"package Plant"
 
 
 def package(**texts: str) -> PackageFiles:
@@ -197,3 +187,14 @@ def test_the_users_models_are_those_in_files_that_are_not_generated() -> None:
 )
 def test_models_and_blocks_that_are_not_partial_compile_by_themselves(text: str, expected: bool) -> None:
     assert (package(Own=text).models_not_in([]) == ["Own"]) is expected
+
+
+GENERATED = {"package.order": b"Arm\n", "Arm.mo": b"robot\n", "Joints/Elbow.mo": b"elbow\n", "Links/Hand.mo": b"hand\n"}
+
+
+def test_edited_are_models_that_differ_in_more_than_line_ends() -> None:
+    """Order files and files of the user's own do not count."""
+    own = {"package.order": b"Mine\nArm\n", "Mine.mo": b"mine\n"}
+    disk = {**GENERATED, **own, "Links/Hand.mo": b"hand\r\n", "Joints/Elbow.mo": b"flexible elbow\n"}
+    del disk["Arm.mo"]
+    assert files.edited_files(GENERATED, disk) == ["Joints/Elbow.mo"]

@@ -11,19 +11,16 @@ from typing import Any
 import numpy as np
 import pytest
 
+from urdfsync import processes
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers import compiler, rumoca
+from urdfsync.check.compilers import MISSING, require, rumoca, run_job
 from urdfsync.check.compilers.compiler import (
-    MISSING,
     CompileJob,
     CompilerError,
     CompileResult,
     CompileTask,
     Simulation,
     SimulationResult,
-    importable,
-    require,
-    run_job,
 )
 from urdfsync.diagnostics import Diagnostic
 
@@ -65,7 +62,7 @@ def failure(tmp_path: Path, *tasks: CompileTask) -> tuple[Diagnostic, list[Compi
 def fake_worker(monkeypatch: pytest.MonkeyPatch, program: str) -> None:
     """Instead of the worker, a program that hands out one good result and then goes its own way."""
     said = "import sys; sys.stdin.readline(); print('{\"unknowns\": 7}', flush=True); "
-    monkeypatch.setattr(compiler, "python_module", lambda module: [sys.executable, "-c", said + program])
+    monkeypatch.setattr(processes, "python_module", lambda *_: [sys.executable, "-c", said + program])
 
 
 def test_models_are_compiled_counted_and_simulated(tmp_path: Path) -> None:
@@ -162,7 +159,7 @@ def test_each_compiler_needs_its_own_only(monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == absent else name)
     monkeypatch.setattr("shutil.which", lambda name: name)
     require("omc")
-    with pytest.raises(CompilerError, match="rumoca is not installed; pip install filelock psutil rumoca"):
+    with pytest.raises(CompilerError, match="rumoca is not installed; pip install rumoca"):
         require("rumoca")
     absent = "OMPython"
     require("rumoca")
@@ -172,11 +169,13 @@ def test_each_compiler_needs_its_own_only(monkeypatch: pytest.MonkeyPatch) -> No
 
 def test_a_worker_ends_with_whoever_started_it_and_prints_only_answers(tmp_path: Path) -> None:
     program = (
-        "import os; from urdfsync.check.compilers.compiler import *; answers = reserve_stdout(); os.write(1, b'noise');"
+        "import os; from urdfsync.processes import *; answers = reserve_stdout(); os.write(1, b'noise');"
         "end_with_parent(); answers.write(b'answer'); answers.flush(); import time; time.sleep(60)"
     )
     command = [sys.executable, "-c", program]
-    done = subprocess.run(command, input=b"", capture_output=True, timeout=50, check=False, env=importable() or None)
+    done = subprocess.run(
+        command, input=b"", capture_output=True, timeout=50, check=False, env=processes.importable() or None
+    )
     assert (done.returncode, done.stdout, done.stderr) == (1, b"answer", b"noise")
 
 

@@ -6,15 +6,17 @@ import os
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
 from pathlib import Path
 
 import psutil
 import pytest
 
-from urdfsync import config
+from urdfsync import config, processes
 from urdfsync.check import run
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
 from urdfsync.config import Config
+from urdfsync.engine.options import Progress, no_progress
 
 STAND_IN = """
 import json, os, sys, time
@@ -50,57 +52,68 @@ say(is_last=True, compiled=[compiled])
 
 
 @pytest.fixture
+def tmp_path(tmp_path: Path) -> Path:
+    """A folder whose name is not UTF-8, where there are such."""
+    folder = tmp_path / os.fsdecode(b"caf\xe9") if sys.platform == "linux" else tmp_path / "cafe"
+    folder.mkdir()
+    return folder
+
+
+@pytest.fixture
 def robots(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Config]:
     """A configuration with robots of all characters; nobody reads their sources."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(run, "COMMAND", (sys.executable, "-S", "-c", STAND_IN))
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path.parent / "cache")
     names = ("late", "early", "crash", "silent", "loud", "slow", "big", "big2")
     tables = [f'[robots.{n}]\nsource = "{n}.json"\npackage = "{n.title()}"\ndomain = "rcnetwork"\n' for n in names]
     yield config.parse("\n".join(tables), tmp_path / "urdfsync.toml", "urdfsync.toml")
+    assert not list((tmp_path.parent / "cache" / "work").iterdir())
     own = psutil.Process()
     assert [child for child in own.children(recursive=True) if STAND_IN in child.cmdline()] == []
 
 
-def check(robots: Config, names: Sequence[str], options: CheckOptions | None = None) -> Iterator[CheckResult]:
+def check(
+    robots: Config, names: Sequence[str], options: CheckOptions | None = None, tell: Progress = no_progress
+) -> Iterator[CheckResult]:
     chosen = [robot for robot in robots.robots if robot.name in names]
-    command = (sys.executable, "-c", STAND_IN)
-    return run.check_robots(robots, chosen, options or CheckOptions(jobs=2), lambda what, done, total: None, command)
+    return run.check_robots(robots, chosen, options or CheckOptions(jobs=2), tell)
 
 
 def codes(result: CheckResult) -> list[str]:
     return [one.code for one in result.diagnostics]
 
 
-def test_verdicts_come_in_the_order_of_the_robots(robots: Config) -> None:
-    """Both run at the same time: the first waits for the second."""
-    found = list(check(robots, ["late", "early"]))
-    assert [one.robot for one in found] == ["late", "early"]
-    assert found[0].compiled == (CompiledModel("LateRun", 10, 2),)
-    assert not any(codes(one) for one in found)
+def test_results_come_in_order_and_a_process_that_breaks_down_fails_its_robot_only(
+    robots: Config, tmp_path: Path
+) -> None:
+    """The first two run at the same time: the first waits for the second."""
+    steps: list[tuple[str, int, int]] = []
 
+    def tell(what: str, done: int, total: int) -> None:
+        steps.append((what, done, total))
 
-def test_a_process_that_breaks_down_fails_its_robot_only(robots: Config) -> None:
-    early, crash, silent, loud = check(robots, ["early", "crash", "silent", "loud"])
-    assert not early.failed
+    late, early, crash, silent, loud = check(robots, ["late", "early", "crash", "silent", "loud"], tell=tell)
+    assert [one.robot for one in (late, early, crash)] == ["late", "early", "crash"]
+    assert late.compiled == (CompiledModel("LateRun", 10, 2),)
+    assert codes(late) == codes(early) == []
     assert [codes(one) for one in (crash, silent, loud)] == [["check-crashed"]] * 3
     assert "SIGABRT" in crash.diagnostics[0].message or os.name == "nt"
+    assert all(0 <= done <= total == 500 for _, done, total in steps)
+    assert any(what.endswith(": at work") and done > 0 for what, done, _ in steps)
 
 
-def test_time_is_limited_and_what_was_found_until_then_stays(robots: Config) -> None:
+def test_time_and_memory_are_limited_and_what_was_found_until_then_stays(robots: Config) -> None:
     early, slow = check(robots, ["early", "slow"], CheckOptions(timeout=6, jobs=2))
     assert not early.failed
     assert codes(slow) == ["check-out-of-time"]
     assert slow.compiled == (CompiledModel("SlowRun", 10, 2),)
-
-
-def test_memory_is_limited(robots: Config) -> None:
     (big,) = check(robots, ["big"], CheckOptions(memory=0.2))
     assert codes(big) == ["check-out-of-memory"]
     assert "--memory" in big.diagnostics[0].hint
 
 
-def test_whoever_needs_more_than_a_share_gets_all_of_it_alone(
-    robots: Config, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_whoever_needs_more_than_a_share_gets_all_of_it_alone(robots: Config, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two at a time have 300 MB each; each takes 400 MB, which is there for one of them."""
     monkeypatch.setattr(run, "_EXPECTED_MEMORY", 3e8)
     found = list(check(robots, ["big", "big2"], CheckOptions(memory=0.6, jobs=2)))
@@ -116,22 +129,33 @@ def test_an_interruption_ends_all_processes(robots: Config, tmp_path: Path) -> N
     results.close()  # type: ignore[attr-defined]
 
 
-def test_a_robot_that_is_gone_from_the_configuration_is_told(robots: Config, tmp_path: Path) -> None:
+def test_a_robot_that_is_gone_from_the_configuration_is_told(
+    robots: Config, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The configuration was changed between the command and its process."""
+    monkeypatch.setattr(run, "COMMAND", processes.python_module("urdfsync.check"))
     (tmp_path / "urdfsync.toml").write_text('[robots.leg]\nsource = "leg.urdf"\npackage = "Leg"\n')
-    chosen = [robot for robot in robots.robots if robot.name == "early"]
-    (found,) = run.check_robots(robots, chosen, CheckOptions(package_paths=(tmp_path,)), lambda *_: None)
+    (found,) = check(robots, ["early"], CheckOptions(package_paths=(tmp_path,)))
     assert codes(found) == ["unknown-robot"]
 
 
-def test_it_is_told_what_is_being_done(robots: Config, tmp_path: Path) -> None:
-    chosen = [robot for robot in robots.robots if robot.name == "late"]
-    steps: list[tuple[str, int, int]] = []
+def test_robots_are_checked_by_the_workers_of_a_cluster(robots: Config, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Threads of this process stand in for workers; tests/engine/test_pool.py talks to a real scheduler."""
+    addresses: list[str] = []
 
-    def tell(what: str, done: int, total: int) -> None:
-        steps.append((what, done, total))
-        if what == "late: at work":
-            (tmp_path / "early.done").touch()
+    def connect(address: str) -> Executor:
+        addresses.append(address)
+        return ThreadPoolExecutor(2)
 
-    list(run.check_robots(robots, chosen, CheckOptions(), tell, (sys.executable, "-c", STAND_IN)))
-    assert ("late: at work", 50, 100) in steps
+    monkeypatch.setattr(run, "connect_cluster", connect)
+    late, early, crash = check(robots, ["late", "early", "crash"], CheckOptions(executor="tcp://here:1"))
+    assert addresses == ["tcp://here:1"]
+    assert [codes(one) for one in (late, early, crash)] == [[], [], ["check-crashed"]]
+
+    def lose(_: object) -> None:
+        raise RuntimeError("killed worker")
+
+    monkeypatch.setattr(run, "check_on_worker", lose)
+    (lost,) = check(robots, ["early"], CheckOptions(executor="tcp://here:1"))
+    assert codes(lost) == ["check-crashed"]
+    assert "killed worker" in lost.diagnostics[0].message

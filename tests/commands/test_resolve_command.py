@@ -304,6 +304,16 @@ def test_a_path_that_is_no_conflict(clean: Path, capsys: Capture, snapshot_of: S
     assert files(snapshot_of(clean)) == before
 
 
+def test_of_many_conflicts_a_few_are_named(clean: Path, capsys: Capture) -> None:
+    for number in range(7):
+        more(f"T{number}")
+        Path(f"{LADDER}/Elements/T{number}.mo").write_text("model mine\n")
+    assert resolve("nothing.mo", "other.mo", "--keep") == 2
+    words = capsys.readouterr().err
+    assert words.startswith("error: `nothing.mo` and `other.mo` are not in conflict; these are: ")
+    assert words.endswith("T4.mo and 3 more [no-conflict]\n")
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

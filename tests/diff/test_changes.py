@@ -246,14 +246,6 @@ def test_noise_is_a_number_that_changed_by_a_millionth_or_less(old: Any, new: An
     assert not Changes((change(old, new), change(1.0, 2.0))).noise
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "percent"),
-    [(2.0, 3.0, 50.0), (-2.0, -1.0, 50.0), (4, 1, -75.0), (0.0, 1.0, None), ("a", "b", None), (None, 1.0, None)],
-)
-def test_percentages_are_relative_to_the_old_value(old: Any, new: Any, percent: float | None) -> None:
-    assert change(old, new).percent == percent
-
-
 def test_a_change_reads_as_a_path_and_belongs_to_an_element() -> None:
     one = change(1.0, 2.0)
     assert str(one) == "joint elbow / origin / xyz[2]"

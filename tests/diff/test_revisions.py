@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import shutil
+import zlib
 from pathlib import Path
 
+import pygit2
 import pytest
 from support.git import NEEDS_GIT, Repository
 
@@ -91,14 +93,25 @@ def test_a_name_that_git_must_not_see(repository: Path, name: str) -> None:
         Revision(repository, name)
 
 
-def test_no_git(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_git_itself_is_not_needed(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", str(repository))
-    with pytest.raises(SourceError, match="git is not installed, or not on PATH; install it, or give --against a file"):
+    arm = repository / "cad/arm.urdf"
+    assert Revision(arm.parent, "HEAD").read(arm) == b"two\n"
+
+
+def test_a_content_that_the_clone_lacks(repository: Path) -> None:
+    """As in one that was made without files."""
+    for place in (repository / ".git/objects").glob("??/*"):
+        if b"two\n" in zlib.decompress(place.read_bytes()):
+            place.unlink()
+    with pytest.raises(SourceError, match=r"git does not have its content: .*; fetch it, or give --against a file"):
+        Revision(repository, "HEAD").read(repository / "cad/arm.urdf")
+
+
+def test_a_repository_of_another_user(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(path: str) -> None:
+        raise pygit2.GitError(f"repository path '{path}' is not owned by current user")
+
+    monkeypatch.setattr(pygit2, "Repository", refuse)
+    with pytest.raises(SourceError, match=r"the repository can't be read: .* is not owned by current user; put that"):
         Revision(repository, "HEAD")
-
-
-def test_a_git_that_fails(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    revision = Revision(repository, "HEAD")
-    (repository / ".git/HEAD").unlink()
-    with pytest.raises(SourceError, match="git failed: not a git repository"):
-        revision.read(repository / "cad/arm.urdf")

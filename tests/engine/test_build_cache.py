@@ -18,7 +18,8 @@ from urdfsync.engine.actions import Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.plan import Plan, plan_robot
+from urdfsync.engine.plan import plan_robot
+from urdfsync.engine.stage import Plan
 
 EXAMPLES = Path(__file__).parents[1] / "rcnetwork/examples"
 SETTINGS = '[robots.ladder]\nsource = "ladder.json"\npackage = "Ladder"\ndomain = "rcnetwork"\n'
@@ -245,11 +246,3 @@ def test_a_full_build_reads_every_file(project: Path) -> None:
     work = plan_robot(loaded, loaded.robots[0], BuildOptions(cache=memory, full=True, dry=True))
     assert not any(action.writes for action in work.actions)
     assert not any(entry and "wrong" in entry for entry in memory.states("ladder").values())
-
-
-def test_nothing_stays_of_the_look_at_the_clock(project: Path) -> None:
-    memory = Cache()
-    assert _built(project, memory)
-    (project / ".urdfsync/.clock.urdfsync-tmp").write_text("of a process that was killed")
-    _planned(project, memory)
-    assert not (project / ".urdfsync/.clock.urdfsync-tmp").exists()

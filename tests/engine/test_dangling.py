@@ -13,7 +13,6 @@ model Arm
 end Arm;
 """
 ELBOW = "within Plant.Arm.Joints;\nmodel Elbow\n  Real phi;\nend Elbow;\n"
-PACKAGE = "within Plant;\npackage Arm\n  constant Real g = 9.81;\nend Arm;\n"
 
 
 def never(path: tuple[str, ...]) -> bool:
@@ -33,18 +32,9 @@ def test_components_that_are_declared_no_more_are_lost() -> None:
     assert lost_names({"Arm.mo": ROBOT}, {"Arm.mo": ROBOT}, {}, never) == {}
 
 
-def test_of_a_lost_class_the_class_alone_counts() -> None:
-    assert lost_names({"Joints/Elbow.mo": ELBOW}, {}, {}, never) == {"Elbow": ""}
-
-
 def test_a_class_may_become_a_folder() -> None:
     now = {"Joints/Elbow/package.mo": ELBOW.replace("model", "package")}
     assert lost_names({"Joints/Elbow.mo": ELBOW}, now, {}, never) == {}
-
-
-def test_a_constant_of_the_package_counts() -> None:
-    now = {"package.mo": PACKAGE.replace("  constant Real g = 9.81;\n", "")}
-    assert lost_names({"package.mo": PACKAGE}, now, {}, never) == {"g": ""}
 
 
 def test_new_names_follow_the_new_identifier() -> None:

@@ -37,11 +37,6 @@ def test_an_error_stops_its_robot_alone(project: Path) -> None:
     assert (project / "modelica/B").exists()
 
 
-def test_an_option_from_the_defaults_has_its_line_there(project: Path) -> None:
-    (result,) = run(project, f'[defaults]\nprefix = "in"\n{ROBOT.format("A", "")}')
-    assert said(result) == [f"urdfsync.toml:2: error: {PROBLEM}"]
-
-
 def test_a_note_on_an_option_that_is_not_set_has_the_line_of_the_robot(project: Path) -> None:
     source = project / "ladder.json"
     source.write_text(source.read_text().replace('"ground"', '"earth"'))

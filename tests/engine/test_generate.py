@@ -75,15 +75,6 @@ def template_error(folder: Path) -> str:
     return str(found).replace("\\", "/")
 
 
-def test_a_text_is_rendered_when_it_is_asked_for(tmp_path: Path) -> None:
-    (tmp_path / "t").write_text("<< number >>")
-    files = [Artifact(f"{n}.mo", Role.RECORD, "t", data, "part") for n, data in enumerate([{}, {"number": 2}])]
-    package = Package(files, Templates((tmp_path,), ""))
-    assert package.content("1.mo") == b"2"
-    with pytest.raises(ConfigError, match="number"):
-        package.content("0.mo")
-
-
 @pytest.mark.parametrize(("old", "new"), [(1, 2), (0.0, -0.0), (1, 1.0)])
 def test_a_text_changes_with_its_data(tmp_path: Path, old: float, new: float) -> None:
     one, two, again = (
@@ -129,12 +120,6 @@ def test_a_template_that_is_not_utf8_is_named_even_if_another_includes_it(own: P
     (own / "element/model.mo.jinja").write_text("<% include 'element/part.jinja' %>")
     (own / "element/part.jinja").write_bytes(b"one\nB\xfccher")
     assert template_error(own).startswith("own/element/part.jinja:2: error: the template is not UTF-8; correct")
-
-
-def test_a_template_that_misses_another_is_named(own: Path) -> None:
-    (own / "element/model.mo.jinja").write_text("<% include 'element/part.jinja' %>")
-    (own / "element/part.jinja").write_text("\n\n<% include 'gone' %>")
-    assert template_error(own).startswith("own/element/part.jinja:3: error: there is no template `gone`; correct")
 
 
 def test_a_compiler_reads_the_second_domain(project: Path) -> None:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from urdfsync import cli, config
 from urdfsync.diagnostics import OutputError
 from urdfsync.engine import parents
-from urdfsync.engine.parents import Parents
+from urdfsync.engine.parents import Parents, merge_order
 
 USES = (("Modelica", "4.0.0"),)
 
@@ -34,10 +36,6 @@ def check(root: Path, name: str, create: bool = False) -> Parents:
     return parents.check(loaded, loaded.robots[0], USES)
 
 
-def test_a_top_level_package_needs_no_parent(root: Path) -> None:
-    assert check(root, "Arm") == Parents({}, {}, listed=False)
-
-
 def test_an_order_file_is_not_begun_in_a_package_that_has_other_classes(root: Path) -> None:
     plant = package(root / "modelica/Plant")
     assert not check(root, "Plant.Arm").listed
@@ -45,12 +43,6 @@ def test_an_order_file_is_not_begun_in_a_package_that_has_other_classes(root: Pa
     assert set(made.created) == {plant / "Robots/package.mo"}
     assert made.entered == {}
     assert made.listed, "the file of a package that urdfsync makes is complete"
-
-
-def test_an_order_file_that_is_there_is_kept_up(root: Path) -> None:
-    plant = package(root / "modelica/Plant", "Inner\n")
-    assert check(root, "Plant.Arm").listed
-    assert check(root, "Plant.Robots.Arm", create=True).entered == {plant / "package.order": "Robots"}
 
 
 def test_packages_that_are_made_list_each_other(root: Path) -> None:
@@ -88,3 +80,63 @@ def test_a_build_begins_no_order_file_beside_classes_that_it_does_not_know(proje
     assert cli.main(["build", "--quiet"]) == 0
     assert not (plant / "package.order").exists()
     assert cli.main(["build", "--check"]) == 0
+
+
+# Lines of `package.order`: ours follow the package, the user's stay
+
+
+def names_in(text: str) -> list[str]:
+    return [line for line in text.splitlines() if line]
+
+
+def test_a_new_file_has_one_name_per_line() -> None:
+    assert merge_order(None, ["Links", "Arm"]) == "Links\nArm\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "names", "owned", "merged"),
+    [
+        pytest.param("A\nB\n", "AB", "AB", "A\nB\n", id="nothing to do"),
+        pytest.param("A\nMine\nB\n", "AB", "AB", "A\nMine\nB\n", id="the user's line stays"),
+        pytest.param("A\nC\n", "ABC", "AC", "A\nB\nC\n", id="inserted after its neighbour"),
+        pytest.param("B\nMine\n", "AB", "B", "A\nB\nMine\n", id="inserted before its neighbour"),
+        pytest.param("Mine\n", "A", "", "Mine\nA\n", id="inserted last without neighbours"),
+        pytest.param("Mine\n\n", "A", "", "Mine\nA\n\n", id="inserted before blank lines"),
+        pytest.param("A\nMine\nB\n", "B", "AB", "Mine\nB\n", id="our line goes"),
+        pytest.param("A\nMine\n", "", "A", "Mine\n", id="the user's line stays alone"),
+        pytest.param("A\n", "", "A", "", id="nothing is left"),
+        pytest.param("A\nMine\nB\n", "BA", "AB", "B\nMine\nA\n", id="our lines change places"),
+        pytest.param("B\nA\n", "ABC", "AB", "B\nC\nA\n", id="the user moved our lines: they stay"),
+        pytest.param("A\nB\nA\n", "AB", "AB", "A\nB\n", id="our line was there twice"),
+        pytest.param("Mine\nMine\nA\n", "A", "A", "Mine\nMine\nA\n", id="the user's line is there twice"),
+        pytest.param("B\r\nC\r\n", "ABC", "BC", "A\r\nB\r\nC\r\n", id="line endings stay"),
+        pytest.param("A\nMine", "AB", "A", "A\nB\nMine\n", id="no end of line at the end"),
+        pytest.param("A\nMine", "A", "A", "A\nMine", id="no end of line, nothing to do"),
+        pytest.param("  A \nMine\n", "A", "A", "  A \nMine\n", id="blanks around a name"),
+        pytest.param("", "AB", "", "A\nB\n", id="empty file"),
+    ],
+)
+def test_merge_order(text: str, names: str, owned: str, merged: str) -> None:
+    assert merge_order(text, list(names), list(owned)) == merged
+
+
+ours = st.lists(st.sampled_from("ABCDEF"), unique=True)
+users = st.lists(st.sampled_from(["x", "y", "z", "'quoted name'", ""]), max_size=6)
+
+
+@given(before=ours, now=ours, lines=users, seed=st.randoms())
+def test_invariants(before: list[str], now: list[str], lines: list[str], seed: object) -> None:
+    mixed = before + lines
+    seed.shuffle(mixed)  # type: ignore[attr-defined]
+    text = "".join(f"{line}\n" for line in mixed)
+    merged = merge_order(text, now, before)
+    assert [line for line in merged.splitlines() if line not in "ABCDEF" or not line][: len(lines)] == [
+        line for line in mixed if line not in "ABCDEF" or not line
+    ] or not names_in(merged), "lines of the user keep their order"
+    assert sorted(name for name in names_in(merged) if name in "ABCDEF") == sorted(now), "ours are there once"
+    assert merge_order(merged, now, now) == merged, "a second merge changes nothing"
+
+
+@given(before=ours, now=ours)
+def test_without_lines_of_the_user_a_merge_is_as_good_as_a_new_file(before: list[str], now: list[str]) -> None:
+    assert merge_order(merge_order(None, before), now, before) == merge_order(None, now)

@@ -16,6 +16,7 @@ from urdfsync import config
 from urdfsync.diagnostics import ConfigError
 from urdfsync.engine import pool
 from urdfsync.engine.build import build
+from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
 
@@ -100,6 +101,23 @@ def test_a_save_while_the_others_plan_is_seen(robots: Path, monkeypatch: pytest.
     results = run(2)
     assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
     assert "221" in record.read_text()
+
+
+def test_the_daemon_sees_all_edits_after_workers_have_planned(robots: Path, started: list[int]) -> None:
+    """What workers see does not get into its cache: the next builds look at all files again."""
+    loaded, cache = config.load(Path("urdfsync.toml")), Cache()
+    list(build(loaded, loaded.robots, BuildOptions(jobs=2, cache=cache)))
+    assert started == [2]
+    record = robots / "modelica/Plant/Networks/N5/Elements/R2Parameters.mo"
+    record.write_text(record.read_text().replace("220.5", "221"))
+    for number in (0, 5):
+        path = robots / f"n{number}.json"
+        path.write_text(path.read_text().replace("220.5", "330"))
+    results = list(build(loaded, loaded.robots, BuildOptions(jobs=2, cache=cache)))
+    assert {one.robot for one in results if any(action.writes for action in one.actions)} == {"n0"}
+    assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
+    again = list(build(loaded, loaded.robots, BuildOptions(jobs=1, cache=cache)))
+    assert [one.in_step for one in again] == [number not in (2, 5) for number in range(COUNT)]
 
 
 def test_a_process_that_dies_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -21,7 +21,6 @@ AGAINST = BASE.replace("= 1", "= 7")
 CONFLICT = Action("Arm.mo", Kind.CONFLICT, Role.MODEL, "link arm", "base", "new", mine="mine")
 MOVE = Action("Hand.mo", Kind.MOVE, Role.MODEL, "link hand", "base", "new", origin="Arm.mo", mine="mine")
 ORPHAN = Action("Arm.mo", Kind.ORPHAN, Role.MODEL, "link arm", "base", mine="mine")
-FOLDER = Conflict("Arm.mo", "link arm", BASE, MINE, NEW, None)
 
 
 def settled(
@@ -66,31 +65,6 @@ def test_without_a_base_nothing_is_merged(kind: Kind, choice: Choice | None) -> 
     assert settled(action, standoff, choice, merging=True)[0].kind is kind
 
 
-def test_what_is_not_at_hand_cant_be_taken() -> None:
-    mesh = Action("arm.stl", Kind.CONFLICT, Role.IMPORT, "mesh arm.stl", "base", "new", mine="mine", at_hand=False)
-    kinds = {choice: settled(mesh, None, choice)[0].kind for choice in Choice}
-    assert kinds == {Choice.KEEP: Kind.KEEP, Choice.TAKE: Kind.CONFLICT, Choice.MERGE: Kind.CONFLICT}
-
-
-@pytest.mark.parametrize("choice", [None, *Choice])
-def test_keep_moves_the_base_on_and_nothing_else_does(choice: Choice | None) -> None:
-    action = settled(CONFLICT, texts(CONFLICT, MINE), choice)[0]
-    assert action.base == ("new" if choice is Choice.KEEP else "base")
-    assert action.choice is choice
-
-
-def test_a_class_that_is_a_folder_can_only_be_kept() -> None:
-    action = Action("Arm.mo", Kind.CONFLICT, Role.MODEL, "link arm", "base", "new")
-    kinds = {choice: settled(action, FOLDER, choice, merging=True)[0].kind for choice in Choice}
-    assert kinds == {Choice.KEEP: Kind.KEEP, Choice.TAKE: Kind.CONFLICT, Choice.MERGE: Kind.CONFLICT}
-
-
-def test_an_imported_file_has_no_texts_but_can_be_kept_or_taken() -> None:
-    action = Action("Resources/arm.stl", Kind.CONFLICT, Role.IMPORT, "arm.stl", "base", "new", mine="mine")
-    kinds = {choice: settled(action, None, choice, merging=True)[0].kind for choice in Choice}
-    assert kinds == {Choice.KEEP: Kind.KEEP, Choice.TAKE: Kind.UPDATE, Choice.MERGE: Kind.CONFLICT}
-
-
 @pytest.mark.parametrize(
     ("mine", "choice", "kind", "text"),
     [
@@ -111,25 +85,12 @@ def test_a_file_that_goes_with_its_element(mine: str, choice: Choice | None, kin
     assert (result[0].origin, result[0].choice) == ("Arm.mo", choice)
 
 
-def test_a_file_whose_base_is_lost_does_not_go_by_itself() -> None:
-    standoff = texts(MOVE, MINE, base=None)
-    assert settled(MOVE, standoff)[0].kind is Kind.CONFLICT
-    assert settled(MOVE, standoff, Choice.MERGE)[0].kind is Kind.CONFLICT
-    kept, text = settled(MOVE, standoff, Choice.KEEP)
-    assert (kept.kind, text) == (Kind.MOVE, MINE)
-
-
 @pytest.mark.parametrize(
     ("choice", "kind"),
     [(None, Kind.ORPHAN), (Choice.MERGE, Kind.ORPHAN), (Choice.KEEP, Kind.FORGET), (Choice.TAKE, Kind.DELETE)],
 )
 def test_an_orphan(choice: Choice | None, kind: Kind) -> None:
     assert settled(ORPHAN, None, choice, merging=True)[0].kind is kind
-
-
-def test_an_orphan_that_is_a_folder_is_not_deleted() -> None:
-    action = Action("Arm.mo", Kind.ORPHAN, Role.MODEL, "link arm", "base")
-    assert settled(action, None, Choice.TAKE)[0].kind is Kind.ORPHAN
 
 
 @pytest.mark.parametrize("choice", [None, *Choice])
@@ -139,13 +100,6 @@ def test_an_orphan_that_is_a_folder_is_not_deleted() -> None:
 def test_a_choice_is_for_nothing_else(kind: Kind, choice: Choice | None) -> None:
     action = Action("Arm.mo", kind, Role.MODEL, "link arm", "base", "new", mine="mine")
     assert settled(action, texts(action, MINE), choice, merging=True) == (action, None)
-
-
-def test_each_choice_is_for_its_own_file() -> None:
-    other = Action("Leg.mo", Kind.CONFLICT, Role.MODEL, "link leg", "base", "new", mine="mine")
-    standoffs = {"Arm.mo": texts(CONFLICT, MINE), "Leg.mo": texts(other, MINE)}
-    actions, _ = resolve([CONFLICT, other], standoffs, {"Leg.mo": Choice.TAKE}, merging=False)
-    assert [action.kind for action in actions] == [Kind.CONFLICT, Kind.UPDATE]
 
 
 def test_a_merge_that_is_no_model_is_rejected_with_the_reason() -> None:

@@ -43,10 +43,6 @@ def test_hidden_folders_and_packages_inside_of_packages_are_no_packages(tmp_path
     assert find([tmp_path], tmp_path / "arm.urdf") == {"outer": outer}
 
 
-def test_search_paths_that_do_not_exist_are_passed_over(tmp_path: Path) -> None:
-    assert find([tmp_path / "gone"], tmp_path / "arm.urdf") == {}
-
-
 def library(folder: Path) -> Path:
     folder.mkdir(parents=True)
     (folder / "package.mo").touch()
@@ -57,13 +53,6 @@ def modelicapath(*folders: Path) -> dict[str, str]:
     return {"MODELICAPATH": os.pathsep.join(map(str, folders))}
 
 
-def test_libraries_are_folders_with_a_package_on_modelicapath(tmp_path: Path) -> None:
-    (tmp_path / "Notes").mkdir()
-    (tmp_path / "Single.mo").touch()
-    plant = library(tmp_path / "Plant")
-    assert libraries(modelicapath(tmp_path)) == {"Plant": plant}
-
-
 def test_of_two_libraries_the_first_entry_counts_then_the_one_without_version_then_the_newest(tmp_path: Path) -> None:
     old, new = (library(tmp_path / "b" / f"Plant {version}") for version in ("9.1.0", "10.0.0"))
     assert libraries(modelicapath(tmp_path / "b")) == {"Plant": new}
@@ -72,9 +61,3 @@ def test_of_two_libraries_the_first_entry_counts_then_the_one_without_version_th
     first = library(tmp_path / "a" / "Plant 1.0.0")
     assert libraries(modelicapath(tmp_path / "a", tmp_path / "b")) == {"Plant": first}
     assert old.exists()
-
-
-def test_entries_of_modelicapath_that_do_not_exist_are_passed_over(tmp_path: Path) -> None:
-    (tmp_path / "file").touch()
-    assert libraries(modelicapath(tmp_path / "gone", tmp_path / "file")) == {}
-    assert libraries({}) == libraries({"MODELICAPATH": ""}) == {}

@@ -19,8 +19,16 @@ from urdfsync.diff import changes
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Kind
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
-from urdfsync.engine.renames import OnDisk, renamed_files
-from urdfsync.engine.rules import DesiredFile, decide, hold, keep_needed, records_after, remembered_choices
+from urdfsync.engine.rules import (
+    DesiredFile,
+    OnDisk,
+    decide,
+    hold,
+    keep_needed,
+    records_after,
+    remembered_choices,
+    renamed_files,
+)
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.state.record import Choice, FileRecord, RecordState
 

@@ -10,14 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import CONFLICTS, DELETES, WRITES, Action, Kind
-from urdfsync.engine.renames import OnDisk
+from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Kind
 from urdfsync.engine.rules import (
     DesiredFile,
+    OnDisk,
     decide,
     decide_file,
     hold,
-    keep_needed,
     records_after,
     remembered_choices,
     sides_hash,
@@ -84,20 +83,6 @@ def test_after_an_action_the_next_build_has_nothing_to_do(
     assert second in (CONFLICTS if action.kind in CONFLICTS else quiet)
 
 
-@pytest.mark.parametrize(
-    ("kind", "reason"),
-    [
-        (Kind.RESTORE, "it was deleted; written again"),
-        (Kind.KEEP, "you edited it; there is nothing new for it"),
-        (Kind.CONFLICT, "you edited it, and what it is made from changed too"),
-        (Kind.UNOWNED, "urdfsync did not write the file that is there"),
-        (Kind.ORPHAN, "no longer generated, but you edited it; kept"),
-    ],
-)
-def test_reasons(kind: Kind, reason: str) -> None:
-    assert Action("a", kind, Role.MODEL).reason == reason
-
-
 def test_every_kind_has_a_reason_of_its_own() -> None:
     assert len({Action("a", kind, Role.MODEL).reason for kind in Kind}) == len(Kind)
 
@@ -145,16 +130,6 @@ def test_an_edited_file_goes_to_its_elements_new_name() -> None:
     }
 
 
-def test_a_file_that_nobody_edited_is_written_anew() -> None:
-    actions = decide(written("a"), targets("b"), texts(a="a0"), {"b": "a"})
-    assert {action.path: action.kind for action in actions} == {"a": Kind.DELETE, "b": Kind.CREATE}
-
-
-def test_a_file_that_urdfsync_never_wrote_stays_where_it_is() -> None:
-    recorded = {"a": FileRecord("part a", Role.MODEL, None, RecordState.CONFLICT)}
-    assert rows(decide(recorded, targets("b"), texts(a="mine"), {"b": "a"})) == {"b": (Kind.CREATE, None, None, None)}
-
-
 def test_a_chain_of_names_takes_every_edit_along() -> None:
     moves = {"b": "a", "c": "b"}
     assert rows(decide(written("a", "b"), targets("b", "c"), texts(a="mine a", b="mine b"), moves)) == {
@@ -169,13 +144,6 @@ def test_a_cycle_of_names_takes_every_edit_along() -> None:
     names, mine = ("a", "b", "c"), texts(a="mine a", b="mine b", c="mine c")
     assert rows(decide(written(*names), targets(*names), mine, moves)) == {
         new: (Kind.MOVE, f"{old}0", old, f"mine {old}") for new, old in moves.items()
-    }
-
-
-def test_a_new_element_may_take_the_name_that_an_edited_file_leaves() -> None:
-    assert rows(decide(written("a"), targets("a", "b"), texts(a="mine"), {"b": "a"})) == {
-        "a": (Kind.CREATE, None, None, None),
-        "b": (Kind.MOVE, "a0", "a", "mine"),
     }
 
 
@@ -204,10 +172,6 @@ def test_a_file_that_the_user_has_moved_is_compared_with_what_was_written_at_its
     assert rows(decide(written("a"), targets("b"), texts(b="a0"), {"b": "a"}))["b"][0] is Kind.UPDATE
 
 
-def test_a_file_that_is_gone_from_both_places_is_written_anew() -> None:
-    assert rows(decide(written("a"), targets("b"), {}, {"b": "a"}))["b"] == (Kind.CREATE, None, None, None)
-
-
 WAITING = {
     "a": FileRecord("part a", Role.MODEL, "a0", RecordState.WAITING),
     "b": FileRecord("part b", Role.MODEL, "a0", RecordState.CONFLICT, origin="a"),
@@ -220,43 +184,6 @@ def test_a_file_that_waits_goes_to_a_third_name() -> None:
         "a": (Kind.LEAVE, "a0", None, None),
         "c": (Kind.MOVE, "a0", "a", "mine"),
     }
-
-
-def test_a_file_that_waits_has_its_name_back() -> None:
-    assert rows(decide(WAITING, {"a": DesiredFile(Role.MODEL, "part a", "a0")}, texts(a="mine"))) == {
-        "a": (Kind.KEEP, "a0", None, "mine")
-    }
-
-
-def test_a_file_that_waits_is_an_orphan_if_its_element_goes() -> None:
-    assert rows(decide(WAITING, {}, texts(a="mine"))) == {"a": (Kind.ORPHAN, "a0", None, "mine")}
-
-
-def test_a_file_that_waits_goes_to_a_third_name_although_another_element_took_the_first() -> None:
-    recorded = {**WAITING, "a": FileRecord("part a", Role.MODEL, None, RecordState.WAITING)}
-    assert rows(decide(recorded, targets("a", "c"), texts(a="mine"), {"c": "a"})) == {
-        "a": (Kind.CREATE, None, None, None),
-        "c": (Kind.MOVE, "a0", "a", "mine"),
-    }
-
-
-def test_where_a_new_name_has_to_wait_the_old_file_may_still_be_edited() -> None:
-    recorded, found = written("a", "m"), texts(a="a0", m="mine")
-    actions = hold(decide(recorded, targets("b", "m"), found, {"b": "a"}), ())
-    assert {action.path: (action.kind, action.held) for action in actions} == {
-        "a": (Kind.DELETE, True),
-        "b": (Kind.CREATE, True),
-        "m": (Kind.CONFLICT, False),
-    }
-    records = records_after(actions)
-    assert (records["b"].origin, records["b"].base) == ("a", "a0")
-    found |= texts(a="edited meanwhile")
-    assert rows(decide(records, targets("b", "m"), found, {"b": "a"}))["b"] == (
-        Kind.MOVE,
-        "a0",
-        "a",
-        "edited meanwhile",
-    )
 
 
 bases = st.none() | st.sampled_from("uvw")
@@ -303,48 +230,6 @@ def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
             assert action.kind not in WRITES
 
 
-def spared(*actions: Action, classes: tuple[str, ...] = ()) -> dict[str, Kind]:
-    """What happens to each file, where the folders hold these classes."""
-
-    def stays(path: str, gone: Collection[str]) -> bool:
-        folder = path.removesuffix("package.mo")
-        return any(name.startswith(folder) and name != path and name not in gone for name in classes)
-
-    return {action.path: action.kind for action in keep_needed(actions, stays)}
-
-
-def test_an_edited_model_keeps_its_record() -> None:
-    model = Action("Links/Hand.mo", Kind.ORPHAN, Role.MODEL, "link hand", "old")
-    record = Action("Links/HandParameters.mo", Kind.DELETE, Role.RECORD, "link hand", "old")
-    other = Action("Links/ArmParameters.mo", Kind.DELETE, Role.RECORD, "link arm", "old")
-    assert spared(model, record, other) == {
-        "Links/Hand.mo": Kind.ORPHAN,
-        "Links/HandParameters.mo": Kind.NEEDED,
-        "Links/ArmParameters.mo": Kind.DELETE,
-    }
-    gone = Action("Links/Hand.mo", Kind.FORGET, Role.MODEL, "link hand", "old")
-    assert spared(gone, record)["Links/HandParameters.mo"] is Kind.DELETE
-    (used,) = keep_needed([record], lambda *_: False, {record.path})
-    assert used.kind is Kind.NEEDED
-
-
-def test_a_package_stays_as_long_as_there_are_classes_in_it() -> None:
-    files = ("Old/package.mo", "Old/Links/package.mo", "Old/Links/Hand.mo")
-    roles = (Role.PACKAGE, Role.PACKAGE, Role.MODEL)
-    actions = [Action(path, Kind.DELETE, role, "robot", "old") for path, role in zip(files, roles, strict=True)]
-    assert set(spared(*actions, classes=files).values()) == {Kind.DELETE}
-    assert spared(*actions, classes=(*files, "Old/Links/Mine.mo")) == {
-        "Old/package.mo": Kind.NEEDED,
-        "Old/Links/package.mo": Kind.NEEDED,
-        "Old/Links/Hand.mo": Kind.DELETE,
-    }
-
-
-def test_what_is_needed_is_remembered_with_its_base() -> None:
-    needed = Action("a", Kind.NEEDED, Role.RECORD, "link hand", "old")
-    assert records_after([needed]) == {"a": FileRecord("link hand", Role.RECORD, "old", RecordState.ORPHAN)}
-
-
 CONFLICT = Action("Arm.mo", Kind.CONFLICT, Role.MODEL, "robot", "old", "new")
 
 
@@ -382,12 +267,6 @@ def test_a_conflict_holds_back_what_is_structural(action: Action, held: bool) ->
     assert [entry.held for entry in hold([action], set())] == [False], "without a conflict nothing waits"
 
 
-def test_what_waits_keeps_its_base() -> None:
-    waiting = Action("a", Kind.UPDATE, Role.MODEL, "link a", "old", "new", held=True)
-    assert records_after([waiting]) == {"a": FileRecord("link a", Role.MODEL, "old", RecordState.WAITING)}
-    assert waiting.reason.endswith("waits until the conflict is settled")
-
-
 WITH_BOTH = sides_hash("mine", "new")
 
 
@@ -418,39 +297,11 @@ def test_what_is_recorded_of_each_kind(kind: Kind, state: RecordState, base: str
     assert record(action) == FileRecord("link a", Role.MODEL, base, state, **waits)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("kind", [Kind.DELETE, Kind.LEAVE, Kind.FORGET])
-def test_nothing_is_recorded_of_what_is_gone(kind: Kind) -> None:
-    assert record(Action("a", kind, Role.MODEL, "link a", "old")) is None
-
-
-@pytest.mark.parametrize("kind", sorted(WRITES))
-def test_whatever_waits_is_recorded_as_before_with_its_choice(kind: Kind) -> None:
-    generated = None if kind in DELETES else "new"
-    action = Action("a", kind, Role.MODEL, "link a", "old", generated, "b", Choice.TAKE, "mine", held=True)
-    expected = FileRecord(
-        "link a",
-        Role.MODEL,
-        "old",
-        RecordState.WAITING,
-        origin="b",
-        choice=Choice.TAKE,
-        chosen_for=sides_hash("mine", generated),
-    )
-    assert record(action) == expected
-    assert record(msgspec.structs.replace(action, choice=None)) == FileRecord(
-        "link a", Role.MODEL, "old", RecordState.WAITING, origin="b"
-    )
-
-
 @pytest.mark.parametrize("kind", [Kind.MERGE, Kind.MOVE])
 def test_a_merged_file_is_edited_unless_nothing_is_left_of_the_edits(kind: Kind) -> None:
     merged = Action("a", kind, Role.MODEL, "link a", "old", "new", mine="mine", result="both")
     assert record(merged) == FileRecord("link a", Role.MODEL, "new", RecordState.EDITED)
     assert record(msgspec.structs.replace(merged, result="new")) == FileRecord("link a", Role.MODEL, "new")
-
-
-def test_orders_are_recorded_elsewhere() -> None:
-    assert record(Action("package.order", Kind.UPDATE, Role.ORDER)) is None
 
 
 @pytest.mark.parametrize(
@@ -463,11 +314,6 @@ def test_a_choice_holds_until_one_side_changes(mine: str, generated: str, holds:
     }
     actions = [Action(path, Kind.CONFLICT, Role.MODEL, "", "old", generated, mine=mine) for path in ("a", "b", "c")]
     assert remembered_choices(recorded, actions) == ({"a": Choice.TAKE} if holds else {})
-
-
-def test_both_sides_count() -> None:
-    sides = [(None, None), ("a", None), (None, "a"), ("a", "b"), ("b", "a")]
-    assert len({sides_hash(*pair) for pair in sides}) == len(sides)
 
 
 def test_places_that_are_handed_on() -> None:

@@ -34,7 +34,9 @@ WAY = {"phi[1]": 0.8, "phi[2]": 0.7, "phi[3]": 0.2, "phi[6]": -0.6}
 """Where some axes of the arm are to be after the motion."""
 
 
-@pytest.mark.parametrize("link", ["wheel", "sensor", "plate"])
+@pytest.mark.parametrize(
+    "link", ["wheel", *(pytest.param(name, marks=pytest.mark.long) for name in ("sensor", "plate"))]
+)
 def test_a_force_at_the_tool_frame_accelerates_the_robot_as_pinocchio_says(
     modelica_library: Path, tmp_path: Path, link: str
 ) -> None:
@@ -79,7 +81,7 @@ def simulate(library: Path, model: str, stop: float, values: list[str]) -> Serie
     return series
 
 
-@pytest.mark.parametrize("model", ["ComputedTorque", "ComputedTorquePackage"])
+@pytest.mark.parametrize("model", ["ComputedTorque", pytest.param("ComputedTorquePackage", marks=pytest.mark.long)])
 def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) -> None:
     """Gravity, inertia and friction of the arm are all met: the error is a thousandth of the way."""
     errors = [f"controller.error[{i}]" for i in range(1, 7)]
@@ -91,7 +93,7 @@ def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) 
     assert np.ptp(series.values["controller.tau[2]"]) > 10, "it takes torque"
 
 
-@pytest.mark.parametrize("model", ["ToolPath", "ToolPathPackage"])
+@pytest.mark.parametrize("model", [pytest.param("ToolPath", marks=pytest.mark.long), "ToolPathPackage"])
 def test_the_tool_follows_the_circle(modelica_library: Path, model: str) -> None:
     """The first part of it, nearly a radius to the side."""
     tool = [f"r_tool[{i}]" for i in (1, 2, 3)]

@@ -16,7 +16,6 @@ import pytest
 from lxml import etree
 from numpy.typing import NDArray
 from support import replay
-from support.marks import LONG
 from support.modelica import Run, Task, execute
 from support.packages import read
 from support.replay import Project
@@ -70,20 +69,16 @@ class History(NamedTuple):
     links: Sequence[str]
 
 
-HISTORIES = [
-    pytest.param(History("so101_new_calib", (3, 4), "elbow_flex", ("lower_arm", "lower_arm_link")), id="renamed-links"),
-    pytest.param(History("spirit_meshes", (0, 2, 3), "10", ("upper2",) * 3), id="other-sensors", marks=LONG),
-    pytest.param(
-        History(
-            "stompymicro_robot_fixed",
-            (0, 1, 2),
-            "left_knee_pitch",
-            ("DRIVING_ROTOR_PLATE_9",) * 2 + ("knee_pitch_right_2",),
-        ),
-        id="stiff-arms",
-        marks=LONG,
+HISTORIES = {
+    "renamed-links": History("so101_new_calib", (3, 4), "elbow_flex", ("lower_arm", "lower_arm_link")),
+    "other-sensors": History("spirit_meshes", (0, 2, 3), "10", ("upper2",) * 3),
+    "stiff-arms": History(
+        "stompymicro_robot_fixed",
+        (0, 1, 2),
+        "left_knee_pitch",
+        ("DRIVING_ROTOR_PLATE_9",) * 2 + ("knee_pitch_right_2",),
     ),
-]
+}
 
 
 def warnings(result: Result) -> list[str]:
@@ -92,7 +87,8 @@ def warnings(result: Result) -> list[str]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("history", HISTORIES)
+@pytest.mark.long
+@pytest.mark.parametrize("history", HISTORIES.values(), ids=HISTORIES)
 def test_an_extension_survives_and_its_torques_differ_as_pinocchio_says(
     corpus: Path, modelica_library: Path, tmp_path: Path, history: History
 ) -> None:

@@ -303,6 +303,7 @@ TOOLS = {"six_axis_arm": "drive_pinion", "wheeled_robot": "camera_optical_frame"
 MOMENT = 0.2
 
 
+@pytest.mark.long
 def test_a_study_redeclares_the_record(modelica_library: Path) -> None:
     """The same bench with three records: each robot drops as Pinocchio says that it does."""
     tasks = []
@@ -334,39 +335,3 @@ def dropped(file: str, changes: Sequence[tuple[str, str]]) -> tuple[Array, Array
     start = [motion.Course(positions[name], 0.0, 0.0) for name in own.reference.axes]
     end = generic.free_motion(own, start, MOMENT, 2000)
     return generic.link_place(own, np.array(start)[:, 0], TOOLS[file]), generic.link_place(own, end, TOOLS[file])
-
-
-def declared(library: Path, name: str) -> set[str]:
-    """Words of a class of the standard library and of the interfaces that it may inherit from."""
-    (top, *inner, last), root = name.split("."), library
-    folder = next(path for path in (root / top, *root.glob(f"{top} *")) if path.is_dir()).joinpath(*inner)
-    source = next(path for path in (folder / f"{last}.mo", folder.with_suffix(".mo")) if path.exists())
-    interfaces = [folder.parent / "Interfaces.mo", *(folder.parent / "Interfaces").glob("*.mo")]
-    texts = [path.read_text("utf-8") for path in (source, *interfaces) if path.exists()]
-    return set(re.findall(r"\w+", "\n".join(texts)))
-
-
-def in_library(library: Path, name: str) -> bool:
-    """Whether the standard library has a class of this full name, as far as the words of its file tell."""
-    (top, *parts), root = name.split("."), library
-    folder = next(path for path in (root / top, *root.glob(f"{top} *")) if path.is_dir())
-    while parts and (folder / parts[0]).is_dir():
-        folder /= parts.pop(0)
-    files = [folder / f"{parts[0]}.mo", folder / "package.mo"] if parts else [folder / "package.mo"]
-    file = next((path for path in files if path.exists()), None)
-    return file is not None and set(parts) <= set(re.findall(r"\w+", file.read_text("utf-8")))
-
-
-def test_the_multibody_form_names_what_the_standard_library_has(modelica_library: Path) -> None:
-    """No tool of ours translates it: modifiers and connectors of its components are looked up."""
-    text = (URDFSYNC / "Robots" / "MultiBodyGenericRobot.mo").read_text("utf-8")
-    components = re.findall(r"^  (Modelica\.\S+) (\w+)\[[\w.]+\]\((.*?)\)\n    \"", text, re.MULTILINE | re.DOTALL)
-    assert len(components) == 6
-    full = set(re.findall(r"\bModelica(?:\.\w+)+", text))
-    assert "Modelica.Units.Conversions.to_deg" in full
-    assert {name for name in full if not in_library(modelica_library, name)} == set()
-    assert not in_library(modelica_library, "Modelica.Units.Conversions.to_de")
-    for kind, name, modifiers in components:
-        used = re.findall(r"(\w+) = ", modifiers) + re.findall(rf"\b{name}\[[^)=]*?\]\.(\w+)", text)
-        assert len(used) > 3, f"{name} is connected"
-        assert set(used) <= declared(modelica_library, kind), name

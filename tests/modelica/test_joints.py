@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-import functools
-import itertools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,12 +16,11 @@ from support.packages import Package, generate
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
 from urdfsync.domain import Quantity, Target
-from urdfsync.modelica.literals import vector
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, Motion
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Reference
+from urdfsync.urdf.robot import MOTION_KINDS, Motion
 
 pytestmark = pytest.mark.slow
 
@@ -202,99 +199,18 @@ def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> 
     return np.asarray(np.linalg.solve(b.T @ (upper + np.triu(upper, 1).T) @ b, -b.T @ load))
 
 
-def release_of_level_plane() -> Release:
-    """With the axis z the directions are x and y; Pinocchio's own planar joint resolves speeds in the moving frame."""
-    urdf = robot(
-        link("floor"),
-        link("plate", 3.0),
-        link("arm", 1.0),
-        joint("skate", "planar", "floor", "plate", axis="0 0 1"),
-        joint("turn", "revolute", "plate", "arm", axis="1 0 0", inside=[limit()]),
-    )
-    model = pin.buildModelFromXML(urdf)
-    model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
-    (x, y, phi, turn), (d_x, d_y, d_phi, d_turn) = (0.3, -0.4, 0.7, -0.2), (0.5, 0.6, -0.8, 0.4)
-    turned = pin.rpy.rpyToMatrix(0, 0, phi)[:2, :2]
-    speed = turned.T @ [d_x, d_y]
-    twist = np.array([*speed, d_phi, d_turn])
-    a = pin.aba(model, model.createData(), np.array([x, y, np.cos(phi), np.sin(phi), turn]), twist, np.zeros(4))
-    slides = turned @ (a[:2] + d_phi * np.array([-speed[1], speed[0]]))
-    skate = f"s_start = {{{x}, {y}}}, v_start = {{{d_x}, {d_y}}}, phi_start = {phi}, w_start = {d_phi}"
-    return release(
-        generate(urdf.encode(), Target("Level", "Level")),
-        f"{start('turn', 'rotational', turn, d_turn)}, skate({skate})",
-        ["robot.skate.prismatic_x.a", "robot.skate.prismatic_y.a", "robot.skate.revolute.a", "robot.turn.revolute.a"],
-        np.array([*slides, a[2], a[3]]),
-    )
-
-
-MOBILE = robot(
-    link("chassis", 12.0).replace(
-        "</link>", '<collision><geometry><box size="0.4 0.3 0.1"/></geometry></collision></link>'
-    ),
-    *(
-        link(f"{side}_wheel", 0.8, center="0 0 0", rpy="0 0 0").replace(
-            "</link>", '<collision><geometry><cylinder radius="0.1" length="0.04"/></geometry></collision></link>'
-        )
-        for side in ("left", "right")
-    ),
-    joint("left_axle", "continuous", "chassis", "left_wheel", xyz="0 0.2 0", rpy="-1.5707963 0 0", axis="0 0 1"),
-    joint("right_axle", "continuous", "chassis", "right_wheel", xyz="0 -0.2 0", rpy="-1.5707963 0 0", axis="0 0 1"),
-)
-
-FLYING = {"r": [0.3, -0.2, 9.5], "rpy": [0.7, -0.4, 1.1], "v": [0.6, -0.8, 0.3], "w": [0.9, 0.5, -1.3]}
-"""Start values of six degrees of freedom, resolved in the world; too high for contacts with the ground."""
-
-
-def release_of_mobile() -> Release:
-    """What is left without the ground is a free base with joints."""
-    package = generate(MOBILE.encode(), Target("Mobile", "Mobile"), base="floating")
-    wheels, speeds = [0.4, -0.3], [0.5, 0.7]
-    ground = "inner UrdfSync.Contacts.Ground ground(load = 100)"
-    starts = ", ".join(f"{key}_start = {vector(value)}" for key, value in FLYING.items())
-    linear = [f"base.freeMotion.a_rel_a[{i}]" for i in (1, 2, 3)]
-    angular = [f"robot.chassis.body.z_a[{i}]" for i in (1, 2, 3)]
-    return release(
-        package,
-        ", ".join(
-            start(f"{side}_axle", "rotational", wheel, speed)
-            for side, wheel, speed in zip(("left", "right"), wheels, speeds, strict=True)
-        ),
-        [*linear, *angular, "robot.left_axle.revolute.a", "robot.right_axle.revolute.a"],
-        mobile_accelerations(wheels, speeds),
-        f"{ground}; UrdfSync.Robots.FreeBase base({starts});",
-    )
-
-
-def mobile_accelerations(wheels: Sequence[float], speeds: Sequence[float]) -> Array:
-    """Of the base, linear ones in the world and angular ones in its frame, and of the wheels."""
-    model = pin.buildModelFromXML(MOBILE, pin.JointModelFreeFlyer())
-    model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
-    turned = pin.rpy.rpyToMatrix(*FLYING["rpy"])
-    v, w = turned.T @ FLYING["v"], turned.T @ FLYING["w"]
-    turns = itertools.chain.from_iterable((np.cos(q), np.sin(q)) for q in wheels)
-    q = np.array([*FLYING["r"], *pin.Quaternion(turned).coeffs(), *turns])
-    a = pin.aba(model, model.createData(), q, np.array([*v, *w, *speeds]), np.zeros(model.nv))
-    return np.array([*(turned @ (a[:3] + np.cross(w, v))), *a[3:]])
-
-
-RELEASES: Mapping[str, Callable[[], Release]] = {
-    **{name: functools.partial(release_of_axes, name.capitalize(), urdf) for name, urdf in DRIVEN.items()},
-    "level plane": release_of_level_plane,
-    "mobile": release_of_mobile,
-}
-CHOSEN = ("types", "gripper", "level plane", "mobile")
+CHOSEN = ("types", "gripper")
 """All kinds of joints, and sliding and turning that follow each other; the others are released in the long run."""
 
 
 @pytest.mark.parametrize(
     "names",
-    [CHOSEN, pytest.param([name for name in RELEASES if name not in CHOSEN], marks=pytest.mark.long)],
+    [CHOSEN, pytest.param([name for name in DRIVEN if name not in CHOSEN], marks=pytest.mark.long)],
     ids=["chosen", "others"],
 )
 def test_free_joints_accelerate_as_pinocchio_says(names: Sequence[str], modelica_library: Path, tmp_path: Path) -> None:
-    """Without drives. A level planar joint is that of Pinocchio, and a mobile robot in the air falls freely."""
-    released = {name: RELEASES[name]() for name in names}
+    """Without drives."""
+    released = {name: release_of_axes(name.capitalize(), DRIVEN[name]) for name in names}
     folders = [one.package.write(tmp_path) for one in released.values()]
     outcomes = modelica.execute(modelica_library, folders, [one.task for one in released.values()])
     for (name, one), outcome in zip(released.items(), outcomes, strict=True):

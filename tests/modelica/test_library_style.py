@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import html.parser
-import itertools
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,44 +18,6 @@ from icons import LIBRARY, annotations_in, tokens
 FILES = sorted(LIBRARY.rglob("*.mo"))
 FOLDERS = [file.parent for file in FILES if file.name == "package.mo"]
 
-BUILT_IN = {"Real", "Integer", "Boolean", "String", "StateSelect"}
-ENUMERATIONS = {
-    "Arrow",
-    "AssertionLevel",
-    "BorderPattern",
-    "EllipseClosure",
-    "FillPattern",
-    "LinePattern",
-    "Smooth",
-    "StateSelect",
-    "TextAlignment",
-    "TextStyle",
-}
-KEYWORDS = set(
-    "algorithm and annotation assert connect constant each else elseif end equation extends final for if in input loop "
-    "model not or outer output parameter partial protected redeclare replaceable then within".split()
-) | {"true", "false"}
-FUNCTIONS = {
-    "abs",
-    "cos",
-    "cross",
-    "der",
-    "fill",
-    "getInstanceName",
-    "identity",
-    "max",
-    "min",
-    "noEvent",
-    "sin",
-    "size",
-    "skew",
-    "sum",
-    "tanh",
-    "transpose",
-    "zeros",
-}
-"""Those of the language that the generic robots use."""
-GENERIC = ("PartialRecordRobot", "PartialGenericRobot", "GenericRobot", "ArticulatedRobot", "MultiBodyGenericRobot")
 VOID_TAGS = {"br", "hr", "img"}
 
 
@@ -236,46 +197,16 @@ def test_documentation_is_well_formed() -> None:
     assert {where(file): tags for file in FILES if (tags := badly_nested(documentation(file)))} == {}
 
 
-def scope(file: Path) -> set[str]:
-    """Names that are found without their package: members of the packages around a class, and its own classes."""
-    folders = [folder for folder in file.parents if folder.is_relative_to(LIBRARY)]
-    own = {node.name for node in nested(parsed(file))}
-    return own.union(*(members(folder) for folder in folders))
-
-
-def foreign_names(file: Path) -> set[str]:
-    """Dotted names, strings and comments aside, that begin in none of the places where they may."""
-    known = {"Connections", "Modelica", "UrdfSync", *ENUMERATIONS}
-    dotted = {word.text for word in tokens(text(file)) if word.kind == "name" and "." in word.text}
-    heads = {name: name.split(".")[0] for name in dotted}
-    return {name for name, head in heads.items() if head[0].isupper() and head not in known | scope(file)}
-
-
-def test_only_the_standard_library_is_needed() -> None:
-    assert {where(file): names for file in FILES if (names := foreign_names(file))} == {}
-
-
-def test_names_of_types_are_found() -> None:
-    faults = {}
-    for file in FILES:
-        types = {str(symbol.type).split(".")[0] for node in nested(parsed(file)) for symbol in node.symbols.values()}
-        if unknown := types - BUILT_IN - {"Modelica", "UrdfSync"} - scope(file):
-            faults[where(file)] = unknown
-    assert faults == {}
-
-
-def references(file: Path) -> set[str]:
-    """Full names of the library's classes that code and documentation of a file mention."""
-    used = {word.text for word in tokens(text(file)) if word.kind == "name" and word.text.startswith("UrdfSync.")}
-    return used | set(re.findall(r"modelica://(UrdfSync[\w.]*)[\"'#]", documentation(file)))
-
-
 def test_classes_that_are_mentioned_exist() -> None:
+    """In documentation: names in code are resolved by test_unresolved."""
     existing = {full_name(file) for file in FILES}
     for file in (folder / "package.mo" for folder in FOLDERS):
         constants = {name for name, each in parsed(file).symbols.items() if "constant" in each.prefixes}
         existing |= {f"{full_name(file)}.{name}" for name in constants}
-    assert {where(file): gone for file in FILES if (gone := references(file) - existing)} == {}
+    mentioned = {
+        where(file): set(re.findall(r"modelica://(UrdfSync[\w.]*)[\"'#]", documentation(file))) for file in FILES
+    }
+    assert {file: names - existing for file, names in mentioned.items() if names - existing} == {}
 
 
 def test_files_that_are_mentioned_exist() -> None:
@@ -289,27 +220,6 @@ def test_the_library_asks_for_the_standard_library_in_the_oldest_version_that_se
     assert uses.get("Modelica").get("version") == "4.0.0"
 
 
-def test_axes_of_joint_records_are_parameters() -> None:
-    """The table of axes in a robot's record is a parameter, and its binding must not vary more."""
-    records = [LIBRARY / "Records" / f"{kind}Joint.mo" for kind in ("Revolute", "Continuous", "Prismatic", "Planar")]
-    assert "parameter" in parsed(LIBRARY / "Records" / "Robot.mo").symbols["jointAxes"].prefixes
-    assert [where(file) for file in records if "parameter" not in components(file)["axis"].prefixes] == []
-
-
-def words(source: str) -> list[str]:
-    """Names and marks of a text, without strings and annotations; an index and what follows it are apart."""
-    found, skipped, depth = [], False, 0
-    for word in tokens(source):
-        if word.text == "annotation":
-            skipped, depth = True, 0
-        elif skipped:
-            depth += {"(": 1, ")": -1}.get(word.text, 0)
-            skipped = depth > 0
-        elif word.kind in ("name", "mark"):
-            found.append(word.text)
-    return found
-
-
 def components(file: Path) -> dict[str, Any]:
     """Components of a class and of those that it extends."""
     node = parsed(file)
@@ -320,47 +230,8 @@ def components(file: Path) -> dict[str, Any]:
     return {name: symbol for base in map(components, files) for name, symbol in base.items()} | dict(node.symbols)
 
 
-def unknown_names(source: str, own: set[str]) -> set[str]:
-    """Names of a class text that are declared nowhere: components, functions, fields of `data`.
-
-    Modifiers, names of arguments and what follows an index belong to other classes; full names are looked up elsewhere.
-    """
-    text = words(source)
-    loops = {name for name, after in itertools.pairwise(text) if after == "in"}
-    known = KEYWORDS | FUNCTIONS | BUILT_IN | ENUMERATIONS | own | loops | {"Connections", "Modelica", "UrdfSync"}
-    fields = set(parsed(LIBRARY / "Records" / "Robot.mo").symbols)
-    faults = set()
-    for before, name, after in zip(["", *text], text, [*text[1:], ""], strict=False):
-        if (
-            not re.match(r"[A-Za-z_]", name)
-            or before in (".", "model")
-            or (after == "=" and before in ("(", ",", "each"))
-        ):
-            continue
-        head, _, rest = name.partition(".")
-        if head not in known or (head == "data" and rest and rest.split(".")[0] not in fields):
-            faults.add(name)
-    return faults
-
-
-@pytest.mark.parametrize("name", GENERIC)
-def test_generic_robots_use_what_is_declared(name: str) -> None:
-    """The compiler behind the other tests does not translate one of them."""
-    file = LIBRARY / "Robots" / f"{name}.mo"
-    assert unknown_names(text(file), {*components(file), name}) == set()
-
-
-@pytest.mark.parametrize(
-    ("right", "wrong", "named"),
-    [
-        ("data.linkBodies[data", "data.linkBodie[data", "data.linkBodie"),
-        ("= effort[", "= efort[", "efort"),
-        ("transpose(link", "transpos(link", "transpos"),
-        ("turning[k], 1", "turnin[k], 1", "data.turnin"),
-        ("connect(torque[k]", "connect(torqe[k]", "torqe"),
-    ],
-)
-def test_names_that_nothing_declares_are_found(right: str, wrong: str, named: str) -> None:
-    file = LIBRARY / "Robots" / "MultiBodyGenericRobot.mo"
-    assert right in text(file)
-    assert named in unknown_names(text(file).replace(right, wrong), {*components(file), "MultiBodyGenericRobot"})
+def test_axes_of_joint_records_are_parameters() -> None:
+    """The table of axes in a robot's record is a parameter, and its binding must not vary more."""
+    records = [LIBRARY / "Records" / f"{kind}Joint.mo" for kind in ("Revolute", "Continuous", "Prismatic", "Planar")]
+    assert "parameter" in parsed(LIBRARY / "Records" / "Robot.mo").symbols["jointAxes"].prefixes
+    assert [where(file) for file in records if "parameter" not in components(file)["axis"].prefixes] == []

@@ -16,9 +16,9 @@ from support import generic
 from support.modelica import URDFSYNC, Task, execute
 from support.urdfs import dynamics, joint, limit, link, robot
 
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS
-from urdfsync.urdf.model.tables import structure
+from urdfsync.urdf.model.tables import tables as integer_tables
 from urdfsync.urdf.physics import motion
+from urdfsync.urdf.robot import MOTION_KINDS
 
 pytestmark = pytest.mark.slow
 
@@ -43,7 +43,7 @@ Table = list[list[int]]
 def tables(own: generic.Robot) -> Mapping[str, Table]:
     """The integers of the record that the class reads, vectors as columns; counted from 1."""
     skeleton = own.skeleton
-    found = structure(skeleton)
+    found = integer_tables(skeleton)
     numbers = {each.name: number for number, each in enumerate(skeleton.links, 1)}
     kinds = [kind for _, kind in found.joint_tree]
     return {
@@ -126,7 +126,7 @@ def source(own: generic.Robot, task: Task) -> str:
     )
     base, count = DERIVATIVES.subn("", base)
     assert count == 4
-    found = structure(own.skeleton)
+    found = integer_tables(own.skeleton)
     axes = [
         (f"revolute_{known['data.turning'].index([i]) + 1}", k, "w_phi", "w", "a_phi")
         for k, i in enumerate(found.axes["rotational"], 1)

@@ -15,7 +15,7 @@ from urdfsync.engine.conflicts import Conflict
 from urdfsync.merge import merge
 from urdfsync.outcome import Result
 from urdfsync.output.conflicts import FULL, Extent, conflict_lines
-from urdfsync.output.hunk_lines import LINES
+from urdfsync.output.differences import LINES
 
 ELBOW = "modelica/Arm/Elbow.mo"
 BASE = "within Arm;\nmodel Elbow\n  Real a = 1;\n\n  Real b = 2;\nend Elbow;\n"

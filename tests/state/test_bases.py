@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from urdfsync.diagnostics import OutputError
 from urdfsync.files import text_digest
+from urdfsync.state import bases
 from urdfsync.state.bases import BaseStore
 
 TEXT = "record A\nend A;\n"
@@ -59,6 +60,18 @@ def test_what_was_never_kept_is_none(tmp_path: Path) -> None:
 def test_a_text_counts_only_with_its_own_hash(folder: Path, damage: bytes | None) -> None:
     (folder / HASH).unlink()
     (folder / HASH).mkdir() if damage is None else (folder / HASH).write_bytes(damage)
+    assert BaseStore(folder).get(HASH) is None
+
+
+def test_what_is_no_text_is_lost_even_with_the_right_hash(folder: Path) -> None:
+    """A stranger may have committed it."""
+    content = b"\xff\xfe"
+    (folder / text_digest(content)).write_bytes(zlib.compress(content))
+    assert BaseStore(folder).get(text_digest(content)) is None
+
+
+def test_of_a_text_that_is_too_large_no_more_is_read(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bases, "_LARGEST", len(TEXT) - 1)
     assert BaseStore(folder).get(HASH) is None
 
 

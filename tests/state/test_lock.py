@@ -196,7 +196,7 @@ def test_a_lock_whose_file_is_deleted_is_still_held(project: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no links, no pipes")
-@pytest.mark.parametrize("kind", ["link", "pipe", "folder", "linked state"])
+@pytest.mark.parametrize("kind", ["link", "hard link", "pipe", "folder", "linked state"])
 def test_what_stands_in_the_place_of_the_lock_file_is_left_alone(project: Path, tmp_path: Path, kind: str) -> None:
     """It only says who builds."""
     outside, place = tmp_path / "outside", project / ".urdfsync/lock"
@@ -205,13 +205,19 @@ def test_what_stands_in_the_place_of_the_lock_file_is_left_alone(project: Path, 
         (project / ".urdfsync").symlink_to(outside)
     else:
         place.parent.mkdir()
-        actions = {"link": lambda: place.symlink_to(outside / "lock"), "pipe": lambda: os.mkfifo(place)}
+        if kind == "hard link":
+            (outside / "file").write_text("precious")
+        actions: dict[str, Callable[[], None]] = {
+            "link": lambda: place.symlink_to(outside / "lock"),
+            "hard link": lambda: place.hardlink_to(outside / "file"),
+            "pipe": lambda: os.mkfifo(place),
+        }
         actions.get(kind, place.mkdir)()
     with build_lock(project, project / ".urdfsync", 0) as one, build_lock(project, project / ".urdfsync", 0) as other:
         one.acquire()
         with pytest.raises(LockedError, match="another process"):
             other.acquire()
-    assert list(outside.iterdir()) == []
+    assert [path.read_text() for path in outside.iterdir()] == (["precious"] if kind == "hard link" else [])
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no locks of folders there anyway")

@@ -15,8 +15,7 @@ from hypothesis import strategies as st
 from urdfsync.diagnostics import StateError
 from urdfsync.domain import Import, Role
 from urdfsync.engine.actions import Kind
-from urdfsync.engine.renames import OnDisk
-from urdfsync.engine.rules import decide_file
+from urdfsync.engine.rules import OnDisk, decide_file
 from urdfsync.state import modelfile
 from urdfsync.state.manifest import (
     DependencyRecord,

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from support.corpus import REPOSITORY
-from urdfsync.check.files import PackageFiles, package_texts
+from urdfsync.check.package import PackageFiles, package_texts
 
 FOLDER = REPOSITORY / "modelica" / "UrdfSync" / "Examples" / "SixAxisArm"
 NAME = "UrdfSync.Examples.SixAxisArm"

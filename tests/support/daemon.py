@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -27,6 +28,7 @@ LIMIT = 60.0
 QUICK = Times(settle=0.02, sample=0.01, give_up_after=0.1, recheck_shrunk=0.05)
 
 Event = Mapping[str, Any]
+ENDED = (events.Built, events.Failed, events.Unchanged)
 ENDS = ("built", "failed", "calm")
 """What the way of a robot from its first event to its last ends with."""
 
@@ -126,20 +128,19 @@ class Watch:
 
 
 class Daemons:
-    """A daemon in a thread, and what it told."""
+    """A daemon in a thread of the test, in its working folder, and what it told."""
 
-    def __init__(self, **options: Any) -> None:
+    def __init__(self, times: Times = QUICK, robots: int = 1, *, rests: bool = True, **options: Any) -> None:
+        """Wait for the first builds of so many robots; with `rests` until nothing is left to do."""
         self.events: list[events.Event] = []
-        self.error: Exception | None = None
         self._news = threading.Condition()
-        self._daemon = Daemon(
-            WatchOptions(Path("urdfsync.toml"), times=QUICK, build=BuildOptions(wait=1), **options), self
-        )
-        self._thread = threading.Thread(target=self._run)
+        build = BuildOptions(wait=1, jobs=options.pop("jobs", None))
+        self._daemon = Daemon(WatchOptions(Path("urdfsync.toml"), times=times, build=build, **options), self)
+        self._thread = threading.Thread(target=self._daemon.run)
         self._thread.start()
-
-    def _run(self) -> None:
-        self._daemon.run()
+        self.until(lambda: len([one for one in self.events if isinstance(one, ENDED)]) >= robots)
+        if rests:
+            self.rest()
 
     def show(self, event: events.Event) -> None:
         with self._news:
@@ -149,13 +150,35 @@ class Daemons:
     def progress(self, what: str, done: int, total: int) -> None:
         """Nothing."""
 
-    def wait(self, kind: type, since: int = 0) -> Any:
-        def found() -> Any:
-            return next((event for event in self.events[since:] if isinstance(event, kind)), None)
+    def rest(self) -> None:
+        """Wait until nothing is left to do: an end of a build is told before the build that confirms it."""
+        end = time.monotonic() + LIMIT
+        while not all(watched.debouncer.is_idle for watched in self._daemon._robots.values()):
+            assert time.monotonic() < end, self.events
+            time.sleep(0.002)
 
+    def until(self, condition: Callable[[], Any]) -> None:
+        """Wait for something that an event comes with."""
         with self._news:
-            assert self._news.wait_for(lambda: found() is not None, LIMIT), self.events
+            assert self._news.wait_for(condition, LIMIT), self.events
+
+    def wait(self, kind: type, since: int = 0, wanted: Callable[[Any], bool] = lambda event: True) -> Any:
+        """The first event of this kind that is wanted, from the one with this number on; waits for it."""
+
+        def found() -> Any:
+            return next((one for one in self.events[since:] if isinstance(one, kind) and wanted(one)), None)
+
+        self.until(lambda: found() is not None)
         return found()
+
+    @property
+    def mark(self) -> int:
+        """The number of the next event."""
+        return len(self.events)
+
+    def kinds(self, since: int = 0) -> list[str]:
+        """The names of the events from the one with this number on."""
+        return [type(event).__name__ for event in self.events[since:]]
 
     def stop(self) -> None:
         self._daemon.stop("SIGTERM")

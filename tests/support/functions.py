@@ -11,8 +11,8 @@ import numpy as np
 from support import generic
 from support.modelica import Array, Run, Series, Task, execute
 from urdfsync.modelica.literals import vector
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS
 from urdfsync.urdf.physics import motion
+from urdfsync.urdf.robot import MOTION_KINDS
 
 _CONFIGURATIONS = 3
 _WEIGHING = {"mass", "inertias", "bias", "gravity"}

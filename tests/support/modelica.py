@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from support.corpus import REPOSITORY
 from urdfsync.check import libraries as modelica_libraries
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers import compiler
+from urdfsync.check.compilers import compiler, run_job
 from urdfsync.check.compilers.compiler import CompileJob, CompilerError, CompileResult, CompileTask, Simulation
 
 Array = NDArray[np.float64]
@@ -78,7 +78,7 @@ def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> li
     roots = (standard(library), str(URDFSYNC), *map(str, packages))
     CACHE.trim()
     try:
-        results = list(compiler.run_job("rumoca", CompileJob(roots, tuple(map(_task, todo))), CACHE))
+        results = list(run_job("rumoca", CompileJob(roots, tuple(map(_task, todo))), CACHE))
     except CompilerError as error:
         return [Outcome(str(error), 0, (), 0, 0, 0) for _ in todo]
     return [_outcome(result) for result in results]

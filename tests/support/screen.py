@@ -9,7 +9,7 @@ _PIECES = re.compile(r"\x1b\[([\d;?]*)([A-Za-z])|(.)", re.DOTALL)
 
 
 class Screen(io.StringIO):
-    """Understands what is written for it: line feeds, `ESC [ n A`, `ESC [ 2 K` and colours; anything else is an error.
+    """Understands line feeds, `ESC [ n A`, `ESC [ 2 K`, colours and whether the cursor is shown; else it is an error.
 
     It breaks lines as xterm does, and does not join them again when it gets wider.
     """
@@ -21,6 +21,7 @@ class Screen(io.StringIO):
         self.width, self.height = width, height
         self.rows = [""]
         self.writes = 0
+        self.has_cursor = True
         self._row = self._column = 0
 
     def isatty(self) -> bool:
@@ -50,6 +51,9 @@ class Screen(io.StringIO):
                 self.rows[self._row] = ""
             case "m":
                 pass
+            case "l" | "h":
+                assert number == "?25"
+                self.has_cursor = command == "h"
             case _:
                 raise AssertionError(f"ESC [ {number} {command}")
 

@@ -12,13 +12,13 @@ TIMES = Times(settle=0.3, sample=0.2, give_up_after=30.0, recheck_shrunk=2.0)
 SMALLEST = 1e-6
 
 
-def touched(now: float = 0.0) -> Debouncer[str]:
-    debouncer: Debouncer[str] = Debouncer(TIMES)
+def touched(now: float = 0.0) -> Debouncer:
+    debouncer = Debouncer(TIMES)
     debouncer.touch(now)
     return debouncer
 
 
-def settled(now: float = 0.0, sample: str = "a") -> Debouncer[str]:
+def settled(now: float = 0.0, sample: str = "a") -> Debouncer:
     debouncer = touched(now)
     debouncer.add_sample(sample, now + 0.3)
     assert debouncer.add_sample(sample, now + 0.5) is Phase.SETTLED
@@ -69,7 +69,7 @@ def test_the_time_begins_anew_after_a_valid_source() -> None:
 
 
 def test_times_of_zero() -> None:
-    debouncer: Debouncer[str] = Debouncer(Times(settle=0, sample=0))
+    debouncer = Debouncer(Times(settle=0, sample=0))
     debouncer.touch(1.0)
     assert debouncer.add_sample("a", 1.0) is Phase.SETTLED, "another sample would have to be alike at the same moment"
     assert debouncer.deadline is None
@@ -83,7 +83,7 @@ steps = st.lists(
 @given(steps)
 def test_nothing_is_built_that_has_just_changed(steps: list[tuple[str, float]]) -> None:
     """Whatever happens when: what settles was the same for 200 ms, and had no event for 500 ms."""
-    debouncer: Debouncer[int] = Debouncer(TIMES)
+    debouncer = Debouncer(TIMES)
     now, content, changed, event = 0.0, 0, -10.0, -10.0
     debouncer.touch(now)
     event = now
@@ -106,7 +106,7 @@ def test_nothing_is_built_that_has_just_changed(steps: list[tuple[str, float]]) 
 
 @given(st.lists(st.floats(0.0, 0.29), min_size=1, max_size=50))
 def test_a_steady_writer_is_never_sampled(pauses: list[float]) -> None:
-    debouncer: Debouncer[int] = Debouncer(TIMES)
+    debouncer = Debouncer(TIMES)
     now = 0.0
     for pause in pauses:
         debouncer.touch(now)

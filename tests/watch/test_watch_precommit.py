@@ -9,10 +9,9 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-import psutil
 import pytest
 
-from urdfsync.watch.precommit import PrecommitStash, store_folder
+from urdfsync.watch.precommit import find_stash, store_folder
 
 linux = pytest.mark.skipif(not Path("/proc/self/cwd").exists(), reason="no /proc on this system")
 
@@ -31,56 +30,49 @@ def process(repository: Path) -> Iterator[subprocess.Popen[bytes]]:
         yield running
 
 
-def patch(tmp_path: Path, pid: int, moment: float | None = None) -> Path:
-    store = tmp_path / "store"
-    store.mkdir(exist_ok=True)
-    (store / f"patch{int(moment or time.time())}-{pid}").write_text("")
-    return store
+@pytest.fixture
+def store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    folder = tmp_path / "store"
+    folder.mkdir()
+    monkeypatch.setenv("PRE_COMMIT_HOME", str(folder))
+    return folder
 
 
 @linux
 def test_a_patch_counts_in_its_repository_only(
-    tmp_path: Path, repository: Path, process: subprocess.Popen[bytes]
+    tmp_path: Path, repository: Path, store: Path, process: subprocess.Popen[bytes]
 ) -> None:
-    store = patch(tmp_path, process.pid)
-    assert PrecommitStash(store).holder(repository) == process.pid
-    assert PrecommitStash(store).holder(repository / "robots") == process.pid
-    assert PrecommitStash(store).holder(tmp_path) is None
+    patch = store / f"patch{int(time.time())}-{process.pid}"
+    patch.write_text("")
+    for name in (f"patch{int(time.time())}-{2**22 + 1}", "patch", "patch-1", f"patch1-{os.getpid()}.txt", "db.db"):
+        (store / name).write_text("of others, or of a process that has ended")
     link = tmp_path / "link"
     link.symlink_to(repository)
-    assert PrecommitStash(store).holder(link / "robots") == process.pid
+    for place in (repository, repository / "robots", link / "robots"):
+        assert find_stash(place) == (patch, process.pid)
+    assert find_stash(tmp_path) is None
+    process.kill()
+    process.wait()
+    assert find_stash(repository) is None
 
 
 @linux
 def test_a_process_that_is_younger_than_the_patch_has_only_its_number(
-    tmp_path: Path, repository: Path, process: subprocess.Popen[bytes]
+    repository: Path, store: Path, process: subprocess.Popen[bytes]
 ) -> None:
-    store = patch(tmp_path, process.pid, time.time() - 3600)
-    assert PrecommitStash(store).holder(repository) is None
+    (store / f"patch{int(time.time() - 3600)}-{process.pid}").write_text("")
+    assert find_stash(repository) is None
 
 
-@linux
-def test_other_files_and_ended_processes_are_nothing(tmp_path: Path, repository: Path) -> None:
-    store = patch(tmp_path, 2**22 + 1)
-    for name in ("patch", "patch-1", f"patch1-{os.getpid()}.txt", "db.db"):
-        (store / name).write_text("")
-    assert PrecommitStash(store).holder(repository) is None
-    assert PrecommitStash(tmp_path / "nothing").holder(repository) is None
-
-
-def test_a_patch_of_a_process_that_has_ended_is_not_asked_about_again(
-    tmp_path: Path, repository: Path, process: subprocess.Popen[bytes], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    stashed = PrecommitStash(patch(tmp_path, process.pid))
-    assert stashed.holder(repository) == stashed.holder(repository) == process.pid
-    process.kill()
-    process.wait()
-    assert stashed.holder(repository) is None
-    monkeypatch.setattr(psutil, "Process", lambda pid: pytest.fail(f"{pid} has ended"))
-    assert stashed.holder(repository) is None
-
-
-def test_where_pre_commit_keeps_its_files(tmp_path: Path) -> None:
-    assert store_folder({}, tmp_path) == tmp_path / ".cache/pre-commit"
-    assert store_folder({"XDG_CACHE_HOME": "/x"}, tmp_path) == Path("/x/pre-commit")
-    assert store_folder({"XDG_CACHE_HOME": "/x", "PRE_COMMIT_HOME": "/y"}, tmp_path) == Path("/y")
+def test_where_pre_commit_keeps_its_files(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    for name in ("PRE_COMMIT_HOME", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("HOME", str(tmp_path))
+    assert find_stash(tmp_path) is None, "there is no such folder"
+    for name, value, folder in (
+        ("HOME", tmp_path, tmp_path / ".cache/pre-commit"),
+        ("XDG_CACHE_HOME", "/x", Path("/x/pre-commit")),
+        ("PRE_COMMIT_HOME", "/y", Path("/y")),
+    ):
+        monkeypatch.setenv(name, str(value))
+        assert store_folder() == folder

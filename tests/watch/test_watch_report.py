@@ -22,7 +22,7 @@ from urdfsync.domain import ChangeKind as Event
 from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Result
 from urdfsync.watch import events, report
-from urdfsync.watch.report import JsonReport, TextReport, WatchReport, watch_report
+from urdfsync.watch.report import JsonReport, TextReport
 
 PAGE = (Path(__file__).parents[2] / "docs" / "watch.md").read_text(encoding="utf-8")
 BROKEN = Diagnostic(Severity.ERROR, "xml-syntax", "this is no XML", "arm.urdf", 12)
@@ -84,7 +84,7 @@ def look(terminal: Terminal) -> Look:
     return shown
 
 
-def tell(people: WatchReport, *found: events.Event, robots: tuple[str, ...] = ("arm",)) -> None:
+def tell(people: TextReport, *found: events.Event, robots: tuple[str, ...] = ("arm",)) -> None:
     for event in (events.Started(Path("urdfsync.toml"), robots), *found):
         people.show(event)
 
@@ -175,16 +175,6 @@ def test_stopping_takes_the_status_away(look: Look) -> None:
     assert look(built("arm"), events.Stopping("SIGINT"))[1:] == ["14:03:12  stopped by SIGINT"]
 
 
-def test_nothing_is_written_while_nothing_happens(terminal: Terminal) -> None:
-    screen = terminal()
-    people = TextReport()
-    tell(people, events.Building("arm"))
-    writes = screen.writes
-    for done in range(100):
-        people.progress("reading", done, 100)
-    assert screen.writes == writes, "a short build shows no progress"
-
-
 def test_a_long_build_shows_its_progress_now_and_then(terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
     moments = iter([100.0, 100.4, 100.6, 100.7, 100.9])
     monkeypatch.setattr("urdfsync.watch.report.time.monotonic", lambda: next(moments))
@@ -210,7 +200,7 @@ def test_colours_obey_no_color(terminal: Terminal, monkeypatch: pytest.MonkeyPat
 
 
 def test_a_pipe_has_lines_only_and_errors_go_their_way(capsys: pytest.CaptureFixture[str]) -> None:
-    with watch_report(as_json=False) as people:
+    with TextReport() as people:
         tell(people, built("arm", Kind.UPDATE), FAILED)
         people.progress("reading", 1, 2)
     streams = capsys.readouterr()
@@ -245,11 +235,11 @@ def test_programs_get_a_line_of_json_at_once(monkeypatch: pytest.MonkeyPatch) ->
 
     stream = Stream()
     monkeypatch.setattr(sys, "stdout", stream)
-    with JsonReport() as programs:
-        programs.show(events.Waiting("arm", "waiting for the exporter", (BROKEN,)))
-        programs.progress("reading", 1, 2)
-        (line,) = stream.flushed.splitlines()
-        programs.show(built("arm", Kind.UPDATE, Kind.UNCHANGED))
+    programs = JsonReport()
+    programs.show(events.Waiting("arm", "waiting for the exporter", (BROKEN,)))
+    programs.progress("reading", 1, 2)
+    (line,) = stream.flushed.splitlines()
+    programs.show(built("arm", Kind.UPDATE, Kind.UNCHANGED))
     event = json.loads(line)
     assert (event["version"], event["event"], event["robot"]) == (2, "waiting", "arm")
     assert event["time"] == "2026-03-04T14:03:12+01:00"

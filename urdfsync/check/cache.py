@@ -1,4 +1,4 @@
-"""The user's cache folder: copies of libraries, what the compiler remembers, workspaces, templates, results.
+"""The user's cache folder: copies of libraries, what the compiler remembers, templates, results.
 
 Everything in it can be made again. What was used longest ago goes first; what a check works with stays.
 """
@@ -11,20 +11,24 @@ import shutil
 import tempfile
 import time
 import uuid
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import platformdirs
+import psutil
 
+from urdfsync.check.results import from_text, to_text
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.files import put
+
+T = TypeVar("T")
 
 LIMIT = 2**30
 """Bytes on disk that the cache never grows past: 1 GiB."""
 _FULL, _AFTER = 0.75, 0.5  # parts of the limit: from the first on something is deleted, until the second is left
-_GRACE = 3600.0  # s: a copy of a library that was used since then stays, since checks may work with it
+_GRACE = 3600.0  # s: a folder that was used since then stays, since checks may work with it
 
-_LOCK = "lock"  # the file in a workspace that whoever works there keeps locked
 _ACCESS = ".rumoca-access"  # suffix of the file beside another by which the compiler notes its last use
 _TAG = "Signature: 8a477f597d28d172789f06886806bc55\n# Made by urdfsync; may be deleted at any time.\n"
 
@@ -33,15 +37,14 @@ class CacheError(UrdfsyncError):
     """There is no cache that can be used; the code of the one diagnostic is `cache-not-writable`."""
 
 
-class CacheEntry(NamedTuple):
-    """What is deleted together."""
+class _Entry(NamedTuple):
+    """A file or folder, which is deleted as a whole."""
 
-    paths: tuple[Path, ...]
+    path: Path
     used: float
     """When it was used last, in seconds of the system's clock."""
     size: int
     """Bytes on disk."""
-    is_in_use: bool = False
 
 
 class UserCache:
@@ -49,11 +52,8 @@ class UserCache:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.libraries = folder / "libraries"
-        self.compiler = folder / "rumoca"
-        self.workspaces = folder / "work"
-        self.templates = folder / "templates"
-        self.results = folder / "results"
+        self.libraries, self.workspaces = folder / "libraries", folder / "work"
+        self.compiler, self.results, self.templates = folder / "rumoca", folder / "results", folder / "templates"
 
     @classmethod
     def default(cls) -> UserCache:
@@ -69,25 +69,32 @@ class UserCache:
                 tag.write_text(_TAG, encoding="utf-8")
 
     @contextlib.contextmanager
-    def workspace(self, name: str) -> Iterator[Path]:
-        """A folder to work in: always the same, so that what the compiler remembers of it stays good.
-
-        While somebody else works in it, it is one that is deleted in the end. Raises CacheError if it can't be made.
-        """
-        import filelock  # an optional extra
-
+    def workspace(self) -> Iterator[Path]:
+        """A folder to work in, deleted in the end. Its name tells which process uses it. Raises CacheError."""
         self.prepare()
         with contextlib.ExitStack() as stack:
             with cache_errors(self.folder):
-                folder = self.workspaces / name
-                folder.mkdir(parents=True, exist_ok=True)
-                os.utime(folder)
-                try:
-                    stack.enter_context(filelock.FileLock(folder / _LOCK, timeout=0))
-                except filelock.Timeout:
-                    folder = Path(stack.enter_context(tempfile.TemporaryDirectory(dir=self.workspaces)))
-                    stack.enter_context(filelock.FileLock(folder / _LOCK, timeout=0))
-            yield folder / "packages"
+                self.workspaces.mkdir(exist_ok=True)
+                folder = tempfile.TemporaryDirectory(
+                    prefix=f"{os.getpid()}-", dir=self.workspaces, ignore_cleanup_errors=True
+                )
+            yield Path(stack.enter_context(folder))
+
+    def load(self, key: str, kind: type[T]) -> T | None:
+        """What was saved with this key; None if nothing was, or if it can't be read."""
+        try:
+            return from_text((self.results / f"{key}.json").read_bytes(), kind)
+        except (OSError, ValueError):
+            return None
+
+    def save(self, key: str, value: Any) -> None:
+        """Keep a result of a check, or forget the last one for None. A cache that can't be written to is none."""
+        with contextlib.suppress(OSError):
+            if value is None:
+                (self.results / f"{key}.json").unlink(missing_ok=True)
+                return
+            self.results.mkdir(mode=0o700, parents=True, exist_ok=True)
+            put(self.results / f"{key}.json", to_text(value).encode())
 
     def size(self) -> int:
         """Bytes on disk."""
@@ -95,8 +102,16 @@ class UserCache:
 
     def trim(self, limit: int = LIMIT) -> None:
         """Delete what was used longest ago, if the cache comes near the limit. What can't be deleted now stays."""
-        for entry in entries_to_delete(self._entries(), limit):
-            _delete(entry)
+        waiting = sorted(self._entries(), key=lambda entry: entry.used)
+        total = sum(entry.size for entry in waiting)
+        if total <= _FULL * limit:
+            return
+        recent = time.time() - _GRACE
+        for entry in waiting:
+            in_use = entry.used > recent and entry.path.parent in (self.libraries, self.workspaces)
+            if total > _AFTER * limit and not in_use:
+                _delete(entry.path)
+                total -= entry.size
 
     def clear(self) -> int:
         """Delete everything that is ours, but for what running checks work with; the bytes that came free.
@@ -104,45 +119,35 @@ class UserCache:
         What the compiler remembers goes in any case: it makes again what it misses.
         """
         entries = list(self._entries())
-        busy = {entry.paths for entry in entries if entry.is_in_use and entry.paths[0].parent == self.workspaces}
-        if busy:
-            busy |= {entry.paths for entry in entries if entry.paths[0].parent == self.libraries}
-        freed = sum(_delete(entry) for entry in entries if entry.paths not in busy)
-        ours = (self.libraries, self.compiler, self.workspaces, self.templates, self.results)
-        for folder in ours if not busy else ():
-            if _is_folder(folder):
-                shutil.rmtree(folder, ignore_errors=True)  # empty folders are left, and what is being made
-        return freed
+        work = [entry.path for entry in entries if entry.path.parent == self.workspaces]
+        users = [(path, path.name.partition("-")[0]) for path in work]
+        busy = {path for path, pid in users if pid.isdecimal() and psutil.pid_exists(int(pid))}
+        kept = (*busy, *([self.libraries] if busy else []))
+        for entry in entries:
+            if entry.path not in kept and entry.path.parent not in kept:
+                _delete(entry.path)
+        for folder in () if busy else self._folders():
+            shutil.rmtree(folder, ignore_errors=True)  # locks of the compiler, and what is being made
+        return sum(entry.size for entry in entries if not os.path.lexists(entry.path))
 
-    def _entries(self) -> Iterator[CacheEntry]:
-        if _is_folder(self.compiler):
-            yield from _records(self.compiler)
-        recent = time.time() - _GRACE
-        for parent in (self.libraries, self.workspaces, self.templates, self.results):
-            for path in list(parent.iterdir()) if _is_folder(parent) else []:
-                found = [path, *(path.rglob("*") if _is_folder(path) else ())]
-                used = max((status.st_mtime for status in _statuses([path])), default=0.0)
-                is_in_use = (
-                    _is_locked(path) if parent == self.workspaces else used > recent and parent == self.libraries
-                )
-                size = sum(map(_size, _statuses(found)))
-                yield CacheEntry((path,), used, size, is_in_use)
+    def _folders(self) -> list[Path]:
+        folders = (self.libraries, self.workspaces, self.templates, self.results, self.compiler)
+        return [folder for folder in folders if folder.is_dir() and not folder.is_symlink()]
 
-
-def entries_to_delete(entries: Iterable[CacheEntry], limit: int) -> list[CacheEntry]:
-    """What to delete of the entries, the longest unused first; nothing well below the limit."""
-    waiting = sorted(entries, key=lambda entry: (entry.used, entry.paths))
-    total = sum(entry.size for entry in waiting)
-    if total <= _FULL * limit:
-        return []
-    chosen = []
-    for entry in waiting:
-        if total <= _AFTER * limit:
-            break
-        if not entry.is_in_use:
-            chosen.append(entry)
-            total -= entry.size
-    return chosen
+    def _entries(self) -> Iterator[_Entry]:
+        """What is deleted as a whole: folders of ours with what is in them, and each file of the compiler."""
+        for folder in self._folders():
+            if folder == self.compiler:
+                paths = [path for path in folder.rglob("*") if not path.name.startswith(".")]  # its locks
+                paths = [path for path in paths if path.is_symlink() or not path.is_dir()]
+            else:
+                paths = list(folder.iterdir())
+            for path in paths:
+                inside = path.rglob("*") if path.is_dir() and not path.is_symlink() else ()
+                states = [state for one in (path, *inside) if (state := _status(one))]
+                note = path.with_name(path.name.removesuffix(_ACCESS) + _ACCESS) if folder == self.compiler else path
+                used = max((state.st_mtime for one in (path, note) if (state := _status(one))), default=0.0)
+                yield _Entry(path, used, sum(max(one.st_size, getattr(one, "st_blocks", 0) * 512) for one in states))
 
 
 @contextlib.contextmanager
@@ -156,55 +161,18 @@ def cache_errors(folder: Path) -> Iterator[None]:
         raise CacheError(Diagnostic(Severity.ERROR, "cache-not-writable", message, str(folder), hint=hint)) from error
 
 
-def _records(folder: Path) -> Iterator[CacheEntry]:
-    """What the compiler remembers, file by file, each with the file that notes its last use."""
-    groups: dict[Path, list[Path]] = {}
-    for path in folder.rglob("*"):
-        if not _is_folder(path) and not path.name.startswith("."):  # its locks
-            groups.setdefault(path.with_name(path.name.removesuffix(_ACCESS)), []).append(path)
-    for paths in groups.values():
-        if statuses := _statuses(paths):
-            used = max(status.st_mtime for status in statuses)
-            yield CacheEntry(tuple(paths), used, sum(map(_size, statuses)))
+def _status(path: Path) -> os.stat_result | None:
+    with contextlib.suppress(OSError):  # it is gone: others trim too
+        return path.lstat()
+    return None
 
 
-def _statuses(paths: Iterable[Path]) -> list[os.stat_result]:
-    found = []
-    for path in paths:
-        with contextlib.suppress(OSError):  # it is gone: others trim too
-            found.append(path.lstat())
-    return found
-
-
-def _size(status: os.stat_result) -> int:
-    return max(status.st_size, getattr(status, "st_blocks", 0) * 512)
-
-
-def _is_folder(path: Path) -> bool:
-    return path.is_dir() and not path.is_symlink()
-
-
-def _is_locked(workspace: Path) -> bool:
-    """Whether somebody works in a workspace."""
-    import filelock
-
-    if workspace.is_symlink() or not (workspace / _LOCK).is_file():
-        return False
-    try:
-        with filelock.FileLock(workspace / _LOCK, timeout=0):
-            return False
-    except filelock.Timeout:
-        return True
-
-
-def _delete(entry: CacheEntry) -> int:
-    """Delete what belongs together, links themselves and not what they lead to; the bytes that came free."""
-    for path in entry.paths:
-        with contextlib.suppress(OSError):
-            if not _is_folder(path):
-                path.unlink()
-            elif path.stat().st_mtime <= entry.used and not _is_locked(path):  # else somebody has begun to use it
-                aside = path.with_name(f"old-{uuid.uuid4().hex}")  # nobody shall find half of it
-                path.rename(aside)
-                shutil.rmtree(aside, ignore_errors=True)
-    return 0 if any(os.path.lexists(path) for path in entry.paths) else entry.size
+def _delete(path: Path) -> None:
+    """Delete a file or folder, links themselves and not what they lead to. What can't be deleted stays."""
+    with contextlib.suppress(OSError):
+        if path.is_symlink() or not path.is_dir():
+            path.unlink()
+        else:
+            aside = path.with_name(f"old-{uuid.uuid4().hex}")  # nobody shall find half of it
+            path.rename(aside)
+            shutil.rmtree(aside, ignore_errors=True)

@@ -1,78 +1,255 @@
-"""Versions of one robot's package, put where a compiler finds them, and compiled with the libraries that they need."""
+"""Compiles and moves versions of one robot's package, each a copy in a folder where the compiler finds it."""
 
 from __future__ import annotations
 
+import contextlib
 import os
+import shutil
 import threading
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import msgspec
 
-from urdfsync.check import libraries
+from urdfsync.check import compilers, errors, physics
 from urdfsync.check.cache import UserCache, cache_errors
-from urdfsync.check.compilers import compiler
-from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask
-from urdfsync.check.files import write_package
+from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask, compile_task
 from urdfsync.check.libraries import StandardLibrary
-from urdfsync.check.package import CheckedPackage
-from urdfsync.check.results import CompilerName
-from urdfsync.config import library_folder
-from urdfsync.modelica.names import LIBRARY
+from urdfsync.check.package import CheckedPackage, write_package
+from urdfsync.check.results import (
+    MOST_SINGLE_EDITS,
+    CheckOptions,
+    CheckResult,
+    CompiledModel,
+    EditEffect,
+    Step,
+)
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 
 
-class PackageVersion(msgspec.Struct, frozen=True):
-    """What a compiler is given for one version of a robot's package."""
+class _Job(msgspec.Struct):
+    """Models to compile with one version of the package, in one process."""
 
-    top: Path
-    """The top-level package, as a copy."""
-    standard: Path
-    """The folder with a copy of the Modelica Standard Library."""
-    libraries: Mapping[str, Path]
-    """Other libraries, by their top-level names."""
+    label: str
+    """Tells it from the other jobs."""
+    texts: Mapping[str, bytes]
+    """The files of the package."""
+    tasks: Sequence[CompileTask]
 
 
-class PackageCompiler:
-    """Compiles versions of one robot's package; may be used from several threads."""
+class _Outcome(msgspec.Struct):
+    """What became of a job."""
+
+    results: list[CompileResult]
+    """Of the tasks, in their order; fewer if the compiler broke down."""
+    folders: Mapping[Path, Path]
+    """Folders that the compiler reads, and those that people know instead."""
+    diagnostics: tuple[Diagnostic, ...] = ()
+    """Why there are fewer."""
+
+
+class Progress:
+    """Tells the steps of a check, also from several threads; `total` is how many there will be, as far as is known."""
+
+    def __init__(self, result: CheckResult, tell: Callable[[Step], None]) -> None:
+        self._result, self._tell, self._lock = result, tell, threading.Lock()
+        self._begun, self.total = 0, 6
+
+    def begin(self, what: str) -> None:
+        """Tell what is done next."""
+        with self._lock:
+            done = min(self._begun / self.total, 1.0)
+            self._begun += 1
+            self._tell(Step(f"{self._result.robot}: {what}", done, self._result))
+
+
+class Compilation:
+    """The compiling of one check: what it finds goes into the result."""
 
     def __init__(
-        self, package: CheckedPackage, standard: StandardLibrary, name: CompilerName, cache: UserCache, folder: Path
+        self,
+        package: CheckedPackage,
+        options: CheckOptions,
+        result: CheckResult,
+        progress: Progress,
+        cache: UserCache,
+        folder: Path,
+        standard: StandardLibrary,
+        standard_copy: Path,
+        libraries: Mapping[str, Path],
     ) -> None:
-        """`folder` is for copies of the package."""
-        self._package, self._standard, self._name, self._cache = package, standard, name, cache
-        self._folder, self._lock = folder, threading.Lock()
+        """`folder` is for copies of the package; `libraries` are needed besides the Modelica Standard Library."""
+        self.compiler = compilers.COMPILERS[options.compiler]
+        self._package, self._options, self._result, self._progress = package, options, result, progress
+        self._cache, self._folder, self._libraries = cache, folder, libraries
+        self._standard, self._standard_copy = standard, standard_copy
+        self._users_models = package.files.models_not_in(package.generated)
+        models = (*package.models, *self._users_models)
+        self._tasks = {model: compile_task(f"{package.robot.target.package}.{model}") for model in models}
+        progress.total = 3 + len(models)
 
-    def put(self, label: str, texts: Mapping[str, bytes]) -> PackageVersion:
-        """Put a version of the package, which `label` tells from others, where the compiler finds it.
+    def compile_all(self) -> None:
+        """Compile all models, in as many processes as may work at the same time."""
+        count = max(1, min(self._options.compilers, len(self._package.models)))
+        parts = [list(self._tasks)[k::count] for k in range(count)]
+        jobs = [self._job(f"package{k}", part) for k, part in enumerate(parts)]
+        for part, outcome in zip(parts, self._run_all(jobs), strict=True):
+            self._take(part, outcome.results, outcome)
 
-        Raises CacheError if that can't be, OutputError for a library that can't be read.
-        """
-        package, robot = self._package, self._package.robot
-        with self._lock:
+    def compare(self) -> None:
+        """Compile all models, and move the main one: as it is generated against the reference, edited against that."""
+        package, result, (main, *others) = self._package, self._result, self._tasks
+        effects: list[EditEffect] = []
+        jobs: list[_Job] = []
+        experiment = plain = None
+        is_same = measures = proves_main = False
+        try:
+            experiment = physics.experiment(package, complete=True)
+            result.notes, result.reference = experiment.notes, experiment.reference
+            result.unchecked += experiment.unchecked
+            is_same = experiment.content == package.rendering.content
+            texts = package.generated if is_same else package.rendering.package(experiment.content)
+            jobs.append(_Job("generated", texts, [physics.moving_task(experiment)]))
+            if package.on_disk and not package.in_step:
+                result.unchecked += ("what edits do was not measured: the package is not in step with its source",)
+            elif package.meaningful_edits:
+                plain, measures = physics.experiment(package, complete=False), True
+            proves_main = measures or (is_same and package.in_step and not package.edits)
+        except UrdfsyncError as error:
+            result.add(error.diagnostics)
+        move = [physics.moving_task(plain)] if plain else []
+        models = others if proves_main else [main, *others]
+        self._progress.total += len(jobs) + len(move)
+        jobs.append(self._job("package", models, move))
+        *first, last = self._run_all(jobs)
+        baseline = edited = None
+        for outcome in first if experiment else ():
+            generated, said = self._series(outcome)
+            result.add(said)
+            if experiment and generated is not None:
+                result.deviations = tuple(experiment.compare(generated))
+                baseline = generated if is_same else None
+        if plain:
+            edited, said = self._series(last)
+            if said:  # no fault of an edited package
+                result.gaps += (f"what edits do was not measured: {said[0].message}",)
+        self._take(models, last.results[len(move) :], last)
+        has_moved = proves_main and (edited if measures else baseline) is not None
+        files = package.meaningful_edits
+        jobs = [] if has_moved or not proves_main else [self._job("main", [main])]
+        tried = files if edited is not None and 1 < len(files) <= MOST_SINGLE_EDITS else ()
+        own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
+        for file in tried:
+            texts = {**package.generated, **own, file: package.on_disk[file]}
+            jobs.append(_Job(f"with-{file.replace('/', '-').removesuffix('.mo')}", texts, move))
+        if edited is not None and not is_same:
+            jobs.append(_Job("baseline", package.generated, move))
+        outcomes = self._run_all(jobs)
+        if edited is not None and not is_same:
+            baseline, said = self._series(outcomes.pop())
+            result.add(said)
+        if has_moved:
+            result.compiled += (CompiledModel(main, 0, 0),)
+        elif proves_main:
+            outcome = outcomes.pop(0)
+            self._take([main], outcome.results, outcome)
+        if plain and baseline is not None and edited is not None:
+            moved = {file: self._series(outcome)[0] for file, outcome in zip(tried, outcomes, strict=True)}
+            single = {file: series for file, series in moved.items() if series is not None}
+            effects += physics.find_effects(package, plain, baseline, edited, single)
+        owners = package.files.owners
+        cosmetic = [file for file in package.edits if file not in files]
+        result.effects = (*effects, *(EditEffect((file,), (), (owners[file],)) for file in cosmetic))
+
+    def _job(self, label: str, models: Sequence[str], first: Sequence[CompileTask] = ()) -> _Job:
+        """A job on the package as it is checked: some tasks, then models by themselves."""
+        return _Job(label, self._package.files.texts, [*first, *(self._tasks[model] for model in models)])
+
+    def _run_all(self, jobs: Sequence[_Job]) -> list[_Outcome]:
+        """Do jobs, some at the same time."""
+        with ThreadPoolExecutor(self._options.compilers) as pool:
+            outcomes = list(pool.map(self._run, jobs))
+        for outcome in outcomes:
+            self._result.add(outcome.diagnostics)
+            memory = (one.megabytes for one in outcome.results)
+            self._result.megabytes = max(self._result.megabytes, *memory, 0.0)
+        return outcomes
+
+    def _run(self, job: _Job) -> _Outcome:
+        robot, parts = self._package.robot, self._standard.parts
+        copies = {self._standard_copy / name: path for name, path in parts.items() if path.suffix != ".mo"}
+        folder = self._folder / job.label
+        outcome = _Outcome([], copies)
+        try:
             with cache_errors(self._cache.folder):
-                top = write_package(self._folder / label, robot, texts, package.around)
-            every = [*texts.values(), *package.around.values()]
-            uses = [name for name, _ in package.domain.uses(robot.options)]
-            found = libraries.needed_libraries(every, top.name, libraries.search_path(robot), uses)
-            more = [text for path in found.values() for text in libraries.library_texts(path).values()]
-            standard = libraries.standard_library_copy(self._standard, [*every, *more], self._cache)
-        own = {LIBRARY: library_folder() / LIBRARY} if top.name != LIBRARY else {}
-        return PackageVersion(top, standard, {**own, **found})
+                top = write_package(folder, robot, job.texts, self._package.around)
+                roots = [_readable(path, folder / ".libraries") for path in self._libraries.values()]
+            outcome.folders = {**copies, top: robot.output / top.name}
+            tasks = tuple(self._with_imports(task) for task in job.tasks)
+            whole = CompileJob((str(self._standard_copy), *roots, str(top)), tasks)
+            with contextlib.closing(compilers.run_job(self._options.compiler, whole, self._cache)) as results:
+                for number, task in enumerate(tasks):
+                    what = task.title.removeprefix(f"{robot.target.package}.")
+                    self._progress.begin(f"{'' if number else 'loading libraries, then '}compiling {what}")
+                    outcome.results.append(next(results))
+        except UrdfsyncError as error:
+            outcome.diagnostics = error.diagnostics
+        except OSError as error:
+            outcome.diagnostics = (system_error(error),)
+        return outcome
 
-    def run(self, version: PackageVersion, tasks: Sequence[CompileTask]) -> Generator[CompileResult, None, None]:
-        """Do tasks in a process of their own; each result as soon as it is known. Raises CompilerError."""
-        roots = (version.standard, *version.libraries.values(), version.top)
-        imported = tuple(_with_imports(task, version.libraries) for task in tasks)
-        return compiler.run_job(self._name, CompileJob(tuple(map(os.fspath, roots)), imported), self._cache)
+    def _with_imports(self, task: CompileTask) -> CompileTask:
+        """The task with imports of libraries behind the first line of its text: rumoca loads no others."""
+        first, _, rest = task.source.partition("\n")
+        imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
+        return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
 
-    def known_folders(self, version: PackageVersion) -> dict[Path, Path]:
-        """Folders that the compiler reads, and those that people know instead."""
-        copies = {version.standard / name: path for name, path in self._standard.parts.items() if path.suffix != ".mo"}
-        return {**copies, version.top: self._package.robot.output / version.top.name}
+    def _take(self, models: Sequence[str], results: Sequence[CompileResult], outcome: _Outcome) -> None:
+        """Take note of models that were compiled by themselves."""
+        for model, one in zip(models, results, strict=False):
+            is_users = model in self._users_models
+            if one.problem:
+                said = self._explain(one.problem, outcome, model)
+                if is_users:  # what does not compile by itself may be meant to be a part of something
+                    said = [msgspec.structs.replace(each, severity=Severity.WARNING) for each in said]
+                self._result.add(said)
+            elif not is_users:
+                self._result.compiled += (CompiledModel(model, one.unknowns, one.states),)
+
+    def _series(self, outcome: _Outcome) -> tuple[physics.Series | None, list[Diagnostic]]:
+        """The simulation that a job begins with; None, and why, if there is none."""
+        if not outcome.results:
+            return None, []
+        result = outcome.results[0]
+        if result.problem:
+            return None, self._explain(result.problem, outcome, "the comparison")
+        (run,) = result.runs
+        if run.problem:
+            message = f"the robot can't be simulated: {' '.join(run.problem.split())[:200]}"
+            return None, [Diagnostic(Severity.ERROR, "no-simulation", message)]
+        return run.values, []
+
+    def _explain(self, problem: str, outcome: _Outcome, model: str) -> list[Diagnostic]:
+        said = () if model == "the comparison" else self._result.diagnostics
+        return errors.explain(
+            problem, self.compiler.complaints(problem), self._package.files, outcome.folders, said, model
+        )
 
 
-def _with_imports(task: CompileTask, names: Mapping[str, Path]) -> CompileTask:
-    """The task with imports of libraries behind the first line of its text: rumoca loads no others."""
-    first, _, rest = task.source.partition("\n")
-    imports = "".join(f"  import {name};\n" for name in names if f"import {name};" not in rest)
-    return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
+def system_error(error: OSError) -> Diagnostic:
+    """What the system says of a file, as a finding."""
+    place = os.fsdecode(error.filename or "")
+    return Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place)
+
+
+def _readable(path: Path, folder: Path) -> str:
+    """A library where the compiler can read it, which takes paths in UTF-8 only: else a copy in `folder`."""
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        copy = folder / path.name
+        folder.mkdir(parents=True, exist_ok=True)
+        (shutil.copytree if path.is_dir() else shutil.copyfile)(path, copy)
+        return str(copy)
+    return str(path)

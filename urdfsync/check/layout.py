@@ -2,25 +2,24 @@
 
 The rules are those of the language specification 3.6, section 13.4. All faults are found, not only the first one:
 one file that does not parse makes a compiler give up the whole package, often without telling which one it is.
-The syntax is read as it is after a merge; so people meet the same words.
 """
 
 from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 
 import msgspec
 
-from urdfsync.check.files import PackageFiles, holds_class
+from urdfsync.check.package import PackageFiles, holds_class
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import normalised
-from urdfsync.modelica.lexer import Fault, find_markers
+from urdfsync.modelica.lexer import find_markers
 from urdfsync.modelica.names import is_identifier, within
 from urdfsync.modelica.parser import parse
-from urdfsync.modelica.syntax import Class, StoredText, declared
+from urdfsync.modelica.syntax import StoredText, declared
 from urdfsync.spelling import nearest
 
 _ORDER, _PACKAGE, _SUFFIX = "package.order", "package.mo", ".mo"
@@ -30,28 +29,15 @@ _BYTE_ORDER_MARK = "\ufeff"
 _ERROR, _WARNING = Severity.ERROR, Severity.WARNING
 
 
-class _Folder(msgspec.Struct, frozen=True):
-    """A folder that should be a package."""
+class _Folder(msgspec.Struct):
+    """A folder that should be a package; names of what is in it."""
 
-    path: str
-    """Below the package's folder; empty for that folder itself."""
-    name: str
-    """Full name of the package that it should be."""
-    files: Sequence[str]
-    """Names of its `.mo` files."""
-    folders: Sequence[str]
-    """Names of the folders in it that have `.mo` files somewhere."""
-    misnamed: Sequence[str]
-    """Files and folders in it whose names no class can have; they are not among the others."""
-
-    def below(self, name: str) -> str:
-        """The path of something in it."""
-        return f"{self.path}/{name}" if self.path else name
-
-    @property
-    def stems(self) -> list[str]:
-        """The classes that are files of their own, by their files' names."""
-        return [file.removesuffix(_SUFFIX) for file in self.files if file != _PACKAGE]
+    files: set[str] = msgspec.field(default_factory=set)
+    """Its `.mo` files."""
+    folders: set[str] = msgspec.field(default_factory=set)
+    """Folders in it that have `.mo` files somewhere."""
+    misnamed: set[str] = msgspec.field(default_factory=set)
+    """Files and folders whose names no class can have; they are not among the others."""
 
 
 def check_layout(package: PackageFiles) -> list[Diagnostic]:
@@ -59,7 +45,14 @@ def check_layout(package: PackageFiles) -> list[Diagnostic]:
 
     What is generated never gets one.
     """
-    return [found for folder in _folders(package) for found in _check_folder(package, folder)]
+    folders: defaultdict[PurePosixPath, _Folder] = defaultdict(_Folder, {PurePosixPath(): _Folder()})
+    for path in filter(holds_class, map(PurePosixPath, package.texts)):
+        culprit = _misnamed_part(path)
+        place = culprit or path
+        (folders[place.parent].misnamed if culprit else folders[place.parent].files).add(place.name)
+        for folder in place.parents[:-1]:
+            folders[folder.parent].folders.add(folder.name)
+    return [found for path in sorted(folders) for found in _check_folder(package, path, folders[path])]
 
 
 def check_around(files: Mapping[Path, bytes]) -> list[Diagnostic]:
@@ -84,80 +77,152 @@ def check_around(files: Mapping[Path, bytes]) -> list[Diagnostic]:
     return found
 
 
-def _folders(package: PackageFiles) -> list[_Folder]:
-    """The folders that have files of Modelica, outer ones first."""
-    files: defaultdict[PurePosixPath, set[str]] = defaultdict(set, {PurePosixPath(): set()})
-    inner: defaultdict[PurePosixPath, set[str]] = defaultdict(set)
-    misnamed: defaultdict[PurePosixPath, set[str]] = defaultdict(set)
-    for path in filter(holds_class, map(PurePosixPath, package.texts)):
-        culprit = _misnamed_part(path)
-        (misnamed if culprit else files)[(culprit or path).parent].add((culprit or path).name)
-        for folder in (culprit or path).parents[:-1]:
-            inner[folder.parent].add(folder.name)
-    return [
-        _Folder(
-            "/".join(folder.parts),
-            ".".join((package.name, *folder.parts)),
-            *(sorted(names[folder]) for names in (files, inner, misnamed)),
-        )
-        for folder in sorted({*files, *inner, *misnamed})
-    ]
-
-
 def _misnamed_part(path: PurePosixPath) -> PurePosixPath | None:
     """The outermost folder around a file, or the file itself, whose name no class can have."""
-    folder = next((folder for folder in reversed(path.parents[:-1]) if not _is_name(folder.name)), None)
-    return folder if folder or path.name == _PACKAGE or _is_name(path.stem) else path
+    parts = [*reversed(path.parents[:-1]), *([] if path.name == _PACKAGE else [path])]
+    names = [(part, part.stem if part is path else part.name) for part in parts]
+    return next((part for part, name in names if not (is_identifier(name) or _QUOTED_NAME.fullmatch(name))), None)
 
 
-def _is_name(name: str) -> bool:
-    return is_identifier(name) or _QUOTED_NAME.fullmatch(name) is not None
+def _check_folder(package: PackageFiles, folder: PurePosixPath, there: _Folder) -> list[Diagnostic]:
+    found: list[Diagnostic] = []
 
+    def say(severity: Severity, code: str, message: str, name: str = "", line: int = 0, hint: str = "") -> None:
+        path = (folder / name).as_posix()
+        found.append(package.diagnostic(severity, code, message, "" if path == "." else path, line, hint=hint))
 
-def _check_folder(package: PackageFiles, folder: _Folder) -> Iterator[Diagnostic]:
-    if _PACKAGE not in folder.files:
-        other = next((name for name in folder.files if name.lower() == _PACKAGE), "")
+    if _PACKAGE not in there.files:
+        other = next((name for name in there.files if name.lower() == _PACKAGE), "")
         hint = f"rename `{other}`" if other else "add one, or move the files elsewhere"
-        message = f"the folder holds classes, but no {_PACKAGE}"
-        yield package.diagnostic(_ERROR, "no-package-file", message, folder.path, hint=hint)
+        say(_ERROR, "no-package-file", f"the folder holds classes, but no {_PACKAGE}", hint=hint)
+    full_name = ".".join((package.name, *folder.parts))
     stored: set[str] = set()  # classes that are whole files
     inside: dict[str, int] = {}  # classes and constants in package.mo, with their lines
-    readable = _PACKAGE in folder.files
-    for file in folder.files:
-        path, whole = folder.below(file), file == _PACKAGE
-        name = folder.name if whole else f"{folder.name}.{file.removesuffix(_SUFFIX)}"
-        found, said = _read(package, path, name)
-        yield from said
+    readable = _PACKAGE in there.files
+    for file in sorted(there.files):
+        whole = file == _PACKAGE
+        name = full_name if whole else f"{full_name}.{file.removesuffix(_SUFFIX)}"
+        text, said = _read(package, (folder / file).as_posix(), name)
+        found += said
         broken = any(one.code in ("not-utf8", "syntax") and one.severity is _ERROR for one in said)
-        yield from _check_names(package, path, name, found.classes, others=not broken)
+        expected, place = name.rpartition(".")[2], "folder" if whole else "file"
+        main = next((one for one in text.classes if str(one.name) == expected), next(iter(text.classes), None))
+        if main and str(main.name) != expected:
+            message = f"the class is called `{main.name}`, but its {place} `{expected}`"
+            say(_ERROR, "wrong-name", message, file, main.name.line, f"give class and {place} the same name")
+        for other_class in () if broken else text.classes:
+            if main and other_class is not main:
+                message, hint = (
+                    f"the file holds `{other_class.name}` besides `{main.name}`",
+                    "a file in a package holds",
+                )
+                hint += " one class: give it one of its own"
+                say(_ERROR, "second-class", message, file, other_class.name.line, hint)
         if whole:
             readable &= not broken
-            inside = {one.path[1]: one.line for one in reversed([*declared(found.classes)]) if len(one.path) == 2}
+            inside = {one.path[1]: one.line for one in reversed([*declared(text.classes)]) if len(one.path) == 2}
         else:
-            stored |= {one.name.parts[0] for one in found.classes}
-    yield from _check_duplicates(package, folder, inside)
-    if folder.below(_ORDER) in package.texts:
-        present = {*folder.stems, *folder.folders, *inside}
-        yield from _check_order(package, folder, present, stored, readable)
+            stored |= {one.name.parts[0] for one in text.classes}
+    for name in sorted(there.misnamed):
+        is_file = (folder / name).as_posix() in package.texts
+        stem, kind, noun = (name.removesuffix(_SUFFIX), "class", "file") if is_file else (name, "package", "folder")
+        hint = f"rename the {noun}, or move it elsewhere"
+        say(_ERROR, "wrong-name", f"`{stem}` can't be the name of a {kind}", name, hint=hint)
+    stems = {file.removesuffix(_SUFFIX) for file in there.files - {_PACKAGE}}
+    for name in sorted(stems & there.folders):
+        message = f"`{name}` is both a file and a folder"
+        say(_ERROR, "class-twice", message, f"{name}{_SUFFIX}", hint="keep one of them")
+    for name in sorted(inside.keys() & (stems | there.folders)):
+        message = f"`{name}` is declared here, and is a {'file' if name in stems else 'folder'} as well"
+        say(_ERROR, "class-twice", message, _PACKAGE, inside[name], "keep one of them")
+    spellings: dict[str, str] = {}
+    for name in sorted(stems | there.folders):
+        first = spellings.setdefault(name.casefold(), name)
+        if first != name:
+            message = f"`{name}` and `{first}` differ only by case"
+            hint = "rename one: file systems that ignore case do not hold both"
+            say(_WARNING, "same-but-for-case", message, f"{name}{_SUFFIX}" if name in stems else name, hint=hint)
+    order = (folder / _ORDER).as_posix()
+    if order in package.texts:
+        present = stems | there.folders | inside.keys()
+        known = {*stored, *there.misnamed, *(name.removesuffix(_SUFFIX) for name in there.misnamed)}
+        found += _check_order(package, order, present, known if readable else None)
+    return found
 
 
 def _read(package: PackageFiles, path: str, name: str) -> tuple[StoredText, list[Diagnostic]]:
     """What a file declares, and what is wrong with its text; `name` is the full name that its class should have."""
-    content = package.texts[path]
+    content, said = package.texts[path], list[Diagnostic]()
+
+    def say(severity: Severity, code: str, message: str, line: int = 0, hint: str = "") -> None:
+        said.append(package.diagnostic(severity, code, message, path, line, hint=hint))
+
     if line := _first_undecodable_line(content):
-        return StoredText(), [_not_utf8(package, path, line)]
-    text, said = normalised(content).decode(), []
+        say(_ERROR, "not-utf8", "the file is not in UTF-8", line, "save it as UTF-8")
+        return StoredText(), said
+    text = normalised(content).decode()
     if text.startswith(_BYTE_ORDER_MARK):
         message, hint = "the file begins with a byte order mark", "save it without: some compilers refuse it"
-        said.append(package.diagnostic(_WARNING, "byte-order-mark", message, path, 1, hint=hint))
+        say(_WARNING, "byte-order-mark", message, 1, hint)
     found = parse(text)
-    said += _syntax_diagnostics(package, path, text, found.faults)
-    if found.classes:
-        said += _check_within(package, path, name, found)
-    elif not found.faults:
+    breaking = [fault for fault in found.faults if not fault.reason.endswith(" twice")]
+    if breaking:  # only the first place, since others may follow from it
+        reason, line = next(iter(find_markers(text)), None) or min(breaking, key=lambda fault: fault.line)
+        more = len(found.faults) - 1
+        places = f"{more} more place{'s' if more > 1 else ''}"
+        hint = f"correct it first: {places} in the file may look wrong because of it" if more else ""
+        say(_ERROR, "syntax", f"the file {reason}", line, hint)
+    for fault in () if breaking else found.faults:
+        kind = (_WARNING, "repeated") if fault.reason.startswith(_ALLOWED_TWICE) else (_ERROR, "syntax")
+        say(*kind, f"the file {fault.reason}", fault.line)
+    parent = name.rpartition(".")[0]
+    if not found.classes and not found.faults:
         hint = f"write the class `{name.rpartition('.')[2]}`, or delete the file"
-        said.append(package.diagnostic(_ERROR, "no-class", "the file holds no class", path, hint=hint))
+        say(_ERROR, "no-class", "the file holds no class", hint=hint)
+    elif found.classes and (found.within or "") != parent:
+        message, hint = f"the file lacks `{within(name)}`", "put it into the first line"
+        if found.within is not None:
+            stated = f"within {found.within};" if found.within else "within;"
+            message = f"the file says `{stated}`, but stands in `{parent or 'no package'}`"
+            hint = f"write `{within(name)}`"
+        say(_ERROR, "wrong-within", message, found.within_line or 1, hint)
     return found, said
+
+
+def _check_order(package: PackageFiles, path: str, present: set[str], known: set[str] | None) -> list[Diagnostic]:
+    """Whether a `package.order` names what is `present` in the folder, each once.
+
+    It may name what is `known`, too; anything if that is None, since `package.mo` can't be read.
+    """
+    found: list[Diagnostic] = []
+
+    def say(severity: Severity, code: str, message: str, line: int, hint: str) -> None:
+        found.append(package.diagnostic(severity, code, message, path, line, hint=hint))
+
+    if line := _first_undecodable_line(package.texts[path]):
+        say(_ERROR, "not-utf8", "the file is not in UTF-8", line, "save it as UTF-8")
+        return found
+    names: defaultdict[str, list[int]] = defaultdict(list)
+    text = normalised(package.texts[path]).decode().removeprefix(_BYTE_ORDER_MARK)
+    for number, words in enumerate(text.split("\n"), start=1):
+        if words.strip():
+            names[words.strip()].append(number)
+    for name, numbers in names.items():
+        if known is not None and name not in present | known:
+            near = nearest(name, sorted(present - names.keys()))
+            message = f"`{name}` is named, but is no class and no constant of the package"
+            hint = f"did you mean `{near}`?" if near else "take the line out, or bring the class back"
+            say(_ERROR, "order-unknown", message, numbers[0], hint)
+        for number in numbers[1:]:
+            message = f"`{name}` is named twice, first in line {numbers[0]}"
+            say(_WARNING, "order-twice", message, number, "take one of the lines out")
+    folder = path.removesuffix(_ORDER)
+    for name in sorted(present - names.keys()):
+        generated = {f"{folder}{name}{_SUFFIX}", f"{folder}{name}/{_PACKAGE}"} & package.owners.keys()
+        is_ours = generated and f"{folder}{_PACKAGE}" in package.owners
+        hint = "`urdfsync build` adds it" if is_ours else "add it where it belongs: tools put it last, or warn"
+        say(_WARNING, "order-lacks", f"`{name}` is not named", 0, hint)
+    return sorted(found, key=lambda one: one.line)
 
 
 def _first_undecodable_line(content: bytes) -> int:
@@ -167,122 +232,3 @@ def _first_undecodable_line(content: bytes) -> int:
     except UnicodeDecodeError as error:
         return content.count(b"\n", 0, error.start) + 1
     return 0
-
-
-def _not_utf8(package: PackageFiles, path: str, line: int) -> Diagnostic:
-    return package.diagnostic(_ERROR, "not-utf8", "the file is not in UTF-8", path, line, hint="save it as UTF-8")
-
-
-def _syntax_diagnostics(package: PackageFiles, path: str, text: str, faults: Sequence[Fault]) -> list[Diagnostic]:
-    """The first place where the text is no Modelica; if there is none, all that stands in it twice."""
-    breaking = [fault for fault in faults if not fault.reason.endswith(" twice")]
-    if breaking:
-        reason, line = next(iter(find_markers(text)), None) or min(breaking, key=lambda fault: fault.line)
-        more = len(faults) - 1
-        places = f"{more} more place{'s' if more > 1 else ''}"
-        hint = f"correct it first: {places} in the file may look wrong because of it" if more else ""
-        return [package.diagnostic(_ERROR, "syntax", f"the file {reason}", path, line, hint=hint)]
-    kinds = [(_WARNING, "repeated") if one.reason.startswith(_ALLOWED_TWICE) else (_ERROR, "syntax") for one in faults]
-    return [
-        package.diagnostic(*kind, f"the file {fault.reason}", path, fault.line)
-        for kind, fault in zip(kinds, faults, strict=True)
-    ]
-
-
-def _check_within(package: PackageFiles, path: str, name: str, found: StoredText) -> Iterator[Diagnostic]:
-    """Whether a file says in which package it stands; `name` is the full name of its class."""
-    parent = name.rpartition(".")[0]
-    if (found.within or "") == parent:
-        return
-    if found.within is None:
-        message, hint = f"the file lacks `{within(name)}`", "put it into the first line"
-    else:
-        stated = f"within {found.within};" if found.within else "within;"
-        message, hint = f"the file says `{stated}`, but stands in `{parent or 'no package'}`", f"write `{within(name)}`"
-    yield package.diagnostic(_ERROR, "wrong-within", message, path, found.within_line or 1, hint=hint)
-
-
-def _check_names(
-    package: PackageFiles, path: str, name: str, classes: Sequence[Class], *, others: bool
-) -> Iterator[Diagnostic]:
-    """Whether a file holds the class that its name says and, if `others` count, no other one."""
-    expected = name.rpartition(".")[2]
-    if not classes:
-        return
-    main = next((one for one in classes if str(one.name) == expected), classes[0])
-    if str(main.name) != expected:
-        place = "folder" if path.endswith(_PACKAGE) else "file"
-        message = f"the class is called `{main.name}`, but its {place} `{expected}`"
-        hint = f"give class and {place} the same name"
-        yield package.diagnostic(_ERROR, "wrong-name", message, path, main.name.line, hint=hint)
-    for other in classes if others else ():
-        if other is not main:
-            message = f"the file holds `{other.name}` besides `{main.name}`"
-            hint = "a file in a package holds one class: give it one of its own"
-            yield package.diagnostic(_ERROR, "second-class", message, path, other.name.line, hint=hint)
-
-
-def _check_duplicates(package: PackageFiles, folder: _Folder, inside: Mapping[str, int]) -> Iterator[Diagnostic]:
-    """Names that no class can have, classes that are there in two ways, and names that differ only by case."""
-    for name in folder.misnamed:
-        path = folder.below(name)
-        is_file = path in package.texts
-        stem, kind, noun = (name.removesuffix(_SUFFIX), "class", "file") if is_file else (name, "package", "folder")
-        message, hint = f"`{stem}` can't be the name of a {kind}", f"rename the {noun}, or move it elsewhere"
-        yield package.diagnostic(_ERROR, "wrong-name", message, path, hint=hint)
-    hint = "keep one of them"
-    for name in sorted(set(folder.stems) & set(folder.folders)):
-        message, path = f"`{name}` is both a file and a folder", folder.below(f"{name}{_SUFFIX}")
-        yield package.diagnostic(_ERROR, "class-twice", message, path, hint=hint)
-    for name in sorted(inside.keys() & {*folder.stems, *folder.folders}):
-        message = f"`{name}` is declared here, and is a {'file' if name in folder.stems else 'folder'} as well"
-        yield package.diagnostic(_ERROR, "class-twice", message, folder.below(_PACKAGE), inside[name], hint=hint)
-    spellings: defaultdict[str, list[str]] = defaultdict(list)
-    for name in sorted({*folder.stems, *folder.folders}):
-        spellings[name.casefold()].append(name)
-    for first, *others in spellings.values():
-        for other in others:
-            message = f"`{other}` and `{first}` differ only by case"
-            hint = "rename one: file systems that ignore case do not hold both"
-            path = folder.below(f"{other}{_SUFFIX}" if other in folder.stems else other)
-            yield package.diagnostic(_WARNING, "same-but-for-case", message, path, hint=hint)
-
-
-def _check_order(
-    package: PackageFiles, folder: _Folder, present: set[str], stored: set[str], readable: bool
-) -> list[Diagnostic]:
-    """Whether `package.order` names what is `present` in the folder, each once.
-
-    Names of `stored` classes with a wrong file name count as known; if `package.mo` is not `readable`, any name does.
-    """
-    path = folder.below(_ORDER)
-    if line := _first_undecodable_line(package.texts[path]):
-        return [_not_utf8(package, path, line)]
-    found = []
-    lines = _lines_by_name(normalised(package.texts[path]).decode())
-    misnamed = {*folder.misnamed, *(name.removesuffix(_SUFFIX) for name in folder.misnamed)}
-    for name, numbers in lines.items():
-        if readable and name not in present | stored | misnamed:
-            near = nearest(name, sorted(present - lines.keys()))
-            message = f"`{name}` is named, but is no class and no constant of the package"
-            hint = f"did you mean `{near}`?" if near else "take the line out, or bring the class back"
-            found.append(package.diagnostic(_ERROR, "order-unknown", message, path, numbers[0], hint=hint))
-        for number in numbers[1:]:
-            message, hint = f"`{name}` is named twice, first in line {numbers[0]}", "take one of the lines out"
-            found.append(package.diagnostic(_WARNING, "order-twice", message, path, number, hint=hint))
-    for name in sorted(present - lines.keys()):
-        generated = {folder.below(f"{name}{_SUFFIX}"), folder.below(f"{name}/{_PACKAGE}")} & package.owners.keys()
-        hint = "add it where it belongs: tools put it last, or warn"
-        if generated and folder.below(_PACKAGE) in package.owners:
-            hint = "`urdfsync build` adds it"
-        found.append(package.diagnostic(_WARNING, "order-lacks", f"`{name}` is not named", path, hint=hint))
-    return sorted(found, key=lambda one: one.line)
-
-
-def _lines_by_name(text: str) -> Mapping[str, Sequence[int]]:
-    """The names in a `package.order`, with the lines in which they stand."""
-    names: defaultdict[str, list[int]] = defaultdict(list)
-    for number, line in enumerate(text.removeprefix(_BYTE_ORDER_MARK).split("\n"), start=1):
-        if line.strip():
-            names[line.strip()].append(number)
-    return names

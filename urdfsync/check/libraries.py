@@ -15,7 +15,7 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.check.cache import UserCache, cache_errors
-from urdfsync.check.files import package_texts
+from urdfsync.check.package import package_texts
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY
@@ -29,12 +29,14 @@ NEXT: Version = (5,)  # the first that is known only by its number; taken if the
 
 # The copy of these takes the compiler a fifth of the time and memory that the whole library does (5 s and 1.1 GB).
 _COPIED = tuple(
-    "Blocks Constants Icons Math Mechanics Units Utilities Thermal/HeatTransfer Electrical/Machines/Thermal".split()
+    tuple(part.split("."))
+    for part in (
+        "Blocks Constants Icons Math Mechanics Units Utilities Thermal.HeatTransfer Electrical.Machines.Thermal"
+    ).split()
 )
 _LEFT_OUT = frozenset({"Examples", "UsersGuide", "Resources"})
 _COPY_REVISION = 2  # raised when other parts are copied
 
-_NUMBERS = re.compile(r"\d+(?:\.\d+)*")
 _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
 _NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 _STANDARD_NAME = re.compile(rb"\bModelica((?:\s*\.\s*[\w*{]+)+)")
@@ -63,26 +65,33 @@ def find_standard_library(environment: Mapping[str, str], configured: Path | Non
 
     Raises LibraryError.
     """
-    places = [configured] if configured else library_folders(environment)
-    found = [library for place in places for library in _standard_libraries(place)]
+    found: list[StandardLibrary] = []
+    for place in [configured] if configured else library_folders(environment):
+        for version, path in _versions(place, "Modelica"):
+            parts = {"Modelica": path}
+            for name in STANDARD[1:]:  # of the same version, else of one that is near
+                others = _versions(place, name)
+                same = [other for number, other in others if number == version]
+                near = [other for number, other in others if number[:1] in (version[:1], ())]
+                parts |= {name: (same or near)[0]} if same or near else {}
+            if len(parts) == len(STANDARD):
+                found.append(StandardLibrary(version, parts))
     suitable = [library for library in found if library.version >= OLDEST]
     if suitable:
         return next((library for library in suitable if library.version < NEXT), suitable[0])
-    oldest = _dotted(OLDEST)
-    unsuitable = ""
+    oldest = ".".join(map(str, OLDEST))
     if found:
-        place, version = found[0].parts["Modelica"].parent, _dotted(found[0].version) or "of unknown version"
-        unsuitable = f"the Modelica Standard Library in {place} is {version}; the compiler takes {oldest} and newer"
-    if configured and unsuitable:
-        message = f"{unsuitable}, which the configuration names"
-        raise LibraryError("wrong-library-folder", message, f"install {oldest} or newer, or name another folder")
+        place, number = found[0].parts["Modelica"].parent, ".".join(map(str, found[0].version)) or "of unknown version"
+        message = f"the Modelica Standard Library in {place} is {number}; the compiler takes {oldest} and newer"
+        if not configured:
+            raise LibraryError("standard-library-too-old", message, f"install {oldest}; {_HINT}")
+        hint = f"install {oldest} or newer, or name another folder"
+        raise LibraryError("wrong-library-folder", f"{message}, which the configuration names", hint)
     if configured:
         hint = "name the folder that holds `Modelica`, `ModelicaServices` and `Complex`"
         if (configured / "package.mo").is_file():
             hint = f"name the folder around it: {configured.parent}"
         raise LibraryError("wrong-library-folder", f"there is no Modelica Standard Library in {configured}", hint)
-    if unsuitable:
-        raise LibraryError("standard-library-too-old", unsuitable, f"install {oldest}; {_HINT}")
     raise LibraryError("no-standard-library", "there is no Modelica Standard Library", _HINT)
 
 
@@ -93,10 +102,10 @@ def library_folders(environment: Mapping[str, str]) -> list[Path]:
         return [Path(folder) for folder in environment.get(name, "").split(os.pathsep) if folder]
 
     homes = [Path(os.path.expanduser("~")), *paths("APPDATA")]  # noqa: PTH111 - Path.home() fails without a home
+    own = [home / ".openmodelica" / "libraries" for home in homes]
     installed = [path / "lib" / "omlibrary" for path in paths("OPENMODELICAHOME")]
     if sys.platform != "win32":
         installed += [Path("/usr/lib/omlibrary"), Path("/opt/openmodelica/lib/omlibrary")]
-    own = [home / ".openmodelica" / "libraries" for home in homes]
     return list(dict.fromkeys([*paths("MODELICAPATH"), *paths("OPENMODELICALIBRARY"), *own, *installed]))
 
 
@@ -107,10 +116,7 @@ def search_path(robot: RobotConfig) -> list[Path]:
 
 def find_library(name: str, places: Iterable[Path]) -> Path | None:
     """The library `name` in the first of the folders that has it, in its newest version: a folder or a file."""
-    for place in places:
-        if versions := _versions(place, name):
-            return versions[0][1]
-    return None
+    return next((versions[0][1] for place in places if (versions := _versions(place, name))), None)
 
 
 def needed_libraries(
@@ -118,29 +124,48 @@ def needed_libraries(
 ) -> dict[str, Path]:
     """Libraries in `places` that the texts of the top-level package `top` name, those `wanted`, and what these name.
 
-    A library is named in an import, or where its name and a dot begin a name. The Modelica Standard Library and
-    UrdfSync are left out. Raises OutputError for a library that can't be read.
+    A library is named in an import, or where its name and a dot begin a name; components of something else do not
+    count. The Modelica Standard Library and UrdfSync are left out. Raises OutputError for an unreadable library.
     """
     names = {path.name.removesuffix(".mo").partition(" ")[0] for place in places for path in _entries(place)}
-    names -= {top, LIBRARY, *STANDARD}
-    patterns = {name: _use_of(name) for name in names}
+    patterns = {}
+    for name in names - {top, LIBRARY, *STANDARD}:
+        word = re.escape(os.fsencode(name))
+        use = rb"\bimport\s+(?:\w+\s*=\s*)?\.?" + word + rb"\s*[.;]|(?<![\w.\])'])\.?\b" + word + rb"\s*\."
+        patterns[name] = re.compile(use)
     found: dict[str, Path] = {}
-    waiting = [_NOISE.sub(b"", text) for text in texts]
-    wanted = names & set(wanted)
-    while waiting or wanted:
+    waiting = [_NOISE.sub(b"", text) for text in (b"", *texts)]
+    new = patterns.keys() & {*wanted}
+    while waiting or new:
         code = waiting.pop() if waiting else b""
-        for name in sorted(wanted | {name for name, pattern in patterns.items() if pattern.search(code)}):
+        for name in sorted(new | {name for name, pattern in patterns.items() if pattern.search(code)}):
             del patterns[name]
             if path := find_library(name, places):
                 found[name] = path
                 waiting += [_NOISE.sub(b"", text) for text in library_texts(path).values()]
-        wanted = set()
+        new = set()
     return dict(sorted(found.items()))
 
 
 def library_texts(path: Path) -> Mapping[str, bytes]:
     """The files of a library, which is a folder or a file. Raises OutputError for one that can't be read."""
     return {path.name: path.read_bytes()} if path.suffix == ".mo" else package_texts(path)
+
+
+def library_state(path: Path) -> str:
+    """SHA-256 (hex) over names, sizes and times of change of a library's files; changes whenever one of them does."""
+    files = [str(path)] if path.is_file() else []
+    for folder, folders, names in os.walk(path):
+        folders[:] = [name for name in folders if name != "Resources" and not name.startswith(".")]
+        files += [os.path.join(folder, name) for name in names if name.endswith((".mo", ".order"))]  # noqa: PTH118
+    total = hashlib.sha256()
+    for file in sorted(files):
+        try:
+            status = os.stat(file)  # noqa: PTH116 - thousands of them
+        except OSError:  # a link to nothing, say
+            continue
+        total.update(f"{file}\0{status.st_size}\0{status.st_mtime_ns}\n".encode(errors="surrogateescape"))
+    return total.hexdigest()
 
 
 def standard_library_copy(library: StandardLibrary, texts: Iterable[bytes], cache: UserCache) -> Path:
@@ -150,17 +175,39 @@ def standard_library_copy(library: StandardLibrary, texts: Iterable[bytes], cach
     wants all parts in one folder, and would read all that is in this one. Raises CacheError, or LibraryError for a
     library that lacks what robots need.
     """
-    _check_parts(library)
+    modelica = library.parts["Modelica"]
+    paths = [modelica.joinpath(*part) for part in _COPIED]
+    if missing := [path for path in paths if not (path.is_dir() or path.with_name(f"{path.name}.mo").is_file())]:
+        names = " and no ".join(f"`Modelica.{'.'.join(path.relative_to(modelica).parts)}`" for path in missing[:3])
+        message = f"the Modelica Standard Library in {modelica} is broken: there is no {names}"
+        raise LibraryError("broken-standard-library", message, f"install it anew, or take another one: {_HINT}")
     whole = not all(map(_is_in_copy, texts))
     state = repr((_COPY_REVISION, sorted(library_state(path) for path in library.parts.values())))
     key = hashlib.sha256(state.encode(errors="surrogateescape")).hexdigest()[:16]
     target = cache.libraries / f"{'whole' if whole else 'part'}-{key}"
+
+    def ignored(folder: str, names: list[str]) -> set[str]:
+        left_out = {name for name in names if name in ("Resources", "package.order") or name.startswith(".")}
+        if not whole and Path(folder).is_relative_to(modelica):
+            below = Path(folder).relative_to(modelica).parts
+            for name in names:
+                path = (*below, name.removesuffix(".mo"))
+                is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)
+                if name != "package.mo" and (not is_part or _LEFT_OUT.intersection(path)):
+                    left_out.add(name)
+        return left_out
+
     with cache_errors(cache.folder):
         if not target.is_dir():
             target.parent.mkdir(parents=True, exist_ok=True)
             with tempfile.TemporaryDirectory(prefix="new-", dir=target.parent) as folder:
                 made = Path(folder) / "library"
-                _copy(library, made, None if whole else _COPIED)
+                made.mkdir()
+                for name, path in library.parts.items():
+                    if path.suffix == ".mo":
+                        shutil.copyfile(path, made / f"{name}.mo")
+                    else:
+                        shutil.copytree(path, made / name, ignore=ignored)
                 try:
                     made.rename(target)
                 except OSError:
@@ -170,88 +217,12 @@ def standard_library_copy(library: StandardLibrary, texts: Iterable[bytes], cach
     return target
 
 
-def library_state(path: Path) -> str:
-    """SHA-256 (hex) over names, sizes and times of change of a library's files; changes whenever one of them does."""
-    entries = sorted(_files_of_library(path))
-    facts = [f"{file}\0{status.st_size}\0{status.st_mtime_ns}" for file in entries if (status := _status(file))]
-    return hashlib.sha256("\n".join(facts).encode(errors="surrogateescape")).hexdigest()
-
-
-def _files_of_library(path: Path) -> Iterator[str]:
-    if path.is_file():
-        yield str(path)
-    for folder, folders, files in os.walk(path):
-        folders[:] = [name for name in folders if name != "Resources" and not name.startswith(".")]
-        yield from (os.path.join(folder, name) for name in files if name.endswith((".mo", ".order")))  # noqa: PTH118
-
-
-def _status(file: str) -> os.stat_result | None:
-    try:
-        return os.stat(file)  # noqa: PTH116 - thousands of them
-    except OSError:  # a link to nothing, say
-        return None
-
-
 def _is_in_copy(text: bytes) -> bool:
     """Whether the part of the Modelica Standard Library that is copied has all that a text names of it."""
     code = _NOISE.sub(b"", text)
-    names = [re.sub(r"\s", "", name.decode()).strip(".").split(".") for name in _STANDARD_NAME.findall(code)]
-    copied = [part.split("/") for part in _COPIED]
-    covered = (any(name[: len(part)] == part for part in copied) and "Examples" not in name for name in names)
+    names = [tuple(re.sub(r"\s", "", name.decode()).strip(".").split(".")) for name in _STANDARD_NAME.findall(code)]
+    covered = (any(name[: len(part)] == part for part in _COPIED) and "Examples" not in name for name in names)
     return all(covered) and not _STANDARD_ALIAS.search(code)
-
-
-def _copy(library: StandardLibrary, target: Path, parts: Sequence[str] | None) -> None:
-    """Copy the library without resources and `package.order` files, of Modelica only `parts` if there are some."""
-    source = library.parts["Modelica"]
-
-    def ignored(folder: str, names: list[str]) -> set[str]:
-        path = Path(folder)
-        left_out = {name for name in names if name in ("Resources", "package.order") or name.startswith(".")}
-        if parts is not None and path.is_relative_to(source):
-            below = path.relative_to(source).parts
-            left_out |= {name for name in names if name != "package.mo" and not _is_part((*below, name), parts)}
-        return left_out
-
-    target.mkdir()
-    for name, path in library.parts.items():
-        if path.suffix == ".mo":
-            shutil.copyfile(path, target / f"{name}.mo")
-        else:
-            shutil.copytree(path, target / name, ignore=ignored)
-
-
-def _is_part(path: tuple[str, ...], parts: Sequence[str]) -> bool:
-    """Whether a file or folder is in one of the parts, or around one."""
-    names = tuple(name.removesuffix(".mo") for name in path)
-    if not _LEFT_OUT.isdisjoint(names):
-        return False
-    wanted = [tuple(part.split("/")) for part in parts]
-    return any(names[: len(part)] == part[: len(names)] for part in wanted)
-
-
-def _check_parts(library: StandardLibrary) -> None:
-    """Raise LibraryError if a library lacks what robots need."""
-    modelica = library.parts["Modelica"]
-    missing = [part for part in _COPIED if not ((modelica / part).is_dir() or (modelica / f"{part}.mo").is_file())]
-    if missing:
-        names = " and no ".join(f"`Modelica.{part.replace('/', '.')}`" for part in missing[:3])
-        message = f"the Modelica Standard Library in {modelica} is broken: there is no {names}"
-        raise LibraryError("broken-standard-library", message, f"install it anew, or take another one: {_HINT}")
-
-
-def _standard_libraries(place: Path) -> Iterator[StandardLibrary]:
-    """The standard libraries in a folder, the newest first, each with those of its version if they are there."""
-    versions = {name: _versions(place, name) for name in STANDARD}
-    for version, path in versions["Modelica"]:
-        parts = {"Modelica": path}
-        for name in STANDARD[1:]:
-            same = [other for number, other in versions[name] if number == version]
-            near = [other for number, other in versions[name] if number[:1] in (version[:1], ())]
-            if partners := same or near:
-                parts[name] = partners[0]
-        if len(parts) == len(STANDARD):
-            yield StandardLibrary(version, parts)
 
 
 def _versions(place: Path, name: str) -> list[tuple[Version, Path]]:
@@ -261,31 +232,15 @@ def _versions(place: Path, name: str) -> list[tuple[Version, Path]]:
         stem = path.name.removesuffix(".mo")
         text = path if path.suffix == ".mo" else path / "package.mo"
         if (stem == name or stem.startswith(f"{name} ")) and text.is_file():
-            version = _version(stem.removeprefix(name))
-            if not version and (written := _ANNOTATED_VERSION.search(text.read_text("utf-8", "replace"))):
-                version = _version(written[1])
-            found.append((version, path))
+            number = re.search(r"\d+(?:\.\d+)*", stem.removeprefix(name))
+            written = None if number else _ANNOTATED_VERSION.search(text.read_text("utf-8", "replace"))
+            digits = number[0] if number else written[1] if written else ""
+            found.append((tuple(map(int, digits.split("."))) if digits else (), path))
     return sorted(found, reverse=True)
 
 
-def _version(text: str) -> Version:
-    """The numbers in a name such as `Modelica 4.1.0`; empty if there are none."""
-    numbers = _NUMBERS.search(text)
-    return tuple(map(int, numbers[0].split("."))) if numbers else ()
-
-
-def _dotted(version: Version) -> str:
-    return ".".join(map(str, version))
-
-
-def _use_of(name: str) -> re.Pattern[bytes]:
-    """Matches an import of a library, and a name that it begins; not a component of something else."""
-    word = re.escape(os.fsencode(name))
-    return re.compile(rb"\bimport\s+(?:\w+\s*=\s*)?\.?" + word + rb"\s*[.;]|(?<![\w.\])'])\.?\b" + word + rb"\s*\.")
-
-
-def _entries(place: Path) -> list[Path]:
+def _entries(place: Path) -> Iterator[Path]:
     try:
-        return list(place.iterdir())
+        yield from list(place.iterdir())
     except OSError:
-        return []  # a folder on a search path need not exist
+        return  # a folder on a search path need not exist

@@ -1,96 +1,143 @@
-"""What there is to check of one robot: the package on disk, the one that is generated, and where they differ."""
+"""What there is to check of one robot: the package on disk, the one that is generated, and where they differ.
+
+A compiler reads all files below a folder, and one that does not parse spoils them all. So packages of other robots
+are left out, unless they are mentioned.
+"""
 
 from __future__ import annotations
 
-import functools
+import codecs
+import contextlib
+import itertools
+import os
 import re
-from collections.abc import Iterator, Mapping
-from pathlib import Path
+from collections.abc import Collection, Iterator, Mapping
+from pathlib import Path, PurePosixPath
 
-from urdfsync.check import files
-from urdfsync.check.files import PackageFiles
+import msgspec
+
 from urdfsync.config import Config, RobotConfig, shown
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
+from urdfsync.domain import Domain
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
 from urdfsync.files import normalised
 from urdfsync.merge.tokens import is_trivia, tokens
+from urdfsync.modelica.files import files_that_use, has_word
+from urdfsync.modelica.lexer import lex
+from urdfsync.modelica.names import within
 
+_PREFIXES = frozenset({"final", "encapsulated", "partial"})
 _URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
 
 
-class CheckedPackage:
-    """One robot as it is now. Nothing is written.
+class PackageFiles(msgspec.Struct, frozen=True):
+    """A Modelica package that is stored as a folder. Paths are POSIX ones, below that folder."""
+
+    name: str
+    """Its full name, as in `Plant.Robots.Arm`."""
+    folder: Path
+    """Where people find it, whether or not it has been written yet."""
+    texts: Mapping[str, bytes]
+    """Its `.mo` and `package.order` files by path."""
+    owners: Mapping[str, str] = msgspec.field(default_factory=dict)
+    """The element that a file belongs to, in the domain's words: `joint elbow`."""
+    edited: Collection[str] = ()
+    """The files that differ from what is generated."""
+
+    def text(self, path: str) -> str:
+        """The text of a file; what is not UTF-8 in it is replaced."""
+        return self.texts[path].decode("utf-8", "replace")
+
+    def models_not_in(self, generated: Collection[str]) -> list[str]:
+        """The user's models and blocks that are files and not partial, by their full names below the package."""
+        found = []
+        for path in (PurePosixPath(path) for path in sorted(self.texts) if path not in generated):
+            if not holds_class(path) or path.name == "package.mo":
+                continue
+            words = [token.text for token in lex(self.text(str(path)))[0]]
+            rest = words[words.index(";") + 1 if words[0] == "within" and ";" in words else 0 :]
+            head = list(itertools.takewhile(lambda word: word in _PREFIXES or word in ("model", "block"), rest))
+            if {"model", "block"} & {*head} and "partial" not in head and rest[len(head)] == path.stem:
+                found.append(".".join(path.with_suffix("").parts))
+        return found
+
+    def diagnostic(
+        self, severity: Severity, code: str, message: str, path: str, line: int = 0, column: int = 0, hint: str = ""
+    ) -> Diagnostic:
+        """A finding in one of the files, or in a folder; it names the element."""
+        owner = self.owners.get(path, "")
+        message = f"{owner}: {message}" if owner else message
+        return Diagnostic(severity, code, message, shown(self.folder / path), line, column, hint)
+
+
+class CheckedPackage(msgspec.Struct):
+    """One robot as it is now."""
+
+    config: Config
+    robot: RobotConfig
+    domain: Domain
+    rendering: Rendering
+    source_diagnostics: tuple[Diagnostic, ...]
+    """Errors that a build would report, and what a thorough reading of the source says beyond warnings."""
+    on_disk: Mapping[str, bytes]
+    """The Modelica files of the package on disk, by their path below it; none if there is no package."""
+    in_step: bool
+    conflicting: bool
+    """Whether it is out of step because edits and new texts contradict each other."""
+    generated: Mapping[str, bytes]
+    """The files of the package as it is generated, by their path below it."""
+    files: PackageFiles
+    """What is checked: the package on disk, or what a build would write."""
+    around: Mapping[str, bytes]
+    """See `files_around`."""
+    users_files: Mapping[Path, bytes]
+    """See `users_files`."""
+    models: tuple[str, ...]
+    """The classes that have to compile by themselves, by their names below the package, the main one first."""
+    edits: tuple[str, ...]
+    """The edited files that have a part in the main model."""
+    meaningful_edits: tuple[str, ...]
+    """Those of them in which more than comments and blanks differ."""
+
+
+def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> CheckedPackage:
+    """Read and generate the package of a robot. Writes nothing.
 
     Raises UrdfsyncError for whatever is wrong with source, state or templates, OSError for what can't be read.
     """
-
-    def __init__(self, config: Config, robot: RobotConfig, request: BuildOptions) -> None:
-        self.config, self.robot = config, robot
-        (self.build_result,) = build(config, [robot], request)
-        if self.build_result.failed:
-            raise UrdfsyncError(*self.build_result.diagnostics)
-        self.rendering = Rendering(config, robot, request)
-        self.domain = self.rendering.domain
-        self.on_disk: Mapping[str, bytes] = files.package_texts(robot.folder)
-        """The Modelica files of the package on disk, by their path below it; none if there is no package."""
-        self.is_built = bool(self.on_disk)
-        self.in_step = self.is_built and self.build_result.in_step
-        self.generated = self.rendering.package(self.rendering.content)
-        """The files of the package as it is generated, by their path below it."""
-        self.texts = self.on_disk or self.generated
-        """What is checked."""
-        self.around = files.files_around(config, robot, self.texts)
-        self.users_files = files.users_files(config, robot)
-        edited = edited_files(self.generated, self.on_disk) if self.in_step else []
-        self.files = PackageFiles(robot.target.package, robot.folder, self.texts, self.rendering.owners, edited)
-        self.models = self.domain.models(self.rendering.snapshot, robot.target, robot.options)
-        """The classes that have to compile by themselves, by their names below the package, the main one first."""
-
-    @functools.cached_property
-    def edits(self) -> list[str]:
-        """The edited files that have a part in the main model."""
-        benches = {f"{name.replace('.', '/')}.mo" for name in self.models[1:]}
-        return [path for path in self.files.edited if path not in benches]
-
-    @functools.cached_property
-    def meaningful_edits(self) -> list[str]:
-        """Those of them in which more than comments and blanks differ."""
-        return [path for path in self.edits if not is_cosmetic(self.generated[path], self.on_disk[path])]
-
-    def source_diagnostics(self) -> list[Diagnostic]:
-        """Errors that a build would report, and what a thorough reading of the source says beyond warnings."""
-        errors = [one for one in self.build_result.diagnostics if one.severity is Severity.ERROR]
-        robot = self.robot
-        reading = self.domain.read(self.rendering.content, shown(robot.source), robot.options, thorough=True)
-        return list(
-            dict.fromkeys([*errors, *(one for one in reading.diagnostics if one.severity is not Severity.WARNING)])
-        )
-
-    def with_one_edit(self, file: str) -> Mapping[str, bytes]:
-        """The package with one file edited; the user's own files are in it."""
-        own = {path: content for path, content in self.on_disk.items() if path not in self.generated}
-        return {**self.generated, **own, file: self.on_disk[file]}
-
-    def missing_resources(self) -> Iterator[Diagnostic]:
-        """Files below the package's own folders that its texts refer to and that are not there, once for each text."""
-        hint = "`urdfsync build` brings back what it imported; else put the file there"
-        for path in sorted(self.on_disk):
-            text, addresses = self.files.text(path), set[str]()
-            for found in _URI.finditer(text):
-                file = self._resource(found[1], found[2])
-                if file is not None and found[0] not in addresses and not file.exists():
-                    addresses.add(found[0])
-                    line = text.count("\n", 0, found.start()) + 1
-                    message = f"it refers to `{found[0][1:-1]}`, and there is no such file"
-                    yield self.files.diagnostic(Severity.ERROR, "missing-resource", message, path, line, hint=hint)
-
-    def _resource(self, package: str, below: str) -> Path | None:
-        """Where a `modelica://` address leads; None if it is not in the robot's package or one around it."""
-        own, folder = self.robot.target.package, self.robot.output.joinpath(*package.split("."))
-        is_ours = f"{own}.".startswith(f"{package}.") or package.startswith(f"{own}.")
-        return folder / below if is_ours and folder.is_dir() else None
+    (built,) = build(config, [robot], options)
+    if built.failed:
+        raise UrdfsyncError(*built.diagnostics)
+    rendering = Rendering(config, robot, options)
+    domain = rendering.domain
+    reading = domain.read(rendering.content, shown(robot.source), robot.options, thorough=True)
+    said = [one for one in built.diagnostics if one.severity is Severity.ERROR]
+    said += [one for one in reading.diagnostics if one.severity is not Severity.WARNING]
+    on_disk, generated = package_texts(robot.folder), rendering.package(rendering.content)
+    texts, in_step = on_disk or generated, bool(on_disk) and built.in_step
+    models = tuple(domain.models(rendering.snapshot, robot.target, robot.options))
+    benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
+    edited = edited_files(generated, on_disk) if in_step else []
+    edits = tuple(path for path in edited if path not in benches)
+    return CheckedPackage(
+        config=config,
+        robot=robot,
+        domain=domain,
+        rendering=rendering,
+        source_diagnostics=tuple(dict.fromkeys(said)),
+        on_disk=on_disk,
+        in_step=in_step,
+        conflicting=bool(built.conflicts),
+        generated=generated,
+        files=PackageFiles(robot.target.package, robot.folder, texts, rendering.owners, edited),
+        around=files_around(config, robot, texts),
+        users_files=users_files(config, robot),
+        models=models,
+        edits=edits,
+        meaningful_edits=tuple(path for path in edits if _words(generated[path]) != _words(on_disk[path])),
+    )
 
 
 def edited_files(generated: Mapping[str, bytes], on_disk: Mapping[str, bytes]) -> list[str]:
@@ -99,7 +146,133 @@ def edited_files(generated: Mapping[str, bytes], on_disk: Mapping[str, bytes]) -
     return [path for path in paths if normalised(on_disk[path]) != generated[path]]
 
 
-def is_cosmetic(old: bytes, new: bytes) -> bool:
-    """Whether two texts differ in comments, blanks and ends of line only."""
-    one, two = ([t for t in tokens(text.decode(errors="replace")) if not is_trivia(t)] for text in (old, new))
-    return one == two
+def _words(text: bytes) -> list[str]:
+    """What a text says but for comments, blanks and ends of line."""
+    return [token for token in tokens(text.decode(errors="replace")) if not is_trivia(token)]
+
+
+def missing_resources(package: CheckedPackage) -> Iterator[Diagnostic]:
+    """Files below the package's own folders that its texts refer to and that are not there, once for each text."""
+    own, output = package.robot.target.package, package.robot.output
+    hint = "`urdfsync build` brings back what it imported; else put the file there"
+    for path in sorted(package.on_disk):
+        text, addresses = package.files.text(path), set[str]()
+        for found in _URI.finditer(text):
+            top, folder = found[1], output.joinpath(*found[1].split("."))
+            is_ours = f"{own}.".startswith(f"{top}.") or top.startswith(f"{own}.")
+            if is_ours and folder.is_dir() and found[0] not in addresses and not (folder / found[2]).exists():
+                addresses.add(found[0])
+                line = text.count("\n", 0, found.start()) + 1
+                message = f"it refers to `{found[0][1:-1]}`, and there is no such file"
+                yield package.files.diagnostic(Severity.ERROR, "missing-resource", message, path, line, hint=hint)
+
+
+def holds_class(path: PurePosixPath) -> bool:
+    """Whether a file of a package is one that tools read as Modelica."""
+    hidden = any(part.startswith(".") for part in path.parts)
+    return path.suffix == ".mo" and not hidden and "Resources" not in path.parts[:-1]
+
+
+def package_texts(folder: Path) -> dict[str, bytes]:
+    """The Modelica files below a package's folder, by their path below it; none if there is no such folder.
+
+    Only regular files count, and links to such; see `irregular_files`. Raises OutputError for one that can't be read.
+    """
+    return _read(folder, folder, frozenset())
+
+
+def irregular_files(folder: Path) -> list[Path]:
+    """What looks like a part of the package in `folder` and is left out, since it is no regular file or real folder.
+
+    Links that lead nowhere, pipes and the like, and links to folders of classes. Raises OutputError.
+    """
+    return [path for path, regular in _entries(folder, frozenset()) if not regular]
+
+
+def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes]) -> dict[str, bytes]:
+    """The files of the top-level package around a robot's package, by their path below the output folder.
+
+    Packages of other robots are among them if `texts` (the robot's own), or anything else around, mention them.
+    Packages around the robot's that do not exist yet are made up. Raises OutputError for a file that can't be read.
+    """
+    top = robot.output / robot.target.package.partition(".")[0]
+    others = {other.folder: other.target.package.rpartition(".")[2].encode() for other in config.robots}
+    others = {folder: name for folder, name in others.items() if top in folder.parents and folder != robot.folder}
+    found = _read(robot.output, top, frozenset({robot.folder, *others})) if top != robot.folder else {}
+    waiting = [*texts.values(), *found.values()] if others else []
+    while waiting:
+        text = waiting.pop()
+        for folder in [folder for folder, name in others.items() if has_word(text, name)]:
+            del others[folder]
+            more = _read(robot.output, folder, frozenset(others))
+            found |= more
+            waiting += more.values()
+    parts = robot.target.package.split(".")
+    for count in range(1, len(parts)):
+        name = parts[count - 1]
+        made_up = f"{within('.'.join(parts[:count]))}\npackage {name}\nend {name};\n"
+        found.setdefault(f"{'/'.join(parts[:count])}/package.mo", made_up.encode())
+    return found
+
+
+def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
+    """The Modelica files below the output folder, in no robot's package, that have to do with the robot's package.
+
+    They mention the package, or the class in another such file. Raises OutputError for a file that can't be read.
+    """
+    folders = frozenset(other.folder for other in config.robots)
+    read = _read(robot.output, robot.output, folders) if robot.output not in folders else {}
+    files = {robot.output / path: content for path, content in read.items() if path.endswith(".mo")}
+    return files_that_use(files, [robot.target.package.rpartition(".")[2]])
+
+
+def write_package(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: Mapping[str, bytes]) -> Path:
+    """Write the package in `texts` with what is around it below `folder`; gives the top-level package."""
+    place = robot.target.package.replace(".", "/")
+    for name, content in {**around, **{f"{place}/{path}": content for path, content in texts.items()}}.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content.removeprefix(codecs.BOM_UTF8))  # rumoca refuses a byte order mark
+    return folder / robot.target.package.partition(".")[0]
+
+
+def _read(base: Path, folder: Path, without: frozenset[Path]) -> dict[str, bytes]:
+    """The files below `folder`, by their path below `base`."""
+    found = {}
+    for path, regular in _entries(folder, without):
+        if regular:
+            try:
+                with contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
+                    found[path.relative_to(base).as_posix()] = path.read_bytes()
+            except OSError as error:
+                raise _unreadable(error) from error
+    return found
+
+
+def _entries(folder: Path, without: frozenset[Path]) -> Iterator[tuple[Path, bool]]:
+    """The Modelica files of a package and of those in it, but for the folders in `without`.
+
+    With each whether it is a regular file, or a link to one; a pipe, say, must not be opened.
+    """
+
+    def refuse(error: OSError) -> None:
+        if not isinstance(error, FileNotFoundError | NotADirectoryError):
+            raise _unreadable(error) from error
+
+    for place, folders, files in os.walk(folder, onerror=refuse):
+        here = Path(place)
+        folders[:] = [
+            name
+            for name in sorted(folders)
+            if name != "Resources" and not name.startswith(".") and here / name not in without
+        ]
+        links = [here / name for name in folders if (here / name).is_symlink()]  # not followed: they may go in circles
+        yield from ((link, False) for link in links if (link / "package.mo").is_file())
+        own = (here / name for name in sorted(files) if not name.startswith("."))  # editors leave some that do
+        yield from ((path, path.is_file()) for path in own if path.suffix == ".mo" or path.name == "package.order")
+
+
+def _unreadable(error: OSError) -> OutputError:
+    message, hint = f"it can't be read: {error.strerror or error}", "check the permissions of it and of its folder"
+    place = shown(Path(os.fsdecode(error.filename))) if error.filename else ""
+    return OutputError(Diagnostic(Severity.ERROR, "unreadable", message, place, hint=hint))

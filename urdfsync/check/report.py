@@ -4,14 +4,26 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Collection, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
 
-from urdfsync.check import sentences
-from urdfsync.check.results import EFFORTS, POSES, TOLERANCE, CheckResult, CheckStatus, agrees, largest
+from urdfsync.check.results import (
+    EFFORTS,
+    MASSES,
+    MOST_SINGLE_EDITS,
+    POSES,
+    TOLERANCE,
+    CheckResult,
+    CheckStatus,
+    EditEffect,
+    agrees,
+    largest,
+)
+from urdfsync.diagnostics import Severity
 from urdfsync.domain import Deviation, Quantity
 from urdfsync.output.console import has_marks, text, visible
 from urdfsync.output.json_values import finding_values
+from urdfsync.output.phrases import counted
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -25,20 +37,21 @@ _STYLES = {
     "differs": ("≠", "bold red"),
     "failed": ("✗", "bold red"),
 }
+_KINDS = (("poses", POSES), ("torques", EFFORTS), ("masses", MASSES))
+_NAMED_ELEMENTS = _NAMED_FILES = 3
+_LARGEST_PERCENT, _SMALLEST_PERCENT = 999.5, 0.001  # from the first on, the reference is about zero
 _WIDEST_NAME = 24
 _ELEMENT_WIDTHS = (14, 24)  # the worst elements stand in the row if there is room for the first, else below it
-_GAP, _INDENT, _NONE = "  ", "    ", "–"
+_GAP, _NONE = "  ", "–"
 _UNIT = re.compile(r"(?<=\d) (?=(?:%|mm?|N(?:·m)?|kg|rad/s²|m/s²)(?:[\s,;)]|$))")
 """The blank between a number and its unit, where no line ends."""
 _GLUE = "\ue000"  # stands for that blank meanwhile: a character of no meaning that is as wide
 
-
-class Column(NamedTuple):
-    """A column of a table."""
-
-    titles: tuple[str, ...]
-    width: int
-    left: bool = False
+_TITLES = (
+    *(("", "robot"), ("models", "compile"), ("equations", "= unknowns"), ("", "states"), ("pose", "error")),
+    *(("", "largest at"), ("torque", "error"), ("", "largest at"), ("", "time")),
+)
+_WIDTHS = (0, 7, 10, 6, 7, 0, 7, 0, 6)  # 0: depends on names, and is aligned to the left
 
 
 class CheckReport:
@@ -49,95 +62,113 @@ class CheckReport:
     ) -> None:
         self._console, self._strict, self._verbose, self._quiet = console, strict, verbose, quiet
         self._marks, self._terminal = has_marks(console.file), console.is_terminal
-        self._indent = _INDENT if self._terminal else "  "
+        self._indent = "    " if self._terminal else _GAP
         self._results: list[CheckResult] = []
-        room = console.width - 2 * self._marks
-        self._columns, self._elements_beside = _columns(robots, room)
-        width = sum(column.width for column in self._columns) + len(_GAP) * (len(self._columns) - 1)
-        self._is_table = self._terminal and width <= room
         self._has_titles = False
+        name, room = min(max((5, *map(len, robots))), _WIDEST_NAME), console.width - 2 * self._marks
+        fixed = sum(width + len(_GAP) for width in _WIDTHS if width) + name  # without elements
+        element = (room - fixed) // 2 - len(_GAP)
+        self._element = min(element, _ELEMENT_WIDTHS[1]) if element >= _ELEMENT_WIDTHS[0] else 0
+        """Width of the columns with elements; 0 if there is no room for them."""
+        self._widths = [width or (self._element if k else name) for k, width in enumerate(_WIDTHS)]
+        self._is_table = self._terminal and fixed <= room
 
     def lines(self, result: CheckResult) -> Iterator[Text]:
         """Everything that there is to say about one robot alone."""
         self._results.append(result)
         if self._quiet and result.status(self._strict) is CheckStatus.RIGHT:
             return
-        yield from self._table_rows(result) if self._is_table else self._block(result)
-        for said in sentences.reference_differences(result):
-            yield self._wrapped(self._indent, _with_element(said, "bold red"))
-        for effect in result.effects:
-            style = "dim" if not effect.deviations else "bold red" if self._strict else "bold cyan"
-            yield self._wrapped(self._indent, _with_element(sentences.effect(effect), style))
-        for gap in result.gaps:
-            yield self._wrapped(self._indent, text((gap, _STYLES["incomplete"][1])))
-        if not result.in_step:
-            yield self._wrapped(self._indent, text((_next_step(result), "yellow")))
+        word = verdict(result, self._strict)
+        mark, style = _STYLES[word]
+        marks = [(f"{mark} ", style)] if self._marks else []
+        if self._is_table:
+            yield from self._table_rows(result, marks)
+        elif self._terminal:
+            time = f", {duration(result.seconds)}"
+            yield text(*marks, (result.robot, "bold"), (": ", ""), (word, style), (time, ""))
+            yield from (self._wrapped(self._indent, text((said, ""))) for said in _findings(result))
+        else:
+            yield text(*marks, (f"{result.robot}: {summary(result, self._strict)}", ""))
+        said = [(one, "bold red", True) for one in reference_differences(result)]
+        changed = "bold red" if self._strict else "bold cyan"
+        said += [(effect(one), changed if one.deviations else "dim", True) for one in result.effects]
+        said += [(gap, _STYLES["incomplete"][1], False) for gap in result.gaps]
+        if not result.built:
+            said.append(("there is no package yet, so what `urdfsync build` would write was checked", "yellow", False))
+        elif result.conflicting and not result.in_step:
+            advice = "your edits and what is new contradict each other; settle that with `urdfsync resolve`"
+            said.append((advice, "yellow", False))
+        elif not result.in_step:
+            said.append(("the package is not what a build would leave; run `urdfsync build`", "yellow", False))
+        for sentence, style, names_element in said:  # an element at its beginning stands out
+            element, colon, rest = sentence.partition(": ") if names_element else (sentence, "", "")
+            yield self._wrapped(self._indent, text((element, style), (f"{colon}{rest}", "")))
         if self._verbose:
-            width = self._console.width if self._terminal else 10_000
-            yield from _details(result, width)
+            yield from _details(result, self._console.width if self._terminal else 10_000)
 
     def end(self) -> Iterator[Text]:
         """What is to be said of several robots, each sentence once."""
-        advice = sentences.advice(self._results)
-        if self._terminal and (advice or not self._quiet):
+        results = self._results
+        wrong = [result.robot for result in results if result.differs]
+        if self._terminal and (wrong or not self._quiet):
             yield text()
-        if advice:
-            yield self._wrapped("", text(("differs: ", "bold red"), (advice, "")))
+        if wrong:
+            advice = (
+                "look at `templates` of your own if there are some, else please report it as a bug, with the source"
+            )
+            said = f"{listed(wrong)} as generated, whatever you edited; {advice}"
+            yield self._wrapped("", text(("differs: ", "bold red"), (said, "")))
         if self._quiet:
             return
-        if self._is_table and any(result.deviations for result in self._results):
-            reference = next((result.reference for result in self._results if result.reference), "the reference")
+        if self._is_table and any(result.deviations for result in results):
+            reference = next((result.reference for result in results if result.reference), "the reference")
             legend = f"errors: largest difference from {reference} relative to the largest value of its kind and unit, "
             yield self._wrapped("", text((f"{legend}or to 1; up to {TOLERANCE:.0e} agrees", "dim")))
-        for label, said in (
-            ("not checked", [result.unchecked for result in self._results]),
-            ("for the comparison", [result.notes for result in self._results]),
-        ):
-            shared = sentences.shared(self._results, said)
+        for label, field in (("not checked", "unchecked"), ("for the comparison", "notes")):
+            robots: dict[str, list[str]] = {}
+            for result in results:
+                for sentence in dict.fromkeys(getattr(result, field)):
+                    robots.setdefault(sentence, []).append(result.robot)
+            shared = []
+            for sentence, names in robots.items():
+                who = "all robots" if len(names) == len(results) else listed(names)
+                shared.append(sentence if len(results) == 1 else f"{sentence} ({who})")
             if self._terminal and shared:
                 yield text((f"{label}:", "bold"))
-                yield from (self._wrapped("  ", text((sentence, ""))) for sentence in shared)
+                yield from (self._wrapped(_GAP, text((sentence, ""))) for sentence in shared)
             else:
                 yield from (text((f"{label}: {sentence}", "")) for sentence in shared)
-        if len(self._results) > 1:
-            yield self._wrapped("", text((sentences.tally(self._results, self._strict), "bold")))
+        if len(results) > 1:
+            words = [verdict(result, self._strict) for result in results]
+            counts = {word: words.count(word) for word in _STYLES if word in words}
+            said = ", ".join(f"{n} {'differ' if word == 'differs' and n > 1 else word}" for word, n in counts.items())
+            yield self._wrapped("", text((f"{counted(len(results), 'robot')}: {said}", "bold")))
 
-    def _table_rows(self, result: CheckResult) -> Iterator[Text]:
+    def _table_rows(self, result: CheckResult, marks: Sequence[tuple[str, str]]) -> Iterator[Text]:
         """The row of a robot, below the titles if it is the first one, and above what has no room in it."""
         if not self._has_titles:
             self._has_titles = True
-            for titles in zip(*(column.titles for column in self._columns), strict=True):
-                yield self._row("", "", [(title, "dim") for title in titles])
-        worst = [largest(result.deviations, quantities) for quantities in (POSES, EFFORTS)]
-        elements = [one.element if one and one.difference else "" for one in worst]
-        cells = [(result.robot, "bold"), *_size_cells(result)]
-        for one, element in zip(worst, elements, strict=True):
-            figure = sentences.figure(one.relative) if one else _NONE
-            cells.append((figure, "dim" if one is None else "green" if agrees(one) else "bold red"))
-            cells += [(element, "dim")] if self._elements_beside else []
-        yield self._row(*_STYLES[self._verdict(result)], [*cells, (sentences.duration(result.seconds), "")])
-        if not self._elements_beside and any(elements):
-            named = sentences.listed(list(dict.fromkeys(filter(None, elements))))
-            yield text((f"{_INDENT}largest at {named}", "dim"))
+            for titles in zip(*_TITLES, strict=True):
+                yield self._row([("  ", "")] if self._marks else [], [(title, "dim") for title in titles])
+        cells = [(result.robot, "bold")]
+        cells.append((str(len(result.compiled)), "") if result.compiled else (_NONE, "dim"))
+        model = max(result.compiled, key=lambda one: one.unknowns, default=None)
+        sizes = (f"{model.unknowns:,}", f"{model.states:,}") if model and model.unknowns else ()
+        cells += [(size, "") for size in sizes] or [(_NONE, "dim")] * 2
+        elements = []
+        for quantities in (POSES, EFFORTS):
+            one = largest(result.deviations, quantities)
+            elements.append(one.element if one and one.difference else "")
+            style = "dim" if one is None else "green" if agrees(one) else "bold red"
+            cells += [(figure(one.relative) if one else _NONE, style), (elements[-1], "dim")]
+        yield self._row(marks, [*cells, (duration(result.seconds), "")])
+        if not self._element and any(elements):
+            named = listed(list(dict.fromkeys(filter(None, elements))))
+            yield text((f"{self._indent}largest at {named}", "dim"))
 
-    def _row(self, mark: str, style: str, cells: Sequence[tuple[str, str]]) -> Text:
-        line = text((f"{mark:<2}", style)) if self._marks else text()
-        return line.append_text(_row(self._columns, cells))
-
-    def _block(self, result: CheckResult) -> Iterator[Text]:
-        """All in words: in one line, or on a terminal with a line for each finding."""
-        mark, style = _STYLES[self._verdict(result)]
-        marks = [(f"{mark} ", style)] if self._marks else []
-        if not self._terminal:
-            yield text(*marks, (f"{result.robot}: {sentences.summary(result, self._strict)}", ""))
-            return
-        time = sentences.duration(result.seconds)
-        yield text(*marks, (result.robot, "bold"), (": ", ""), (self._verdict(result), style), (f", {time}", ""))
-        for said in sentences.findings(result):
-            yield self._wrapped(self._indent, text((said, "")))
-
-    def _verdict(self, result: CheckResult) -> str:
-        return sentences.verdict(result, self._strict)
+    def _row(self, marks: Sequence[tuple[str, str]], cells: Sequence[tuple[str, str]]) -> Text:
+        shown = [(cell, width, not _WIDTHS[k]) for k, (cell, width) in enumerate(zip(cells, self._widths, strict=True))]
+        return text(*marks).append_text(_row([one for one in shown if one[1]]))
 
     def _wrapped(self, lead: str, line: Text) -> Text:
         """A line that is broken between words if it is too long for the terminal; what follows stands below it."""
@@ -154,6 +185,17 @@ class CheckReport:
 
 def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
     """What was checked of a robot as plain data; with `strict`, what an edit does is a difference as well."""
+
+    def deviations(found: Sequence[Deviation]) -> list[dict[str, Any]]:
+        values = []
+        for one in found:
+            numbers = {name: getattr(one, name) for name in ("difference", "relative", "value", "size")}
+            finite = {name: number if math.isfinite(number) else None for name, number in numbers.items()}
+            reason = "" if finite["difference"] is not None else "the simulation gave no number"
+            named = {"quantity": one.quantity, "element": one.element}
+            values.append({**named, **finite, "unit": one.unit, "reason": reason})
+        return values
+
     return {
         "name": result.robot,
         "package": result.package,
@@ -162,7 +204,7 @@ def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
         "built": result.built,
         "in_step": result.in_step,
         "conflicting": result.conflicting,
-        "summary": sentences.summary(result, strict),
+        "summary": summary(result, strict),
         "compiled": [
             {"model": one.model, "unknowns": one.unknowns or None, "states": one.states if one.unknowns else None}
             for one in result.compiled
@@ -170,122 +212,238 @@ def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
         "reference": result.reference,
         "tolerance": TOLERANCE,
         "agrees": None if result.deviations is None else not result.differs,
-        "deviations": [_deviation_json(one) for one in result.deviations or ()],
+        "deviations": deviations(result.deviations or ()),
         "edits": [
-            {
-                "files": list(one.files),
-                "owners": list(one.owners),
-                "deviations": [_deviation_json(each) for each in one.deviations],
-            }
+            {"files": list(one.files), "owners": list(one.owners), "deviations": deviations(one.deviations)}
             for one in result.effects
         ],
-        "notes": list(result.notes),
-        "unchecked": list(result.unchecked),
-        "gaps": list(result.gaps),
+        **{name: list(getattr(result, name)) for name in ("notes", "unchecked", "gaps")},
         "seconds": result.seconds,
         "megabytes": result.megabytes,
         "diagnostics": [finding_values(diagnostic) for diagnostic in result.diagnostics],
     }
 
 
-def _deviation_json(found: Deviation) -> dict[str, Any]:
-    """How far a quantity of an element is from the reference; JSON has no words for what is no number."""
-    numbers = {name: getattr(found, name) for name in ("difference", "relative", "value", "size")}
-    finite = {name: number if math.isfinite(number) else None for name, number in numbers.items()}
-    reason = "" if finite["difference"] is not None else "the simulation gave no number"
-    return {"quantity": found.quantity, "element": found.element, **finite, "unit": found.unit, "reason": reason}
+def summary(result: CheckResult, strict: bool) -> str:
+    """What was found out, as the rest of a line that names the robot."""
+    return f"{verdict(result, strict)}: {'; '.join([*_findings(result), duration(result.seconds)])}"
 
 
-def _next_step(result: CheckResult) -> str:
-    """What to do about a package that is not what a build would leave."""
-    if not result.built:
-        return "there is no package yet, so what `urdfsync build` would write was checked"
-    if result.conflicting:
-        return "your edits and what is new contradict each other; settle that with `urdfsync resolve`"
-    return "the package is not what a build would leave; run `urdfsync build`"
+def verdict(result: CheckResult, strict: bool) -> str:
+    """The status in a word or two."""
+    status = result.status(strict)
+    if status is not CheckStatus.DIFFERS or result.differs or (strict and result.is_changed_by_edits):
+        return str(status)
+    return "out of step" if result.built else "not built"
 
 
-def _columns(robots: Sequence[str], width: int) -> tuple[list[Column], bool]:
-    """The columns of the table, and whether `width` has room for those with the worst elements among them."""
-    pose, torque = Column(("pose", "error"), 7), Column(("torque", "error"), 7)
-    first = [
-        Column(("", "robot"), min(max((5, *map(len, robots))), _WIDEST_NAME), left=True),
-        Column(("models", "compile"), 7),
-        Column(("equations", "= unknowns"), 10),
-        Column(("", "states"), 6),
-    ]
-    time = Column(("", "time"), 6)
-    taken = sum(column.width + len(_GAP) for column in (*first, pose, torque, time)) - len(_GAP)
-    least, most = _ELEMENT_WIDTHS
-    room = (width - taken) // 2 - len(_GAP)
-    if room < least:
-        return [*first, pose, torque, time], False
-    element = Column(("", "largest at"), min(room, most), left=True)
-    return [*first, pose, element, torque, element, time], True
+def _findings(result: CheckResult) -> list[str]:
+    """What was found, step by step: what failed, what compiles, how far it agrees with the reference."""
+    errors = sum(one.severity is Severity.ERROR for one in result.diagnostics)
+    said = [counted(errors, "error")] if errors else []
+    if result.compiled:
+        count, model = len(result.compiled), max(result.compiled, key=lambda model: model.unknowns)
+        said.append("1 model compiles" if count == 1 else f"{count} models compile")
+        if model.unknowns:
+            size = f"{model.unknowns:,} equations = unknowns and {counted(model.states, 'state')}"
+            said.append(size if count == 1 else f"{size} in the largest")
+    elif not errors:
+        said.append("syntax and layout")
+    for name, quantities in _KINDS:
+        worst = largest(result.deviations, quantities)
+        if worst is None:
+            continue
+        wrong = [one for one in result.deviations or () if one.quantity in quantities and not agrees(one)]
+        element = f"{_quantity(worst)} of {worst.element}" if worst.quantity is Quantity.REACTION else worst.element
+        place = "" if quantities is MASSES else f" ({element})"
+        if wrong and quantities is MASSES:
+            said.append(_differences(wrong))  # a mass and a centre have no unit in common
+        elif wrong:
+            differs = f"differ by {_amount(worst)}" if math.isfinite(worst.difference) else "are not finite"
+            said.append(f"{name} {differs}{place}")
+        else:
+            said.append(
+                f"{name} agree to {figure(worst.relative)}{place}" if worst.difference else f"{name} agree exactly"
+            )
+    return said
 
 
-def _row(columns: Sequence[Column], cells: Sequence[tuple[str, str]]) -> Text:
-    """Cells in their columns; what does not fit ends in an ellipsis."""
+def reference_differences(result: CheckResult) -> list[str]:
+    """How what is generated differs from the reference: a sentence for poses, for torques and for masses."""
+    wrong = [one for one in result.deviations or () if not agrees(one)]
+    return list(_phrases(wrong, f" from {result.reference or 'the reference'}", with_size=True))
+
+
+def effect(found: EditEffect) -> str:
+    """What an edit did, as a sentence without a full stop."""
+    said = list(_phrases(found.deviations, "", with_size=False, owners=found.owners))
+    every = ", all" if len(said) > 1 else ""
+    edited, verb = _edited_files(found), "was" if len(found.files) == 1 else "were"
+    if len(found.files) > MOST_SINGLE_EDITS:
+        edited = f"{edited} ({', '.join(found.files[: _NAMED_FILES - 1])}, …)"
+        return f"{'; '.join(said)}{every} because of {edited}" if said else f"{edited} change nothing that is compared"
+    edited = f"{edited} {verb} edited"
+    return f"{'; '.join(said)}{every} since {edited}" if said else f"{edited}; nothing that is compared changed"
+
+
+def _edited_files(found: EditEffect) -> str:
+    """The edited files, or how many they are: `a.mo and b.mo`, `12 edited files`."""
+    return f"{len(found.files)} edited files" if len(found.files) > MOST_SINGLE_EDITS else listed(found.files)
+
+
+def _phrases(
+    deviations: Sequence[Deviation], against: str, *, with_size: bool, owners: Collection[str] = ()
+) -> Iterator[str]:
+    """A phrase for each kind of what differs; `owners` are the elements that were edited.
+
+    The element comes first that is nearest to the cause: one that was edited. Else, since a link that is displaced
+    takes along all that hangs on it, the first from the root; and since each joint carries all that is behind it and
+    the root carries everything, the last joint.
+    """
+    for _, quantities in _KINDS:
+        elements: dict[str, list[Deviation]] = {}
+        for one in deviations:
+            if one.quantity in quantities:
+                elements.setdefault(one.element, []).append(one)
+        if not elements:
+            continue
+        outwards = list(elements.items())
+        (first, leading), *others = sorted(
+            outwards[::-1] if quantities is EFFORTS else outwards,
+            key=lambda item: (item[0] not in owners, item[1][0].quantity is Quantity.REACTION),
+        )
+        few = others if len(others) < _NAMED_ELEMENTS else others[: _NAMED_ELEMENTS - 1]
+        more = []
+        for element, found in few:  # what differs is told unless that is clear from the first one and the units
+            by = [f"{'by ' if math.isfinite(one.difference) else ''}{_amount(one)}" for one in found]
+            nouns = [_quantity(one) for one in found]
+            if nouns == [_quantity(one) for one in leading] and (len(by) == 1 or found[0].quantity in POSES):
+                more.append(" and ".join([f"{element} {by[0]}", *(one.removeprefix("by ") for one in by[1:])]))
+            else:
+                rest = [f"{noun} {one}" for noun, one in zip(nouns[1:], by[1:], strict=True)]
+                more.append(" and ".join([f"{nouns[0]} of {element} {by[0]}", *rest]))
+        more += [f"and {len(others) - len(few)} more"] if len(few) < len(others) else []
+        brackets = f" ({', '.join(more)})" if more else ""
+        yield f"{first}: {_differences(leading, against, with_size)}{brackets}"
+
+
+def _differences(deviations: Sequence[Deviation], against: str = "", with_size: bool = False) -> str:
+    """How one element differs: `torque differs by 3.2 %, 0.4 N·m where up to 12.5 N·m are expected`."""
+    said, verb, glue = [], f"differs{against} ", " and "
+    for one in deviations:
+        if not math.isfinite(one.difference):
+            said.append(f"{_quantity(one)} is not finite")
+            continue
+        by, more = _amount(one), ""
+        if with_size and by.endswith("%"):
+            up, glue = "" if one.quantity is Quantity.MASS else "up to ", ", and "
+            more = f", {_absolute(one)} where {up}{_digits(one.value)} {one.unit} are expected"
+        said.append(f"{_quantity(one)} {verb}by {by}{more}")
+        verb = ""
+    return glue.join(said)
+
+
+def _quantity(one: Deviation) -> str:
+    """What differs, in a word or three."""
+    load = "force" if one.unit == "N" else "torque"
+    if one.quantity is Quantity.EFFORT:
+        return load
+    if one.quantity is Quantity.REACTION:
+        return f"reaction {load}"
+    turns = one.quantity is Quantity.ACCELERATION and one.unit.startswith("rad")
+    return f"angular {one.quantity}" if turns else str(one.quantity)
+
+
+def _amount(one: Deviation) -> str:
+    """How far it differs: in percent of its own greatest value where that says something, else with its unit."""
+    percent = 100 * one.difference / one.value if one.value else math.inf
+    is_geometric = one.quantity in (Quantity.POSITION, Quantity.CENTRE, Quantity.ORIENTATION)
+    if is_geometric or not percent < _LARGEST_PERCENT:
+        return _absolute(one)
+    if percent < _SMALLEST_PERCENT:
+        return f"less than {_SMALLEST_PERCENT:g} %"
+    return f"{_digits(percent, 2)} %" if percent < 10 else f"{percent:.0f} %"
+
+
+def _absolute(one: Deviation) -> str:
+    """How far it differs, with its unit; lengths in mm, elements of a rotation matrix as the angle that they show."""
+    value = one.difference
+    if not math.isfinite(value):
+        return "not finite"
+    if one.quantity in (Quantity.POSITION, Quantity.CENTRE):
+        return f"{_digits(1000 * value)} mm" if value < 1 else f"{_digits(value)} m"
+    if one.quantity is Quantity.ORIENTATION:
+        return f"{_digits(math.degrees(2 * math.asin(min(value / 2, 1))))}°"
+    return f"{_digits(value)} {one.unit}".rstrip()
+
+
+def figure(value: float) -> str:
+    """A difference that is held against a tolerance: `2.2e-15`."""
+    if not math.isfinite(value):
+        return "none"
+    return f"{value:.1e}" if value else "0"
+
+
+def _digits(value: float, count: int = 3) -> str:
+    """A number with so many digits that count."""
+    return f"{float(f'{value:.{count}g}'):.10g}"
+
+
+def duration(seconds: float) -> str:
+    """A time in few characters: `0.3 s`, `12.4 s`, `183 s`, `12 min`."""
+    if seconds >= 600:
+        return f"{seconds / 60:.0f} min"
+    return f"{seconds:.1f} s" if seconds < 99.95 else f"{seconds:.0f} s"
+
+
+def listed(names: Sequence[str]) -> str:
+    """`a`, `a and b`, `a, b and c`, `a, b and 5 more`."""
+    if len(names) > _NAMED_FILES:
+        names = [*names[: _NAMED_FILES - 1], f"{len(names) - _NAMED_FILES + 1} more"]
+    return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else "".join(names)
+
+
+def _row(cells: Sequence[tuple[tuple[str, str], int, bool]]) -> Text:
+    """Cells with their widths, and whether they are aligned to the left; what does not fit ends in an ellipsis."""
     line = text()
-    for count, (column, cell) in enumerate(zip(columns, cells, strict=True)):
+    for count, (cell, width, is_left) in enumerate(cells):
         content = text(cell)
-        content.truncate(column.width, overflow="ellipsis")
-        space = " " * (column.width - content.cell_len)
+        content.truncate(width, overflow="ellipsis")
+        space = " " * (width - content.cell_len)
         line.append(_GAP if count else "")
-        line = line.append_text(content).append(space) if column.left else line.append(space).append_text(content)
+        line = line.append_text(content).append(space) if is_left else line.append(space).append_text(content)
     line.rstrip()
     return line
 
 
-def _size_cells(result: CheckResult) -> list[tuple[str, str]]:
-    """How many models compile, and the size of the largest one."""
-    count = (str(len(result.compiled)), "") if result.compiled else (_NONE, "dim")
-    model = max(result.compiled, key=lambda model: model.unknowns, default=None)
-    if model is None or not model.unknowns:
-        return [count, (_NONE, "dim"), (_NONE, "dim")]
-    return [count, (f"{model.unknowns:,}", ""), (f"{model.states:,}", "")]
-
-
-def _with_element(said: str, style: str) -> Text:
-    """A sentence about an element, whose name stands out; one without is styled as a whole."""
-    element, colon, rest = said.partition(": ")
-    return text((element, style), (f"{colon}{rest}", ""))
-
-
 def _details(result: CheckResult, width: int) -> Iterator[Text]:
-    """Each model that compiles, each quantity of each element, and what edits do to it."""
-    sizes = [(f"{m.unknowns:,}", f"{m.states:,}") if m.unknowns else (_NONE, _NONE) for m in result.compiled]
-    models = [((one.model, *size), "") for one, size in zip(result.compiled, sizes, strict=True)]
-    yield from _listing(("model", "equations = unknowns", "states"), models, width)
-    titles = ("quantity", "error", "difference", "of up to")
-    rows = [(_deviation_cells(one), "" if agrees(one) else "red") for one in result.deviations or ()]
-    yield from _listing(("element", *titles), rows, width)
-    for effect in result.effects:
-        rows = [(_deviation_cells(one), "") for one in effect.deviations]
-        yield from _listing((f"since {sentences.edited_files(effect)}", *titles), rows, width)
-
-
-def _deviation_cells(one: Deviation) -> tuple[str, ...]:
-    value = "" if one.quantity is Quantity.ORIENTATION else f"{sentences.digits(one.value)} {one.unit}"  # it is about 1
-    figure, difference = sentences.figure(one.relative), sentences.absolute(one)
-    return one.element, sentences.quantity(one), figure, difference, value
-
-
-def _listing(titles: Sequence[str], rows: Sequence[tuple[Sequence[str], str]], width: int) -> Iterator[Text]:
-    """Cells with their style as a table as wide as they are; without room the last columns go, then names are cut."""
+    """Each model that compiles, each quantity of each element, and what edits do to it, in tables."""
     from rich.cells import cell_len
 
-    if not rows:
-        return
-    columns = [
-        Column((title,), max(cell_len(visible(cell)) for cell in cells), left=title in (titles[0], "quantity"))
-        for title, *cells in zip(titles, titles, *(row for row, _ in rows), strict=True)
+    def row(one: Deviation) -> tuple[str, ...]:
+        value = "" if one.quantity is Quantity.ORIENTATION else f"{_digits(one.value)} {one.unit}"  # it is about 1
+        return one.element, _quantity(one), figure(one.relative), _absolute(one), value
+
+    sizes = [(f"{one.unknowns:,}", f"{one.states:,}") if one.unknowns else (_NONE, _NONE) for one in result.compiled]
+    models = [((one.model, *size), "") for one, size in zip(result.compiled, sizes, strict=True)]
+    titles = ("quantity", "error", "difference", "of up to")
+    found = [(row(one), "" if agrees(one) else "red") for one in result.deviations or ()]
+    tables: list[tuple[str, tuple[str, ...], Sequence[tuple[tuple[str, ...], str]]]] = [
+        ("model", ("equations = unknowns", "states"), models),
+        ("element", titles, found),
     ]
-    while (room := width - len(_INDENT) - sum(len(_GAP) + column.width for column in columns[1:])) < 16:
-        if len(columns) == 3:
-            break
-        columns.pop()
-    columns[0] = columns[0]._replace(width=min(columns[0].width, max(room, 16)))
-    for cells, style in [(titles, "dim"), *rows]:
-        styled = [(cell, style) for cell in cells[: len(columns)]]
-        yield text((_INDENT, "")).append_text(_row(columns, styled))
+    tables += [
+        (f"since {_edited_files(one)}", titles, [(row(each), "") for each in one.deviations]) for one in result.effects
+    ]
+    for name, columns, rows in tables:
+        if not rows:
+            continue
+        lines = [((name, *columns), "dim"), *rows]
+        widths = [max(cell_len(visible(cells[k])) for cells, _ in lines) for k in range(len(columns) + 1)]
+        while (room := width - 4 - sum(len(_GAP) + one for one in widths[1:])) < 16 and len(widths) > 3:
+            widths.pop()  # without room the last columns go, then names are cut
+        widths[0] = min(widths[0], max(room, 16))
+        for cells, style in lines:
+            shown = zip(cells, widths, (name, *columns), strict=False)
+            styled = [((cell, style), size, title in (name, "quantity")) for cell, size, title in shown]
+            yield text(("    ", "")).append_text(_row(styled))

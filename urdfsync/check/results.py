@@ -7,7 +7,7 @@ import json
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, TypeVar
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -26,7 +26,6 @@ EFFORTS = (Quantity.EFFORT, Quantity.REACTION, Quantity.ACCELERATION)
 MASSES = (Quantity.MASS, Quantity.CENTRE)
 
 T = TypeVar("T")
-CompilerName: TypeAlias = Literal["rumoca", "omc"]
 
 
 class CheckOptions(msgspec.Struct, frozen=True):
@@ -36,7 +35,8 @@ class CheckOptions(msgspec.Struct, frozen=True):
     """Whether poses, efforts and masses are compared with the domain's reference."""
     strict: bool = False
     """Whether a difference that comes from an edit counts as one."""
-    compiler: CompilerName = "rumoca"
+    compiler: str = "rumoca"
+    """One of `compilers.COMPILERS`."""
     jobs: int | None = None
     """How many robots may be checked at the same time; None for what cores and memory allow."""
     timeout: float = 600.0
@@ -49,6 +49,8 @@ class CheckOptions(msgspec.Struct, frozen=True):
     """Where to look for packages after the configured folders."""
     compilers: int = 1
     """How many compilers may run at the same time for one robot."""
+    executor: str = ""
+    """Address of a Dask scheduler whose workers check robots; empty for processes of this machine."""
 
 
 class CheckStatus(enum.StrEnum):
@@ -83,8 +85,8 @@ class EditEffect(msgspec.Struct, frozen=True):
     """The elements that the files belong to, in the domain's words."""
 
 
-class CheckResult(msgspec.Struct, frozen=True):
-    """What was checked of one robot, and what came out."""
+class CheckResult(msgspec.Struct):
+    """What was checked of one robot, and what came out. The check fills it, and nobody changes it afterwards."""
 
     robot: str
     package: str
@@ -128,6 +130,10 @@ class CheckResult(msgspec.Struct, frozen=True):
         """Whether edits of the user change what is compared."""
         return any(effect.deviations for effect in self.effects)
 
+    def add(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Add findings, each once."""
+        self.diagnostics = tuple(dict.fromkeys((*self.diagnostics, *diagnostics)))
+
     def status(self, strict: bool) -> CheckStatus:
         """The result in one word; with `strict`, a difference that comes from an edit counts as well."""
         if self.failed:
@@ -137,13 +143,23 @@ class CheckResult(msgspec.Struct, frozen=True):
         return CheckStatus.INCOMPLETE if self.gaps else CheckStatus.RIGHT
 
 
+class Step(msgspec.Struct, frozen=True):
+    """What is being done, how far the check of the robot is (0 to 1), and what is known so far."""
+
+    what: str
+    done: float
+    result: CheckResult
+    is_last: bool = False
+    """Whether nothing more comes after this result."""
+
+
 def to_text(value: Any) -> str:
     """A line of JSON; unlike that of msgspec it has infinite numbers."""
     return json.dumps(msgspec.to_builtins(value, enc_hook=str))
 
 
 def from_text(text: str | bytes, kind: type[T]) -> T:
-    """What `to_text` gave a text for. Raises ValueError for any other text."""
+    """The value that `to_text` gave a text for. Raises ValueError for any other text."""
     return msgspec.convert(json.loads(text), kind, dec_hook=lambda path, value: path(value))
 
 

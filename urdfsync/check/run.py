@@ -1,123 +1,214 @@
-"""Checks many robots, each in a process of its own, as many at a time as cores and memory allow."""
+"""Checks many robots, each in a process of its own: as many at a time as cores and memory allow, or on a Dask cluster.
+
+The reference is native code as the compilers are, and reading, rendering and comparing need memory: none of it is in
+the process of whoever wants to know.
+"""
 
 from __future__ import annotations
 
+import contextlib
 import os
+import queue
+import subprocess
+import tempfile
 import threading
+import time
 from collections.abc import Collection, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
+from typing import IO, cast
 
 import msgspec
+import psutil
 
-from urdfsync import machine
-from urdfsync.check import process
+from urdfsync import machine, processes
+from urdfsync.check import compilers
 from urdfsync.check.cache import UserCache
-from urdfsync.check.collector import Step
-from urdfsync.check.compilers import compiler
-from urdfsync.check.compilers.compiler import exit_cause
-from urdfsync.check.process import Ending, RobotOrder
-from urdfsync.check.results import CheckOptions, CheckResult
+from urdfsync.check.results import CheckOptions, CheckResult, Step, from_text, to_text
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import Progress
+from urdfsync.engine.pool import connect_cluster
 
+COMMAND = tuple(processes.python_module("urdfsync.check"))
+"""Starts the process that checks one robot."""
 _EXPECTED_MEMORY = 1.5e9  # bytes that the check of a robot usually takes, at most
 _SHARE_OF_FREE_MEMORY = 0.9
-_PAUSE = 0.1  # s between two looks at what the processes do
+_PAUSE = 0.1  # s between two reports of progress
+_INTERVAL = 0.2  # s between two looks at memory and clock
+_PATIENCE = 10.0  # s for a process to end after its last answer
+
+
+class RobotOrder(msgspec.Struct, frozen=True):
+    """A robot to check."""
+
+    config: str
+    """The configuration file, absolute."""
+    robot: str
+    package: str
+    folder: str
+    """The working folder: messages name files as they are seen from there."""
+    options: CheckOptions
+    workspace: str = ""
+    """An empty folder for copies of the package."""
 
 
 def check_robots(
-    config: Config,
-    robots: Sequence[RobotConfig],
-    options: CheckOptions,
-    progress: Progress,
-    command: Sequence[str] = process.COMMAND,
+    config: Config, robots: Sequence[RobotConfig], options: CheckOptions, progress: Progress
 ) -> Iterator[CheckResult]:
     """Check robots; the results come in their order, each as soon as it and those before it are known.
 
-    `progress` is told what is being done, and how much, in percent of one robot; `command` starts the process for one.
-    Raises CompilerError if what a check needs is not installed, CacheError if there is no place for its cache.
+    `progress` is told what is being done, and how much, in percent of one robot. Raises CompilerError if what a check
+    needs is not installed, CacheError if there is no place for its cache, ConfigError if no cluster answers.
     """
-    compiler.require(options.compiler)
+    cluster: Executor | None = connect_cluster(options.executor) if options.executor else None
+    if cluster is None:
+        compilers.require(options.compiler)
     cache = UserCache.default()
     cache.prepare()
     cache.trim()
-    budget = options.memory * 1e9 if options.memory else _SHARE_OF_FREE_MEMORY * _free_memory()
+    budget = options.memory * 1e9 if options.memory else _SHARE_OF_FREE_MEMORY * psutil.virtual_memory().available
     jobs = min(options.jobs or machine.cores(), len(robots)) or 1
     count = max(1, min(jobs, int(budget // _EXPECTED_MEMORY)))
     options = msgspec.structs.replace(options, compilers=max(1, machine.cores() // jobs))
-    checks = _Checks(config, options, command)
+    folder = os.getcwd()  # noqa: PTH109 - as a text
+    orders = [RobotOrder(str(config.file), one.name, one.target.package, folder, options) for one in robots]
+    steps: dict[str, Step] = {}
+    stopped = threading.Event()
+    futures: dict[str, Future[CheckResult | None]] = {}
 
-    def await_all(futures: Collection[Future[CheckResult | None]]) -> None:
-        while wait(futures, _PAUSE).not_done:
-            steps = list(checks.steps.values())
-            what = ", ".join(step.what for step in steps if step.what) or "checking"
-            progress(what, int(sum(100 * step.done for step in steps)), 100 * len(robots))
+    def await_all(waiting: Collection[Future[CheckResult | None]]) -> None:
+        while wait(waiting, _PAUSE).not_done:
+            begun = [step for name, step in list(steps.items()) if not futures[name].done()]
+            what = ", ".join(step.what for step in begun if step.what) or "checking"
+            percent = sum(100.0 * future.done() for future in futures.values()) + sum(100 * step.done for step in begun)
+            progress(what, int(percent), 100 * len(robots))
 
-    with ThreadPoolExecutor(count) as pool:
+    with cluster or ThreadPoolExecutor(count) as pool:
         try:
-            futures = {one.name: pool.submit(checks.check, one, budget / count, alone=count == 1) for one in robots}
-            for robot in robots:
-                await_all([futures[robot.name]])
-                while (result := futures[robot.name].result()) is None:  # there was too little memory beside others
+            for order in orders:
+                if cluster:
+                    futures[order.robot] = pool.submit(check_on_worker, order)
+                else:
+                    futures[order.robot] = pool.submit(
+                        _check, order, budget / count, steps, stopped, is_alone=count == 1
+                    )
+            for order in orders:
+                await_all([futures[order.robot]])
+                while (result := _result(futures[order.robot], order, cluster)) is None:  # too little memory was left
                     await_all(futures.values())
-                    futures[robot.name] = pool.submit(checks.check, robot, budget, alone=True)
-                    await_all([futures[robot.name]])
+                    futures[order.robot] = pool.submit(_check, order, budget, steps, stopped, is_alone=True)
+                    await_all([futures[order.robot]])
                 cache.trim()
                 yield result
         finally:
-            checks.stopped.set()
-            pool.shutdown(cancel_futures=True)
+            stopped.set()
+            for future in futures.values():
+                future.cancel()
 
 
-class _Checks:
-    """The checks of one command, each made by a thread that waits for a process."""
+def _result(future: Future[CheckResult | None], order: RobotOrder, cluster: Executor | None) -> CheckResult | None:
+    if cluster is None:
+        return future.result()
+    try:
+        return future.result()
+    except Exception as error:  # noqa: BLE001 - a worker is lost in one of many ways
+        found = _failure(order, "check-crashed", f"the worker that checked it is lost: {error!r}", "try again")
+        return CheckResult(order.robot, order.package, diagnostics=(found,))
 
-    def __init__(self, config: Config, options: CheckOptions, command: Sequence[str]) -> None:
-        self._config, self._options, self._command = config, options, command
-        self.steps: dict[str, Step] = {}
-        """The last step of each robot that was begun."""
-        self.stopped = threading.Event()
 
-    def check(self, robot: RobotConfig, memory: float, *, alone: bool) -> CheckResult | None:
-        """Check a robot with so many bytes; None if they are too few, unless it is `alone` and has them all."""
-        name, options = robot.name, self._options
-        self.steps[name] = Step("", 0.0, CheckResult(name, robot.target.package))
+def check_on_worker(order: RobotOrder) -> CheckResult | None:
+    """Check a robot on a worker of a cluster, which sees the project at the same path."""
+    memory = order.options.memory or _SHARE_OF_FREE_MEMORY * psutil.virtual_memory().available / 1e9
+    return _check(order, memory * 1e9, {}, threading.Event(), is_alone=True)
 
-        def tell(step: Step) -> None:
-            self.steps[name] = step
 
-        order = RobotOrder(str(self._config.file), name, os.getcwd(), options)  # noqa: PTH109 - as a text
-        report = "report it, with the source"
+def _check(
+    order: RobotOrder, memory: float, steps: dict[str, Step], stopped: threading.Event, *, is_alone: bool
+) -> CheckResult | None:
+    """Check a robot in a process of at most so many bytes; None if they are too few, unless it `is_alone`.
+
+    `steps` gets each step under the robot's name. Once `stopped` is set, nobody wants to know any more. At the end
+    nothing that the process started is left.
+    """
+    name, limit = order.robot, order.options.timeout
+    step = steps[name] = Step("", 0.0, CheckResult(name, order.package))
+    report, fault = "report it, with the source", None
+    deadline, lines = time.monotonic() + limit, queue.SimpleQueue[bytes]()
+    with tempfile.TemporaryFile() as errors, UserCache.default().workspace() as workspace:
+        process = subprocess.Popen(  # noqa: S603 - a command of ours
+            COMMAND,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            env={**os.environ, **processes.importable()},
+            start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends this process
+        )
+        stdin, stdout = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stdout)
+
+        def read() -> None:
+            for line in stdout:
+                lines.put(line)
+            lines.put(b"")
+
+        reader = threading.Thread(target=read, daemon=True)
         try:
-            ending, code, words = process.run_process(order, tell, options.timeout, memory, self.stopped, self._command)
-        except process.StoppedError:
-            return self.steps[name].result
+            stdin.write(to_text(msgspec.structs.replace(order, workspace=str(workspace))).encode() + b"\n")
+            stdin.flush()
+            reader.start()
+            looked = 0.0
+            while fault is None:
+                with contextlib.suppress(queue.Empty):
+                    if not (line := lines.get(timeout=_INTERVAL)):
+                        process.wait(_PATIENCE)  # it has closed its stdout
+                        break
+                    step = steps[name] = from_text(line, Step)
+                if stopped.is_set():
+                    return step.result
+                now = time.monotonic()
+                if now >= deadline:
+                    hint = "allow more with `urdfsync check --timeout`"
+                    fault = _failure(order, "check-out-of-time", f"it was not done after {limit:g} s", hint)
+                elif now - looked >= _INTERVAL:
+                    looked = now
+                    if sum(one.memory_info().rss for one in _family(process)) > memory:
+                        if not is_alone:
+                            steps[name] = Step(f"{name}: waits for more memory", 0.0, step.result)
+                            return None
+                        message = f"it takes more than the {memory / 1e9:.2g} GB that it may"
+                        hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
+                        fault = _failure(order, "check-out-of-memory", message, hint)
+        except subprocess.TimeoutExpired:
+            pass  # it is killed now, and its exit code says so
         except (ValueError, OSError) as error:
-            return self._failed(name, "check-crashed", f"its process can't be used: {error!r}", report)
-        if ending is Ending.OUT_OF_MEMORY and not alone:
-            self.steps[name] = Step(f"{name}: waits for more memory", 0.0, self.steps[name].result)
-            return None
-        if ending is Ending.OUT_OF_MEMORY:
-            message = f"it takes more than the {memory / 1e9:.2g} GB that it may"
-            hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
-            return self._failed(name, "check-out-of-memory", message, hint)
-        if ending is Ending.OUT_OF_TIME:
-            message = f"it was not done after {options.timeout:g} s"
-            return self._failed(name, "check-out-of-time", message, "allow more with `urdfsync check --timeout`")
-        if code or not self.steps[name].is_last:
-            message = ": ".join([f"its process ended with {exit_cause(code)}", *words.splitlines()[-1:]])
-            return self._failed(name, "check-crashed", message, report)
-        return self.steps[name].result
+            fault = _failure(order, "check-crashed", f"its process can't be used: {error!r}", report)
+        finally:
+            family = _family(process)
+            process.kill()
+            for one in family:
+                with contextlib.suppress(psutil.Error):
+                    one.kill()
+            process.wait()
+            stdin.close()
+            if reader.ident:
+                reader.join(_PATIENCE)
+            stdout.close()
+        errors.seek(0)
+        words = errors.read().decode(errors="replace").strip().splitlines()[-1:]
+    if fault is None and (process.returncode or not step.is_last):
+        message = ": ".join([f"its process ended with {processes.exit_cause(process.returncode)}", *words])
+        fault = _failure(order, "check-crashed", message, report)
+    if fault:
+        step.result.add([fault])
+    return step.result
 
-    def _failed(self, robot: str, code: str, message: str, hint: str) -> CheckResult:
-        """What was found out of a robot until its check came to nothing."""
-        latest = self.steps[robot].result
-        found = Diagnostic(Severity.ERROR, code, f"the check of robot `{robot}`: {message}", hint=hint)
-        return msgspec.structs.replace(latest, diagnostics=(*latest.diagnostics, found))
+
+def _family(process: subprocess.Popen[bytes]) -> list[psutil.Process]:
+    """A process and all that it started; nothing if it has ended."""
+    with contextlib.suppress(psutil.Error):
+        first = psutil.Process(process.pid)
+        return [first, *first.children(recursive=True)]
+    return []
 
 
-def _free_memory() -> float:
-    import psutil  # an optional extra
-
-    return float(psutil.virtual_memory().available)
+def _failure(order: RobotOrder, code: str, message: str, hint: str) -> Diagnostic:
+    return Diagnostic(Severity.ERROR, code, f"the check of robot `{order.robot}`: {message}", hint=hint)

@@ -80,6 +80,16 @@ def add_profile(parser: Parser) -> None:
     )
 
 
+def add_executor(parser: Parser, verb: str) -> None:
+    """A cluster that works instead of processes of this machine; never from the configuration, since it is trusted."""
+    parser.add_argument(
+        "--executor",
+        default="",
+        metavar="ADDRESS",
+        help=f"have workers of a Dask scheduler {verb} the robots (tcp://HOST:PORT); it has to be one that you trust",
+    )
+
+
 def add_jobs(parser: Parser) -> None:
     """How many processes may work at once."""
     parser.add_argument("--jobs", type=_positive, metavar="N", help="processes for many robots (default: one per core)")

@@ -38,12 +38,7 @@ def add(commands: arguments.Commands) -> None:
     arguments.add_wait(parser)
     arguments.add_trust(parser)
     arguments.add_jobs(parser)
-    parser.add_argument(
-        "--executor",
-        default="",
-        metavar="ADDRESS",
-        help="have the workers of a Dask scheduler plan the robots (tcp://HOST:PORT); it has to be one that you trust",
-    )
+    arguments.add_executor(parser, "plan")
     arguments.add_profile(parser)
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
     parser.add_argument("--repair", action="store_true", help="make a state again that has merge markers or is damaged")

@@ -10,14 +10,18 @@ import sys
 from collections.abc import Iterable, Sequence
 
 from urdfsync import config
-from urdfsync.check.results import CheckOptions, CheckResult
+from urdfsync.check import run as run_checks
+from urdfsync.check.cache import UserCache
+from urdfsync.check.compilers import COMPILERS
+from urdfsync.check.report import CheckReport, to_json
+from urdfsync.check.results import CheckOptions, CheckResult, exit_code
 from urdfsync.commands import arguments
 from urdfsync.outcome import Exit
 from urdfsync.output.console import Console, line, rich_console
 from urdfsync.output.phrases import byte_size
 
 _DEFAULTS = CheckOptions()
-_CHECK_OPTIONS = ("robot", "physics", "strict", "tool", "jobs", "timeout", "memory", "wait")
+_CHECK_OPTIONS = ("robot", "physics", "strict", "tool", "jobs", "timeout", "memory", "wait", "executor")
 """What only a check has a use for."""
 
 
@@ -40,7 +44,7 @@ def add(commands: arguments.Commands) -> None:
     )
     parser.add_argument(
         "--tool",
-        choices=("rumoca", "omc"),
+        choices=tuple(COMPILERS),
         default=_DEFAULTS.compiler,
         help="what compiles (rumoca); omc: OpenModelica",
     )
@@ -56,6 +60,7 @@ def add(commands: arguments.Commands) -> None:
         help=f"seconds for a robot ({_DEFAULTS.timeout:g})",
     )
     limits.add_argument("--memory", type=_amount, metavar="GB", help="memory for all together (default: what is free)")
+    arguments.add_executor(parser, "check")
     parser.add_argument("--clear-cache", action="store_true", help="empty the user's cache of checks, and do no more")
     arguments.add_wait(parser)
     parser.set_defaults(run=functools.partial(run, parser))
@@ -82,9 +87,6 @@ def run(parser: arguments.Parser, args: argparse.Namespace, console: Console) ->
     """Check the packages of the robots, and show each as soon as it is checked."""
     if args.clear_cache:
         return _clear_cache(parser, args, console)
-    from urdfsync.check.results import exit_code
-    from urdfsync.check.run import check_robots  # not at the top: no other command needs it
-
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
     options = CheckOptions(
@@ -95,10 +97,13 @@ def run(parser: arguments.Parser, args: argparse.Namespace, console: Console) ->
         timeout=args.timeout,
         memory=args.memory,
         wait=args.wait,
+        executor=args.executor,
         package_paths=config.ros_package_path(os.environ),
     )
     names = [robot.name for robot in robots]
-    results = show_results(console, check_robots(configuration, robots, options, console.progress), names, args.strict)
+    results = show_results(
+        console, run_checks.check_robots(configuration, robots, options, console.progress), names, args.strict
+    )
     code = exit_code(results, args.strict)
     console.end("check", code)
     return code
@@ -108,8 +113,6 @@ def show_results(
     console: Console, found: Iterable[CheckResult], robots: Sequence[str], strict: bool
 ) -> list[CheckResult]:
     """Show each result as it comes, then what holds for all, as far as the command comes; returns them."""
-    from urdfsync.check.report import CheckReport, to_json
-
     report = CheckReport(rich_console(sys.stdout), robots, strict=strict, verbose=console.verbose, quiet=console.quiet)
     results: list[CheckResult] = []
     try:
@@ -131,8 +134,6 @@ def _clear_cache(parser: arguments.Parser, args: argparse.Namespace, console: Co
     if args.robots or any(getattr(args, name) != parser.get_default(name) for name in _CHECK_OPTIONS):
         message = "--clear-cache goes without robots and without options of a check"
         raise arguments.UsageError(parser, message, "it empties the cache of all robots, and checks none")
-    from urdfsync.check.cache import UserCache
-
     console.waiting("emptying the cache")
     freed = UserCache.default().clear()
     console.stop_progress()

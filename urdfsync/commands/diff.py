@@ -16,31 +16,31 @@ from urdfsync import config
 from urdfsync.commands import arguments
 from urdfsync.config import Config
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
-from urdfsync.diff.outline import OutlineEntry, OutlineRow, Tone, effect_rows, outline
-from urdfsync.engine.actions import CONFLICTS, Action, Kind
+from urdfsync.domain import ChangeKind
+from urdfsync.engine.actions import CONFLICTS, Kind
 from urdfsync.outcome import Exit
-from urdfsync.output.console import Console, has_marks, line, rich_console, text
+from urdfsync.output.console import Console, StyledLine, headline, more, rich_console, text
 from urdfsync.output.json_values import action_values, change_values, finding_values
-from urdfsync.output.phrases import GENERATOR, change_classes, counted, error_count
+from urdfsync.output.outline import OutlineRow, effect_rows, outline
+from urdfsync.output.phrases import RESOLVE_HINT, change_classes, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
 
 if TYPE_CHECKING:
     from rich.console import Console as RichConsole
+    from rich.table import Table
     from rich.text import Text
     from rich.tree import Tree
 
+    from urdfsync.diff.changes import Changes
     from urdfsync.diff.comparison import Comparison
 
-_ADVICE = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
-_TONES = {Tone.ADDED: "green", Tone.REMOVED: "red", Tone.RENAMED: "cyan", Tone.QUIET: "dim"}
+_CHANGES = {ChangeKind.ADDED: "green", ChangeKind.REMOVED: "red", ChangeKind.RENAMED: "cyan"}
 _WIDEST = 44
-"""Columns for labels at most; the values of longer ones go to the next line."""
+"""Columns for labels at most; longer ones are broken."""
 _VALUES = 40
-"""Columns for values at most; longer ones push what is said of them to the right."""
+"""Columns for values that something is said of, at most; longer ones are broken."""
 _FILES = 12
 """So many files are listed at most, unless somebody asks."""
-_WORD = 9
-"""Columns for the word that says what happens to a file."""
 _EFFECTS = 8
 """So many effects are shown at most, unless somebody asks."""
 _SILENT = frozenset({Kind.UNCHANGED, Kind.KEEP, Kind.FORGET})
@@ -74,11 +74,10 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 
     folder = config.working_folder()
     configuration = _configuration(args, folder)
-    sources = comparison.find_sources(args.source, configuration, args.robot or [], folder)
-    comparison.check_sources(sources, args.against, configuration, folder)
+    robots = comparison.find_sources(args.source, configuration, args.robot or [], args.against, folder)
     found = []
     request = arguments.request(args, console)
-    for one in comparison.compare_sources(sources, args.against, configuration, request, folder):
+    for one in comparison.compare_sources(robots, args.against, configuration, request, folder):
         if console.json:
             console.add_robot(_to_json(one))
         else:
@@ -114,7 +113,7 @@ def _to_json(found: Comparison) -> dict[str, Any]:
         "in_step": found.in_step,
         "summary": _summary(found),
         "class": found.change_class,
-        "changes": [change_values(one) for one in found.changes.changes] if found.changes else [],
+        "changes": [change_values(one) for one in found.result.changes.changes] if found.result.changes else [],
         "effects": [
             {"effect": " / ".join(one.path), "old": one.old, "new": one.new, "unit": one.unit, "hint": one.hint}
             for one in found.effects
@@ -133,10 +132,11 @@ def _summary(found: Comparison) -> str:
     if found.missing:
         return found.missing
     since = f"since {'the last build' if found.against is None else found.against}"
-    if found.changes is None:
+    changes = found.result.changes
+    if changes is None:
         return f"nothing changed {since}{'' if found.in_step else ', but files are not as they should be'}"
-    what = change_classes(found.changes) if found.changes.changes else GENERATOR
-    return f"{what} {since}{', only by rounding' if found.changes.noise else ''}"
+    what = change_classes(changes) if changes.changes else generator_change(changes)
+    return f"{what} {since}{', only by rounding' if changes.noise else ''}"
 
 
 # --- text ---------------------------------------------------------------------------------------------------------
@@ -144,113 +144,91 @@ def _summary(found: Comparison) -> str:
 
 def _show(found: Comparison, console: Console) -> None:
     """Print what there is to say about one source: a tree of changes by element, effects on the model, files."""
-    console.findings(found.result.diagnostics)
-    if console.quiet and not found.result.conflicts:
+    result = found.result
+    console.findings(result.diagnostics)
+    if console.quiet and not result.conflicts:
         return
-    screen = rich_console(sys.stderr if found.result.failed else sys.stdout)
-    if found.in_step and found.changes is None:
-        mark = [("✓ ", "green")] if has_marks(screen.file) else []
-        console.print([line(*mark, (found.result.robot, "bold"), (f": {_summary(found)}", ""))])
+    stream = sys.stderr if result.failed else sys.stdout
+    head = headline(stream, result.robot, _summary(found), *(("✓", "green") if found.in_step else ("~", "yellow")))
+    if found.in_step and result.changes is None:
+        console.print([head])
         return
     console.stop_progress()
+    screen = rich_console(stream)
     if not screen.is_terminal:
         screen.width = 10_000  # lines of a pipe are never broken
-    screen.print(_tree(found, screen, console.verbose))
-    for row in (*_effects(found, screen, console.verbose), *_files(found, screen, console.verbose)):
-        screen.print(row)
+    screen.print(_tree(head, result.changes, screen, console.verbose))
+    effects = effect_rows(found.effects)
+    few = len(effects) if console.verbose or len(effects) <= _EFFECTS else _EFFECTS - 1
+    if effects:
+        screen.print("\nEffects", style="bold")
+        for row in _grids([msgspec.structs.replace(row, label=f"  {row.label}") for row in effects[:few]], screen):
+            screen.print(row)
+    if few < len(effects):
+        screen.print(more(len(effects) - few, "effect"))
+    for file in _files(found, screen.width, console.verbose):
+        screen.print(file)
 
 
-def _tree(found: Comparison, console: RichConsole, verbose: bool) -> Tree:
+def _tree(head: StyledLine, changes: Changes | None, console: RichConsole, verbose: bool) -> Tree:
     """Return the robot with its changes by element."""
     from rich.tree import Tree
 
-    mark, style = ("✓", "green") if found.in_step else ("~", "yellow")
-    marks = [(f"{mark} ", style)] if has_marks(console.file) else []
-    headline = text(*marks, (found.result.robot, "bold"), (f": {_summary(found)}", ""))
-    tree = Tree(headline, guide_style="dim")
-    if found.changes is None:
+    tree = Tree(head, guide_style="dim")
+    if changes is None:
         return tree
-    if found.changes.generator:
-        tree.add(text(("urdfsync", "bold"), ("  a template, an option or the program itself changed", "")))
-    shown = outline(found.changes, everything=verbose)
-    columns = _Columns([row for entry in shown.entries for row in entry.rows], console, guides=8)
+    if changes.generator:
+        tree.add(text(("urdfsync", "bold"), (f"  {generator_change(changes)}", "")))
+    shown = outline(changes, everything=verbose)
     # a first row without a label stands beside the names of its elements
-    titles = _Columns([_titled(entry) for entry in shown.entries if not entry.rows[0].label], console, guides=4)
+    titles = [entry.rows[0] for entry in shown.entries if not entry.rows[0].label]
+    named = [msgspec.structs.replace(entry.rows[0], label=entry.title) for entry in shown.entries]
+    beside = _grids([row for row, entry in zip(named, shown.entries, strict=True) if entry.rows[0] in titles], console)
+    below = _grids([row for entry in shown.entries for row in entry.rows if row.label], console)
     for entry in shown.entries:
-        is_quiet = all(row.tone is Tone.QUIET for row in entry.rows)
-        style, rows = "dim" if is_quiet else "bold", entry.rows
-        if rows[0].label:
+        if entry.rows[0].label:
+            style = "dim" if all(row.is_quiet for row in entry.rows) else "bold"
             branch = tree.add(text((entry.title, style)))
         else:
-            branch, rows = tree.add(titles.line(_titled(entry), style=style)), rows[1:]
-        for row in rows:
-            branch.add(columns.line(row))
+            branch = tree.add(next(beside))
+        for row in entry.rows:
+            if row.label:
+                branch.add(next(below))
     if shown.condensed:
         tree.add(text(("numbers are counted; --verbose shows each", "dim")))
     return tree
 
 
-def _titled(entry: OutlineEntry) -> OutlineRow:
-    """Return the first row of an entry with the names of its elements."""
-    return msgspec.structs.replace(entry.rows[0], label=entry.title)
+def _grids(rows: Sequence[OutlineRow], console: RichConsole) -> Iterator[Table]:
+    """Rows below each other, each a table of one line: label, values, and how new values stand to old ones."""
+    from rich.table import Table
 
-
-class _Columns:
-    """Rows below each other: labels, values, and how new values stand to old ones."""
-
-    def __init__(self, rows: Sequence[OutlineRow], console: RichConsole, guides: int) -> None:
-        """Columns that suit these rows; `guides` is the width of what stands before them."""
-        self._total = console.width - guides
-        widest = min(_WIDEST, self._total // 3)
-        fitting = [len(row.label) for row in rows if len(row.label) <= widest]
-        self._label = max(fitting, default=widest if rows else 0)
-        value = max((_value(row).cell_len for row in rows if row.relation), default=0)
-        self._value = min(value, _VALUES, max(self._total - self._label - 18, 12))
-
-    def line(self, row: OutlineRow, margin: str = "", style: str = "") -> Text:
-        """Return the row; what does not fit goes to further lines, below the values; `margin` stands before them."""
-        from rich.console import Console as RichConsole
-
-        line = text((f"{row.label:<{self._label}}  ", style or ("dim" if row.tone is Tone.QUIET else "")))
-        indent = "\n" + margin + " " * (self._label + 2)
-        room = self._total - self._label - 2
-        if len(row.label) > self._label:
-            line.append(indent)
-        pieces = [_value(row)]
-        if pieces[0].cell_len > room:  # broken at the arrow first
-            new = _value(msgspec.structs.replace(row, old=""))
-            parts = [text((row.old, "dim")), text(("→ ", "dim")).append_text(new)] if row.old else [new]
-            pieces = [piece for part in parts for piece in part.wrap(RichConsole(width=room), room)]
-        for count, piece in enumerate(pieces):
-            line.append(indent if count else "").append_text(piece)
+    label = min(max((text((row.label, "")).cell_len for row in rows), default=0), _WIDEST, console.width // 2)
+    values = [_value(row) for row in rows]
+    related = [value.cell_len for value, row in zip(values, rows, strict=True) if row.relation]
+    width = min(max(related, default=0), _VALUES, max(console.width - label - 30, 12))
+    for row, value in zip(rows, values, strict=True):
+        grid = Table.grid(padding=(0, 2, 0, 0))
+        grid.add_column(width=label, overflow="fold")
+        grid.add_column(width=width if row.relation else None, overflow="fold")
+        is_element = row.kind is not ChangeKind.CHANGED and " / " not in row.label
+        cells = [text((row.label, "dim" if row.is_quiet else "bold" if is_element else "")), value]
         if row.relation:
-            relation, last = text((row.relation, "dim")), pieces[-1].cell_len
-            gap = max(self._value - last, 0) + 2
-            line.append(" " * gap if last + gap + relation.cell_len <= room else indent).append_text(relation)
-        return line
+            grid.add_column(overflow="fold")
+            cells.append(text((row.relation, "dim")))
+        grid.add_row(*cells)
+        yield grid
 
 
 def _value(row: OutlineRow) -> Text:
-    style = _TONES.get(row.tone, "")
+    style = "dim" if row.is_quiet else _CHANGES.get(row.kind, "")
     if not row.old:
         return text((row.new, style))
     return text((row.old, style or "dim"), (" → ", "dim"), (row.new, style))
 
 
-def _effects(found: Comparison, console: RichConsole, verbose: bool) -> Iterator[Text]:
-    """Yield the properties of the whole model that differ."""
-    rows = effect_rows(found.effects)
-    shown = rows if verbose or len(rows) <= _EFFECTS else rows[: _EFFECTS - 1]
-    columns = _Columns(shown, console, guides=2)
-    if shown:
-        yield from (text(("", "")), text(("Effects", "bold")))
-    yield from (text(("  ", "")).append_text(columns.line(row, "  ")) for row in shown)
-    if len(shown) < len(rows):
-        yield _more(len(rows) - len(shown), "effect")
-
-
-def _files(found: Comparison, console: RichConsole, verbose: bool) -> Iterator[Text]:
-    """Yield the files that are concerned, edited ones first."""
+def _files(found: Comparison, width: int, verbose: bool) -> Iterator[Text]:
+    """Yield the files that are concerned, edited ones first, and why if it is one that the user edited."""
     result = found.result
     actions = [action for action in result.actions if action.kind not in _SILENT]
     if found.in_step or not actions:
@@ -258,35 +236,25 @@ def _files(found: Comparison, console: RichConsole, verbose: bool) -> Iterator[T
     heading = f"A build: {build_summary(result)}"
     if found.against is not None:
         kinds = Counter(action.kind for action in result.actions)
-        heading = f"{counted(len(result.actions), 'file')} of the package"
-        heading += " differs" if len(result.actions) == 1 else " differ"
-        if len(kinds) > 1:
-            parts = (f"{kinds[kind]} to {kind}" for kind in (Kind.UPDATE, Kind.CREATE, Kind.DELETE) if kinds[kind])
-            heading += f": {', '.join(parts)}"
+        parts = [f"{kinds[kind]} to {kind}" for kind in (Kind.UPDATE, Kind.CREATE, Kind.DELETE) if kinds[kind]]
+        heading = f"{counted(len(result.actions), 'file')} of the package differ{'s' * (len(result.actions) == 1)}"
+        heading += f": {', '.join(parts)}" if len(parts) > 1 else ""
     yield from (text(("", "")), text((heading, "bold")))
     actions.sort(key=lambda action: (action.path not in found.edited, action.path.rpartition("/")))
     urgent = sum(action.path in found.edited for action in actions)
     few = actions if verbose or len(actions) <= _FILES else actions[: max(_FILES - 1, urgent)]
-    yield from (_file(found, action, console) for action in few)
+    for action in few:
+        word = "waiting" if action.held else action.kind.value.removeprefix("unowned-")
+        style = "yellow" if action.held else _KINDS.get(action.kind, "yellow")
+        path = config.shown(Path(os.path.normpath(result.root / action.path)))
+        why = ""
+        if action.path in found.edited:
+            # the word says already that it waits
+            why = "  you edited it" if found.against else f"  {msgspec.structs.replace(action, held=False).reason}"
+        file = text((f"  {word:<9} ", "bold red" if action.kind in CONFLICTS else style), (path, ""))
+        fits = file.cell_len + len(why) <= width
+        yield from [file.append(why, "yellow")] if fits else [file, text((f"{'':<10}{why}", "yellow"))]
     if len(few) < len(actions):
-        yield _more(len(actions) - len(few), "file")
+        yield more(len(actions) - len(few), "file").__rich__()
     if any(action.kind in CONFLICTS for action in actions):
-        yield text((_ADVICE, "dim"))
-
-
-def _file(found: Comparison, action: Action, console: RichConsole) -> Text:
-    """Return what happens to a file, and why if it is one that the user edited."""
-    word = "waiting" if action.held else action.kind.value.removeprefix("unowned-")
-    style = "bold red" if action.kind in CONFLICTS else "yellow" if action.held else _KINDS.get(action.kind, "yellow")
-    path = config.shown(Path(os.path.normpath(found.result.root / action.path)))
-    line = text((f"  {word:<{_WORD}} ", style), (path, ""))
-    if action.path in found.edited:
-        told = msgspec.structs.replace(action, held=False).reason  # the word says already that it waits
-        reason = text(("you edited it" if found.against else told, "yellow"))
-        fits = line.cell_len + 2 + reason.cell_len <= console.width
-        line.append("  " if fits else "\n" + " " * (_WORD + 3)).append_text(reason)
-    return line
-
-
-def _more(count: int, noun: str) -> Text:
-    return text((f"  … and {count} more {noun}{'s' if count > 1 else ''}; --verbose shows them", "dim"))
+        yield text((RESOLVE_HINT, "dim"))

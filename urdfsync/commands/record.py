@@ -11,6 +11,7 @@ import msgspec
 from urdfsync import config, registry
 from urdfsync.commands import arguments
 from urdfsync.config import shown
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError
 from urdfsync.domain import Target, Templates
 from urdfsync.files import kind_of, normalised, put, templates_digest
@@ -77,7 +78,7 @@ def _render(source: Path, domain_name: str, target: Target) -> tuple[str, tuple[
 
     domain, file = registry.domain(domain_name), shown(source)
     try:
-        content = source.read_bytes()
+        content = read_unrecorded(source)
     except OSError as error:
         message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
         raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, file, hint=hint)) from None
@@ -106,7 +107,7 @@ def _write(record: str, source: Path, file: Path, *, force: bool) -> bool:
                 raise _problem(
                     "output-in-the-way", f"{kind_of(file.stat().st_mode)} is in its place", file, "name a file"
                 )
-            if normalised(file.read_bytes()) == content:
+            if normalised(read_unrecorded(file)) == content:
                 return False
             if file.samefile(source):
                 raise _problem("output-is-source", "the record would replace its source", file, "name another file")

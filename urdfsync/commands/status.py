@@ -6,8 +6,8 @@ import argparse
 import enum
 import sys
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 import msgspec
 
@@ -17,17 +17,13 @@ from urdfsync.diagnostics import Severity
 from urdfsync.engine.actions import DELETES, Action, Kind
 from urdfsync.engine.build import build
 from urdfsync.outcome import Exit, Result, exit_code
-from urdfsync.output.console import Console, StyledLine, has_marks, is_terminal, line
+from urdfsync.output.console import Console, StyledLine, headline, is_terminal, line, more
 from urdfsync.output.json_values import action_values, result_values
-from urdfsync.output.phrases import GENERATOR, change_classes, counted, error_count
+from urdfsync.output.phrases import RESOLVE_HINT, change_classes, counted, error_count, generator_change
 from urdfsync.output.results import FileLine, file_lines
-
-if TYPE_CHECKING:
-    from urdfsync.diff.changes import Changes
 
 _STALE = 20
 """So many stale files of a robot are listed at most, without --verbose."""
-_ADVICE = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
 
 
 class FileStatus(enum.StrEnum):
@@ -190,23 +186,28 @@ def _values(found: PackageStatus) -> dict[str, Any]:
 
 
 def _lines(found: PackageStatus, verbose: bool) -> Iterator[StyledLine]:
-    """Everything that there is to say about one robot: with `verbose` all files, else those that are not in step."""
+    """Everything that there is to say about one robot: with `verbose` all files, else those that are not in step.
+
+    New files of a robot that was never built are not named.
+    """
     result = found.result
     stream = sys.stderr if result.failed else sys.stdout
     mark, style = ("✓", "green") if found.in_step else ("!", "bold red" if result.conflicts else "yellow")
-    if result.failed:
-        mark, style = "✗", "bold red"
-    marks = [(f"{mark} ", style)] if has_marks(stream) else []
-    yield line(*marks, (result.robot, "bold"), (f": {summary(found)}", ""))
+    mark, style = ("✗", "bold red") if result.failed else (mark, style)
+    yield headline(stream, result.robot, summary(found), mark, style)
     yield from (line((f"  {words}", "")) for words in next_build(found))
-    files = _listed(found, verbose)
+    files = sorted(found.files, key=lambda file: file.path.rpartition("/"))
+    stale = [file.path for file in files if file.status is FileStatus.STALE]
+    few = len(stale) if verbose or len(stale) <= _STALE else _STALE - 1
+    few = few if found.is_built or verbose else 0
+    if not verbose:
+        files = [file for file in files if file.status is not FileStatus.IN_STEP and file.path not in stale[few:]]
     lines = [FileLine(file.path, f"{file.status:<{_COLUMN}}", _STYLES[file.status], file.reason) for file in files]
     yield from file_lines(lines, result.root, by_folder=is_terminal(stream))
-    hidden = found.counts.get(FileStatus.STALE, 0) - sum(file.status is FileStatus.STALE for file in files)
-    if hidden and found.is_built:
-        yield line((f"  … and {hidden} more stale files; --verbose shows them", "dim"))
+    if few < len(stale) and found.is_built:
+        yield more(len(stale) - few, "stale file")
     if result.conflicts:
-        yield line((_ADVICE, "dim"))
+        yield line((RESOLVE_HINT, "dim"))
 
 
 def summary(found: PackageStatus) -> str:
@@ -226,8 +227,12 @@ def summary(found: PackageStatus) -> str:
 
 def next_build(found: PackageStatus) -> list[str]:
     """What a robot waits for and what the next build does about it, in a line or two; nothing if nothing is due."""
+    changes, changed = found.result.changes, ""
+    if changes and changes.generator:
+        changed = generator_change(changes)
+    elif changes:
+        changed = f"{change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}"
     actions = found.result.actions.decided
-    changed = _source_changes(found.result.changes) if found.result.changes else ""
     moving = [action for action in actions if action.writes]
     deleted = sum(action.kind in DELETES for action in moving)
     does = [f"writes {counted(len(moving) - deleted, 'file')}"] if len(moving) > deleted else []
@@ -238,21 +243,3 @@ def next_build(found: PackageStatus) -> list[str]:
         return ["; ".join(filter(None, [changed, build]))] if changed or build else []
     waits = f"{counted(held, 'file')} {'waits' if held == 1 else 'wait'} for the conflict"
     return [*([changed] if changed else []), "; ".join(filter(None, [build, waits]))]
-
-
-def _source_changes(changes: Changes) -> str:
-    """`1 structural and 2 parameter changes in the source`."""
-    if changes.generator:
-        return GENERATOR
-    return f"{change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}"
-
-
-def _listed(found: PackageStatus, verbose: bool) -> Sequence[StatusEntry]:
-    """The files to name; of a robot that was never built, no new ones."""
-    if verbose:
-        return found.files
-    files = sorted(found.files, key=lambda file: file.path.rpartition("/"))
-    stale = [file for file in files if file.status is FileStatus.STALE]
-    few = 0 if not found.is_built else len(stale) if len(stale) <= _STALE else _STALE - 1
-    left_out = {file.path for file in stale[few:]}
-    return [file for file in files if file.status is not FileStatus.IN_STEP and file.path not in left_out]

@@ -16,6 +16,7 @@ from urdfsync.output.console import Console
 
 if TYPE_CHECKING:
     from urdfsync.watch.daemon import Daemon, WatchOptions
+    from urdfsync.watch.events import Listener
 
 _CODES = "exit codes: 0 ended by SIGTERM or SIGHUP, 2 error, 4 watched already, 130 ended by SIGINT"
 _SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
@@ -63,10 +64,14 @@ def _duration(text: str) -> float:
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Run the daemon until a signal ends it."""
     from urdfsync.watch.daemon import Daemon  # not at the top: watchdog takes 45 ms
-    from urdfsync.watch.report import watch_report
+    from urdfsync.watch.report import JsonReport, TextReport
 
-    report = watch_report(as_json=console.json, quiet=console.quiet, verbose=console.verbose, config=console.config)
-    with report as listener:
+    with contextlib.ExitStack() as stack:
+        if console.json:
+            listener: Listener = JsonReport()
+        else:
+            people = TextReport(quiet=console.quiet, verbose=console.verbose, config=console.config)
+            listener = stack.enter_context(people)
         daemon = Daemon(_options(args, console), listener)
         with _signals(daemon) as received:
             daemon.run()

@@ -46,12 +46,9 @@ def load(file: Path) -> Config:
     """Read a configuration file. Raises ConfigError with everything that is wrong in it."""
     code, line = "unreadable-config", 0
     try:
-        dependencies.depend_on(file)
-        if file.exists() and not file.is_file():  # reading a FIFO would never end
-            message, hint = "the configuration is no regular file", f"name a {FILE_NAME}"
-        else:
-            text, place = file.read_text(encoding="utf-8-sig"), file.absolute()
-            return parse(text, place.resolve() if ".." in place.parts else place, shown(file))
+        text = dependencies.read_file(file).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+        place = file.absolute()
+        return parse(text, place.resolve() if ".." in place.parts else place, shown(file))
     except FileNotFoundError:
         message, hint, code = "the configuration does not exist", "write one with `urdfsync init SOURCE`", "no-config"
     except UnicodeDecodeError as error:

@@ -55,13 +55,6 @@ class Change(msgspec.Struct, frozen=True):
             return False
         return bool(abs(self.new - self.old) <= NOISE * max(abs(self.old), abs(self.new)))
 
-    @property
-    def percent(self) -> float | None:
-        """Change of a number relative to its old value; None without one, or if that is zero."""
-        if not (is_number(self.old) and is_number(self.new)) or self.old == 0:
-            return None
-        return float(100 * (self.new - self.old) / abs(self.old))
-
     def __str__(self) -> str:
         """The path as people read it: `joint elbow / origin / xyz[2]`."""
         return " / ".join(self.path)
@@ -74,6 +67,8 @@ class Changes(msgspec.Struct, frozen=True):
     renames: Mapping[ElementKey, str] = msgspec.field(default_factory=dict)
     generator: bool = False
     """Whether templates, options or the output revision differ."""
+    options: tuple[str, ...] = ()
+    """The options that differ, if nothing else of what turns the model into files does."""
 
     @property
     def change_class(self) -> ChangeClass:

@@ -6,11 +6,11 @@ source itself is, with the files that it refers to as they are in that version.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import msgspec
 
@@ -20,7 +20,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncErro
 from urdfsync.diff import changes
 from urdfsync.diff.changes import Changes
 from urdfsync.diff.revisions import VersionedSource, from_file, from_revision
-from urdfsync.domain import ChangeClass, Dependency, Effect, Import, Lookup, Role, Target, Templates, Version
+from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Templates, Version
 from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
 from urdfsync.engine.actions import Action, Actions, Kind
@@ -40,21 +40,6 @@ _MINE = frozenset({Kind.CONFLICT, Kind.UNOWNED, Kind.MERGE, Kind.MOVE, Kind.LEAV
 """Actions on files that the user edited, and that the changes concern."""
 
 
-class ComparedSource(msgspec.Struct, frozen=True):
-    """One source to compare, with all that a package is made from it with."""
-
-    name: str
-    source: Path
-    """Absolute."""
-    domain: str
-    options: Any
-    """An instance of the domain's options."""
-    target: Target
-    package_paths: tuple[Path, ...] = ()
-    robot: RobotConfig | None = None
-    """The robot of the configuration that has it; None for a source that is in no configuration."""
-
-
 class Comparison(msgspec.Struct, frozen=True):
     """A source as it is now, compared with an older version of it."""
 
@@ -72,14 +57,9 @@ class Comparison(msgspec.Struct, frozen=True):
     """The files among the actions that the user has edited."""
 
     @property
-    def changes(self) -> Changes | None:
-        """The changes of the model; None if there are none, or if nothing is known of the older version."""
-        return self.result.changes
-
-    @property
     def change_class(self) -> ChangeClass:
         """How far the changes reach."""
-        return self.changes.change_class if self.changes else ChangeClass.NONE
+        return self.result.changes.change_class if self.result.changes else ChangeClass.NONE
 
     @property
     def in_step(self) -> bool:
@@ -99,58 +79,59 @@ def exit_code(comparisons: Sequence[Comparison]) -> Exit:
 # --- sources ------------------------------------------------------------------------------------------------------
 
 
-def find_sources(source: str, config: Config | None, names: Sequence[str], folder: Path) -> list[ComparedSource]:
+def find_sources(
+    source: str, config: Config | None, names: Sequence[str], against: str | None, folder: Path
+) -> list[RobotConfig]:
     """Return what `source` means: a path from `folder`, else a robot's name; empty for all robots.
 
-    `names` leaves only robots of these names. Without a configuration, or in none, a file is compared by itself.
-    Raises ConfigError if there is nothing of that name.
+    `names` leaves only robots of these names. A file that no robot has is compared by itself. Raises ConfigError if
+    there is nothing of that name, or if it can't be compared with `against`.
     """
     path = Path(os.path.normpath(folder / source))
-    if config is None:
-        if not path.is_file():
-            raise _config_error("no-source", f"there is no file {source!r}", hint="name a source that exists")
-        return [_alone(path)]
-    chosen = config.select(names)
-    if not source:
-        return [_of_robot(robot) for robot in chosen]
-    using = [robot for robot in config.robots if os.path.realpath(robot.source) == os.path.realpath(path)]
-    if not using and path.is_file():
-        if not names:
-            return [_alone(path)]
-    elif not using:
-        using = [robot for robot in config.robots if robot.name == source]
-        if not using:
+    robots = config.robots if config else ()
+    chosen = config.select(names) if config else ()
+    using = [robot for robot in robots if os.path.realpath(robot.source) == os.path.realpath(path)]
+    if config is not None and source and not using and not (path.is_file() and not names):
+        using = [] if path.is_file() else [robot for robot in robots if robot.name == source]
+        if not using and not path.is_file():
             message = f"there is no file {source!r}, and no robot of this name in {shown(config.file)}"
-            hint = f"it has {', '.join(robot.name for robot in config.robots)}"
-            raise _config_error("no-source", message, hint=hint)
-    left = [robot for robot in using if robot in chosen]
-    if not left:
+            raise _config_error("no-source", message, hint=f"it has {', '.join(robot.name for robot in robots)}")
+    elif config is None and not path.is_file():
+        raise _config_error("no-source", f"there is no file {source!r}", hint="name a source that exists")
+    elif source and not using:
+        if against is None and config is not None:
+            message = f"{path.name} was never built: it is no robot's source"
+            hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
+            raise _config_error("no-robot", message, config.file, hint)
+        return [_robot_of_file(path)]
+    found = [robot for robot in using if robot in chosen] if source else list(chosen)
+    if not found and config is not None:
         message = f"{source!r} is not the source of {' or '.join(f'`{name}`' for name in names)}"
         raise _config_error("other-source", message, config.file, "leave out --robot, or name the robot alone")
-    return [_of_robot(robot) for robot in left]
-
-
-def check_sources(sources: Sequence[ComparedSource], against: str | None, config: Config | None, folder: Path) -> None:
-    """Raise ConfigError for sources that can't be compared with `against`."""
-    alone = [one for one in sources if one.robot is None]
-    if alone and against is None and config is not None:
-        message = f"{alone[0].name} was never built: it is no robot's source"
-        hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
-        raise _config_error("no-robot", message, config.file, hint)
-    if against is not None and (folder / against).is_file() and len({one.source for one in sources}) > 1:
-        message = f"one file can't be the older version of {len(sources)} sources"
+    if against is not None and (folder / against).is_file() and len({robot.source for robot in found}) > 1:
+        message = f"one file can't be the older version of {len(found)} sources"
         raise _config_error("one-file", message, hint="name the source to compare it with")
+    return found
 
 
-def _of_robot(robot: RobotConfig) -> ComparedSource:
-    return ComparedSource(
-        robot.name, robot.source, robot.domain, robot.options, robot.target, robot.package_paths, robot=robot
-    )
-
-
-def _alone(path: Path) -> ComparedSource:
+def _robot_of_file(path: Path) -> RobotConfig:
+    """Return a robot for a source that is in no configuration, with all settings as they are by default."""
     name = class_name(path.name.partition(".")[0])
-    return ComparedSource(path.name, path, _DOMAIN, registry.domain(_DOMAIN).options(), Target(name, name))
+    return RobotConfig(
+        name=path.name,
+        source=path,
+        source_text=path.name,
+        output=Path(),
+        target=Target(name, name),
+        domain=_DOMAIN,
+        templates=None,
+        package_paths=(),
+        create_parents=False,
+        merging=False,
+        checking=False,
+        options=registry.domain(_DOMAIN).options(),
+        lines={},
+    )
 
 
 def _config_error(code: str, message: str, file: Path | None = None, hint: str = "") -> ConfigError:
@@ -161,172 +142,148 @@ def _config_error(code: str, message: str, file: Path | None = None, hint: str =
 
 
 def compare_sources(
-    sources: Sequence[ComparedSource],
-    against: str | None,
-    config: Config | None,
-    build_options: BuildOptions,
-    folder: Path,
+    robots: Sequence[RobotConfig], against: str | None, config: Config | None, options: BuildOptions, folder: Path
 ) -> Iterator[Comparison]:
     """Compare each source with the last build, or with `against`: a file, counted from `folder`, or a git revision.
 
-    One that fails does not stop the others. Without `against`, sources must be those of robots of the configuration.
+    One that fails does not stop the others. Without `against`, the robots must be those of the configuration.
     """
-    for count, source in enumerate(sources):
-        build_options.progress(source.name, count, len(sources))
+    for count, robot in enumerate(robots):
+        options.progress(robot.name, count, len(robots))
         try:
             if against is not None:
-                yield _with_version(source, against, config, build_options, folder)
-            elif config is not None and source.robot is not None:
-                yield _with_last_build(source, source.robot, config, build_options)
+                yield _with_version(robot, against, config, options, folder)
+            elif config is not None:
+                yield _with_last_build(robot, config, options)
         except UrdfsyncError as error:
-            failed = msgspec.structs.replace(_result(source, config), failed=True, diagnostics=error.diagnostics)
-            yield Comparison(failed, shown(source.source), against)
+            failed = msgspec.structs.replace(_result(robot, config), failed=True, diagnostics=error.diagnostics)
+            yield Comparison(failed, shown(robot.source), against)
 
 
-def _result(source: ComparedSource, config: Config | None) -> Result:
-    """Return an empty result; without a configuration, paths count from nowhere."""
-    if config is None or source.robot is None:
-        return Result(source.name, source.target.package, Path(), Path(), dry=True)
-    return Result(source.name, source.target.package, source.robot.folder, config.root, dry=True)
+def _result(robot: RobotConfig, config: Config | None) -> Result:
+    """Return an empty result; the paths of a robot that is in no configuration count from its package."""
+    if config is None or robot not in config.robots:
+        return Result(robot.name, robot.target.package, Path(), Path(), dry=True)
+    return Result(robot.name, robot.target.package, robot.folder, config.root, dry=True)
 
 
-def _with_last_build(
-    source: ComparedSource, robot: RobotConfig, config: Config, build_options: BuildOptions
-) -> Comparison:
-    (result,) = build(config, [robot], msgspec.structs.replace(build_options, dry=True))
-    comparison = Comparison(result, shown(source.source))
+def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) -> Comparison:
+    (result,) = build(config, [robot], msgspec.structs.replace(options, dry=True))
     if result.failed:
-        return comparison
-    inputs = inspect(config, robot, build_options)
+        return Comparison(result, shown(robot.source))
+    inputs = inspect(config, robot, options)
     last, found = inputs.last_complete, result.changes
     missing = "" if last else "what was built last is not known any more" if inputs.recorded else "never built"
+    effects: tuple[Effect, ...] = ()
+    if last is not None and found is not None and (found.changes or found.generator):
+        snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.content, shown(robot.source))
+        with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model of the domain
+            effects = _effects(inputs.domain, last, Version(snapshot), found, robot)
     edited = frozenset(action.path for action in result.actions.decided if action.kind in _MINE)
-    comparison = msgspec.structs.replace(comparison, missing=missing, edited=edited)
-    if last is None or found is None or not (found.changes or found.generator):
-        return comparison
-    name = shown(source.source)
-    new = Version(source_files.read(inputs.domain, source.options, inputs.content, name)[0])
-    try:
-        effects = _effects(last, new, found, source)
-    except NO_MODEL:
-        return comparison  # what is recorded is no model of the domain
-    return msgspec.structs.replace(comparison, effects=effects)
+    return Comparison(result, shown(robot.source), None, missing, effects, edited)
 
 
 def _with_version(
-    source: ComparedSource, against: str, config: Config | None, build_options: BuildOptions, folder: Path
+    robot: RobotConfig, against: str, config: Config | None, options: BuildOptions, folder: Path
 ) -> Comparison:
     """Compare a source with another version of it; the actions are those of a package that nobody edited."""
-    domain, result = registry.domain(source.domain), _result(source, config)
-    is_robot = config is not None and source.robot is not None
-    state = Store(config.root, shown).load(source.name) if config and source.robot else None
-    tree = Tree(source.robot.output, shown) if source.robot else None
+    domain, result = registry.domain(robot.domain), _result(robot, config)
+    state = tree = None
+    if config is not None and robot in config.robots:
+        state, tree = Store(config.root, shown).load(robot.name), Tree(robot.output, shown)
 
     def copy(target: str) -> bytes | None:
         return tree.read(result.folder / target) if tree else None
 
     with tempfile.TemporaryDirectory(prefix="urdfsync-") as scratch:
         if (folder / against).is_file():
-            other = from_file(folder / against, source.source)
+            other = from_file(folder / against, robot.source)
         else:
-            other = from_revision(against, source.source, Path(scratch))
+            other = from_revision(against, robot.source, Path(scratch))
         # imports of the last build, and those of the one version for the other, need not be converted again
         recorded = imports.Recorded({}, {}, copy, lambda _target: None)
         if state is not None and state.model is not None and state.intact:
             recorded = imports.Recorded(state.manifest.dependencies, state.model.imports, copy, lambda _target: None)
-        new, imported, told = _read(source, from_file(source.source), recorded, build_options)
+        new, imported, told = _read(domain, robot, from_file(robot.source), recorded, options)
         known = imports.Recorded(
             {key: record for key, record in imported.records.items() if key in imported.imports},
             {k: ConversionFacts(i.source_hash, i.converter, dict(i.facts)) for k, i in imported.imports.items()},
             lambda target: imported.contents.get(target) or copy(target),
             lambda _target: None,
         )
-        old, _, told_before = _read(source, other, known, build_options)
-    found = changes.compare(old, new, domain, source.options)
+        old, _, told_before = _read(domain, robot, other, known, options)
     before = {(one.code, one.message) for one in told_before}
     new_findings = tuple(one for one in told if (one.code, one.message) not in before)
+    result = msgspec.structs.replace(result, diagnostics=new_findings)
+    found = changes.compare(old, new, domain, robot.options)
     if not found.changes:
-        result = msgspec.structs.replace(result, diagnostics=new_findings)
-        return Comparison(result, shown(source.source), against)
-    folders = [templates_folder(domain)]
-    templates = Templates(tuple(folders), templates_digest(folders))
-    if is_robot and config and source.robot:
-        templates = source_files.templates(config, source.robot, domain)
-    one, two = (
-        generate(domain, version.snapshot, version.imports or {}, source.target, source.options, templates)
+        return Comparison(result, shown(robot.source), against)
+    folders = (templates_folder(domain),)
+    templates = Templates(folders, templates_digest(folders))
+    if config is not None and tree is not None:
+        templates = source_files.templates(config, robot, domain)
+    packages = [
+        generate(domain, version.snapshot, version.imports or {}, robot.target, robot.options, templates)
         for version in (old, new)
-    )
-    differing = [*_differing_texts(one, two), *_differing_imports(old.imports or {}, new.imports or {})]
-    actions = Actions(
-        Action(Path(os.path.relpath(result.folder / path, result.root)).as_posix(), kind, role, owner)
-        for path, kind, role, owner in differing
-    )
-    result = msgspec.structs.replace(result, actions=actions, changes=found, diagnostics=new_findings)
-    paths = (action.path for action in actions.decided)
-    edited = frozenset(path for path in paths if tree and state and _is_edited(path, result.root, tree, state))
-    effects = _effects(old, new, found, source)
-    return Comparison(result, shown(source.source), against, "", effects, edited)
+    ]
+    files = _files_of(packages[0], old), _files_of(packages[1], new)
+    actions = []
+    for path in files[0].keys() | files[1].keys():
+        was, now = files[0].get(path), files[1].get(path)
+        is_text = all(path in package.artifacts for package in packages)
+        if was == now or (is_text and packages[0].content(path) == packages[1].content(path)):
+            continue
+        if known_file := now or was:
+            kind = Kind.UPDATE if was and now else Kind.CREATE if now else Kind.DELETE
+            place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
+            actions.append(Action(place, kind, known_file[0], known_file[1]))
+    result = msgspec.structs.replace(result, actions=Actions(actions), changes=found)
+    edited = frozenset[str]()
+    if tree and state:
+        paths = (action.path for action in actions)
+        edited = frozenset(path for path in paths if _is_edited(path, result.root, tree, state))
+    effects = _effects(domain, old, new, found, robot)
+    return Comparison(result, shown(robot.source), against, "", effects, edited)
 
 
-def _effects(old: Version, new: Version, found: Changes, source: ComparedSource) -> tuple[Effect, ...]:
-    domain = registry.domain(source.domain)
-    interface = domain.interface(old, new, found.renames, source.target, source.options)
-    return (*domain.effects(old, new), *interface)
+def _files_of(package: Package, version: Version) -> dict[str, tuple[Role, str, object]]:
+    """Return role and owner of each file of a package, and what its content follows from."""
+    files: dict[str, tuple[Role, str, object]] = {}
+    for path, artifact in package.artifacts.items():
+        files[path] = artifact.role, artifact.owner, package.data_key(path)
+    for path, order in package.orders.items():
+        files[path] = Role.ORDER, "package", order
+    for key, imported in (version.imports or {}).items():
+        files[imported.target] = Role.IMPORT, key, imported.target_hash
+    return files
+
+
+def _effects(domain: Domain, old: Version, new: Version, found: Changes, robot: RobotConfig) -> tuple[Effect, ...]:
+    return (*domain.effects(old, new), *domain.interface(old, new, found.renames, robot.target, robot.options))
 
 
 def _read(
-    source: ComparedSource, version: VersionedSource, known: imports.Recorded, build_options: BuildOptions
+    domain: Domain, robot: RobotConfig, version: VersionedSource, known: imports.Recorded, options: BuildOptions
 ) -> tuple[Version, imports.Imported, tuple[Diagnostic, ...]]:
     """Read a version and the files that it refers to; imports that are `known` need not be converted again.
 
     Raises SourceError for a source that can't be read.
     """
-    domain = registry.domain(source.domain)
-    plain, reading = source_files.read(domain, source.options, version.content, version.name)
-    lookups = [Lookup(place, source.package_paths + build_options.package_paths) for place in version.places]
-    found = [imports.find_dependencies(domain, plain, lookup, source.options, reading.lines) for lookup in lookups]
-    dependencies = version.locate([_joined(same) for same in zip(*found, strict=True)])
-    what = f"{source.name}: imports"
-    imported = imports.bring_in(
-        domain,
-        dependencies,
-        known,
-        version.name,
-        again=False,
-        progress=lambda *done: build_options.progress(what, *done),
-    )
-    return Version(plain, imported.imports), imported, (*reading.diagnostics, *imported.diagnostics)
+    snapshot, reading = source_files.read(domain, robot.options, version.content, version.name)
+    found = []
+    for place in version.places:
+        lookup = Lookup(place, robot.package_paths + options.package_paths)
+        found.append(imports.find_dependencies(domain, snapshot, lookup, robot.options, reading.lines))
+    joined = []
+    for same in zip(*found, strict=True):  # one file, looked for from several places
+        candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
+        joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
 
+    def progress(done: int, total: int) -> None:
+        options.progress(f"{robot.name}: imports", done, total)
 
-def _joined(same: Sequence[Dependency]) -> Dependency:
-    """Return one dependency that is looked for from several places."""
-    candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
-    return msgspec.structs.replace(same[0], candidates=tuple(candidates))
-
-
-def _differing_texts(before: Package, after: Package) -> Iterator[tuple[str, Kind, Role, str]]:
-    """Yield path, action, role and owner of each file whose text differs."""
-    for path in after.changed_since(before) | (before.artifacts.keys() - after.artifacts.keys()):
-        one, two = before.artifacts.get(path), after.artifacts.get(path)
-        if one and two and before.content(path) == after.content(path):
-            continue
-        if known := two or one:
-            yield path, _kind(one is not None, two is not None), known.role, known.owner
-    for path in before.orders.keys() | after.orders.keys():
-        if before.orders.get(path) != after.orders.get(path):
-            yield path, _kind(path in before.orders, path in after.orders), Role.ORDER, "package"
-
-
-def _differing_imports(old: Mapping[str, Import], new: Mapping[str, Import]) -> Iterator[tuple[str, Kind, Role, str]]:
-    """The same for imported files."""
-    for key in (*new, *(key for key in old if key not in new)):
-        one, two = old.get(key), new.get(key)
-        if (known := two or one) and (one is None or two is None or one.target_hash != two.target_hash):
-            yield known.target, _kind(one is not None, two is not None), Role.IMPORT, key
-
-
-def _kind(was: bool, now: bool) -> Kind:
-    return Kind.UPDATE if was and now else Kind.CREATE if now else Kind.DELETE
+    imported = imports.bring_in(domain, version.locate(joined), known, version.name, again=False, progress=progress)
+    return Version(snapshot, imported.imports), imported, (*reading.diagnostics, *imported.diagnostics)
 
 
 def _is_edited(path: str, root: Path, tree: Tree, state: State) -> bool:

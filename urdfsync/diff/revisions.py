@@ -1,6 +1,6 @@
 """Versions of a source, from files and from git revisions, with the files that they refer to.
 
-Git's object database is read only; nothing in the repository changes.
+libgit2 reads the object database: no program is run, nothing is fetched, and nothing in the repository changes.
 """
 
 from __future__ import annotations
@@ -8,20 +8,17 @@ from __future__ import annotations
 import itertools
 import os
 import re
-import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import msgspec
 
-from urdfsync import git
 from urdfsync.config import shown
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Dependency
 from urdfsync.files import digest
 
-_REFUSED = ("dubious ownership", "safe.directory")
-"""Words of git's message about a repository of another user."""
 _HINT = "name an existing file, or a branch, tag or commit such as HEAD~1"
 _LFS_POINTER = re.compile(rb"version https://git-lfs.*^oid sha256:([0-9a-f]{64})$", re.DOTALL | re.MULTILINE)
 """Content that git holds in the place of a file that is in Git LFS."""
@@ -31,16 +28,28 @@ class Revision:
     """One revision of the repository that holds a folder."""
 
     def __init__(self, folder: Path, name: str) -> None:
-        """Raises SourceError if git, the repository or the revision is missing."""
+        """Raises SourceError if the repository or the revision is missing."""
+        import pygit2  # 55 ms, which a comparison with the last build does without
+
         self.name = name
         if name.startswith("-") or not name.strip() or not name.isprintable():
             raise _error("bad-revision", f"{name!r} is neither a file nor a git revision", hint=_HINT)
-        self._top = Path(os.path.realpath(_toplevel(folder, name)))
-        found = _git(self._top, "rev-parse", "--verify", "--quiet", "--end-of-options", f"{name}^{{commit}}")
-        self._commit = found.stdout.decode().strip()
-        if found.returncode or not self._commit.isalnum():  # for `A..B` git names the excluded commits as `^HASH`
+        try:
+            ceilings = os.environ.get("GIT_CEILING_DIRECTORIES", "")
+            found = pygit2.discover_repository(str(folder), False, ceilings)  # noqa: FBT003 - it has no keywords
+            repository = pygit2.Repository(found) if found else None
+        except (pygit2.GitError, KeyError) as problem:  # such as that of another user
+            hint = "put that right, or give --against a file"
+            raise _error("git", f"the repository can't be read: {problem}", hint=hint) from None
+        if repository is None or repository.workdir is None:
+            message = f"there is no file {name!r}, and no git repository around {folder} that has it as a revision"
+            raise _error("no-repository", message, hint=_HINT)
+        self._top = Path(os.path.realpath(repository.workdir))
+        try:
+            self._tree = repository.revparse_single(name).peel(pygit2.Commit).tree
+        except (pygit2.GitError, KeyError, ValueError):
             message = f"{name!r} is neither a file nor a revision of the git repository {self._top}"
-            raise _error("unknown-revision", message, hint=_HINT)
+            raise _error("unknown-revision", message, hint=_HINT) from None
 
     def label(self, file: Path) -> str:
         """Return the name of a file of this revision in messages."""
@@ -64,31 +73,22 @@ class Revision:
         return not any((folder / ".git").exists() for folder in inside)
 
     def contents(self, files: Sequence[Path]) -> Mapping[Path, bytes]:
-        """Return the content of each of the files that this revision has."""
-        names = {}
+        """Return the content of each of the files that this revision has. Raises SourceError if a clone lacks it."""
+        import pygit2
+
+        found = {}
         for file in filter(self.holds, files):
-            name = f"{self._commit}:{Path(os.path.realpath(file)).relative_to(self._top).as_posix()}"
-            if "\n" not in name:
-                names[file] = name
-        if not names:
-            return {}
-        done = _git(self._top, "cat-file", "--batch", content="".join(f"{name}\n" for name in names.values()).encode())
-        if done.returncode:
-            raise _failed(done)
-        found: dict[Path, bytes] = {}
-        rest = memoryview(done.stdout)
-        for file, name in names.items():
-            # either `OBJECT missing`, or `HASH TYPE SIZE`, the content and a line feed
-            missing = f"{name} missing\n".encode()
-            if rest[: len(missing)] == missing:
-                rest = rest[len(missing) :]
+            path = Path(os.path.realpath(file)).relative_to(self._top).as_posix()
+            try:
+                entry = self._tree[path]
+            except KeyError:
                 continue
-            head = bytes(rest[:256]).partition(b"\n")[0]
-            _, kind, size = head.split(b" ")
-            begin, end = len(head) + 1, len(head) + 1 + int(size)
-            if kind == b"blob":
-                found[file] = bytes(rest[begin:end])
-            rest = rest[end + 1 :]
+            try:
+                if isinstance(entry, pygit2.Blob):
+                    found[file] = entry.data
+            except (pygit2.GitError, KeyError) as problem:
+                message, hint = f"git does not have its content: {problem}", "fetch it, or give --against a file"
+                raise _error("git", message, self.label(file), hint) from None
         return found
 
 
@@ -125,7 +125,7 @@ class VersionedSource(msgspec.Struct, frozen=True):
 def from_file(path: Path, *others: Path) -> VersionedSource:
     """Read the version in a file; references are looked for beside it, then beside `others`. Raises SourceError."""
     try:
-        content = path.read_bytes()
+        content = read_unrecorded(path)
     except OSError as error:
         message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
         raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(path), hint=hint)) from None
@@ -143,34 +143,11 @@ def from_revision(name: str, path: Path, scratch: Path) -> VersionedSource:
 
 def _is_on_disk(path: Path, content: bytes) -> bool:
     """Whether the file has this content, or the one that a pointer of Git LFS stands for."""
-    if not (os.access(path, os.R_OK) and path.is_file()):
-        return False
-    now, pointer = path.read_bytes(), _LFS_POINTER.match(content)
-    return now == content or (pointer is not None and digest(now) == pointer[1].decode())
-
-
-def _toplevel(folder: Path, name: str) -> str:
-    done = _git(folder, "rev-parse", "--show-toplevel")
-    if done.returncode == 0:
-        return os.fsdecode(done.stdout).rstrip("\n")
-    if any(word in os.fsdecode(done.stderr) for word in _REFUSED):
-        raise _failed(done)
-    message = f"there is no file {name!r}, and no git repository around {folder} that has it as a revision"
-    raise _error("no-repository", message, hint=_HINT)
-
-
-def _git(folder: Path, *arguments: str, content: bytes = b"") -> subprocess.CompletedProcess[bytes]:
     try:
-        return git.run(folder, "--no-replace-objects", *arguments, content=content)
-    except FileNotFoundError:
-        message, hint = "git is not installed, or not on PATH", "install it, or give --against a file"
-        raise _error("no-git", message, hint=hint) from None
-    except OSError as problem:
-        raise _error("no-git", f"git can't be run: {problem.strerror}", hint="give --against a file") from None
-
-
-def _failed(done: subprocess.CompletedProcess[bytes]) -> SourceError:
-    return _error("git", f"git failed: {git.reason(done)}", hint="put that right, or give --against a file")
+        now, pointer = read_unrecorded(path), _LFS_POINTER.match(content)
+    except OSError:
+        return False
+    return now == content or (pointer is not None and digest(now) == pointer[1].decode())
 
 
 def _error(code: str, message: str, file: str = "", hint: str = "") -> SourceError:

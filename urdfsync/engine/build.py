@@ -17,10 +17,12 @@ from urdfsync import dependencies, machine, profiling
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
 from urdfsync.config.trust import find_untrusted_output
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, StateError, UrdfsyncError
-from urdfsync.engine import orphans
+from urdfsync.engine.actions import DELETES, Actions, Kind
+from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
-from urdfsync.engine.plan import Plan, plan_robot
+from urdfsync.engine.plan import plan_robot
+from urdfsync.engine.stage import Plan
 from urdfsync.outcome import Result
 from urdfsync.state.lock import Lock, LockedError, build_lock
 from urdfsync.state.store import Store
@@ -47,9 +49,7 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
         for count, robot in enumerate(robots):
             options.progress(robot.name, count, len(robots))
             result = builder.build(robot)
-            notes = (
-                builder.notes if count else [*orphans.orphaned_state(Store(config.root, shown), config), *builder.notes]
-            )
+            notes = builder.notes if count else [*orphaned_state(config), *builder.notes]
             builder.notes = []
             yield msgspec.structs.replace(result, diagnostics=(*notes, *result.diagnostics)) if notes else result
 
@@ -59,8 +59,9 @@ class _Builder:
 
     def __init__(self, config: Config, options: BuildOptions, lock: Lock, pool: Pool | None) -> None:
         self._config, self._options, self._lock, self._pool = config, options, lock, pool
+        self._state_folder = config.root / STATE_FOLDER
         outputs = list(dict.fromkeys(robot.output for robot in config.robots))
-        self._transactions = Transactions(config.root, config.root / STATE_FOLDER, shown, outputs)
+        self._transactions = Transactions(config.root, self._state_folder, shown, outputs)
         self.notes: list[Diagnostic] = []
         """Findings that belong to no robot of this command."""
 
@@ -74,13 +75,12 @@ class _Builder:
             plan = self._plan_and_write(robot)
         except UrdfsyncError as error:
             locked, unfinished = isinstance(error, LockedError), isinstance(error, UnfinishedError)
-            return msgspec.structs.replace(
-                result, diagnostics=error.diagnostics, failed=True, locked=locked, unfinished=unfinished
-            )
+            found = error.diagnostics
+            return msgspec.structs.replace(result, diagnostics=found, failed=True, locked=locked, unfinished=unfinished)
         except OSError as error:
             place = Path(error.filename) if isinstance(error.filename, str) else robot.folder
-            found = Diagnostic(Severity.ERROR, "system", error.strerror or str(error), shown(place))
-            return msgspec.structs.replace(result, diagnostics=(found,), failed=True)
+            found = (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), shown(place)),)
+            return msgspec.structs.replace(result, diagnostics=found, failed=True)
         warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
         return msgspec.structs.replace(
             result,
@@ -89,31 +89,29 @@ class _Builder:
             changes=plan.changes,
             standoffs=plan.conflicts,
             drawing=plan.drawing,
-            renews_state=any(
-                change.path.parent == self._config.root / STATE_FOLDER / "robots" for change in plan.writes
-            ),
+            renews_state=any(change.path.parent == self._state_folder / "robots" for change in plan.writes),
         )
 
     def _plan_and_write(self, robot: RobotConfig) -> Plan:
         """Plan, and write unless the run is dry; again if another build or a save overtook the plan."""
-        saved = robot.folder
+        saved, first = robot.folder, None
         for _ in range(_ATTEMPTS):
             self._recover()
             plan = self._pool.plan(robot) if self._pool else plan_robot(self._config, robot, self._options)
-            writes = plan.writes or plan.bases or not plan.is_noted or any(action.writes for action in plan.actions)
-            if self._options.dry or not writes:
-                if not self._options.dry or self._is_current(plan):
+            if self._options.dry:
+                if self._is_current(plan):
                     return plan
                 continue
-            dependencies.mark_incomplete()  # what was read is about to change
-            with profiling.stage("waiting"):
-                self._lock.acquire(waiting=self._wait)
-            if not self._is_current(plan):
-                continue
-            overtaken = self._write(robot, plan)
-            if not overtaken:
-                return plan
-            saved = overtaken[0]
+            if plan.writes or plan.bases or not plan.is_noted or any(action.writes for action in plan.actions):
+                dependencies.mark_incomplete()  # what was read is about to change
+                with profiling.stage("waiting"):
+                    self._lock.acquire(waiting=self._wait)
+                if not self._is_current(plan):
+                    continue
+                if overtaken := self._write(robot, plan):
+                    saved, first = overtaken[0], _joined(first, plan) if first else plan
+                    continue
+            return _joined(first, plan) if first else plan
         message = "it changes all the time while urdfsync builds"
         hint = "close what writes to it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
@@ -154,16 +152,34 @@ class _Builder:
         """Wait for a build that is writing; finish what a killed build left."""
         if not self._transactions.pending():
             return
-        if self._options.dry:
-            with build_lock(self._config.root, self._config.root / STATE_FOLDER, self._options.wait, shown) as lock:
-                lock.acquire(shared=True, waiting=self._wait)
-            if self._transactions.pending():
-                message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
-                place = shown(self._config.root / STATE_FOLDER)
-                raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, place, hint=hint))
+        if not self._options.dry:
+            self._lock.acquire(waiting=self._wait)
+            self.notes += self._transactions.recover(self._options.repair)
             return
-        self._lock.acquire(waiting=self._wait)
-        self.notes += self._transactions.recover(self._options.repair)
+        with build_lock(self._config.root, self._state_folder, self._options.wait, shown) as lock:
+            lock.acquire(shared=True, waiting=self._wait)
+        if self._transactions.pending():
+            message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
+            raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, shown(self._state_folder), hint=hint))
 
     def _wait(self) -> None:
         self._options.progress("waiting for another build", 0, 1)
+
+
+def _joined(first: Plan, second: Plan) -> Plan:
+    """Return what was done by two plans of one robot, of which somebody's save overtook the first.
+
+    What the first one wrote and the second one finds in order is told as it was done; what was saved is told anew.
+    """
+    known = {action.path for action in second.actions}
+    done = {action.path: action for action in first.actions if action.writes}
+    in_order = (Kind.UNCHANGED, Kind.ADOPT, Kind.INCLUDED, Kind.FORGET)
+    actions = [done.get(one.path, one) if one.kind in in_order else one for one in second.actions]
+    deleted = [one for path, one in done.items() if path not in known and one.kind in DELETES]
+    return msgspec.structs.replace(
+        second,
+        actions=Actions([*actions, *deleted]),
+        diagnostics=tuple(dict.fromkeys((*first.diagnostics, *second.diagnostics))),
+        changes=first.changes or second.changes,
+        writes=(*first.writes, *second.writes),
+    )

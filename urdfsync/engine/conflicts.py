@@ -67,14 +67,6 @@ def find_conflict(action: Action, base: str | None, mine: str, generated: str) -
     return Conflict(action.path, action.owner, base, mine, generated, merged, action.origin, rejected)
 
 
-def reject_merge(conflict: Conflict, name: str, line: int) -> Conflict:
-    """Reject a merge that uses a name which the package loses."""
-    if conflict.merge is None:
-        return conflict
-    reason = f"the merge mentions `{name}`, which the package has no more (line {line})"
-    return msgspec.structs.replace(conflict, merge=msgspec.structs.replace(conflict.merge, text=None), rejected=reason)
-
-
 def resolve(
     actions: Iterable[Action], conflicts: Mapping[str, Conflict], choices: Mapping[str, Choice], merging: bool
 ) -> tuple[tuple[Action, ...], dict[str, str]]:
@@ -87,51 +79,32 @@ def resolve(
     found, texts = [], {}
     for action in actions:
         conflict, choice = conflicts.get(action.path), choices.get(action.path)
-        if action.kind is Kind.ORPHAN:
-            action, text = _resolve_orphan(action, choice), None
-        elif action.kind is Kind.MOVE and conflict:
-            action, text = _resolve_move(action, conflict, choice)
-        elif action.kind in CONFLICTS:
-            action, text = _resolve_conflict(action, conflict, choice, merging)
-        else:
-            text = None
+        merged = conflict.merge.text if conflict and conflict.merge else None
+        kind, base, text = action.kind, action.base, None
+        if kind is Kind.ORPHAN:
+            if choice is Choice.TAKE and action.mine is not None:
+                kind = Kind.DELETE
+            elif choice is Choice.KEEP:
+                kind = Kind.FORGET
+            else:
+                choice = None
+        elif kind is Kind.MOVE and conflict:
+            text = None if choice is Choice.TAKE else conflict.mine if choice is Choice.KEEP else merged
+            if text is None and choice is not Choice.TAKE:
+                kind = Kind.CONFLICT
+        elif kind not in CONFLICTS:
+            choice = action.choice
+        elif conflict and merged == conflict.mine:
+            kind, choice = Kind.INCLUDED, None
+        elif choice is Choice.KEEP:
+            kind, base = Kind.KEEP, action.generated
+        elif choice is Choice.TAKE and action.replaceable:
+            kind = Kind.UPDATE
+        elif merged is not None and (choice is Choice.MERGE or merging):
+            kind, text = Kind.MERGE, merged
+        if (kind, base, choice) != (action.kind, action.base, action.choice):
+            action = msgspec.structs.replace(action, kind=kind, base=base, choice=choice)
         found.append(action)
         if text is not None:
             texts[action.path] = text
     return tuple(found), texts
-
-
-def _resolve_orphan(action: Action, choice: Choice | None) -> Action:
-    if choice is Choice.TAKE and action.mine is not None:
-        return msgspec.structs.replace(action, kind=Kind.DELETE, choice=choice)
-    if choice is Choice.KEEP:
-        return msgspec.structs.replace(action, kind=Kind.FORGET, choice=choice)
-    return action
-
-
-def _resolve_conflict(
-    action: Action, conflict: Conflict | None, choice: Choice | None, merging: bool
-) -> tuple[Action, str | None]:
-    merged = conflict.merge.text if conflict and conflict.merge else None
-    if conflict and merged == conflict.mine:
-        return msgspec.structs.replace(action, kind=Kind.INCLUDED), None
-    action = msgspec.structs.replace(action, choice=choice)
-    if choice is Choice.KEEP:
-        return msgspec.structs.replace(action, kind=Kind.KEEP, base=action.generated), None
-    if choice is Choice.TAKE and action.replaceable:
-        return msgspec.structs.replace(action, kind=Kind.UPDATE), None
-    if merged is not None and (choice is Choice.MERGE or merging):
-        return msgspec.structs.replace(action, kind=Kind.MERGE), merged
-    return action, None
-
-
-def _resolve_move(action: Action, conflict: Conflict, choice: Choice | None) -> tuple[Action, str | None]:
-    """Merge a file that moves with its renamed element, unless the user wants one of the sides."""
-    action = msgspec.structs.replace(action, choice=choice)
-    if choice is Choice.TAKE:
-        return action, None
-    if choice is Choice.KEEP:
-        return action, conflict.mine
-    if conflict.merge and conflict.merge.text is not None:
-        return action, conflict.merge.text
-    return msgspec.structs.replace(action, kind=Kind.CONFLICT), None

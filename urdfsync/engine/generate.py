@@ -132,21 +132,31 @@ def _render(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> 
     try:
         text = renderer.render(artifact.template, artifact.data)
         return (text.replace("\r\n", "\n") if "\r" in text else text).encode()
-    except jinja2.TemplateSyntaxError as error:
-        place = error.filename or error.name or artifact.template, error.lineno
-        raise _template_error(str(error.message).rstrip("."), place, folders) from None
-    except jinja2.TemplateNotFound as error:
-        names = error.templates if isinstance(error, jinja2.TemplatesNotFound) else [error.name]
+    except (jinja2.TemplateError, *_RENDERING) as error:
+        problem = error
+    message = f"the template can't be rendered for `{artifact.path}`: {_reason(problem)}"
+    file = next((str(one / artifact.template) for one in folders if (one / artifact.template).is_file()), "")
+    file, line, frame = file or artifact.template, 0, problem.__traceback__
+    while frame is not None:  # Jinja names templates in the traceback; the innermost one counts
+        name = frame.tb_frame.f_code.co_filename
+        if any(folder in Path(name).parents for folder in folders):
+            file, line = name, frame.tb_lineno
+        frame = frame.tb_next
+    if isinstance(problem, jinja2.TemplateSyntaxError):
+        message = str(problem.message).rstrip(".")
+        file, line = problem.filename or problem.name or artifact.template, problem.lineno
+    elif isinstance(problem, jinja2.TemplateNotFound):
+        names = problem.templates if isinstance(problem, jinja2.TemplatesNotFound) else [problem.name]
         message = f"there is no template {' or '.join(f'`{name}`' for name in names)}"
-        raise _template_error(message, _place(error, artifact.template, folders), folders) from None
-    except UnicodeDecodeError as error:
-        raise _template_error("the template is not UTF-8", _undecodable(error, folders), folders) from None
-    except _RENDERING as error:
-        message = f"the template can't be rendered for `{artifact.path}`: {_reason(error)}"
-        raise _template_error(message, _place(error, artifact.template, folders), folders) from None
-    except jinja2.TemplateError as error:
-        message = f"the template can't be rendered for `{artifact.path}`: {_reason(error)}"
-        raise _template_error(message, _place(error, artifact.template, folders), folders) from None
+    elif isinstance(problem, UnicodeDecodeError):  # it has nothing but the bytes of the template
+        message, content = "the template is not UTF-8", problem.object
+        files = (path for folder in folders for path in sorted(folder.rglob("*")) if path.is_file())
+        file = next((str(path) for path in files if path.read_bytes() == content), "")
+        line = content.count(b"\n", 0, problem.start) + 1
+    is_own = any(folder in Path(file).parents for folder in folders[:-1])
+    hint = "correct the template, or delete it to get that of urdfsync" if is_own else "install urdfsync again"
+    file = shown(Path(file)) if Path(file).is_absolute() else file
+    raise ConfigError(Diagnostic(Severity.ERROR, "template", message, file, line, hint=hint))
 
 
 _RENDERING = (
@@ -164,30 +174,3 @@ def _reason(error: Exception) -> str:
     if isinstance(error, UnicodeEncodeError):
         return f"it gives {error.object[error.start]!r}, which is no character"
     return str(error).rstrip(".") or type(error).__name__
-
-
-def _template_error(message: str, place: tuple[str, int], folders: Sequence[Path]) -> ConfigError:
-    file, line = place
-    own = any(folder in Path(file).parents for folder in folders[:-1])
-    hint = "correct the template, or delete it to get that of urdfsync" if own else "install urdfsync again"
-    name = shown(Path(file)) if Path(file).is_absolute() else file
-    return ConfigError(Diagnostic(Severity.ERROR, "template", message, name, line, hint=hint))
-
-
-def _place(error: Exception, template: str, folders: Sequence[Path]) -> tuple[str, int]:
-    """File and line of the innermost template that the error passed through; Jinja names them in the traceback."""
-    file = next((str(folder / template) for folder in folders if (folder / template).is_file()), template)
-    line, frame = 0, error.__traceback__
-    while frame is not None:
-        name = frame.tb_frame.f_code.co_filename
-        if any(folder in Path(name).parents for folder in folders):
-            file, line = name, frame.tb_lineno
-        frame = frame.tb_next
-    return file, line
-
-
-def _undecodable(error: UnicodeDecodeError, folders: Sequence[Path]) -> tuple[str, int]:
-    """File and line of the template whose bytes could not be decoded; the error has nothing but the bytes."""
-    files = (path for folder in folders for path in sorted(folder.rglob("*")) if path.is_file())
-    name = next((str(path) for path in files if path.read_bytes() == error.object), "")
-    return name, error.object.count(b"\n", 0, error.start) + 1

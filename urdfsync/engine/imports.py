@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import os
 import re
+import stat
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
-from urdfsync.dependencies import is_file, read_file
+from urdfsync.dependencies import file_type, is_file, read_file
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
 from urdfsync.engine import ros_packages as packages
@@ -21,10 +22,16 @@ from urdfsync.state.modelfile import ConversionFacts
 
 _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
-_ABSOLUTE = r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]"
-"""A place on this machine, to which search paths make no difference."""
-_IN_PACKAGE = "[a-z]+://([^/]+)/"
 _IN_LIBRARY = r"\s*modelica:/*([^/.]+)"
+_HINTS = {
+    r"(?:https?|ftp):": "download it, and let the source refer to the file",
+    # a place on this machine, to which search paths make no difference
+    r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]": "put it there, or let the source refer to it by a package or a relative path",
+    _IN_LIBRARY: "put the folder that holds the library `{}` on MODELICAPATH",
+    "[a-z]+://([^/]+)/": "add the folder that holds the folder `{}` to `package_paths`",
+    "": "add the folder that holds it to `package_paths`",
+}
+"""What to do about a file that is not found, by how its URI begins; the first one counts."""
 
 
 class Recorded(msgspec.Struct, frozen=True):
@@ -61,7 +68,7 @@ def unchanged(dependencies: Sequence[Dependency], records: Mapping[str, Dependen
             return False
         found = _find(dependency)
         known = {(record.source_hash, record.converter), (record.unreadable, record.unreadable_by)}
-        if found and (digest(found[1]), converter) not in known:
+        if isinstance(found, tuple) and (digest(found[1]), converter) not in known:
             return False
     return True
 
@@ -92,45 +99,121 @@ def bring_in(
 ) -> Imported:
     """Import every dependency; `source` is how diagnostics name the file that refers to them.
 
-    A conversion of the last build serves again if it has the same input, unless `again`. What the last build did not
-    find either is no warning again, but a note. Raises StateError if a copy must serve of which the recorded facts are
-    lost.
+    A conversion of the last build serves again if it has the same input, unless `again`. What can't be found or read is
+    left out, or its recorded copy serves. What the last build did not find either is no warning again, but a note.
+    Raises StateError if a copy must serve of which the recorded facts are lost.
     """
     result = Imported()
-    missing: list[tuple[Dependency, Diagnostic]] = []
     known: list[Dependency] = []
+    missing: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
     for count, dependency in enumerate(dependencies):
         progress(count, len(dependencies))
+        key, target, noun = dependency.key, dependency.target, dependency.noun
+        place, name = (source, dependency.line), f"{noun} `{dependency.uri}`"
+        record, facts = recorded.records.get(key), recorded.facts.get(key)
         found = _find(dependency)
-        if found is None:
-            record = recorded.records.get(dependency.key)
-            was_missing = record is not None and record.target_hash is None and record.unreadable is None
-            trouble = _keep(dependency, recorded, result, _not_found([dependency], source))
-            if was_missing and not again:
+        if not isinstance(found, tuple):
+            trouble = _not_found([dependency], *place)
+            if found is not None:
+                message, hint = f"{name} can't be read: {found.strerror}", f"put a {noun} in its place that can be"
+                trouble = Diagnostic(Severity.WARNING, f"{noun}-unreadable", message, *place, hint=hint)
+            trouble = _keep(dependency, recorded, result, trouble)
+            if record and record.target_hash is None and record.unreadable is None and not again:
                 known.append(dependency)
-            else:
-                missing.append((dependency, trouble))
+            else:  # one warning for all files of a package, whose hint is the same
+                group = (trouble.code, trouble.hint, noun, key if found else "")
+                missing.setdefault(group, []).append((dependency, trouble))
             continue
+        path, content = found
+        sha256 = digest(content)
         if dependency.guessed:
-            result.diagnostics.append(_doubt(dependency, source))
-        if again or not _serve(domain, dependency, digest(found[1]), recorded, result):
-            _convert(domain, dependency, found, recorded, source, result)
-    result.diagnostics += [*_merge_alike(missing, source), *reminder(known, result.records, source)]
+            message = f"{name} is taken from a folder that is not called like its package"
+            hint = "rename the folder, or add that of the right package to `package_paths`"
+            guess = Diagnostic(Severity.WARNING, f"{noun}-guessed", message, *place, hint=hint)
+            result.diagnostics.append(guess)
+        made_from = {(one.source_hash, one.converter) for one in (record, facts) if one}
+        if record and facts and not again and made_from == {(sha256, domain.converter)}:
+            copy = recorded.copy(record.target)
+            if copy is not None and digest(copy) == record.target_hash:
+                if recorded.moved or record.target != target:
+                    result.contents[target] = copy
+                _add(dependency, Import(target, sha256, digest(copy), domain.converter, facts.facts), result)
+                continue
+        if content.startswith(_POINTER):
+            message, hint = f"{name} can't be read: it is a Git LFS pointer", "get the file itself with `git lfs pull`"
+            trouble = Diagnostic(Severity.WARNING, f"{noun}-unreadable", message, *place, hint=hint)
+        else:
+            try:
+                conversion = domain.convert(dependency, path, content)
+            except SourceError as error:
+                found_ = error.diagnostics[0]
+                trouble = Diagnostic(Severity.WARNING, f"{noun}-unreadable", found_.message, *place, hint=found_.hint)
+            else:
+                result.contents[target] = conversion.content
+                hashes = sha256, digest(conversion.content)
+                _add(dependency, Import(target, *hashes, domain.converter, conversion.facts), result)
+                continue
+        result.diagnostics.append(_keep(dependency, recorded, result, trouble))
+        # remembered, so that it is tried again only if it changes
+        unreadable = {"unreadable": sha256, "unreadable_by": domain.converter}
+        result.records[key] = msgspec.structs.replace(result.records[key], **unreadable)
+    for alike in missing.values():
+        first = min((trouble for _, trouble in alike), key=lambda trouble: trouble.line)
+        if len(alike) > 1:
+            message = _not_found([dependency for dependency, _ in alike], source).message
+            end = "the imported copies are kept" if first.code.endswith("-kept") else "left out"
+            first = msgspec.structs.replace(first, message=f"{message}; {end}")
+        result.diagnostics.append(first)
+    result.diagnostics += reminder(known, result.records, source)
     return result
 
 
-def _merge_alike(missing: Sequence[tuple[Dependency, Diagnostic]], source: str) -> Iterator[Diagnostic]:
-    """One warning for all files of a package, whose hint is the same."""
-    groups: dict[tuple[str, str, str], list[tuple[Dependency, Diagnostic]]] = {}
-    for dependency, trouble in missing:
-        groups.setdefault((trouble.code, trouble.hint, dependency.noun), []).append((dependency, trouble))
-    for group in groups.values():
-        first = min((trouble for _, trouble in group), key=lambda trouble: trouble.line)
-        if len(group) > 1:
-            message = _not_found([dependency for dependency, _ in group], source).message
-            end = "the imported copies are kept" if first.code.endswith("-kept") else "left out"
-            first = msgspec.structs.replace(first, message=f"{message}; {end}")
-        yield first
+def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -> Diagnostic:
+    """What to say of files that have the same noun and are missing for the same reason."""
+    first, count = dependencies[0], len(dependencies)
+    what = f"{first.noun} `{first.uri}`" if count == 1 else f"{count} {_plural(first.noun)} (such as `{first.uri}`)"
+    beginning, match = next(
+        (beginning, match)
+        for beginning in _HINTS
+        if (match := re.match(beginning, first.uri.strip(), re.IGNORECASE)) is not None
+    )
+    is_remote = match[0].lower().startswith(("http", "ftp"))
+    message = f"{what} {'is' if count == 1 else 'are'} on the network, where urdfsync does not look"
+    message = message if is_remote else f"{what} not found"
+    hint = _HINTS[beginning].format(*match.groups())
+    return Diagnostic(Severity.WARNING, f"{first.noun}-not-found", message, source, line, hint=hint)
+
+
+def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble: Diagnostic) -> Diagnostic:
+    """Without the source, the copy that an earlier build made serves; without a copy there is nothing.
+
+    `trouble` says what is wrong with the source. Returns it with what follows from it.
+    """
+    record, facts = recorded.records.get(dependency.key), recorded.facts.get(dependency.key)
+    copy = recorded.copy(record.target) if record and record.target_hash else None
+    if record is None or copy is None:
+        result.records[dependency.key] = DependencyRecord(dependency.uri, dependency.target)
+        return msgspec.structs.replace(trouble, message=f"{trouble.message}; left out")
+    if facts is None or facts.source_hash != record.source_hash or record.source_hash is None:
+        message = f"{trouble.message}, and what is recorded of its imported copy is lost"
+        hint = "restore `.urdfsync/robots` from version control, or the file itself"
+        raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
+    copied = digest(copy)
+    written = copied if copied == recorded.base(record.target) else record.target_hash or copied
+    converter = facts.converter if written == record.target_hash else None  # an older copy, which was put back
+    if recorded.moved or record.target != dependency.target:
+        result.contents[dependency.target], written = copy, copied
+    if written != copied:
+        result.hashes_only.add(dependency.target)
+    _add(dependency, Import(dependency.target, record.source_hash, written, converter, facts.facts), result)
+    message = f"{trouble.message}; the imported copy is kept"
+    return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint="")
+
+
+def _add(dependency: Dependency, entry: Import, result: Imported) -> None:
+    result.imports[dependency.key] = entry
+    hashes = entry.source_hash, entry.target_hash
+    result.records[dependency.key] = DependencyRecord(dependency.uri, entry.target, *hashes, entry.converter)
 
 
 def find_dependencies(
@@ -163,15 +246,19 @@ def _guessed(dependency: Dependency) -> Dependency:
     return msgspec.structs.replace(dependency, guessed=_is_found(dependency))
 
 
-def _find(dependency: Dependency) -> tuple[Path, bytes] | None:
-    """The first candidate that is a file and can be read, with its content."""
+def _find(dependency: Dependency) -> tuple[Path, bytes] | OSError | None:
+    """The first candidate that is a file and can be read, with its content; else why one can't be, None for no file."""
+    trouble = None
     for path in dependency.candidates:
-        if _is_file(path):
-            try:
+        try:
+            kind = file_type(path)
+            if kind not in (0, stat.S_IFDIR):
                 return path, read_file(path)
-            except OSError:
-                continue
-    return None
+        except PermissionError:
+            continue  # a folder above it may not let us in, and another candidate is as good
+        except OSError as error:
+            trouble = trouble or error
+    return trouble
 
 
 def _is_file(path: Path) -> bool:
@@ -180,127 +267,3 @@ def _is_file(path: Path) -> bool:
         return is_file(path)
     except OSError:
         return False
-
-
-def _serve(domain: Domain, dependency: Dependency, source: str, recorded: Recorded, result: Imported) -> bool:
-    """Use the conversion of an earlier build, if it has the same input and its copy is untouched."""
-    record, facts = recorded.records.get(dependency.key), recorded.facts.get(dependency.key)
-    if record is None or facts is None:
-        return False
-    if {(record.source_hash, record.converter), (facts.source_hash, facts.converter)} != {(source, domain.converter)}:
-        return False
-    copy = recorded.copy(record.target)
-    if copy is None or digest(copy) != record.target_hash:
-        return False
-    if recorded.moved or record.target != dependency.target:
-        result.contents[dependency.target] = copy
-    _add(dependency, Import(dependency.target, source, digest(copy), domain.converter, facts.facts), result)
-    return True
-
-
-def _convert(
-    domain: Domain,
-    dependency: Dependency,
-    found: tuple[Path, bytes],
-    recorded: Recorded,
-    source: str,
-    result: Imported,
-) -> None:
-    path, content = found
-    if content.startswith(_POINTER):
-        _refuse(domain, dependency, content, recorded, result, _pointer(dependency, source))
-        return
-    try:
-        conversion = domain.convert(dependency, path, content)
-    except SourceError as error:
-        trouble = msgspec.structs.replace(error.diagnostics[0], file=source, code="unreadable")
-        _refuse(domain, dependency, content, recorded, result, trouble)
-        return
-    result.contents[dependency.target] = conversion.content
-    hashes = digest(content), digest(conversion.content)
-    _add(dependency, Import(dependency.target, *hashes, domain.converter, conversion.facts), result)
-
-
-def _refuse(
-    domain: Domain,
-    dependency: Dependency,
-    content: bytes,
-    recorded: Recorded,
-    result: Imported,
-    trouble: Diagnostic,
-) -> None:
-    """Do without a file that can't be read, and remember it, so that it is tried again only if it changes."""
-    result.diagnostics.append(_keep(dependency, recorded, result, trouble))
-    seen = {"unreadable": digest(content), "unreadable_by": domain.converter}
-    result.records[dependency.key] = msgspec.structs.replace(result.records[dependency.key], **seen)
-
-
-def _pointer(dependency: Dependency, source: str) -> Diagnostic:
-    message = f"{dependency.noun} `{dependency.uri}` can't be read: it is a Git LFS pointer"
-    hint = "get the file itself with `git lfs pull`"
-    return Diagnostic(Severity.WARNING, "unreadable", message, source, hint=hint)
-
-
-def _not_found(dependencies: Sequence[Dependency], source: str) -> Diagnostic:
-    """What to say of files that have the same noun and are missing for the same reason."""
-    first = dependencies[0]
-    one = len(dependencies) == 1
-    what = (
-        f"{first.noun} `{first.uri}`" if one else f"{len(dependencies)} {_plural(first.noun)} (such as `{first.uri}`)"
-    )
-    message, hint = f"{what} not found", "add the folder that holds it to `package_paths`"
-    uri = first.uri.strip()
-    if uri.lower().startswith(("http:", "https:", "ftp:")):
-        message = f"{what} {'is' if one else 'are'} on the network, where urdfsync does not look"
-        hint = "download it, and let the source refer to the file"
-    elif re.match(_ABSOLUTE, uri, re.IGNORECASE):
-        hint = "put it there, or let the source refer to it by a package or a relative path"
-    elif library := re.match(_IN_LIBRARY, uri, re.IGNORECASE):
-        hint = f"put the folder that holds the library `{library[1]}` on MODELICAPATH"
-    elif package := re.match(_IN_PACKAGE, uri, re.IGNORECASE):
-        hint = f"add the folder that holds the folder `{package[1]}` to `package_paths`"
-    return Diagnostic(Severity.WARNING, "not-found", message, source, hint=hint)
-
-
-def _doubt(dependency: Dependency, source: str) -> Diagnostic:
-    message = f"{dependency.noun} `{dependency.uri}` is taken from a folder that is not called like its package"
-    hint = "rename the folder, or add that of the right package to `package_paths`"
-    code = f"{dependency.noun}-guessed"
-    return Diagnostic(Severity.WARNING, code, message, source, dependency.line, hint=hint)
-
-
-def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble: Diagnostic) -> Diagnostic:
-    """Without the source, the copy that an earlier build made serves; without a copy there is nothing.
-
-    `trouble` says what is wrong with the source. Returns it as a warning, with what follows from it.
-    """
-    trouble = msgspec.structs.replace(
-        trouble, severity=Severity.WARNING, code=f"{dependency.noun}-{trouble.code}", line=dependency.line
-    )
-    record = recorded.records.get(dependency.key)
-    copy = recorded.copy(record.target) if record and record.target_hash else None
-    if record is None or copy is None:
-        result.records[dependency.key] = DependencyRecord(dependency.uri, dependency.target)
-        return msgspec.structs.replace(trouble, message=f"{trouble.message}; left out")
-    facts = recorded.facts.get(dependency.key)
-    if facts is None or facts.source_hash != record.source_hash or record.source_hash is None:
-        message = f"{trouble.message}, and what is recorded of its imported copy is lost"
-        hint = "restore `.urdfsync/robots` from version control, or the file itself"
-        raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
-    copied = digest(copy)
-    written = copied if copied == recorded.base(record.target) else record.target_hash or copied
-    converter = facts.converter if written == record.target_hash else None  # an older copy, which was put back
-    if recorded.moved or record.target != dependency.target:
-        result.contents[dependency.target], written = copy, copied
-    if written != copied:
-        result.hashes_only.add(dependency.target)
-    _add(dependency, Import(dependency.target, record.source_hash, written, converter, facts.facts), result)
-    message = f"{trouble.message}; the imported copy is kept"
-    return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint="")
-
-
-def _add(dependency: Dependency, entry: Import, result: Imported) -> None:
-    result.imports[dependency.key] = entry
-    result.records[dependency.key] = DependencyRecord(
-        dependency.uri, entry.target, entry.source_hash, entry.target_hash, entry.converter
-    )

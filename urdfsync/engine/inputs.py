@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,9 +13,9 @@ import msgspec
 
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
-from urdfsync.domain import Dependency, Domain, Import, Lookup, Role, Snapshot, Templates, Version
-from urdfsync.engine import imports, orphans, parents, source
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
+from urdfsync.domain import Dependency, Domain, Import, Lookup, Role, Snapshot, Target, Templates, Version
+from urdfsync.engine import imports, parents, source
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import Parents
@@ -79,6 +79,11 @@ class Inputs:
         if former:
             former &= self.store.written_folders(self.former_name or self.robot.name)
         return self.folder, *sorted(former)
+
+    @property
+    def is_noted(self) -> bool:
+        """Whether a build in this checkout noted the package's folder."""
+        return self.folder in self.store.written_folders(self.robot.name)
 
     def own_files(self, recorded: Manifest) -> dict[str, FileRecord]:
         """Return the recorded files that a build may delete and move, by key."""
@@ -184,6 +189,34 @@ class Inputs:
         lookup = Lookup(self.robot.source, self.robot.package_paths + self.options.package_paths)
         return imports.find_dependencies(self.domain, snapshot, lookup, self.robot.options, lines)
 
+    def recorded_imports(self) -> imports.Recorded:
+        """Return the imports of the last build, and how their copies in the package are read."""
+        recorded, model = self.recorded, self.state.model if self.state else None
+        files = recorded.files if recorded else {}
+
+        def base(target: str) -> str | None:
+            record = files.get(self.old_key(target))
+            return record.base if record else None
+
+        return imports.Recorded(
+            records=recorded.dependencies if recorded else {},
+            facts=model.imports if model else {},
+            copy=lambda target: self.files.read(self.old_key(target)),
+            base=base,
+            moved=self.old_folder != self.folder,
+        )
+
+    def changed_options(self) -> tuple[str, ...]:
+        """Return the options that are others than in the last build; none if more than options changed, or nothing."""
+        before, recorded = self._recorded_options, self.recorded
+        if before is None or recorded is None or recorded.generator.revision != self.domain.revision:
+            return ()
+        robot, revision = self.robot, self.domain.revision
+        if _fingerprint(robot.target, before, revision, self.templates.digest) != recorded.generator.fingerprint:
+            return ()
+        names = robot.options.__struct_fields__
+        return tuple(name for name in names if getattr(before, name) != getattr(robot.options, name))
+
     def rebuilt_manifest(self, generated: Mapping[str, str]) -> Manifest | None:
         """Return the manifest of the last build, rebuilt with `--repair`; `generated` has hashes of files by key."""
         if self.recovered is None:
@@ -206,12 +239,14 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     around = parents.check(config, robot, domain.uses(robot.options))
     store, folder = Store(config.root, shown), files.key(robot.folder)
     state, recovered = _load(store, files, robot.name, options)
-    former = None if state else orphans.former_name(store, config, folder)
-    if former:
-        state = store.load(former)
+    former = None
+    if state is None:  # was it built into this folder by another name, which is no longer configured?
+        former = next((name for name, its_folder in orphaned_robots(store, config) if its_folder == folder), None)
+        state = store.load(former) if former else None
     templates = source.templates(config, robot, domain)
     content = source.read_source(config, robot)
-    generator = Generator(robot.domain, domain.revision, _fingerprint(robot, domain, templates))
+    fingerprint = _fingerprint(robot.target, robot.options, domain.revision, templates.digest)
+    generator = Generator(robot.domain, domain.revision, fingerprint)
     recorded = state.manifest.generator if state else generator
     if recorded.domain == robot.domain and recorded.revision > domain.revision:
         message = f"a newer urdfsync built robot `{robot.name}`; this one would undo its improvements"
@@ -242,13 +277,25 @@ def _load(
     return State(recorded, recovered.model(recorded), intact=False), recovered
 
 
-def _fingerprint(robot: RobotConfig, domain: Domain, templates: Templates) -> str:
-    """Hash templates, options and revision: all that shapes the output beside the model."""
+def _fingerprint(target: Target, options: Any, revision: int, templates: str) -> str:
+    """Hash all that shapes the output beside the model; `templates` is the hash of the templates."""
     facts = {
-        "class": robot.target.name,
-        "options": msgspec.to_builtins(robot.options),
-        "package": robot.target.package,
-        "revision": domain.revision,
-        "templates": templates.digest,
+        "class": target.name,
+        "options": msgspec.to_builtins(options),
+        "package": target.package,
+        "revision": revision,
+        "templates": templates,
     }
     return digest(json.dumps(facts, sort_keys=True).encode())
+
+
+def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
+    """Yield robots that have a state and are not configured, with the key of their folder; None if it can't be read."""
+    known = {robot.name.casefold() for robot in config.robots}
+    for name in store.names():
+        if name.casefold() not in known:
+            try:
+                state = store.load(name)
+            except UrdfsyncError:
+                state = None
+            yield name, state.manifest.folder if state else None

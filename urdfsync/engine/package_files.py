@@ -12,7 +12,7 @@ from urdfsync import dependencies
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
-from urdfsync.engine.renames import OnDisk
+from urdfsync.engine.rules import OnDisk
 from urdfsync.files import Tree, digest, placed, text_digest
 from urdfsync.modelica.files import files_that_use, modelica_files
 
@@ -45,7 +45,7 @@ class PackageFiles:
 
     def key(self, path: Path) -> str:
         """Return the key of a file."""
-        return Path(os.path.relpath(path, self.root)).as_posix()
+        return key_of(path, self.root)
 
     def path(self, key: str) -> Path:
         """Return the absolute path of a file."""
@@ -153,6 +153,11 @@ class PackageFiles:
 
     def _tree(self, path: str) -> Tree | None:
         return next((tree for tree in self._trees if tree.covers(path)), None)
+
+
+def key_of(path: Path, root: Path) -> str:
+    """Return the key of a file; `root` is the configuration's folder."""
+    return Path(os.path.relpath(path, root)).as_posix()
 
 
 def state_of(stat: dependencies.Stat, content: bytes) -> FileState:

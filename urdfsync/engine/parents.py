@@ -1,4 +1,4 @@
-"""The packages around a generated one: they must exist, or be made if the configuration says so.
+"""The packages around a generated one: they must exist, or be made if the configuration says so; their order files.
 
 A `package.order` has to name every class of its package, and classes inside of a `package.mo` can't be told without a
 Modelica parser. So urdfsync enters its names into files that exist, and makes such a file only with the package.
@@ -7,7 +7,7 @@ Modelica parser. So urdfsync enters its names into files that exist, and makes s
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
@@ -15,7 +15,10 @@ import msgspec
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.dependencies import is_file, is_folder, read_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.engine.package_files import PackageFiles, encode
+from urdfsync.files import digest
 from urdfsync.modelica.names import LIBRARY, within
+from urdfsync.state.transaction import Change
 
 
 class Parents(msgspec.Struct, frozen=True):
@@ -28,6 +31,32 @@ class Parents(msgspec.Struct, frozen=True):
     listed: bool = True
     """Whether the parent's `package.order` has to name the robot's package: if it is there, or made with the parent."""
     diagnostics: tuple[Diagnostic, ...] = ()
+
+
+class SharedFile(msgspec.Struct, frozen=True):
+    """A file around the package, in which other robots may have a part: a `package.mo` or a `package.order`.
+
+    It is read again when it is written, so that robots with one parent package can be planned at the same time.
+    """
+
+    path: Path
+    content: bytes | None = None
+    """Content of a `package.mo` that is written if there is none."""
+    names: tuple[str, ...] = ()
+    """Lines that a `package.order` has to have."""
+    owned: tuple[str, ...] = ()
+    """Lines of a `package.order` that urdfsync may remove."""
+
+    def change(self, files: PackageFiles) -> Change | None:
+        """Return what is left to do, from what is on disk now; None if nothing is."""
+        found = files.read_path(self.path)
+        if self.content is not None:
+            return Change(self.path, self.content, None) if found is None else None
+        old = None if found is None else found.decode(errors="surrogateescape")
+        new = merge_order(old, self.names, self.owned)
+        if new == (old or ""):
+            return None
+        return Change(self.path, encode(new) if new else None, None if found is None else digest(found))
 
 
 def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -> Parents:
@@ -122,3 +151,46 @@ def _uses(uses: Sequence[tuple[str, str]]) -> str:
 def _problem(code: str, message: str, key: str, robot: RobotConfig, file: str, hint: str) -> Diagnostic:
     line = robot.lines.get(key, robot.lines[""])
     return Diagnostic(Severity.ERROR, code, f"robot `{robot.name}`: {message}", file, line, hint=hint)
+
+
+def merge_order(text: str | None, names: Sequence[str], owned: Collection[str] = ()) -> str:
+    """Return a `package.order` with `names` in it, and without the other names of `owned`; None stands for no file.
+
+    `owned` are the names that urdfsync wrote last, in their order; all other lines are the user's and keep their
+    places. Our lines follow the order of `names`, unless the user has moved them; a new one goes next to its
+    neighbour in `names`. Line endings are those of the file. The result is empty if no line is left.
+    """
+    if text is None:
+        return "".join(f"{name}\n" for name in names)
+    wanted, found = set(names), text.splitlines()
+    if found == list(names) and len(wanted) == len(found):
+        return text
+    lines, kept = [], set()
+    for line in found:
+        name = _order_name(line)
+        if name in wanted and name not in kept:
+            kept.add(name)
+            lines.append(line)
+        elif name not in wanted and name not in owned:
+            lines.append(line)
+    ordered = [name for name in names if name in kept]
+    present = [name for name in map(_order_name, lines) if name in kept]
+    if present != ordered and present == [name for name in owned if name in kept]:
+        ours = iter(ordered)
+        lines = [next(ours) if _order_name(line) in kept else line for line in lines]
+    for index, name in enumerate(names):
+        if name in kept:
+            continue
+        places = {_order_name(line): place for place, line in enumerate(lines)}
+        before = next((places[other] + 1 for other in reversed(names[:index]) if other in places), None)
+        after = next((places[other] for other in names[index + 1 :] if other in places), None)
+        last = max((place + 1 for other, place in places.items() if other), default=0)
+        lines.insert(before if before is not None else after if after is not None else last, name)
+    if lines == found:
+        return text
+    ending = "\r\n" if "\r\n" in text else "\n"
+    return ending.join(lines) + ending if any(map(_order_name, lines)) else ""
+
+
+def _order_name(line: str) -> str:
+    return line.strip("\ufeff \t\r\f\v")

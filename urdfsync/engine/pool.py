@@ -26,7 +26,8 @@ from urdfsync import dependencies, machine, profiling
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, no_progress
-from urdfsync.engine.plan import Plan, plan_if_current, plan_robot
+from urdfsync.engine.plan import plan_if_current, plan_robot
+from urdfsync.engine.stage import Plan
 from urdfsync.extras import install_command
 
 LEAST_STALE = 6
@@ -40,8 +41,8 @@ _PATIENCE = 10
 _PAUSE = 0.1
 """Seconds between two reports of progress."""
 
-_Answer: TypeAlias = tuple[Plan | None, type[UrdfsyncError], tuple[Diagnostic, ...], "profiling.Measured | None"]
-"""A plan, or class and findings of the error that prevented it; and what was measured, if it was."""
+_Planned: TypeAlias = tuple[Plan, "profiling.Measured | None"]
+"""A plan, and what was measured if it was."""
 
 
 class Pool:
@@ -49,12 +50,32 @@ class Pool:
 
     def __init__(self, config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> None:
         self._config, self._robots, self._options = config, robots, options
-        self._prefetched: dict[str, Plan] = {}
+        self._current: dict[str, Plan] = {}
+        """Plans of robots for which there is nothing to generate, made by this process."""
         self._is_started = False
         self._executor: Executor | None = None
-        self._futures: dict[str, Future[_Answer]] = {}
+        self._futures: dict[str, Future[_Planned]] = {}
         self._waiting: deque[RobotConfig] = deque()
         self._stale = self._most = 0
+
+    def __enter__(self) -> Self:
+        """Connect to the cluster, if there is one. Raises ConfigError if it does not answer."""
+        if self._options.executor:
+            self._executor = connect_cluster(self._options.executor)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._executor is None:
+            return
+        if kind is not None and not issubclass(kind, Exception) and isinstance(self._executor, ProcessPoolExecutor):
+            for child in active_children():  # whoever interrupts does not want to wait
+                child.terminate()
+        else:  # not of a pool whose processes have ended: it fails with a traceback on futures that are cancelled
+            for future in self._futures.values():
+                future.cancel()
+        self._executor.shutdown()
 
     def plan(self, robot: RobotConfig) -> Plan:
         """Plan one robot. Raises UrdfsyncError for whatever is wrong."""
@@ -63,26 +84,7 @@ class Pool:
             self._start()
         if robot.name in self._futures or robot in self._waiting:
             return self._result(robot)
-        plan = self._prefetched.pop(robot.name, None)
-        return plan or plan_robot(self._config, robot, self._options)
-
-    def __enter__(self) -> Self:
-        """Connect to the cluster, if there is one. Raises ConfigError if it does not answer."""
-        if self._options.executor:
-            self._executor = _cluster(self._options.executor)
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if self._executor is None:
-            return
-        if kind is not None and not issubclass(kind, Exception):
-            for child in active_children():  # whoever interrupts does not want to wait
-                child.terminate()
-        for future in self._futures.values():
-            future.cancel()
-        self._executor.shutdown()
+        return self._current.pop(robot.name, None) or plan_robot(self._config, robot, self._options)
 
     def _start(self) -> None:
         """Find the stale robots, and start workers if they are many."""
@@ -95,61 +97,57 @@ class Pool:
             if plan is None:
                 stale.append(robot)
             else:
-                self._prefetched[robot.name] = plan
+                self._current[robot.name] = plan
+        workers = self._options.jobs or (_CLUSTER_WORKERS if self._executor else machine.cores())
         if self._executor is None:
             if len(stale) < LEAST_STALE:
                 return
-            workers = min(self._options.jobs or machine.cores(), len(stale))
-            self._executor = _processes(workers)
-        else:
-            workers = self._options.jobs or _CLUSTER_WORKERS
+            # not a plain fork: the thread of a progress bar may hold a lock at that moment
+            method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
+            workers = min(workers, len(stale))
+            with _safe_path():
+                self._executor = ProcessPoolExecutor(workers, get_context(method), initializer=_prepare_worker)
         dependencies.mark_incomplete()  # what workers read is not recorded as a dependency of the answer
         self._stale, self._most, self._waiting = len(stale), _AHEAD * workers, deque(stale)
         self._submit()
 
     def _submit(self) -> None:
         options = msgspec.structs.replace(self._options, progress=no_progress, cache=None, executor="")
+        is_profiled = profiling.current() is not None
         while self._executor is not None and self._waiting and len(self._futures) < self._most:
             robot = self._waiting.popleft()
             with _safe_path():
-                self._futures[robot.name] = self._executor.submit(
-                    _plan, str(Path.cwd()), self._config, robot, options, profiling.current() is not None
-                )
+                arguments = str(Path.cwd()), self._config, robot, options, is_profiled
+                self._futures[robot.name] = self._executor.submit(_plan, *arguments)
 
     @profiling.stage("waiting")
     def _result(self, robot: RobotConfig) -> Plan:
+        message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps for want of memory"
+        lost = OutputError(Diagnostic(Severity.ERROR, "lost-process", message, hint="try again with `--jobs 1`"))
         future = self._futures.pop(robot.name, None)
         if future is None:  # its place in the queue was lost with a worker
-            raise _lost_process(robot)
+            raise lost
         while wait([future], _PAUSE).not_done:
             done = sum(other.done() for other in self._futures.values())
             left = len(self._waiting) + len(self._futures) + 1
             self._options.progress("reading", self._stale - left + done, self._stale)
         try:
-            plan, error, diagnostics, measured = future.result()
-            self._submit()
-        except Exception as problem:  # `_plan` raises none: the worker is lost, in one of many ways
-            raise _lost_process(robot) from problem
+            problem = future.exception()
+            if problem is None or isinstance(problem, UrdfsyncError):
+                self._submit()
+        except Exception as error:  # the workers are lost, in one of many ways
+            raise lost from error
+        if isinstance(problem, UrdfsyncError):
+            raise problem
+        if problem is not None:
+            raise lost from problem
+        plan, measured = future.result()
         if measured and (profile := profiling.current()):
             profile.add(measured)
-        if plan is None:
-            raise error(*diagnostics)
         return plan
 
 
-def _lost_process(robot: RobotConfig) -> OutputError:
-    message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps for want of memory"
-    return OutputError(Diagnostic(Severity.ERROR, "lost-process", message, hint="try again with `--jobs 1`"))
-
-
-def _processes(workers: int) -> Executor:
-    # not a plain fork: the thread of a progress bar may hold a lock at that moment
-    method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
-    with _safe_path():
-        return ProcessPoolExecutor(workers, get_context(method), initializer=_prepare_worker)
-
-
-def _cluster(address: str) -> Executor:
+def connect_cluster(address: str) -> Executor:
     """Connect to the Dask scheduler at an address that the user named. Raises ConfigError.
 
     Its answers are unpickled, so whoever answers at the address is trusted.
@@ -163,20 +161,17 @@ def _cluster(address: str) -> Executor:
         executor: Executor = Client(address, timeout=_PATIENCE, set_as_default=False).get_executor()
     except (OSError, ValueError, TimeoutError) as error:
         message = f"no Dask scheduler answers at `{address}`: {error or 'time is up'}"
-        hint = "start one with `dask scheduler`, or build without `--executor`"
+        hint = "start one with `dask scheduler`, or go without `--executor`"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
     return executor
 
 
-def _plan(folder: str, config: Config, robot: RobotConfig, options: BuildOptions, profiled: bool) -> _Answer:
-    """Plan in a worker, in the folder that diagnostics name files from."""
+def _plan(folder: str, config: Config, robot: RobotConfig, options: BuildOptions, is_profiled: bool) -> _Planned:
+    """Plan in a worker, in the folder that diagnostics name files from. Raises UrdfsyncError."""
     os.chdir(folder)
-    with profiling.measured() if profiled else contextlib.nullcontext() as profile:
-        try:
-            plan, error, found = plan_robot(config, robot, options), UrdfsyncError, tuple[Diagnostic, ...]()
-        except UrdfsyncError as problem:
-            plan, error, found = None, type(problem), problem.diagnostics
-        return plan, error, found, profile.results() if profile else None
+    with profiling.measured() if is_profiled else contextlib.nullcontext() as profile:
+        plan = plan_robot(config, robot, options)
+        return plan, profile.results() if profile else None
 
 
 @contextlib.contextmanager

@@ -31,7 +31,7 @@ class Rendering:
             self.snapshot, self._imports = last.snapshot, last.imports or {}
         else:
             generation = generate_robot(inputs)
-            self.snapshot, self._imports = generation.snapshot, generation.imported.imports
+            self.snapshot, self._imports = generation.now.snapshot, generation.imported.imports
         source.check_options(config, robot, self.domain, self.snapshot)
 
     def package(self, content: bytes) -> Mapping[str, bytes]:

@@ -13,7 +13,6 @@ import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, Action, Kind
-from urdfsync.engine.renames import NO_FILE, OnDisk, Renames
 from urdfsync.state.record import Choice, FileRecord, RecordState
 
 
@@ -25,6 +24,16 @@ class DesiredFile(msgspec.Struct, frozen=True):
     hash: str
     at_hand: bool = True
     """Whether its content is available; otherwise only the hash is known."""
+
+
+class OnDisk(msgspec.Struct, frozen=True):
+    """What is on disk at a path: the hash of a file, or None; then whether the class is a folder (`X/package.mo`)."""
+
+    hash: str | None = None
+    is_folder: bool = False
+
+
+NO_FILE = OnDisk()
 
 
 def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Kind:
@@ -44,6 +53,24 @@ def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Kind:
     return Kind.KEEP if generated == base else Kind.CONFLICT
 
 
+def renamed_files(
+    recorded: Mapping[str, FileRecord], targets: Mapping[str, str], desired: Collection[str]
+) -> dict[str, str]:
+    """Return new and old path of the files that belong elsewhere now.
+
+    `targets` has, for recorded paths, the path of the element's file now. A file that waits for a conflict still is at
+    its origin; the record of the origin itself then describes another element's file, or an older one.
+    """
+    waiting = {record.origin for record in recorded.values() if record.origin}
+    found = {}
+    for path, record in recorded.items():
+        if path in targets and (record.origin or path not in waiting):
+            old, new = record.origin or path, targets[path]
+            if new in desired and new != old:
+                found[new] = old
+    return found
+
+
 def decide(
     recorded: Mapping[str, FileRecord],
     desired: Mapping[str, DesiredFile],
@@ -52,53 +79,63 @@ def decide(
 ) -> tuple[Action, ...]:
     """Decide on every file of a robot; `on_disk` may leave out what is not there.
 
-    `moves` has new and old path of files whose element was renamed. A file that the user edited goes to its new path
-    (MOVE, and LEAVE at the old one), if `resolve` finds that its text can. A file that the user moved there by hand is
-    compared with what was written at the old path.
+    `moves` has new and old path of files whose element was renamed, see `renamed_files`. A file that the user edited
+    goes to its new path (MOVE, and LEAVE at the old one), unless something else of the user's is there. A file that the
+    user moved there by hand is compared with what was written at the old path.
     """
-    renames = Renames(recorded, on_disk, moves or {})
-    actions = []
-    elements = {path: (record.role, record.owner) for path, record in recorded.items()}
-    elements |= {path: (target.role, target.owner) for path, target in desired.items()}
-    for path, (role, owner) in sorted(elements.items()):
-        record, target, mine = recorded.get(path), desired.get(path), on_disk.get(path, NO_FILE)
-        generated = target.hash if target else None
-        base = record.written_hash if record else None
+    waiting = {record.origin: record for record in recorded.values() if record.origin}
+    moves, bases = moves or {}, {}
+    for new, old in moves.items():  # a file that moves may have waited before, to move here or elsewhere
+        there = recorded.get(new)
+        record = there if there and there.origin == old else waiting.get(old)
+        bases[new] = record.base if record else recorded[old].written_hash if old in recorded else None
 
-        if target and path in renames.edited:
-            old = renames.edited[path]
-            kind, origin = Kind.MOVE, old
-            mine_hash = on_disk[old].hash
-        elif target and mine.hash != generated and (old_path := renames.unedited_source(path)) is not None:
-            kind, origin = Kind.CREATE if mine == NO_FILE else Kind.UPDATE, old_path
-            mine_hash = mine.hash
-        elif path in renames.moved_away and target is None:
+    def hash_at(path: str) -> str | None:
+        return on_disk.get(path, NO_FILE).hash
+
+    def replaced_hash(path: str) -> str | None:
+        """Return the hash of the file at a path, if it is as urdfsync wrote it there; None otherwise."""
+        return hash_at(path) if path in recorded and hash_at(path) == recorded[path].written_hash else None
+
+    def is_free(path: str) -> bool:
+        return path not in on_disk or on_disk[path] == NO_FILE or replaced_hash(path) is not None
+
+    edited = {new: old for new, old in moves.items() if bases[new] and hash_at(old) not in (None, bases[new])}
+    # a file that can't move blocks the one that would take its place, and so on
+    while True:
+        moved_away = set(edited.values())
+        blocked = [path for path in edited if path not in moved_away and not is_free(path)]
+        if not blocked:
+            break
+        for path in blocked:
+            del edited[path]
+
+    actions = []
+    for path in sorted(recorded.keys() | desired.keys()):
+        record, target, mine = recorded.get(path), desired.get(path), on_disk.get(path, NO_FILE)
+        role, owner = (target.role, target.owner) if target else (recorded[path].role, recorded[path].owner)
+        generated, base = target.hash if target else None, record.written_hash if record else None
+        old_path = moves.get(path) if target else None
+        is_unedited = old_path and bases[path] and hash_at(old_path) == bases[path] and is_free(path)
+        if old_path and (path in edited or (is_unedited and mine.hash != generated)):
+            # The file comes from another place. What is here is remembered in case that it has to wait.
+            kind = Kind.MOVE if path in edited else Kind.CREATE if mine == NO_FILE else Kind.UPDATE
+            hash_ = hash_at(old_path) if path in edited else mine.hash
+            one = Action(path, kind, role, owner, bases[path], generated, old_path, mine=hash_)
+            actions.append(msgspec.structs.replace(one, replaced_hash=replaced_hash(path)))
+            continue
+        if path in moved_away and target is None:
             actions.append(Action(path, Kind.LEAVE, role, owner, base))
             continue
-        else:
-            if path in renames.moved_away:
-                base, mine = None, NO_FILE
-            elif target and (written := renames.moved_by_hand(path)) is not None:
-                base = written
-            kind = decide_file(base, mine, generated)
-            if kind is not Kind.FORGET or base is not None:  # else it was never written, and is not wanted any more
-                at_hand = target is None or target.at_hand
-                actions.append(Action(path, kind, role, owner, base, generated, mine=mine.hash, at_hand=at_hand))
-            continue
-        # The file comes from another place. What is here is remembered in case that it has to wait.
-        actions.append(
-            Action(
-                path,
-                kind,
-                role,
-                owner,
-                renames.base(path, origin),
-                generated,
-                origin,
-                mine=mine_hash,
-                replaced_hash=renames.replaced_hash(path),
-            )
-        )
+        if path in moved_away:
+            base, mine = None, NO_FILE
+        elif old_path and hash_at(old_path) is None and (record is None or record.origin == old_path):
+            is_moved_by_hand = mine.hash is not None and replaced_hash(path) is None
+            base = bases[path] if is_moved_by_hand and bases[path] else base
+        kind = decide_file(base, mine, generated)
+        if kind is not Kind.FORGET or base is not None:  # else it was never written, and is not wanted any more
+            at_hand = target is None or target.at_hand
+            actions.append(Action(path, kind, role, owner, base, generated, mine=mine.hash, at_hand=at_hand))
     return tuple(actions)
 
 
@@ -166,35 +203,25 @@ def records_after(actions: Iterable[Action]) -> dict[str, FileRecord]:
     """Return the manifest's entry of each file once the actions are done; `package.order` files have none."""
     records = {}
     for action in actions:
-        if action.role is not Role.ORDER and (record := _record_after(action)) is not None:
-            records[action.path] = record
+        base, state = action.generated, RecordState.GENERATED
+        if action.role is Role.ORDER:
+            continue
+        if action.held or action.kind in CONFLICTS:
+            state = RecordState.WAITING if action.held else RecordState.CONFLICT
+            chosen_for = sides_hash(action.mine, action.generated) if action.choice else None
+            waits = action.origin, action.replaced_hash, action.choice, chosen_for
+            records[action.path] = FileRecord(action.owner, action.role, action.base, state, *waits)
+            continue
+        if action.kind is Kind.KEEP:
+            base, state = action.base, RecordState.EDITED
+        elif action.kind is Kind.INCLUDED or (action.result or base) != base:
+            state = RecordState.EDITED
+        elif action.kind in (Kind.ORPHAN, Kind.NEEDED):
+            base, state = action.base, RecordState.ORPHAN
+        elif base is None:
+            continue
+        records[action.path] = FileRecord(action.owner, action.role, base, state)
     return records
-
-
-def _record_after(action: Action) -> FileRecord | None:
-    if action.kind is Kind.UNCHANGED:
-        return FileRecord(action.owner, action.role, action.generated)
-    base = action.base
-    if action.held:
-        state = RecordState.WAITING
-    elif action.kind in CONFLICTS:
-        state = RecordState.CONFLICT
-    elif action.kind is Kind.KEEP:
-        state = RecordState.EDITED
-    elif action.kind is Kind.INCLUDED or (action.result or action.generated) != action.generated:
-        state, base = RecordState.EDITED, action.generated
-    elif action.kind in (Kind.ORPHAN, Kind.NEEDED):
-        state = RecordState.ORPHAN
-    elif action.generated is None:
-        return None
-    else:
-        state, base = RecordState.GENERATED, action.generated
-    if state not in (RecordState.WAITING, RecordState.CONFLICT):
-        return FileRecord(action.owner, action.role, base, state)
-    chosen_for = sides_hash(action.mine, action.generated) if action.choice else None
-    return FileRecord(
-        action.owner, action.role, base, state, action.origin, action.replaced_hash, action.choice, chosen_for
-    )
 
 
 def sides_hash(mine: str | None, generated: str | None) -> str:

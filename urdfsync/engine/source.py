@@ -61,6 +61,9 @@ def _check_templates(folder: Path) -> None:
             elif path.is_file() and path.stat().st_size > MAX_TEMPLATE:
                 message = f"the file has more than {MAX_TEMPLATE:,} bytes, which is too large for a template"
                 hint = "move it out of the template folder"
+            elif path.exists() and not (path.is_file() or path.is_dir()):  # reading a FIFO would never end
+                message = f"this is {kind_of(path.stat().st_mode)}, and so no template"
+                hint = "move it out of the template folder"
             else:
                 continue
             raise ConfigError(Diagnostic(Severity.ERROR, "template", message, shown(path), hint=hint))

@@ -6,7 +6,6 @@ writes only for robots whose sources are staged as they are, and whose files pre
 
 from __future__ import annotations
 
-import os
 from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 
@@ -243,7 +242,5 @@ def _lost_state(path: str) -> Diagnostic:
 
 def _find_stashed(index: Index) -> frozenset[str]:
     """Return the files of which pre-commit has stashed changes, to bring them back after the hooks."""
-    store = precommit.store_folder(os.environ, Path.home())
-    holder = precommit.PrecommitStash(store).holder(index.top)
-    patches = sorted(store.glob(f"patch*-{holder}")) if holder is not None else []
-    return frozenset(index.patched(patches[-1])) if patches else frozenset()
+    stash = precommit.find_stash(index.top)
+    return frozenset(index.patched(stash[0])) if stash else frozenset()

@@ -25,14 +25,6 @@ if TYPE_CHECKING:
 FULL = 3
 """So many conflicts are shown in full without --verbose."""
 NOT_HERE = "the file it is made from is not here"
-_FOLDER = ".urdfsync/conflicts"
-"""Holds the saved texts of conflicting files, below the configuration's folder."""
-_CHOICES = {
-    Choice.MERGE: "--merge takes both sides' changes",
-    Choice.KEEP: "--keep leaves your file as it is",
-    Choice.TAKE: "--take replaces it by the generated one",
-}
-_BY_HAND = ": first put into it what you want of both"
 
 
 class Target(msgspec.Struct, frozen=True):
@@ -44,18 +36,13 @@ class Target(msgspec.Struct, frozen=True):
 
     result: Result
     action: Action
-    standoff: Conflict | None = None
+    texts: Conflict | None = None
     """None if the versions are no texts that could be compared."""
 
     @property
-    def place(self) -> str:
-        """Where the user's file is, as in the manifest."""
-        return self.action.origin or self.action.path
-
-    @property
-    def is_orphan(self) -> bool:
-        """Whether it is no longer generated."""
-        return self.action.kind is Kind.ORPHAN
+    def shown(self) -> str:
+        """Where the user's file is, as the user would type it."""
+        return shown_path(self.result, self.action.origin or self.action.path)
 
     @property
     def is_decided(self) -> bool:
@@ -65,21 +52,13 @@ class Target(msgspec.Struct, frozen=True):
     @property
     def merges(self) -> bool:
         """Whether `--merge` settles it, as far as that is known."""
-        merge = self.standoff.merge if self.standoff else None
+        merge = self.texts.merge if self.texts else None
         return self.is_decided or (merge is not None and merge.text is not None)
 
     @property
     def replaceable(self) -> bool:
         """Whether `--take` settles it: a file stands there, and the generated one is at hand."""
         return self.is_decided or self.action.replaceable
-
-
-class SavedTexts(NamedTuple):
-    """The versions of a conflicting file that a build saves, as paths from the configuration's folder."""
-
-    base: str | None
-    generated: str
-    merge: str | None
 
 
 class Extent(NamedTuple):
@@ -99,38 +78,36 @@ def find_conflicts(results: Iterable[Result]) -> list[Target]:
     """The files that conflict, in the order of robots and paths."""
     found = []
     for result in results:
-        by_path = {standoff.path: standoff for standoff in result.standoffs}
+        by_path = {texts.path: texts for texts in result.standoffs}
         found += [Target(result, action, by_path.get(action.path)) for action in result.conflicts]
     return found
 
 
 def describe(target: Target) -> str:
     """How the sides stand to each other, as a clause."""
-    standoff = target.standoff
-    if standoff is None:
+    texts = target.texts
+    if texts is None:
         return f"it is no text that could be merged{'' if target.action.at_hand else f', and {NOT_HERE}'}"
-    if standoff.merge is None and standoff.rejected:
-        return standoff.rejected
-    if standoff.merge is None:
+    if texts.merge is None:
         is_unowned = target.action.kind is Kind.UNOWNED
         lost = "without a base" if is_unowned else "what urdfsync wrote last is lost: without it"
-        return f"{lost}, nothing tells who changed what"
+        return texts.rejected or f"{lost}, nothing tells who changed what"
     if target.merges:
         return "the changes fit together: --merge takes both"
-    if standoff.rejected:
-        return f"the changes fit together line by line, but {standoff.rejected}"
-    number = len(standoff.merge.conflicts)
+    if texts.rejected:
+        return f"the changes fit together line by line, but {texts.rejected}"
+    number = len(texts.merge.conflicts)
     return f"the changes contradict each other{f' in {number} places' if number > 1 else ''}"
 
 
-def saved_texts(target: Target) -> SavedTexts | None:
-    """Where a build saves the versions of a file; None for what is no text."""
-    if target.standoff is None:
-        return None
+def saved_texts(target: Target) -> dict[str, str]:
+    """Where a build saves the versions of a text, from the configuration's folder: `base`, `generated`, `merge`."""
+    if target.texts is None:
+        return {}
     folder = Path(os.path.relpath(target.result.folder, target.result.root)).as_posix()
-    generated, base, merge = conflict_files(target.standoff, folder)
-    top = f"{_FOLDER}/{target.result.robot}/"
-    return SavedTexts(base and f"{top}{base}", f"{top}{generated}", merge and f"{top}{merge}")
+    found = conflict_files(target.texts, folder)
+    paths = {"base": found.base, "generated": found.generated, "merge": found.merge}
+    return {name: f".urdfsync/conflicts/{target.result.robot}/{path}" for name, path in paths.items() if path}
 
 
 def shown_path(result: Result, path: str) -> str:
@@ -148,70 +125,66 @@ def conflict_lines(result: Result, console: Console, extent: Extent) -> Iterator
     if full and found[full:]:
         yield text(("", ""))
     for target in found[full:]:
-        where = shown_path(result, target.place)
-        yield text(("  conflict   ", "bold red"), (where, ""), (f"  {describe(target)}", "dim"))
-    if len(found) > 1 or not full:
-        yield from _command_for_all(found, extent)
-
-
-def _command_for_all(found: Sequence[Target], extent: Extent) -> Iterator[Text]:
+        yield text(("  conflict   ", "bold red"), (target.shown, ""), (f"  {describe(target)}", "dim"))
+    if len(found) == 1 and full:
+        return
     mergeable = sum(target.merges for target in found)
-    choice = Choice.MERGE if mergeable else Choice.KEEP
-    if mergeable == len(found):
-        what = {1: "merges it", 2: "merges both"}.get(mergeable, f"merges all {mergeable}")
-    elif mergeable:
+    if not mergeable:
+        what = "keeps all your files as they are, --take replaces them by the generated ones"
+    elif mergeable < len(found):
         what = f"merges what can be merged: {mergeable} of {len(found)}"
     else:
-        what = "keeps all your files as they are, --take replaces them by the generated ones"
+        what = {1: "merges it", 2: "merges both"}.get(mergeable, f"merges all {mergeable}")
+    choice = Choice.MERGE if mergeable else Choice.KEEP
+    command = _command(["--all", "--robot", result.robot, f"--{choice}"], extent)
     yield text(("", ""))
-    command = _command(["--all", "--robot", found[0].result.robot, f"--{choice}"], extent)
     yield text((f"  {command}", "bold"), (f"  {what}", "dim"))
 
 
 def _full_lines(target: Target, console: Console, extent: Extent) -> Iterator[Text]:
     """One conflict: what happened, the versions, where they are saved, and what to do."""
-    result, action = target.result, target.action
-    name = shown_path(result, target.place)
+    result, action, name = target.result, target.action, target.shown
     yield text(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
     story = f"{_sentence(reason(action, result.changes))} {_sentence(describe(target))}"
     if action.origin:
         story += f" Its element has another name now: it is to become {shown_path(result, action.path)}."
     yield from _paragraph(story, "", console)
-    saved = saved_texts(target)
-    if target.standoff and saved:
-        from urdfsync.output.hunk_lines import difference_lines  # nothing else needs it
+    if target.texts:
+        from urdfsync.output.differences import difference_lines  # only a conflict needs it
 
-        lines, left_out = difference_lines(target.standoff, console, extent.verbose)
+        saved = {kind: shown_path(result, path) for kind, path in saved_texts(target).items()}
+        lines, left_out = difference_lines(target.texts, console, extent.verbose)
         yield from (text(("", "")), *lines)
         if left_out:
-            full = shown_path(result, saved.merge or saved.generated)
-            see = "--verbose shows them" if result.dry else f"see {full}"
+            see = "--verbose shows them" if result.dry else f"see {saved.get('merge', saved['generated'])}"
             yield text((f"    … {counted(left_out, 'more line')}; {see}", "dim"))
         yield text(("", ""))
         if not result.dry:
-            yield text((f"    {_saved_files(saved, result)}", "dim"))
-    choices = dict(_CHOICES)
+            yield text((f"    {_saved_files(saved)}", "dim"))
+    choices = {Choice.KEEP: "--keep leaves your file as it is"}
     if action.origin:
         choices[Choice.KEEP] = "--keep moves your file as it is"
-    if not target.merges:
-        del choices[Choice.MERGE]
-        if target.standoff:
-            choices[Choice.KEEP] += f"{_BY_HAND}, and its new name" if action.origin else _BY_HAND
-    if not target.replaceable:
-        del choices[Choice.TAKE]
+    if target.merges:
+        choices = {Choice.MERGE: "--merge takes both sides' changes", **choices}
+    elif target.texts:
+        choices[Choice.KEEP] += ": first put into it what you want of both" + (
+            ", and its new name" * bool(action.origin)
+        )
+    if target.replaceable:
+        choices[Choice.TAKE] = "--take replaces it by the generated one"
     typed = f"./{name}" if name.startswith("-") else name
     yield text((f"    {_command([typed, f'--{next(iter(choices))}'], extent)}", "bold"))
     yield from _paragraph("; ".join(choices.values()), "dim", console)
 
 
-def _saved_files(saved: SavedTexts, result: Result) -> str:
+def _saved_files(saved: dict[str, str]) -> str:
     """`base and generated: .urdfsync/conflicts/arm/Elbow.{base.mo,generated.mo}`."""
-    paths = {name: shown_path(result, path) for name, path in saved._asdict().items() if path}
-    *names, last = paths
-    listed = f"{', '.join(names)} and {last}" if names else last
-    stem = shown_path(result, saved.generated.rpartition("generated")[0])
-    ends = ",".join(path.removeprefix(stem) for path in paths.values())
-    return f"{listed}: {f'{stem}{{{ends}}}' if names else paths[last]}"
+    *names, last = saved
+    if not names:
+        return f"{last}: {saved[last]}"
+    stem = saved["generated"].rpartition("generated")[0]
+    ends = ",".join(path.removeprefix(stem) for path in saved.values())
+    return f"{', '.join(names)} and {last}: {stem}{{{ends}}}"
 
 
 def _command(arguments: Sequence[str], extent: Extent) -> str:

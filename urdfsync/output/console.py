@@ -58,6 +58,16 @@ def line(*parts: tuple[str, str]) -> StyledLine:
     return StyledLine(tuple((visible(text), style) for text, style in parts))
 
 
+def headline(stream: IO[str], robot: str, words: str, mark: str, style: str) -> StyledLine:
+    """The first line about a robot, with a mark where it can be shown: `✓ arm: in step`."""
+    return line(*([(f"{mark} ", style)] if has_marks(stream) else []), (robot, "bold"), (f": {words}", ""))
+
+
+def more(count: int, noun: str) -> StyledLine:
+    """What stands for lines that are left out."""
+    return line((f"  … and {count} more {noun}{'s' if count > 1 else ''}; --verbose shows them", "dim"))
+
+
 def text(*parts: tuple[str, str]) -> Text:
     """The same as a text of rich, for what rich has to wrap, cut or align."""
     return line(*parts).__rich__()

@@ -71,14 +71,14 @@ def result_values(result: Result) -> dict[str, Any]:
 
 
 def _conflict_values(target: Target) -> dict[str, Any]:
-    texts = conflicts.saved_texts(target)
     return {
         "path": target.action.path,
         "origin": target.action.origin,
         "owner": target.action.owner,
         "merges": target.merges,
         "reason": conflicts.describe(target),
-        "base": texts.base if texts else None,
-        "generated": texts.generated if texts else None,
-        "merge": texts.merge if texts else None,
+        "base": None,
+        "generated": None,
+        "merge": None,
+        **conflicts.saved_texts(target),
     }

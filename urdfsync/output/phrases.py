@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import math
 from collections import Counter
 from collections.abc import Container, Sequence
 from typing import TYPE_CHECKING
@@ -11,15 +9,15 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass, ChangeKind, Role
+from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.outcome import Checked, Result
+from urdfsync.output.outline import change_row
 
 if TYPE_CHECKING:
     from urdfsync.diff.changes import Change, Changes
 
-GENERATOR = "a template, an option or urdfsync itself changed"
-_LONGEST_VALUE = 40
+RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
 _NAMED = {
     Kind.UPDATE: "{}",
     Kind.MERGE: "{}; merged with your edits",
@@ -122,48 +120,36 @@ def _cause(action: Action, changes: Changes) -> str:
         own = [change for change in structural if change.element == action.owner]
         found = own or structural or ([] if changes.generator else found)
     if not found:
-        return GENERATOR if changes.generator else ""
+        return generator_change(changes) if changes.generator else ""
     more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
     return f"{_of_element(found[0])}{more}"
 
 
 def _of_element(change: Change) -> str:
     """A change as `element: place old → new`."""
-    place, what = " / ".join(change.path[1:]), change_value(change)
+    place, what = " / ".join(change.path[1:]), _change_value(change)
     return f"{change.element}: {f'{place} ' if place else ''}{what}"
 
 
+def generator_change(changes: Changes) -> str:
+    """What else than the model changed: options by their names, if nothing but options did."""
+    if not changes.options:
+        return "a template, an option or urdfsync itself changed"
+    names = " and ".join(f"`{name}`" for name in changes.options)
+    return f"the option{'s' if len(changes.options) > 1 else ''} {names} changed"
+
+
 def change_lines(changes: Changes) -> list[str]:
-    """What changed in the model, one line each: `joint elbow / limit / effort: 54 → 60 N.m (+11 %)`."""
-    lines = [GENERATOR] if changes.generator else []
-    for change in changes.changes:
-        is_unmodelled = change.change_class is ChangeClass.UNMODELLED
-        lines += [f"{change}: {change_value(change)}{' (not modelled)' if is_unmodelled else ''}"]
-    return lines
+    """What changed in the model, one line each: `joint elbow / limit / effort: 54 → 60 N.m (+11.1 %)`."""
+    lines = [generator_change(changes)] if changes.generator else []
+    return [*lines, *(f"{change}: {_change_value(change)}" for change in changes.changes)]
 
 
-def change_value(change: Change) -> str:
-    """What happened at one place: `54 → 60 N.m (+11 %)`, `renamed to elbow`, `added`."""
-    if change.kind is ChangeKind.RENAMED:
-        return f"renamed to {change.new}"
-    if change.kind is not ChangeKind.CHANGED:
-        return str(change.kind)
-    relation = ""
-    if change.noise:
-        relation = " (rounding)"
-    elif change.unit == "rad":
-        relation = f" ({math.degrees(change.old):.4g}° → {math.degrees(change.new):.4g}°)"
-    elif change.percent is not None:
-        relation = f" ({change.percent:+.3g} %)"
-    return f"{_value(change.old)} → {_value(change.new)} {change.unit}".rstrip() + relation
-
-
-def _value(value: object) -> str:
-    """A value in few characters; numbers with all digits that they have, up to ten."""
-    if isinstance(value, float):
-        return f"{value:.10g}"
-    text = value if isinstance(value, str) else json.dumps(value)
-    return text if len(text) <= _LONGEST_VALUE else f"{text[: _LONGEST_VALUE - 1]}…"
+def _change_value(change: Change) -> str:
+    """What happened at one place: `54 → 60 N.m (+11.1 %)`, `renamed to elbow`, `added`."""
+    row = change_row(change)
+    what = f"{row.old} → {row.new}" if row.old else row.new.partition(":")[0]
+    return f"{what} ({row.relation})" if row.relation else what
 
 
 def change_classes(changes: Changes) -> str:

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from urdfsync.config import shown
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.outcome import Checked, Result
-from urdfsync.output.console import Console, StyledLine, has_marks, is_terminal, line, rich_console
+from urdfsync.output.console import Console, StyledLine, headline, is_terminal, line, more, rich_console
 from urdfsync.output.json_values import result_values
 from urdfsync.output.phrases import change_lines, counted, reason, summary
-
-if TYPE_CHECKING:
-    from urdfsync.diff.changes import Changes
 
 _STYLES = {
     Kind.CREATE: "green",
@@ -104,41 +101,25 @@ def result_lines(
     stream = sys.stderr if error else sys.stdout
     is_wrong = result.failed or result.checked is Checked.WRONG
     mark, style = ("✗", "bold red") if is_wrong else ("!", "yellow") if result.conflicts else ("✓", "green")
-    marks = [(f"{mark} ", style)] if has_marks(stream) else []
-    yield line(*marks, (result.robot, "bold"), (f": {summary(result)}", ""))
+    yield headline(stream, result.robot, summary(result), mark, style)
     if not quiet:
-        yield from _change_lines(result, verbose=verbose)
-        yield from _file_lines(result, by_folder=is_terminal(stream), verbose=verbose, explain=explain)
+        changed = change_lines(result.changes) if result.changes else []
+        few = len(changed) if verbose or len(changed) <= _CHANGES else _CHANGES - 1
+        yield from (line((f"  {words}", "")) for words in changed[:few])
+        if few < len(changed):
+            yield more(len(changed) - few, "change")
+        actions: Sequence[Action] = result.actions if verbose and explain else result.actions.decided
+        if not (verbose or explain):
+            actions = [action for action in actions if action.kind in _ALWAYS_LISTED]
+        files = []
+        for action in actions:
+            word = "waiting" if action.held else action.kind.value.removeprefix("unowned-")
+            style = "yellow" if action.held else _STYLES.get(action.kind, "dim")
+            files.append(FileLine(action.path, f"{word:<9}", style, reason(action, result.changes)))
+        yield from file_lines(files, result.root, by_folder=is_terminal(stream) and (verbose or explain))
+        if explain and (rest := len(result.actions) - len(actions)):
+            yield line((f"  {counted(rest, 'unchanged file')}; --verbose names each", "dim"))
+        if any(action.kind is Kind.ORPHAN for action in actions):
+            yield line((_ORPHANS, "dim"))
     if result.drawing:
         yield line((f"  diagram: {shown(result.drawing)}", ""))
-
-
-def _change_lines(result: Result, *, verbose: bool) -> Iterator[StyledLine]:
-    lines = change_lines(result.changes) if result.changes else []
-    few = len(lines) if verbose or len(lines) <= _CHANGES else _CHANGES - 1
-    yield from (line((f"  {words}", "")) for words in lines[:few])
-    if few < len(lines):
-        yield line((f"  … and {len(lines) - few} more changes; --verbose shows them", "dim"))
-
-
-def _file_lines(result: Result, *, by_folder: bool, verbose: bool, explain: bool) -> Iterator[StyledLine]:
-    """The files on which something was decided, with reasons; without --verbose or --explain only those kept."""
-    decided = result.actions.decided
-    if verbose and explain:
-        actions = list(result.actions)
-    elif verbose or explain:
-        actions = [action for action in decided if action.kind is not Kind.UNCHANGED]
-    else:
-        actions = [action for action in decided if action.kind in _ALWAYS_LISTED]
-    files = [_file_line(action, result.changes) for action in actions]
-    yield from file_lines(files, result.root, by_folder=by_folder and (verbose or explain))
-    if explain and (rest := len(result.actions) - len(actions)):
-        yield line((f"  {counted(rest, 'unchanged file')}; --verbose names each", "dim"))
-    if any(action.kind is Kind.ORPHAN for action in actions):
-        yield line((_ORPHANS, "dim"))
-
-
-def _file_line(action: Action, changes: Changes | None) -> FileLine:
-    word = "waiting" if action.held else action.kind.value.removeprefix("unowned-")
-    style = "yellow" if action.held else _STYLES.get(action.kind, "dim")
-    return FileLine(action.path, f"{word:<9}", style, reason(action, changes))

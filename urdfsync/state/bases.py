@@ -18,6 +18,8 @@ from urdfsync.files import TEMPORARY, failure, text_digest
 from urdfsync.state import file_operations
 
 _FAST = 1
+_LARGEST = 200_000_000
+"""Bytes of a text that are read: as many as a template may give. A file of 1 MB may hold a thousand times as much."""
 
 
 class BaseStore:
@@ -40,11 +42,12 @@ class BaseStore:
         """The text with this hash (see `text_digest`), None if it is not kept."""
         if digest not in self:
             return None
-        try:
-            content = zlib.decompress(file_operations.read(self._folder / digest) or b"")
-        except (OSError, zlib.error):
+        try:  # it may be a stranger's, who has committed it
+            stream = zlib.decompressobj()
+            content = stream.decompress(file_operations.read(self._folder / digest) or b"", _LARGEST)
+            return content.decode() if stream.eof and text_digest(content) == digest else None
+        except (OSError, zlib.error, UnicodeDecodeError):
             return None
-        return content.decode() if text_digest(content) == digest else None
 
     def add(self, texts: Mapping[str, str]) -> None:
         """Keep texts by their hashes. Raises OutputError.

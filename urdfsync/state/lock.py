@@ -130,7 +130,8 @@ class Lock:
         with contextlib.suppress(OSError):  # the number is for people only
             self._path.parent.mkdir(exist_ok=True)
             with os.fdopen(self._open(os.O_RDWR | os.O_CREAT), "r+", errors="replace") as file:
-                if file.read(len(number) + 1) != number:
+                is_alone = os.fstat(file.fileno()).st_nlink < 2  # else it may be a file of the user
+                if is_alone and file.read(len(number) + 1) != number:
                     file.seek(0)
                     file.truncate()
                     file.write(number)

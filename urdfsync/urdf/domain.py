@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import (
     Artifact,
@@ -141,6 +143,21 @@ class UrdfDomain:
         """See `urdfsync.domain.Domain`."""
         is_left_out = path == f"{target.name}Parameters.mo" and "record" not in options.approach
         return 'approach = ["package", "record"]' if is_left_out else ""
+
+    def option_for_connector(self, name: str, snapshot: Snapshot, target: Target, options: Options) -> str:
+        """See `urdfsync.domain.Domain`: the frame of a link that `frames` does not name."""
+        from urdfsync.urdf.kinematics.tree import KinematicTree
+        from urdfsync.urdf.model.connectors import connector_names
+
+        tree = KinematicTree.of(from_snapshot(snapshot), (target.name,))
+        if name in connector_names(tree, options).frames.values():
+            return ""
+        frames = connector_names(tree, msgspec.structs.replace(options, frames="all")).frames
+        links = [link for link, frame in frames.items() if frame == name]
+        named = [] if isinstance(options.frames, str) else options.frames
+        return (
+            f"frames = [{', '.join(msgspec.json.encode(link).decode() for link in (*named, *links))}]" if links else ""
+        )
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         """See `urdfsync.domain.Domain`."""

@@ -10,9 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint
+from urdfsync.urdf.robot import MOTION_KINDS, Joint
 
 
 def driven_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:

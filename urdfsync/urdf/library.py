@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from urdfsync.domain import Artifact, Import, Order, Role
-from urdfsync.urdf.artifacts import LINK_MODEL, LINK_RECORD, joint_model, joint_template, link_model, link_record
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS
+from urdfsync.urdf.artifacts import LINK_MODEL, LINK_RECORD, joint_template, link_model
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.shapes import looks
+from urdfsync.urdf.model.shapes import link_shapes
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
+    JOINT_KINDS,
     Box,
     Capsule,
     Collision,
@@ -53,33 +53,30 @@ def library_artifacts() -> Iterator[Artifact | Order]:
     """All files of `UrdfSync.Links` and `UrdfSync.Joints` but their `package.mo`."""
     names = [f"{type(shape).__name__}Link" for shape in _SHAPES]
     yield Order("Links/package.order", ("Link", *(n for name in names for n in (name, f"{name}Parameters"))))
-    yield _link("Link", "UrdfSync.Records.Link", Link(""), "Rigid body without a shape.")
+    yield from _link("Link", "UrdfSync.Records.Link", Link(""), "Rigid body without a shape.")
     for name, shape in zip(names, _SHAPES, strict=True):
         link = Link("", visuals=(Visual(shape),), collisions=(Collision(shape),))
         kind = type(shape).__name__.lower()
-        yield _record(name, link)
-        yield _link(name, f"{name}Parameters", link, f"Rigid body with a {kind} as visual and as collision.")
+        yield from _link(name, f"{name}Parameters", link, f"Rigid body with a {kind} as visual and as collision.")
     yield Order("Joints/package.order", tuple(kind.capitalize() for kind in _JOINT_NOTES))
     for kind, note in _JOINT_NOTES.items():
         yield _joint(kind, note)
 
 
-def _record(name: str, link: Link) -> Artifact:
-    data = link_record(link, _IMPORTS, "UrdfSync", Options()) | _names("Links", name, f"{name}Parameters")
-    return Artifact(f"Links/{name}Parameters.mo", Role.RECORD, LINK_RECORD, data, name)
-
-
-def _link(name: str, record: str, link: Link, note: str) -> Artifact:
-    data = link_model(*looks(link, _IMPORTS, Options()), Options()) | _names("Links", name, record)
-    data |= {"replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
-    return Artifact(f"Links/{name}.mo", Role.MODEL, LINK_MODEL, data, name)
+def _link(name: str, record: str, link: Link, note: str) -> Iterator[Artifact]:
+    visuals, collisions = link_shapes(link, _IMPORTS, "UrdfSync", Options())
+    named = _names("Links", name, record)
+    if visuals:
+        data = {"name": link.name, "inertial": None, "visuals": visuals, "collisions": collisions}
+        yield Artifact(f"Links/{record}.mo", Role.RECORD, LINK_RECORD, named | data, name)
+    data = link_model(visuals, collisions, Options()) | {"replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
+    yield Artifact(f"Links/{name}.mo", Role.MODEL, LINK_MODEL, named | data, name)
 
 
 def _joint(kind: JointType, note: str) -> Artifact:
     name = kind.capitalize()
-    moving = kind in MOTION_KINDS or kind == "planar"
-    data = joint_model(loses=moving) | _names("Joints", name, f"UrdfSync.Records.{name}Joint")
-    data |= {"replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
+    data = _names("Joints", name, f"UrdfSync.Records.{name}Joint")
+    data |= {"dynamics": JOINT_KINDS[kind].has_axis, "replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
     return Artifact(f"Joints/{name}.mo", Role.MODEL, joint_template(kind), data, name)
 
 

@@ -10,6 +10,7 @@ These values refer to each other in one direction only, so Python need not searc
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Literal, TypeAlias
 
 import msgspec
@@ -17,6 +18,31 @@ import msgspec
 Vector: TypeAlias = tuple[float, float, float]
 
 JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating"]
+Motion = Literal["rotational", "translational"]
+
+
+class JointKind(msgspec.Struct, frozen=True):
+    """What follows from the type of a joint; how far it moves its child is in `kinematics.poses.motion`."""
+
+    does: str
+    """For the documentation of generated models."""
+    motion: Motion | None = None
+    """Kind of motion of a joint with one degree of freedom: these alone have flanges, mimic and are mimicked."""
+    has_axis: bool = False
+    """Also whether damping and friction have an effect."""
+    has_limits: bool = False
+    """Of its position."""
+
+
+JOINT_KINDS: Mapping[JointType, JointKind] = {
+    "fixed": JointKind("does not move"),
+    "continuous": JointKind("turns without end stops", "rotational", has_axis=True),
+    "revolute": JointKind("turns within its limits", "rotational", has_axis=True, has_limits=True),
+    "prismatic": JointKind("slides within its limits", "translational", has_axis=True, has_limits=True),
+    "planar": JointKind("slides in a plane and turns about its normal", has_axis=True),
+    "floating": JointKind("moves freely"),
+}
+MOTION_KINDS: Mapping[JointType, Motion] = {name: kind.motion for name, kind in JOINT_KINDS.items() if kind.motion}
 
 
 class Origin(msgspec.Struct, frozen=True, gc=False):

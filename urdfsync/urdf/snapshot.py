@@ -12,25 +12,32 @@ one block of a diff; every number is there, defaults too, so that a change of a 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import json
+import operator
+from collections.abc import Mapping
 from typing import Any
 
 import msgspec
 
 from urdfsync.domain import Snapshot
-from urdfsync.urdf.robot import Extension, Joint, Link, Robot
-
-_ENCODER = msgspec.json.Encoder(order="sorted")
+from urdfsync.urdf.robot import Joint, Link, Robot
 
 
 def to_snapshot(robot: Robot) -> Snapshot:
     """Return the robot as plain data, as it would come back from JSON; names of links, and of joints, are unique."""
-    return {
-        "extensions": _extensions(robot.extensions),
-        "joints": _by_name(robot.joints),
-        "links": _by_name(robot.links),
-        "name": robot.name,
+    text = msgspec.json.encode(robot, order="sorted")
+    plain = json.loads(text, object_hook=lambda data: {key: item for key, item in data.items() if item is not None})
+    for joint in plain["joints"]:
+        if not joint["actuated"]:
+            del joint["actuated"]
+    extensions: dict[str, dict[str, list[str]]] = {}
+    for extension in sorted(robot.extensions, key=msgspec.structs.astuple):
+        extensions.setdefault(extension.owner, {}).setdefault(extension.tag, []).append(extension.text)
+    by_name = {
+        part: {element.pop("name"): element for element in sorted(plain[part], key=operator.itemgetter("name"))}
+        for part in ("joints", "links")
     }
+    return {"extensions": extensions, **by_name, "name": robot.name}
 
 
 def from_snapshot(snapshot: Snapshot) -> Robot:
@@ -52,32 +59,3 @@ def from_snapshot(snapshot: Snapshot) -> Robot:
 def joints_of(joints: Mapping[str, Any]) -> tuple[Joint, ...]:
     """Return the joints of a snapshot, in its order, given its entry `joints`. Raises ValueError for other data."""
     return msgspec.convert([{"name": name, **joint} for name, joint in joints.items()], tuple[Joint, ...])
-
-
-def _extensions(extensions: Iterable[Extension]) -> dict[str, dict[str, list[str]]]:
-    """Return the texts of extensions by owner and tag, all sorted."""
-    found: dict[str, dict[str, list[str]]] = {}
-    for extension in sorted(extensions, key=msgspec.structs.astuple):
-        found.setdefault(extension.owner, {}).setdefault(extension.tag, []).append(extension.text)
-    return found
-
-
-def _by_name(elements: Iterable[Link | Joint]) -> dict[str, Any]:
-    """Return the data of the elements by their names, sorted."""
-    found = {}
-    for element in sorted(elements, key=lambda element: element.name):
-        plain = msgspec.json.decode(_ENCODER.encode(element))
-        del plain["name"]
-        if plain.get("actuated") is False:
-            del plain["actuated"]
-        found[element.name] = _without_absent(plain)
-    return found
-
-
-def _without_absent(value: Any) -> Any:
-    """Return plain data without None, at every level."""
-    if isinstance(value, dict):
-        return {key: _without_absent(item) for key, item in value.items() if item is not None}
-    if isinstance(value, list) and value and isinstance(value[0], dict):
-        return [_without_absent(item) for item in value]
-    return value

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -31,23 +30,25 @@ class SourceState(msgspec.Struct, frozen=True):
     sha256: str = ""
     """Of the bytes that were read; empty if they could not be."""
     errors: tuple[Diagnostic, ...] = ()
-    """Why it is no model; empty if it is one."""
+    """Why it is invalid; empty if it is valid."""
     lost: int = 0
     """Elements of the last build that it lacks; 0 if these are few."""
 
 
 def read_source(config: Config, robot: RobotConfig, paths: RobotPaths, cache: Cache) -> SourceState:
-    """Read the source of a robot, and compare its elements with those of the last build."""
+    """Read the source of a robot, and compare its elements with those of the last build. A bug is an error of it."""
     try:
         content = source.read_source(config, robot)
         domain = registry.domain(robot.domain)
+        reading = source.read_cached(domain, robot.options, content, shown(robot.source), cache)
+        if reading.snapshot is None or any(found.severity is Severity.ERROR for found in reading.diagnostics):
+            return SourceState(digest(content), reading.diagnostics)
+        by_kind = domain.names(reading.snapshot, robot.target)
     except UrdfsyncError as error:
         return SourceState(errors=error.diagnostics)
-    reading = source.read_cached(domain, robot.options, content, shown(robot.source), cache)
-    if reading.snapshot is None or any(found.severity is Severity.ERROR for found in reading.diagnostics):
-        return SourceState(digest(content), reading.diagnostics)
-    names = {(kind, name) for kind, names in domain.names(reading.snapshot, robot.target).items() for name in names}
-    lost = len(paths.built_names - names)
+    except Exception as error:  # noqa: BLE001 - a bug in a domain must not end the daemon; nothing is written yet
+        return SourceState(errors=(internal_error(error, f"{shown(robot.source)} can't be read"),))
+    lost = len(paths.built_names - {(kind, name) for kind, names in by_kind.items() for name in names})
     return SourceState(digest(content), lost=lost if lost >= _MANY and 2 * lost > len(paths.built_names) else 0)
 
 
@@ -72,6 +73,12 @@ def failed_result(config: Config, robot: RobotConfig, diagnostics: tuple[Diagnos
     return Result(robot.name, package, robot.folder, config.root, diagnostics=diagnostics, failed=True)
 
 
+def left_alone(result: Result) -> frozenset[tuple[str, str]]:
+    """Return the files that a build does not write although they differ, each with the kind of its action."""
+    actions = (action for action in result.actions.decided if not action.writes)
+    return frozenset((action.path, str(action.kind)) for action in actions)
+
+
 def internal_error(error: Exception, what: str) -> Diagnostic:
     """Return the finding for a bug, with the place where the exception was raised."""
     trace, line, place = error.__traceback__, 0, ""
@@ -81,13 +88,6 @@ def internal_error(error: Exception, what: str) -> Diagnostic:
     message = f"{what}: {type(error).__name__} in {place}, line {line}: {error}"
     hint = "this is a mistake in urdfsync: please report it"
     return Diagnostic(Severity.ERROR, "internal", message.rstrip(": "), hint=hint)
-
-
-def written_files(result: Result) -> tuple[Path, ...]:
-    """Return the files that a build wrote or deleted, absolute."""
-    if result.failed or result.dry:
-        return ()
-    return tuple(Path(os.path.normpath(result.root / one.path)) for one in result.actions.decided if one.writes)
 
 
 def warm_up(config: Config, robots: Sequence[RobotConfig]) -> None:

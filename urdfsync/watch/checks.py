@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import threading
+from queue import SimpleQueue
 from types import TracebackType
 from typing import Self
 
-from urdfsync.check import run
+import msgspec
+
 from urdfsync.check.afterbuild import BuildCheck, BuildChecker, is_general
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic
@@ -14,10 +16,25 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Checked
 from urdfsync.watch import events
 from urdfsync.watch.build import internal_error
-from urdfsync.watch.event_queue import CheckEnded, CheckJob, EventQueue
 
 _PATIENCE = 10.0
 """Seconds that a check gets to end when the daemon does; a compiler that is left ends with the process."""
+
+
+class CheckJob(msgspec.Struct, eq=False):
+    """One check of a package."""
+
+    robot: RobotConfig
+    key: str | None
+    """Of all that the check rests on; None if some of it can't be read."""
+    is_cancelled: bool = False
+
+
+class CheckEnded(msgspec.Struct, frozen=True):
+    """A check has ended; without findings if it was cancelled."""
+
+    job: CheckJob
+    found: BuildCheck | None
 
 
 class CancelledError(Exception):
@@ -25,15 +42,15 @@ class CancelledError(Exception):
 
 
 class CheckQueue:
-    """The checks that run and wait; cancelled at the end of its context. Methods return what is to be told.
+    """The checks that run and wait; cancelled at the end of its context. Methods return the events to show.
 
     A robot's newer check takes the place of its older one: the files of that are not on disk any more. Only the check
-    itself runs in the thread; its end comes through the daemon's queue.
+    itself runs in the thread; its end comes through the daemon's queue, as `CheckEnded`.
     """
 
-    def __init__(self, queue: EventQueue, options: BuildOptions) -> None:
+    def __init__(self, queue: SimpleQueue[object], options: BuildOptions) -> None:
         self._queue, self._options = queue, options
-        self._config: Config
+        self._checker: BuildChecker
         self._waiting: dict[str, CheckJob] = {}
         self._running: CheckJob | None = None
         self._thread: threading.Thread | None = None
@@ -52,7 +69,7 @@ class CheckQueue:
 
     def use(self, config: Config) -> None:
         """Check by this configuration from now on, whatever was found before."""
-        self._config = config
+        self._checker = BuildChecker(config, self._options)
         self._cancel_all()
         self._last.clear()
 
@@ -60,17 +77,19 @@ class CheckQueue:
         """Check the package of a robot as it is now, unless such a check runs or its result is known."""
         if not robot.checking:
             return []
-        checker = self._checker()
-        key = checker.cache.key(robot)
-        pending = self._pending(robot.name)
+        key = self._checker.key(robot)
+        pending, running = self._waiting.get(robot.name), self._running
+        if pending is None and running and running.robot.name == robot.name and not running.is_cancelled:
+            pending = running
         if pending is not None:
             if key is not None and pending.key == key:
                 return []
-            self._cancel(pending)
+            pending.is_cancelled = True
+            self._waiting.pop(robot.name, None)
         last_key, last = self._last.get(robot.name, (None, None))
         if last is not None and key is not None and last_key == key:
             return [last] if pending is not None else []
-        if found := checker.known(robot, key):
+        if found := self._checker.known(key):
             event = self._note(CheckJob(robot, key), found)
             was_right = pending is None and (last is None or last.checked is Checked.RIGHT)
             return [] if was_right and found.checked is Checked.RIGHT else [event]
@@ -84,29 +103,19 @@ class CheckQueue:
             return self._start_next()
         return [self._note(ended.job, ended.found), *self._start_next()]
 
-    def _checker(self) -> BuildChecker:
-        return BuildChecker(self._config, self._options, run.check_robots)
-
-    def _pending(self, name: str) -> CheckJob | None:
-        running = self._running
-        is_running = running is not None and running.robot.name == name and not running.is_cancelled
-        return self._waiting.get(name) or (running if is_running else None)
-
-    def _cancel(self, job: CheckJob) -> None:
-        job.is_cancelled = True
-        self._waiting.pop(job.robot.name, None)
-
     def _cancel_all(self) -> None:
         for job in (*self._waiting.values(), *([self._running] if self._running else [])):
-            self._cancel(job)
+            job.is_cancelled = True
+        self._waiting.clear()
 
     def _start_next(self) -> list[events.Event]:
         if self._running is not None or not self._waiting:
             return []
-        name, job = next(iter(self._waiting.items()))
-        self._running = self._waiting.pop(name)
-        arguments = job, self._checker()
-        self._thread = threading.Thread(target=self._run, args=arguments, name=f"check of {name}", daemon=True)
+        name = next(iter(self._waiting))
+        job = self._running = self._waiting.pop(name)
+        self._thread = threading.Thread(
+            target=self._run, args=(job, self._checker), name=f"check of {name}", daemon=True
+        )
         self._thread.start()
         return [events.Checking(name)]
 

@@ -3,9 +3,8 @@
 An event only says where to look. What is built is decided by the files on disk, so an event too many or too few costs
 time and nothing else.
 
-A build that wrote something is followed by another one, which finds nothing to do unless somebody else was writing.
-So the daemon need not know what it wrote itself: after the last build, any file that differs from what this build saw
-was changed by others.
+A build is followed by a dry one, which finds nothing to do unless somebody else was writing. So the daemon need not
+know what it wrote itself: any file that differs from what the dry build saw was changed by others.
 """
 
 from __future__ import annotations
@@ -13,39 +12,31 @@ from __future__ import annotations
 import contextlib
 import os
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
+from queue import Empty, SimpleQueue
 
 import msgspec
 
 from urdfsync import config
-from urdfsync.config import Config, shown, warnings
+from urdfsync.config import Config, warnings
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError
-from urdfsync.engine.actions import Kind
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_files import FileState
 from urdfsync.outcome import Result
 from urdfsync.watch import build, events, precommit
-from urdfsync.watch.checks import CheckQueue
+from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.debounce import Debouncer, Phase, Times
-from urdfsync.watch.event_queue import CheckEnded, CommandEnded, EventQueue, EventsLost, Message, Stop
-from urdfsync.watch.exec import CommandRunner
-from urdfsync.watch.input_files import InputFiles, has_changes, same_content
-from urdfsync.watch.observer import Observer
-from urdfsync.watch.paths import CONFIG, find_watched_paths
-from urdfsync.watch.precommit import PrecommitStash
-from urdfsync.watch.robots import WatchedRobot, WatchedRobots
+from urdfsync.watch.exec import CommandEnded, CommandRunner
+from urdfsync.watch.observer import EventsLost, Observer
+from urdfsync.watch.paths import CONFIG, WatchedPaths, find_robot_paths, find_watched_paths
+from urdfsync.watch.robots import WatchedRobot, find_changes, read_state
 from urdfsync.watch.single_instance import SingleInstance
 
 _PAUSE = 0.25
 """Seconds between two looks whether pre-commit has ended."""
 _POLL = 1.0
 """Seconds between two reads of all inputs, where there are no events."""
-_HOUR = 3600.0
-"""Seconds between two reads that trust no stat values."""
-_MAX_BUILDS = 3
-"""Builds of one robot in a row; if the last one wrote something, somebody else writes, and the robot has to settle."""
 
 
 class WatchOptions(msgspec.Struct, frozen=True):
@@ -73,27 +64,26 @@ class Daemon:
         self._file = str(options.file.absolute())
         self._cache = Cache()
         self._build_options = msgspec.structs.replace(options.build, progress=self._progress, cache=self._cache)
-        self._queue = EventQueue()
+        self._queue: SimpleQueue[object] = SimpleQueue()
+        """Paths that may have changed, `EventsLost`, `CommandEnded`, `CheckEnded`, and None to wake the daemon."""
         self._observer = Observer(self._queue)
-        self._inputs = InputFiles()
-        self._robots = WatchedRobots(options.times, options.build.package_paths, self._inputs, self._cache)
+        self._robots: dict[str, WatchedRobot] = {}
         self._checks = CheckQueue(self._queue, options.build)
         self._commands = CommandRunner(self._queue, options.command, options.file.absolute().parent)
-        home = Path(os.path.expanduser("~"))  # noqa: PTH111 - Path.home() raises where there is none
-        self._stash = PrecommitStash(precommit.store_folder(os.environ, home))
         self._config: Config
-        self._config_state = self._inputs.read(self._file)
-        self._config_debouncer = Debouncer[FileState](options.times)
+        self._config_hash = read_state(self._file).sha256
+        self._config_debouncer = Debouncer(options.times)
         self._config_errors: tuple[Diagnostic, ...] = ()
+        self._watched = WatchedPaths()
         self._unwatched: tuple[Diagnostic, ...] = ()
         self._stop_signal = ""
         self._is_paused = self._is_warm = False
-        self._next_poll = self._next_rescan = self._next_rehash = 0.0
+        self._next_poll = self._next_rescan = 0.0
 
     def stop(self, signal: str) -> None:
         """End when the build in hand is finished, or given up if it has not begun to write. For signal handlers."""
         self._stop_signal = signal
-        self._queue.put(Stop())
+        self._queue.put(None)
 
     def run(self) -> None:
         """Watch until `stop` is called. Raises ConfigError for a configuration that can't be used at the start.
@@ -102,30 +92,23 @@ class Daemon:
         """
         loaded = config.load(self._options.file)
         try:
-            with SingleInstance(loaded) as instance, self._observer.open(), self._checks:
+            with SingleInstance(loaded) as instance, self._observer, self._checks:
                 self._use(loaded)
-                now = time.monotonic()
-                self._next_rescan, self._next_rehash = now + self._options.rescan, now + _HOUR
+                self._next_rescan = time.monotonic() + self._options.rescan
                 while not self._stop_signal:
-                    self._receive(self._queue.wait(self._seconds_until_due()))
-                    self._work(instance)
+                    self._receive()
+                    if time.monotonic() >= self._next_rescan:
+                        with contextlib.suppress(OutputError):  # where this daemon can't write the lock, no other can
+                            instance.renew()
+                        self._rescan()
+                    elif self._is_polling and time.monotonic() >= self._next_poll:
+                        self._poll()
+                    self._settle_config()
+                    self._build_settled()
         except KeyboardInterrupt:
             if not self._stop_signal:
                 raise
-        self._listener.show(events.Stopping(self._stop_signal))
-
-    def _use(self, loaded: Config, again: bool = False) -> None:
-        """Put a configuration in force, and build all. Raises ConfigError for robots that it lacks."""
-        robots = loaded.select(self._options.robots)
-        self._config, self._config_errors = loaded, ()
-        self._checks.use(loaded)
-        self._robots.use(loaded, robots)
-        self._show(events.Started(loaded.file, tuple(robot.name for robot in robots), again))
-        self._note(tuple(warnings.find_warnings(loaded, robots)))
-        self._watch_folders()
-        for watched in self._robots:
-            watched.is_announced = True
-        self._touch(*self._robots)
+        self._show(events.Stopping(self._stop_signal))
 
     def _show(self, *found: events.Event) -> None:
         for event in found:
@@ -135,42 +118,106 @@ class Daemon:
         if diagnostics:
             self._show(events.Noted(diagnostics))
 
-    # Messages
+    def _progress(self, what: str, done: int, total: int) -> None:
+        """Show a step of the build under way, which is a place at which it can be given up."""
+        if self._stop_signal:
+            raise KeyboardInterrupt
+        self._listener.progress(what, done, total)
 
-    def _receive(self, messages: Iterable[Message]) -> None:
+    # The configuration
+
+    def _use(self, loaded: Config, again: bool = False) -> None:
+        """Put a configuration in force, and build all. Raises ConfigError for robots that it lacks."""
+        robots = loaded.select(self._options.robots)
+        self._config, self._config_errors = loaded, ()
+        self._checks.use(loaded)
+        before, self._robots = self._robots, {}
+        for robot in robots:  # of those that were watched before, the last results are still known
+            paths = find_robot_paths(loaded, robot, self._options.build.package_paths, self._cache)
+            watched = before.get(robot.name) or WatchedRobot(robot, paths, Debouncer(self._options.times))
+            watched.robot, watched.paths, watched.built, watched.is_announced = robot, paths, None, True
+            self._robots[robot.name] = watched
+        self._cache.forget_others(self._robots)
+        self._show(events.Started(loaded.file, tuple(robot.name for robot in robots), again))
+        self._note(tuple(warnings.find_warnings(loaded, robots)))
+        self._watch_folders()
+        self._touch(*self._robots.values())
+
+    def _look_at_config(self) -> None:
+        if self._config_debouncer.is_idle and read_state(self._file).sha256 != self._config_hash:
+            self._config_debouncer.touch(time.monotonic())
+
+    def _settle_config(self) -> None:
+        """Read the configuration again once it has settled; while it is invalid, the last valid one stays in force."""
+        debouncer, now = self._config_debouncer, time.monotonic()
+        if not debouncer.is_due(now):
+            return
+        found = read_state(self._file).sha256
+        if debouncer.add_sample(found, now) is not Phase.SETTLED:
+            return
+        debouncer.rest()
+        if found == self._config_hash:
+            return
+        self._config_hash = found
+        try:
+            self._use(config.load(self._options.file), again=True)
+        except ConfigError as error:
+            if error.diagnostics != self._config_errors:
+                self._config_errors = error.diagnostics
+                self._note(error.diagnostics)
+
+    # Events
+
+    def _receive(self) -> None:
+        """Wait until something happens or is due, and take note of all that has happened."""
         paths: set[str] = set()
-        for message in messages:
-            match message:
-                case str():
-                    paths.add(message)
-                case EventsLost():
-                    self._next_rescan = 0.0
-                case CommandEnded(robot, code):
-                    self._show(events.Ran(robot, code))
-                    self._note(self._commands.finish(robot, code))
-                case CheckEnded():
-                    self._show(*self._checks.finish(message))
+        with contextlib.suppress(Empty):
+            message = self._queue.get(timeout=self._seconds_until_due())
+            while True:
+                match message:
+                    case str():
+                        paths.add(message)
+                    case EventsLost():
+                        self._next_rescan = 0.0
+                    case CommandEnded():
+                        self._show(events.Ran(message.robot, message.code))
+                        self._note(self._commands.finish(message))
+                    case CheckEnded():
+                        self._show(*self._checks.finish(message))
+                message = self._queue.get_nowait()
         if paths:
             self._receive_paths(paths)
+
+    def _seconds_until_due(self) -> float:
+        now = time.monotonic()
+        deadlines = [
+            self._config_debouncer.deadline,
+            *(watched.debouncer.deadline for watched in self._robots.values()),
+        ]
+        due = [deadline for deadline in deadlines if deadline is not None]
+        if self._is_paused:
+            due = [max(deadline, now + _PAUSE) for deadline in due]
+        elif not due and not self._is_warm:
+            return 0.0
+        reads = [self._next_rescan, self._next_poll] if self._is_polling else [self._next_rescan]
+        return max(min([*due, *reads]) - now, 0.0)
 
     def _receive_paths(self, paths: set[str]) -> None:
         """Let settle what has changed at some of these paths."""
         by_robot: dict[str, set[str]] = {}
         for path in paths:
-            for name in self._queue.watched.robots_for(path):
+            for name in self._watched.robots_for(path):
                 by_robot.setdefault(name, set()).add(path)
-        if CONFIG in by_robot and self._config_has_changed():
-            self._config_debouncer.touch(time.monotonic())
-        affected = self._robots.named(by_robot)
+        if CONFIG in by_robot:
+            self._look_at_config()
+        affected = [self._robots[name] for name in by_robot if name in self._robots]
         if not all(watched.has_only_files(by_robot[watched.name]) for watched in affected):
             self._watch_folders()  # a folder or a link may have been replaced
         changed = [
             watched
             for watched in affected
-            if not watched.debouncer.is_idle or self._robots.has_changed_at(watched, by_robot[watched.name])
+            if not watched.debouncer.is_idle or watched.has_changed_at(by_robot[watched.name])
         ]
-        for watched in changed:
-            watched.touch_outputs(by_robot[watched.name])
         self._touch(*changed)
 
     def _touch(self, *robots: WatchedRobot) -> None:
@@ -182,45 +229,65 @@ class Daemon:
                 watched.is_announced = True
             watched.debouncer.touch(now)
 
-    def _watch_folders(self) -> None:
-        if self._options.poll:
-            return
-        paths = find_watched_paths(str(self._config.root), self._file, self._robots.paths)
-        self._queue.watched = paths
-        found = self._observer.watch_folders(paths)
-        known = {diagnostic.hint for diagnostic in self._unwatched}
-        if new := tuple(diagnostic for diagnostic in found if diagnostic.hint not in known):
-            self._show(events.Noted(new))
-        elif self._unwatched and not found:
-            self._show(events.Recovered("all folders are watched again"))
-        self._unwatched = found
-
-    # Work that is due
-
-    def _seconds_until_due(self) -> float:
-        now = time.monotonic()
-        deadlines = [self._config_debouncer.deadline, *(watched.debouncer.deadline for watched in self._robots)]
-        due = [deadline for deadline in deadlines if deadline is not None]
-        if self._is_paused:
-            due = [max(deadline, now + _PAUSE) for deadline in due]
-        elif not due and not self._is_warm:
-            return 0.0
-        reads = [self._next_rescan, self._next_poll] if self._is_polling else [self._next_rescan]
-        return max(min([*due, *reads]) - now, 0.0)
+    # Looks without an event
 
     @property
     def _is_polling(self) -> bool:
         """Whether there are no events, or not of all folders."""
         return self._options.poll or bool(self._unwatched)
 
-    def _work(self, instance: SingleInstance) -> None:
+    def _watch_folders(self) -> None:
+        if self._options.poll:
+            return
+        robots = {name: watched.paths for name, watched in self._robots.items()}
+        self._watched = find_watched_paths(str(self._config.root), self._file, robots)
+        found = self._observer.watch_folders(self._watched)
+        known = {diagnostic.hint for diagnostic in self._unwatched}
+        self._note(tuple(diagnostic for diagnostic in found if diagnostic.hint not in known))
+        if self._unwatched and not found:
+            self._show(events.Recovered("all folders are watched again"))
+        self._unwatched = found
+
+    def _rescan(self) -> None:
+        """Look at everything: events may be lost, and a build that failed may work now."""
         now = time.monotonic()
-        if now >= self._next_rescan:
-            self._rescan(now, instance)
-        elif self._is_polling and now >= self._next_poll:
-            self._poll(now)
-        self._settle_config(now)
-        due = [w for w in self._robots if w.debouncer.deadline is not None and w.debouncer.deadline <= now]
+        self._next_rescan, self._next_poll = now + self._options.rescan, now + _POLL
+        self._watch_folders()
+        self._look_at_config()
+        for watched in self._robots.values():
+            if not watched.debouncer.is_idle:
+                continue
+            watched.read_files()
+            if not watched.is_as_built():
+                self._touch(watched)
+            elif watched.failure is not None:
+                watched.debouncer.touch(now)
+
+    def _poll(self) -> None:
+        """Look at the inputs of all robots."""
+        self._next_poll = time.monotonic() + _POLL
+        self._look_at_config()
+        idle = [watched for watched in self._robots.values() if watched.debouncer.is_idle]
+        self._touch(*(watched for watched in idle if watched.has_changed_at({*watched.paths.input_files()})))
+
+    def _update_pause(self) -> bool:
+        """Return whether nothing must be built now. What was paused has to settle again."""
+        stash = precommit.find_stash(self._config.root)
+        if stash and not self._is_paused:
+            self._show(events.Paused(f"pre-commit (process {stash[1]}) has stashed unstaged changes away"))
+        has_resumed = stash is None and self._is_paused
+        if has_resumed:
+            self._show(events.Resumed())
+            self._touch(*(watched for watched in self._robots.values() if not watched.debouncer.is_idle))
+        self._is_paused = stash is not None
+        return self._is_paused or has_resumed
+
+    # Builds
+
+    def _build_settled(self) -> None:
+        """Build the robots whose files have settled; while there is nothing to do, get ready for the first change."""
+        now = time.monotonic()
+        due = [watched for watched in self._robots.values() if watched.debouncer.is_due(now)]
         if due and self._update_pause():
             return
         ready = [watched for watched in due if self._settle(watched, now)]
@@ -228,62 +295,32 @@ class Daemon:
             self._touch(*ready)
         elif ready:
             self._build(ready)
-        elif not self._is_warm and all(watched.debouncer.is_idle for watched in self._robots):
+        elif not self._is_warm and all(watched.debouncer.is_idle for watched in self._robots.values()):
             self._is_warm = True
-            build.warm_up(self._config, [watched.robot for watched in self._robots])
-
-    def _config_has_changed(self) -> bool:
-        return self._inputs.read(self._file).sha256 != self._config_state.sha256
-
-    def _settle_config(self, now: float) -> None:
-        """Read the configuration again once it has settled; while it is invalid, the last valid one stays in force."""
-        debouncer = self._config_debouncer
-        if debouncer.deadline is None or debouncer.deadline > now:
-            return
-        state = self._inputs.read(self._file)
-        if debouncer.add_sample(state, now) is not Phase.SETTLED:
-            return
-        debouncer.rest()
-        if state.sha256 == self._config_state.sha256:
-            return
-        self._config_state = state
-        try:
-            self._use(config.load(self._options.file), again=True)
-        except ConfigError as error:
-            if error.diagnostics != self._config_errors:
-                self._config_errors = error.diagnostics
-                self._note(error.diagnostics)
+            build.warm_up(self._config, [watched.robot for watched in self._robots.values()])
 
     def _settle(self, watched: WatchedRobot, now: float) -> bool:
         """Take the sample of a robot that is due. Returns whether the robot is to be built now."""
-        debouncer, inputs = watched.debouncer, self._robots.inputs(watched)
-        sample = inputs, self._robots.outputs(watched, watched.touched_outputs)
-        phase = debouncer.add_sample(sample, now)
+        debouncer, files = watched.debouncer, watched.read_files()
+        phase = debouncer.add_sample({path: state.sha256 for path, state in files.items()}, now)
         if phase is Phase.IDLE:
             self._give_up(watched)
         if phase is not Phase.SETTLED:
             return False
-        watched.settled = inputs
-        if watched.failure is None and self._robots.is_as_built(watched, inputs):
+        if watched.failure is None and watched.is_as_built():
             watched.source_errors = ()
             debouncer.note_valid()
             if watched.is_announced:
                 self._show(events.Unchanged(watched.name))
             watched.rest()
             return False
-        is_built_source = inputs[watched.paths.source].text_sha256 == watched.paths.built_hash
+        is_built_source = files[watched.paths.source].text_sha256 == watched.paths.built_hash
         return is_built_source or self._is_source_ready(watched)
 
     def _is_source_ready(self, watched: WatchedRobot) -> bool:
-        """Return whether a settled source is a model that can be believed; if not, wait for it."""
-        try:
-            found = build.read_source(self._config, watched.robot, watched.paths, self._cache)
-        except Exception as error:  # noqa: BLE001 - a bug in a domain must not end the daemon; nothing is written yet
-            message = f"{shown(watched.robot.source)} can't be read"
-            watched.source_errors = (build.internal_error(error, message),)
-            self._give_up(watched)
-            return False
-        if found.sha256 and found.sha256 != watched.settled[watched.paths.source].sha256:
+        """Return whether a settled source is valid and can be believed; if not, wait for it."""
+        found = build.read_source(self._config, watched.robot, watched.paths, self._cache)
+        if found.sha256 and found.sha256 != watched.files[watched.paths.source].sha256:
             self._touch(watched)  # written between the sample and this
             return False
         if found.errors:
@@ -301,60 +338,53 @@ class Daemon:
             return False
         return True
 
-    # Builds
-
     def _build(self, robots: Sequence[WatchedRobot]) -> None:
-        """Build robots until a build of each finds nothing to write."""
-        for watched in robots:
-            if watched.is_announced:
-                self._show(events.Building(watched.name))
-        options = self._build_options
-        for _ in range(_MAX_BUILDS):
-            self._build_once({watched.name: watched for watched in robots}, options)
-            options = msgspec.structs.replace(options, jobs=1)  # what workers see does not get into the cache
-            robots = [watched for watched in robots if not self._is_finished(watched)]
-            if not robots:
-                return
-            if self._update_pause():
-                break
-        self._touch(*robots)
-
-    def _build_once(self, robots: dict[str, WatchedRobot], options: BuildOptions) -> None:
-        for result in build.build_robots(self._config, [watched.robot for watched in robots.values()], options):
-            watched = robots[result.robot]
+        """Build robots. One for which another build would write something has to settle: somebody else was writing."""
+        self._show(*(events.Building(watched.name) for watched in robots if watched.is_announced))
+        by_name, settled = {w.name: w for w in robots}, {w.name: w.files for w in robots}
+        for result in build.build_robots(self._config, [watched.robot for watched in robots], self._build_options):
+            watched = by_name[result.robot]
+            watched.read_files()
             if not result.failed:
                 self._take_result(watched, result)
-            elif same_content(watched.settled, self._robots.inputs(watched)):
+            elif not watched.changed_inputs(settled[watched.name]):
                 self._take_failure(watched, result)
-        have_changed = [self._robots.renew_paths(watched) for watched in robots.values()]
-        if any(have_changed):
+        self._renew_paths(robots)
+        before = {watched.name: watched.read_files() for watched in robots}
+        # what workers see does not get into the cache
+        dry = msgspec.structs.replace(self._build_options, dry=True, compares_state=True, jobs=1)
+        built = [watched.robot for watched in robots if watched.failure is None]
+        results = {result.robot: result for result in build.build_robots(self._config, built, dry)}
+        for watched in robots:
+            # a file that changed in between may have been looked at before or after that
+            is_same = not find_changes(before[watched.name], watched.read_files())
+            is_done = watched.failure is not None or (is_same and self._is_confirmed(watched, results[watched.name]))
+            if is_done and not watched.changed_inputs(settled[watched.name]):
+                self._rest(watched)
+            else:
+                self._touch(watched)
+
+    def _is_confirmed(self, watched: WatchedRobot, dry: Result) -> bool:
+        """Return whether another build would find all as the last one left it."""
+        has_work = dry.failed or dry.renews_state or any(action.writes for action in dry.actions.decided)
+        return not has_work and build.left_alone(dry) == watched.left_alone
+
+    def _renew_paths(self, robots: Sequence[WatchedRobot]) -> None:
+        """Find the paths of some robots again, after a build."""
+        before = [watched.paths for watched in robots]
+        for watched in robots:
+            paths = self._options.build.package_paths
+            watched.paths = find_robot_paths(self._config, watched.robot, paths, self._cache)
+        if before != [watched.paths for watched in robots]:
             self._watch_folders()
-
-    def _is_finished(self, watched: WatchedRobot) -> bool:
-        """Return whether nothing is left to do for a robot at once.
-
-        Inputs that changed since they were sampled, before the build, have to settle. A build that wrote something is
-        never the last. What changes later has an event, or is found by a rescan.
-        """
-        before, watched.settled = watched.settled, self._robots.inputs(watched)
-        if has_changes(before, watched.settled):
-            self._touch(watched)
-            return True
-        is_confirmed = self._robots.has_built_all(watched) and same_content(before, watched.settled)
-        if watched.failure is None and not is_confirmed:
-            return False
-        self._rest(watched)
-        return True
 
     def _rest(self, watched: WatchedRobot) -> None:
         watched.rest()
         if watched.failure is None:
             self._show(*self._checks.check(watched.robot))
-        else:
-            self._robots.note_outputs(watched)
 
     def _give_up(self, watched: WatchedRobot) -> None:
-        """Tell that a source is no model, and leave the robot alone until something changes."""
+        """Tell that a source is invalid, and leave the robot alone until something changes."""
         self._take_failure(watched, build.failed_result(self._config, watched.robot, watched.source_errors))
         self._rest(watched)
 
@@ -365,64 +395,12 @@ class Daemon:
         watched.failure, watched.is_announced = result.diagnostics, False
 
     def _take_result(self, watched: WatchedRobot, result: Result) -> None:
-        files, recovered = build.written_files(result), watched.failure is not None
-        decided = result.actions.decided
-        differing = (action for action in decided if action.kind is not Kind.UNCHANGED and not action.writes)
-        left_alone = frozenset((action.path, str(action.kind)) for action in differing)
+        recovered, decided = watched.failure is not None, result.actions.decided
+        files = tuple(Path(os.path.normpath(result.root / action.path)) for action in decided if action.writes)
+        left_alone = build.left_alone(result)
         if watched.is_announced or files or recovered or left_alone != watched.left_alone:
             self._show(events.Built(result, files, recovered))
         watched.failure, watched.is_announced, watched.left_alone = None, False, left_alone
         watched.source_errors = ()
         if files:
             self._note(self._commands.run(watched.robot, files))
-
-    def _progress(self, what: str, done: int, total: int) -> None:
-        """Show a step of the build under way, which is a place at which it can be given up."""
-        if self._stop_signal:
-            raise KeyboardInterrupt
-        self._listener.progress(what, done, total)
-
-    # Now and then
-
-    def _rescan(self, now: float, instance: SingleInstance) -> None:
-        """Look at everything: events may be lost, and a build that failed may work now."""
-        self._next_rescan, self._next_poll = now + self._options.rescan, now + _POLL
-        with contextlib.suppress(OutputError):  # where this daemon can't write the lock, no other one can
-            instance.renew()
-        if now >= self._next_rehash:
-            self._next_rehash = now + _HOUR
-            self._inputs.rehash_all()
-            self._cache.rehash_all()
-        self._watch_folders()
-        self._look_at_config()
-        for watched in self._robots:
-            if not watched.debouncer.is_idle:
-                continue
-            if not self._robots.is_as_built(watched, self._robots.inputs(watched)):
-                self._touch(watched)
-            elif watched.failure is not None:
-                watched.debouncer.touch(now)
-        self._inputs.forget_others([self._file, *(path for w in self._robots for path in w.paths.input_files())])
-
-    def _poll(self, now: float) -> None:
-        """Look at the inputs of all robots."""
-        self._next_poll = now + _POLL
-        self._look_at_config()
-        idle = [watched for watched in self._robots if watched.debouncer.is_idle]
-        self._touch(*(w for w in idle if not same_content(w.built or {}, self._robots.inputs(w))))
-
-    def _look_at_config(self) -> None:
-        if self._config_debouncer.is_idle and self._config_has_changed():
-            self._config_debouncer.touch(time.monotonic())
-
-    def _update_pause(self) -> bool:
-        """Return whether nothing must be built now. What was paused has to settle again."""
-        holder = self._stash.holder(self._config.root)
-        if holder is not None and not self._is_paused:
-            self._show(events.Paused(f"pre-commit (process {holder}) has stashed unstaged changes away"))
-        has_resumed = holder is None and self._is_paused
-        if has_resumed:
-            self._show(events.Resumed())
-            self._touch(*(watched for watched in self._robots if not watched.debouncer.is_idle))
-        self._is_paused = holder is not None
-        return self._is_paused or has_resumed

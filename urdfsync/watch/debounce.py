@@ -1,18 +1,15 @@
 """When the files of one robot have settled: pure, told of events, samples and the time by its caller.
 
-After the last event it has to be quiet for a while; then two samples some time apart have to be equal. What has
-settled may still be no model: then it is sampled again and again, until it changes or the time is up. All times are
+After the last event it has to be quiet for a while; then two samples some time apart have to be equal. A settled
+source may still be invalid: then it is sampled again and again, until it changes or the time is up. All times are
 seconds of one monotonic clock.
 """
 
 from __future__ import annotations
 
 import enum
-from typing import Generic, TypeVar
 
 import msgspec
-
-S = TypeVar("S")
 
 _PAUSE = 1.0
 """Seconds between two samples of an invalid source: most changes are events, which need no sample."""
@@ -34,23 +31,20 @@ class Times(msgspec.Struct, frozen=True):
 class Phase(enum.Enum):
     """What a robot waits for."""
 
-    IDLE = enum.auto()
-    """Nothing: no event since the last build."""
-    QUIET = enum.auto()
-    COMPARE = enum.auto()
-    """The second sample."""
-    SHRUNK = enum.auto()
-    INVALID = enum.auto()
-    SETTLED = enum.auto()
-    """The build."""
+    IDLE = "nothing: no event since the last build"
+    QUIET = "no more events"
+    COMPARE = "the second sample"
+    SHRUNK = "a third sample, since many elements are gone"
+    INVALID = "a valid source"
+    SETTLED = "the build"
 
 
-class Debouncer(Generic[S]):
-    """One robot's way from an event to a build. `S` is a sample."""
+class Debouncer:
+    """One robot's way from an event to a build."""
 
     def __init__(self, times: Times) -> None:
         self._times = times
-        self._sample: S | None = None
+        self._sample: object = None
         self._invalid_since: float | None = None
         self.phase = Phase.IDLE
         self.deadline: float | None = None
@@ -63,12 +57,16 @@ class Debouncer(Generic[S]):
         """Whether nothing happened since the last build."""
         return self.phase is Phase.IDLE
 
+    def is_due(self, now: float) -> bool:
+        """Return whether a sample is to be taken."""
+        return self.deadline is not None and self.deadline <= now
+
     def touch(self, now: float) -> None:
         """Begin again: something may have changed."""
         self.phase, self.is_rechecked = Phase.QUIET, False
         self.deadline = now + self._times.settle
 
-    def add_sample(self, sample: S, now: float) -> Phase:
+    def add_sample(self, sample: object, now: float) -> Phase:
         """Take the sample that is due. Returns SETTLED if the robot is to be built, IDLE if the time is up."""
         is_equal, self._sample = sample == self._sample, sample
         if self.phase is Phase.QUIET and self._times.sample:
@@ -101,5 +99,5 @@ class Debouncer(Generic[S]):
         self.phase, self._sample, self.deadline = Phase.IDLE, None, None
 
     def note_valid(self) -> None:
-        """Note that the settled source is a model: if it is invalid some day, `give_up_after` counts from then."""
+        """Note that the settled source is valid: if it is invalid some day, `give_up_after` counts from then."""
         self._invalid_since = None

@@ -36,7 +36,7 @@ class Settling(Event, frozen=True):
 
 
 class Unchanged(Event, frozen=True, tag="calm"):
-    """The files of the robot are what they were before `Settling`: nothing to build."""
+    """The files of the robot are the same as before `Settling`: nothing to build."""
 
     robot: str
 
@@ -44,8 +44,8 @@ class Unchanged(Event, frozen=True, tag="calm"):
 class Waiting(Event, frozen=True):
     """The robot is not built for now, although its files have settled.
 
-    Either its source is no model, which an exporter may be about to change: then `diagnostics` say what is wrong with
-    it, and `Failed` follows if that lasts. Or it lost many elements, and is watched a little longer.
+    Either its source is invalid (see `diagnostics`), which an exporter may be about to change; `Failed` follows if that
+    lasts. Or the source lost many elements, and is watched a little longer.
     """
 
     robot: str
@@ -90,23 +90,19 @@ class CheckDone(Event, frozen=True, tag="checked"):
     robot: str
     checked: Checked
     seconds: float = 0.0
-    """How long that took; 0 if it was known from an earlier check."""
+    """How long that took; 0 if the result is that of an earlier check."""
     diagnostics: tuple[Diagnostic, ...] = ()
-    """What is wrong with it, and what could not be checked."""
+    """Faults of the package, and reasons why it could not be checked."""
 
 
 class Noted(Event, frozen=True):
-    """Findings about no robot; told once, until they are over and happen again.
-
-    A configuration that can't be used (the last valid one stays in force), files that can't be watched (they are read
-    every second), a command of `--exec` that failed.
-    """
+    """Findings about no robot; told once, until they are over and happen again."""
 
     diagnostics: tuple[Diagnostic, ...]
 
 
 class Recovered(Event, frozen=True):
-    """What `Noted` said of the daemon itself is over."""
+    """A fault of the daemon itself that `Noted` told is over."""
 
     what: str
     """In words, for example `all folders are watched again`."""

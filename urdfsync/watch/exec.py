@@ -5,22 +5,31 @@ from __future__ import annotations
 import os
 import subprocess
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
+from queue import SimpleQueue
+
+import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.watch.event_queue import CommandEnded, EventQueue
 
 _MAX_VARIABLE = 100_000
 """Bytes of an environment variable: systems limit one to 128 KiB."""
 _STDERR = 2
 
 
+class CommandEnded(msgspec.Struct, frozen=True):
+    """A command of `--exec` has ended with this exit code, or with minus the number of a signal."""
+
+    robot: str
+    code: int
+
+
 class CommandRunner:
     """The command, and for which robots it runs and has to run again. Both methods return what went wrong."""
 
-    def __init__(self, queue: EventQueue, command: str, folder: Path) -> None:
+    def __init__(self, queue: SimpleQueue[object], command: str, folder: Path) -> None:
         self._queue, self._command, self._folder = queue, command, folder
         self._running: set[str] = set()
         self._waiting: dict[str, tuple[RobotConfig, tuple[Path, ...]]] = {}
@@ -36,12 +45,16 @@ class CommandRunner:
             _, before = self._waiting.get(robot.name, (robot, ()))
             self._waiting[robot.name] = robot, tuple(dict.fromkeys((*before, *files)))
             return ()
+        text = "\n".join(map(str, files))
+        if len(os.fsencode(text)) > _MAX_VARIABLE:
+            text = str(robot.folder)
+        names = {"URDFSYNC_ROBOT": robot.name, "URDFSYNC_PACKAGE": robot.target.package, "URDFSYNC_FILES": text}
         try:
             process = subprocess.Popen(  # noqa: S602 - a shell command is what the user gives
                 self._command,
                 shell=True,
                 cwd=self._folder,
-                env={**os.environ, **_variables(robot, files)},
+                env={**os.environ, **names},
                 stdin=subprocess.DEVNULL,
                 stdout=_STDERR,  # its output would break the lines of --json
             )
@@ -51,8 +64,9 @@ class CommandRunner:
         threading.Thread(target=self._wait, args=(robot.name, process), daemon=True).start()
         return ()
 
-    def finish(self, robot: str, code: int) -> tuple[Diagnostic, ...]:
+    def finish(self, ended: CommandEnded) -> tuple[Diagnostic, ...]:
         """Take note of the end of a command, and run it again if more files have changed."""
+        robot, code = ended.robot, ended.code
         self._running.discard(robot)
         found: tuple[Diagnostic, ...] = ()
         if code:
@@ -63,13 +77,6 @@ class CommandRunner:
 
     def _wait(self, robot: str, process: subprocess.Popen[bytes]) -> None:
         self._queue.put(CommandEnded(robot, process.wait()))
-
-
-def _variables(robot: RobotConfig, files: Sequence[Path]) -> Mapping[str, str]:
-    text = "\n".join(map(str, files))
-    if len(os.fsencode(text)) > _MAX_VARIABLE:
-        text = str(robot.folder)
-    return {"URDFSYNC_ROBOT": robot.name, "URDFSYNC_PACKAGE": robot.target.package, "URDFSYNC_FILES": text}
 
 
 def _warning(robot: str, what: str) -> Diagnostic:

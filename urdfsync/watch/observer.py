@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import contextlib
 import errno
 import logging
 import os
-from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from queue import SimpleQueue
+from types import TracebackType
+from typing import TYPE_CHECKING, Self
 
+import msgspec
 from watchdog import events, observers
 
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.watch.event_queue import EventQueue, EventsLost
 from urdfsync.watch.paths import WatchedPaths
 
 if TYPE_CHECKING:
@@ -39,38 +39,54 @@ _HINTS = {
 }
 
 
-class Observer:
-    """Watches folders while it is open, and puts what may have changed into the queue."""
+class EventsLost(msgspec.Struct, frozen=True):
+    """The system dropped events, so everything has to be looked at."""
 
-    def __init__(self, queue: EventQueue) -> None:
+
+class Observer(events.FileSystemEventHandler, logging.Handler):
+    """Puts paths that may have changed into a queue, within its context; paths that matter to nobody are left out."""
+
+    def __init__(self, queue: SimpleQueue[object]) -> None:
+        logging.Handler.__init__(self, logging.WARNING)
         self._queue = queue
-        self._handler = _Handler(queue)
+        self._paths = WatchedPaths()
         self._backend: BaseObserver | None = None
         self._watches: dict[tuple[str, bool], tuple[ObservedWatch, tuple[int, int]]] = {}
 
-    @contextlib.contextmanager
-    def open(self) -> Iterator[None]:
-        """Watch within this context."""
-        log, warnings = logging.getLogger("watchdog"), _Warnings(self._queue)
-        before = log.propagate
-        log.addHandler(warnings)
+    def __enter__(self) -> Self:
+        log = logging.getLogger("watchdog")
+        log.addHandler(self)
         log.propagate = False
-        try:
-            yield
-        finally:
-            self._close()
-            log.removeHandler(warnings)
-            log.propagate = before
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._close()
+        log = logging.getLogger("watchdog")
+        log.removeHandler(self)
+        log.propagate = True
+
+    def dispatch(self, event: events.FileSystemEvent) -> None:
+        """Pass on both paths of an event."""
+        for path in (event.src_path, event.dest_path):
+            if path and self._paths.robots_for(os.fsdecode(path)):
+                self._queue.put(os.fsdecode(path))
+
+    def emit(self, record: logging.LogRecord) -> None:  # noqa: ARG002 - as logging calls it
+        """Take a warning of watchdog. It tells in no other way that events were lost, so any warning counts as that."""
+        self._queue.put(EventsLost())
 
     def watch_folders(self, paths: WatchedPaths) -> tuple[Diagnostic, ...]:
-        """Watch exactly these folders; one that was replaced since the last call is watched anew.
+        """Watch exactly the folders of these paths; one that was replaced since the last call is watched anew.
 
         Returns one finding for each reason for which folders can't be watched.
         """
+        self._paths = paths
         try:
             backend = self._start()
-        except OSError as error:
-            return (_not_watched(error, "the files can't be watched", ""),)
+        except (OSError, RuntimeError) as error:  # threading raises RuntimeError if there are no more threads
+            return (_not_watched(error, "the files", ""),)
         folders = dict.fromkeys(paths.folders, False) | dict.fromkeys(paths.trees, True)
         wanted = {(folder, deep): identity for folder, deep in folders.items() if (identity := _identity(folder))}
         alive = {emitter.watch for emitter in backend.emitters if emitter.is_alive()}
@@ -81,32 +97,28 @@ class Observer:
         found: dict[int | None, Diagnostic] = {}
         for key in wanted.keys() - self._watches.keys():
             try:
-                self._watch(backend, *key)
-            except OSError as error:
-                if error.errno not in (errno.ENOENT, errno.ENOTDIR):  # gone again: its parent is watched
+                self._watches[key] = self._watch(backend, *key), wanted[key]
+            except (OSError, RuntimeError) as error:
+                number = getattr(error, "errno", None)
+                if number not in (errno.ENOENT, errno.ENOTDIR):  # gone again: its parent is watched
                     name = shown(Path(key[0]))
-                    found.setdefault(error.errno, _not_watched(error, f"the folder {name} can't be watched", name))
+                    found.setdefault(number, _not_watched(error, f"the folder {name}", name))
         return tuple(found.values())
 
     def _start(self) -> BaseObserver:
-        """Return the running backend. Raises OSError if the system gives none."""
+        """Return the running backend. Raises OSError or RuntimeError if the system gives none."""
         if self._backend is not None and not self._backend.is_alive():
             self._close()
         if self._backend is None:
             backend = observers.Observer()
-            with _threads_as_os_error():
-                backend.start()
+            backend.start()
             self._backend = backend
         return self._backend
 
-    def _watch(self, backend: BaseObserver, folder: str, deep: bool) -> None:
+    def _watch(self, backend: BaseObserver, folder: str, deep: bool) -> ObservedWatch:
         if not os.access(folder, os.R_OK):  # watchdog says nothing then
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
-        identity = _identity(folder)
-        with _threads_as_os_error():
-            watch = backend.schedule(self._handler, folder, recursive=deep, event_filter=_EVENTS)
-        if identity is not None:
-            self._watches[folder, deep] = watch, identity
+        return backend.schedule(self, folder, recursive=deep, event_filter=_EVENTS)
 
     def _close(self) -> None:
         self._watches.clear()
@@ -114,38 +126,6 @@ class Observer:
             self._backend.stop()
             self._backend.join()
             self._backend = None
-
-
-class _Handler(events.FileSystemEventHandler):
-    def __init__(self, queue: EventQueue) -> None:
-        self._queue = queue
-
-    def dispatch(self, event: events.FileSystemEvent) -> None:
-        """Pass on both paths of an event."""
-        for path in (event.src_path, event.dest_path):
-            if path:
-                self._queue.put_path(os.fsdecode(path))
-
-
-class _Warnings(logging.Handler):
-    """Takes what watchdog warns of: that events were lost is told in no other way, so any warning counts as that."""
-
-    def __init__(self, queue: EventQueue) -> None:
-        super().__init__(logging.WARNING)
-        self._queue = queue
-
-    def emit(self, record: logging.LogRecord) -> None:  # noqa: ARG002 - as logging calls it
-        """Have everything looked at."""
-        self._queue.put(EventsLost())
-
-
-@contextlib.contextmanager
-def _threads_as_os_error() -> Iterator[None]:
-    """Turn what threading says when there are no more threads into an OSError."""
-    try:
-        yield
-    except RuntimeError as error:
-        raise OSError(errno.EAGAIN, str(error)) from None
 
 
 def _identity(folder: str) -> tuple[int, int] | None:
@@ -156,7 +136,8 @@ def _identity(folder: str) -> tuple[int, int] | None:
     return found.st_dev, found.st_ino
 
 
-def _not_watched(error: OSError, message: str, place: str) -> Diagnostic:
-    hint = _HINTS.get(error.errno or 0, "use --poll")
-    message = f"{message}, so it is looked at every now and then: {error.strerror or error}"
+def _not_watched(error: Exception, what: str, place: str) -> Diagnostic:
+    hint = _HINTS.get(getattr(error, "errno", None) or 0, "use --poll")
+    reason = getattr(error, "strerror", None) or error
+    message = f"{what} can't be watched, so it is looked at every now and then: {reason}"
     return Diagnostic(Severity.WARNING, "not-watched", message, place, hint=hint)

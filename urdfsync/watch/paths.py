@@ -5,8 +5,9 @@ Paths are strings here, since there are thousands of them and they are looked at
 
 from __future__ import annotations
 
+import contextlib
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
@@ -14,13 +15,12 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import Dependency, Lookup
+from urdfsync.domain import Lookup
 from urdfsync.engine import parents
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.imports import find_dependencies
 from urdfsync.files import placed
 from urdfsync.state.store import State, Store
-from urdfsync.watch.input_files import all_files_below
 
 _MAX_LINKS = 40
 """Symbolic links that one path may lead through, as for the system."""
@@ -45,28 +45,26 @@ class RobotPaths(msgspec.Struct, frozen=True):
     built_names: frozenset[tuple[str, str]] = frozenset()
     """Kind and name of each element in the last build."""
 
-    @property
-    def output_folders(self) -> frozenset[str]:
-        """Folders of the outputs."""
-        return frozenset([path.rpartition(os.sep)[0] for path in self.outputs])
-
     def input_files(self) -> Iterator[str]:
         """Yield all files that the robot is built from, those in the template folder included."""
         yield from self.inputs
-        yield from all_files_below(self.templates) if self.templates else ()
+        for folder, _, names in os.walk(self.templates) if self.templates else ():
+            yield from (os.path.join(folder, name) for name in names)  # noqa: PTH118
 
 
 def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path], cache: Cache) -> RobotPaths:
     """Return the paths of a robot as far as the last build recorded them."""
-    state = _recorded(config, robot, cache)
-    outputs = {*parents.files(robot), *map(str, Store(config.root).paths(robot.name))}
-    inputs = {str(robot.source)}
-    recorded: Mapping[str, Iterable[str]] = {}
+    store, state = Store(config.root, shown), None
+    outputs = {*parents.files(robot), *map(str, store.paths(robot.name))}
+    inputs, names = {str(robot.source)}, set[tuple[str, str]]()
+    with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
+        # a build has just recorded it; loading it again takes a fifth of the time of a changed mass in 1,000 links
+        state = cache.get("state", store.texts(robot.name), lambda: store.load(robot.name))
     if state:
         prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
         outputs.update(placed(prefix, key) for key in (*state.manifest.files, *state.manifest.orders))
-        inputs.update(_candidates(_dependencies(robot, state, package_paths)))
-        recorded = state.manifest.names
+        inputs.update(_dependencies(robot, state, package_paths))
+        names = {(kind, name) for kind, found in state.manifest.names.items() for name in found}
     return RobotPaths(
         source=str(robot.source),
         inputs=frozenset(inputs),
@@ -74,32 +72,20 @@ def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence
         outputs=frozenset(outputs),
         package=str(robot.folder),
         built_hash=state.manifest.source.hash if state else "",
-        built_names=frozenset((kind, name) for kind, names in recorded.items() for name in names),
+        built_names=frozenset(names),
     )
 
 
-def _recorded(config: Config, robot: RobotConfig, cache: Cache) -> State | None:
-    store = Store(config.root, shown)
-    try:
-        # a build has just recorded it; loading it again takes a fifth of the time of a changed mass in 1,000 links
-        return cache.get("state", store.texts(robot.name), lambda: store.load(robot.name))
-    except (UrdfsyncError, OSError):  # the build tells it
-        return None
-
-
-def _dependencies(robot: RobotConfig, state: State, package_paths: Sequence[Path]) -> Sequence[Dependency]:
+def _dependencies(robot: RobotConfig, state: State, package_paths: Sequence[Path]) -> Iterator[str]:
+    """Yield the places of each dependency up to the first readable file: those behind it do not matter yet."""
     if state.model is None:
-        return ()
+        return
     lookup = Lookup(robot.source, (*robot.package_paths, *package_paths))
     try:
-        return find_dependencies(registry.domain(robot.domain), state.model.snapshot, lookup, robot.options, {})
+        found = find_dependencies(registry.domain(robot.domain), state.model.snapshot, lookup, robot.options, {})
     except Exception:  # noqa: BLE001 - no model of the domain, or a mistake in it: the build tells it
-        return ()
-
-
-def _candidates(dependencies: Iterable[Dependency]) -> Iterator[str]:
-    """Yield the places of each dependency up to the first readable file: those behind it do not matter yet."""
-    for dependency in dependencies:
+        return
+    for dependency in found:
         for path in map(str, dependency.candidates):
             yield path
             if os.path.isfile(path) and os.access(path, os.R_OK):  # noqa: PTH113
@@ -131,23 +117,24 @@ def find_watched_paths(root: str, config_file: str, robots: Mapping[str, RobotPa
     `root` is the configuration's folder. Folders above it are not watched, but for the one nearest to a file that is
     found outside.
     """
-    links = _Links()
-    root = links.resolve(root)
+    known: dict[str, tuple[str, tuple[str, ...]]] = {}
+    root = _follow_links(root, known)[0]
     above = {root, *map(str, Path(root).parents)}
     by_path: dict[str, set[str]] = {}
     trees: dict[str, set[str]] = {}
 
     def add(path: str, robot: str) -> str:
-        for name in links.names(path):
+        real, names = _follow_links(path, known)
+        for name in names:
             if name not in above:
                 by_path.setdefault(name, set()).add(robot)
-        return links.resolve(path)
+        return real
 
     add(config_file, CONFIG)
     for name, robot in robots.items():
         for path in robot.inputs:
             add(path, name)
-        folders = {folder: add(folder, name) for folder in robot.output_folders}
+        folders = {folder: add(folder, name) for folder in {os.path.dirname(path) for path in robot.outputs}}  # noqa: PTH120
         for path in robot.outputs:  # thousands, and no links: a build refuses those
             folder, _, file = path.rpartition(os.sep)
             by_path.setdefault(f"{folders[folder]}{os.sep}{file}", set()).add(name)
@@ -168,35 +155,27 @@ def find_watched_paths(root: str, config_file: str, robots: Mapping[str, RobotPa
     return WatchedPaths(by_path, frozenset(watched), trees)
 
 
-class _Links:
-    """Follows paths through symbolic links; each folder on the way is followed once."""
+def _follow_links(
+    path: str, known: dict[str, tuple[str, tuple[str, ...]]], depth: int = 0
+) -> tuple[str, tuple[str, ...]]:
+    """Return a path without links, and everything on the way: folders, links, their targets, and the path itself.
 
-    def __init__(self) -> None:
-        self._known: dict[str, tuple[str, tuple[str, ...]]] = {}
-
-    def resolve(self, path: str) -> str:
-        """Return the path without links."""
-        return self._follow(path, 0)[0]
-
-    def names(self, path: str) -> tuple[str, ...]:
-        """Return everything on the way: folders, links, their targets, and last the path itself."""
-        return self._follow(path, 0)[1]
-
-    def _follow(self, path: str, depth: int) -> tuple[str, tuple[str, ...]]:
-        if path in self._known:
-            return self._known[path]
-        parent, name = os.path.split(path)
-        if not name or depth > _MAX_LINKS:
-            return path, ()
-        folder, names = self._follow(parent, depth)
-        place = os.path.join(folder, name)  # noqa: PTH118
-        result = place, (*names, place)
-        try:
-            target = os.readlink(place)  # noqa: PTH115
-        except OSError:
-            pass  # no link, or nothing at all
-        else:
-            real, more = self._follow(os.path.normpath(os.path.join(folder, target)), depth + 1)  # noqa: PTH118
-            result = real, (*result[1], *more)
-        self._known[path] = result
-        return result
+    `known` keeps each folder that was followed.
+    """
+    if path in known:
+        return known[path]
+    parent, name = os.path.split(path)
+    if not name or depth > _MAX_LINKS:
+        return path, ()
+    folder, names = _follow_links(parent, known, depth)
+    place = os.path.join(folder, name)  # noqa: PTH118
+    result = place, (*names, place)
+    try:
+        target = os.readlink(place)  # noqa: PTH115
+    except OSError:
+        pass  # no link, or nothing at all
+    else:
+        real, more = _follow_links(os.path.normpath(os.path.join(folder, target)), known, depth + 1)  # noqa: PTH118
+        result = real, (*result[1], *more)
+    known[path] = result
+    return result

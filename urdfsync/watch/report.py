@@ -6,58 +6,26 @@ import datetime
 import json
 import sys
 import time
-from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Protocol, Self
+from typing import Any, Self
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.actions import Kind
 from urdfsync.outcome import Result
-from urdfsync.output.console import JSON_VERSION, has_marks, text
+from urdfsync.output.console import JSON_VERSION, has_marks, rich_console, write_lines
 from urdfsync.output.json_values import finding_values, result_values
 from urdfsync.watch import events
-from urdfsync.watch.event_log import NAME_WIDTH, EventLog
-from urdfsync.watch.status import Activity, StatusTable
-from urdfsync.watch.status_area import StatusArea
-from urdfsync.watch.stderr_capture import StderrCapture
-
-if TYPE_CHECKING:
-    from rich.text import Text
+from urdfsync.watch.event_log import EventLog
+from urdfsync.watch.status import StatusTable
+from urdfsync.watch.terminal import StatusArea, StderrCapture
 
 _PATIENCE = 0.5
 """Seconds of a build before its progress is shown."""
 _PACE = 0.2
 """Seconds between two lines of progress."""
-_STYLES = {
-    Activity.ERROR: ("✗", "bold red"),
-    Activity.CONFLICT: ("!", "yellow"),
-    Activity.WAITING: ("…", "yellow"),
-    Activity.BUILDING: ("…", "cyan"),
-    Activity.CHECKING: ("…", "cyan"),
-    Activity.SETTLING: ("…", "cyan"),
-    Activity.STARTING: ("…", "dim"),
-    Activity.IN_STEP: ("✓", "green"),
-}
-_SPACED = 4
-"""Rows of the status from which an empty one stands above it."""
-
-
-class WatchReport(events.Listener, Protocol):
-    """A listener that uses the streams from `with` to its end, and leaves the terminal in order."""
-
-    def __enter__(self) -> Self: ...
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None: ...
-
-
-def watch_report(*, as_json: bool = False, quiet: bool = False, verbose: bool = False, config: str = "") -> WatchReport:
-    """Return the report that the options ask for; `config` is the configuration as the user named it."""
-    return JsonReport() if as_json else TextReport(quiet=quiet, verbose=verbose, config=config)
 
 
 def now() -> datetime.datetime:
@@ -93,14 +61,6 @@ def _plain(value: object) -> Any:
 class JsonReport:
     """One JSON object per line, passed on at once."""
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        """Do nothing: each line was complete."""
-
     def show(self, event: events.Event) -> None:
         """Print an event."""
         sys.stdout.write(json.dumps(event_values(event, now())) + "\n")
@@ -115,16 +75,16 @@ class TextReport:
 
     def __init__(self, *, quiet: bool = False, verbose: bool = False, config: str = "") -> None:
         self._table = StatusTable()
-        self._out = StatusArea(sys.stdout, status=not quiet)
-        has_both = self._out.has_status and sys.stderr.isatty()
-        self._errors = self._out if has_both else StatusArea(sys.stderr, status=False)
-        self._log = EventLog(self._out.console, quiet=quiet, verbose=verbose, config=config)
-        self._capture = StderrCapture(self._out)
+        screen = rich_console(sys.stdout)
+        self._log = EventLog(screen, quiet=quiet, verbose=verbose, config=config)
+        has_status = not quiet and sys.stdout.isatty() and not screen.is_dumb_terminal
+        self._area = StatusArea(sys.stdout) if has_status else None
+        self._capture = StderrCapture(self._area) if self._area else None
         self._build_began = self._progress_shown = 0.0
 
     def __enter__(self) -> Self:
-        self._out.start()
-        if self._out.has_status:
+        if self._area and self._capture:
+            self._area.start()
             self._capture.start()
         return self
 
@@ -132,8 +92,9 @@ class TextReport:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Take the status away; what scrolled stays."""
-        self._capture.close()
-        self._out.close()
+        if self._area and self._capture:
+            self._capture.close()
+            self._area.close()
 
     def show(self, event: events.Event) -> None:
         """Show an event."""
@@ -142,34 +103,21 @@ class TextReport:
             self._build_began = time.monotonic()
         self._table.take(event, clock)
         lines = list(self._log.lines(event, clock))
-        if self._errors is not self._out:
-            self._errors.write([line.text for line in lines if line.error])
+        area = self._area
+        if area is None or not sys.stderr.isatty():
+            write_lines([line.text for line in lines if line.error], sys.stderr)
             lines = [line for line in lines if not line.error]
-        is_last = isinstance(event, events.Stopping)
-        self._out.write([line.text for line in lines], () if is_last else self._status_lines())
+        if area is None:
+            write_lines([line.text for line in lines], sys.stdout)
+        else:
+            is_last = isinstance(event, events.Stopping)
+            status = () if is_last else [*self._table.lines(area.room, marks=has_marks(sys.stdout))]
+            area.write([line.text for line in lines], status)
 
     def progress(self, what: str, done: int, total: int) -> None:
         """Show how far a build is that takes some time."""
-        moment = time.monotonic()
-        if self._out.has_status and moment - self._build_began >= _PATIENCE and moment - self._progress_shown >= _PACE:
+        moment, area = time.monotonic(), self._area
+        if area and moment - self._build_began >= _PATIENCE and moment - self._progress_shown >= _PACE:
             self._progress_shown = moment
             self._table.progress(what, done, total)
-            self._out.write((), self._status_lines())
-
-    def _status_lines(self) -> Sequence[Text]:
-        """Return a line for each robot for which there is room, and one for all others."""
-        if not self._out.has_status or not self._table.rows:
-            return ()
-        room, marks = self._out.room, has_marks(sys.stdout)
-        lines = [text(("", ""))] if room >= _SPACED else []
-        if self._table.pause_reason:
-            lines.append(text((f"paused: {self._table.pause_reason}", "yellow")))
-        shown, rest = self._table.visible(room - len(lines))
-        width = min(max((len(status.robot) for status in shown), default=0), NAME_WIDTH)
-        for status in shown:
-            mark, style = _STYLES[status.activity]
-            name = text((status.robot, "bold"))
-            name.truncate(width, overflow="ellipsis", pad=True)
-            said = text((f"  {status.text}", "" if status.activity is Activity.IN_STEP else style))
-            lines.append(text((f"{mark} " if marks else "", style)).append_text(name).append_text(said))
-        return [*lines, text((rest, "dim"))] if rest else lines
+            area.write((), [*self._table.lines(area.room, marks=has_marks(sys.stdout))])

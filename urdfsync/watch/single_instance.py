@@ -23,7 +23,7 @@ class SingleInstance:
         self._file = config.file
         self._path = config.root / STATE_FOLDER / "watch.lock"
         self._lock = Lock(self._path, 0, shown)
-        self._identity: tuple[int, int] | None = None
+        self._inode = 0
 
     def __enter__(self) -> Self:
         """Take the lock. Raises AlreadyWatchedError, or OutputError if the file can't be used."""
@@ -35,7 +35,7 @@ class SingleInstance:
             message, hint = f"{who} watches this configuration already", "leave the work to it, or end it first"
             found = Diagnostic(Severity.ERROR, "watched", message, shown(self._file), hint=hint)
             raise AlreadyWatchedError(found) from None
-        self._identity = self._read_identity()
+        self._inode = self._path.stat().st_ino
         return self
 
     def __exit__(
@@ -45,13 +45,6 @@ class SingleInstance:
 
     def renew(self) -> None:
         """Take the lock again if its file was deleted: another daemon could not see it. Raises as `__enter__`."""
-        if self._read_identity() != self._identity:
+        if not self._path.exists() or self._path.stat().st_ino != self._inode:
             self._lock.release()
             self.__enter__()
-
-    def _read_identity(self) -> tuple[int, int] | None:
-        try:
-            found = self._path.stat()
-        except OSError:
-            return None
-        return found.st_dev, found.st_ino

@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import enum
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Checked, Result
+from urdfsync.output.console import text
 from urdfsync.watch import events
+from urdfsync.watch.event_log import NAME_WIDTH
 
-_CHECK_FAILED = "checked with errors"
+if TYPE_CHECKING:
+    from rich.text import Text
+
+_SPACED = 4
+"""Rows of the status from which an empty one stands above it."""
 
 
 class Activity(enum.StrEnum):
@@ -27,10 +34,18 @@ class Activity(enum.StrEnum):
     STARTING = "not looked at yet"
     IN_STEP = "in step"
 
-    @property
-    def rank(self) -> int:
-        """Place in this order, from 0."""
-        return list(Activity).index(self)
+
+_RANKS = {activity: rank for rank, activity in enumerate(Activity)}
+_STYLES = {
+    Activity.ERROR: ("✗", "bold red"),
+    Activity.CONFLICT: ("!", "yellow"),
+    Activity.WAITING: ("…", "yellow"),
+    Activity.BUILDING: ("…", "cyan"),
+    Activity.CHECKING: ("…", "cyan"),
+    Activity.SETTLING: ("…", "cyan"),
+    Activity.STARTING: ("…", "dim"),
+    Activity.IN_STEP: ("✓", "green"),
+}
 
 
 class RobotStatus(msgspec.Struct, frozen=True):
@@ -59,7 +74,7 @@ class StatusTable:
         """The status of each robot in the order of the configuration; of build and check that which matters more."""
         rows = []
         for robot, result in self._results.items():
-            at_rest = min(result, self._checks.get(robot, result), key=lambda status: status.activity.rank)
+            at_rest = min(result, self._checks.get(robot, result), key=lambda status: _RANKS[status.activity])
             rows.append(self._builds.get(robot) or at_rest)
         return rows
 
@@ -67,28 +82,29 @@ class StatusTable:
         """Take note of an event; `clock` is the time of day as people see it."""
         match event:
             case events.Started(robots=robots):
-                self._results = {name: self._results.get(name) or _plain(name, Activity.STARTING) for name in robots}
-                self._builds = {name: status for name, status in self._builds.items() if name in self._results}
+                new = {name: RobotStatus(name, Activity.STARTING, Activity.STARTING) for name in robots}
+                self._results = {name: self._results.get(name, status) for name, status in new.items()}
+                self._builds = {name: status for name, status in self._builds.items() if name in new}
                 self._checks = {}
             case events.Settling(robot):
-                self._builds[robot] = _plain(robot, Activity.SETTLING)
+                self._builds[robot] = RobotStatus(robot, Activity.SETTLING, Activity.SETTLING)
             case events.Waiting(robot, reason, diagnostics):
-                text = ": ".join([reason, *_first_error(diagnostics)])
-                self._builds[robot] = RobotStatus(robot, Activity.WAITING, text)
+                said = ": ".join([reason, *_first_error(diagnostics)])
+                self._builds[robot] = RobotStatus(robot, Activity.WAITING, said)
             case events.Building(robot):
-                self._builds[robot] = _plain(robot, Activity.BUILDING)
+                self._builds[robot] = RobotStatus(robot, Activity.BUILDING, Activity.BUILDING)
             case events.Unchanged(robot):
                 self._builds.pop(robot, None)
             case events.Built(result) | events.Failed(result):
                 self._builds.pop(result.robot, None)
                 self._results[result.robot] = _after_build(result, clock, self._results.get(result.robot))
             case events.Checking(robot):
-                self._checks[robot] = _plain(robot, Activity.CHECKING)
+                self._checks[robot] = RobotStatus(robot, Activity.CHECKING, Activity.CHECKING)
             case events.CheckDone(robot, checked, diagnostics=diagnostics):
                 self._checks.pop(robot, None)
                 if checked is Checked.WRONG:
-                    text = ": ".join([_CHECK_FAILED, *_first_error(diagnostics)])
-                    self._checks[robot] = RobotStatus(robot, Activity.ERROR, text)
+                    said = ": ".join(["checked with errors", *_first_error(diagnostics)])
+                    self._checks[robot] = RobotStatus(robot, Activity.ERROR, said)
             case events.Paused(reason):
                 self.pause_reason = reason
             case events.Resumed():
@@ -103,27 +119,34 @@ class StatusTable:
                 count = f" {done} of {total}" if total > 1 else ""
                 self._builds[robot] = RobotStatus(robot, Activity.BUILDING, f"{Activity.BUILDING}: {what}{count}")
 
-    def visible(self, room: int) -> tuple[Sequence[RobotStatus], str]:
-        """Return the robots for which so many lines have room, and a line that counts the others.
+    def lines(self, room: int, *, marks: bool) -> Iterator[Text]:
+        """Yield a line for each robot for which there is room, and one for all others.
 
-        If there are too many robots, those that need attention are shown. The line takes room, too; it is empty if
-        all robots are shown.
+        If there are too many robots, those that need attention are shown.
         """
         rows = self.rows
-        if len(rows) <= room:
-            return rows, ""
-        order = sorted(range(len(rows)), key=lambda index: rows[index].activity.rank)
-        number = max(room - 1, 0)
+        if rows and room >= _SPACED:
+            yield text(("", ""))
+            room -= 1
+        if self.pause_reason:
+            yield text((f"paused: {self.pause_reason}", "yellow"))
+            room -= 1
+        order = sorted(range(len(rows)), key=lambda index: _RANKS[rows[index].activity])
+        number = len(rows) if len(rows) <= room else max(room - 1, 0)  # the last line takes room, too
         shown = [rows[index] for index in sorted(order[:number])]
+        width = min(max((len(status.robot) for status in shown), default=0), NAME_WIDTH)
+        for status in shown:
+            mark, style = _STYLES[status.activity]
+            name = text((status.robot, "bold"))
+            name.truncate(width, overflow="ellipsis", pad=True)
+            said = text((f"  {status.text}", "" if status.activity is Activity.IN_STEP else style))
+            yield text((f"{mark} " if marks else "", style)).append_text(name).append_text(said)
         counts = Counter(rows[index].activity for index in order[number:])
-        text = ", ".join(f"{counts[activity]} {activity}" for activity in Activity if counts[activity])
         if len(counts) == 1:
-            return shown, f"… and {text.replace(' ', ' more ', 1)}"
-        return shown, f"… and {counts.total()} more: {text}"
-
-
-def _plain(robot: str, activity: Activity) -> RobotStatus:
-    return RobotStatus(robot, activity, activity)
+            yield text((f"… and {counts.total()} more {next(iter(counts))}", "dim"))
+        elif counts:
+            rest = ", ".join(f"{counts[activity]} {activity}" for activity in Activity if counts[activity])
+            yield text((f"… and {counts.total()} more: {rest}", "dim"))
 
 
 def _after_build(result: Result, clock: str, before: RobotStatus | None) -> RobotStatus:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import bisect
-import dataclasses
 import itertools
 import random
 import sys
@@ -13,9 +12,13 @@ from typing import TypeAlias
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.skeletons import skeleton
 
-from urdfsync.urdf.diagram.layout import Diagram, JointKind, Tree, TreeCoupling, TreeJoint, layout
-from urdfsync.urdf.diagram.routing import Path, Placement, Point, tracks
+from urdfsync.urdf.diagram.layout import Diagram, Path, Placement, Point, layout, tracks
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.connectors import Connectors, connector_names
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, JointType, Link, Mimic, Robot
 
 PORTS = {
     "frame_a": (-1.0, 0.0),
@@ -25,75 +28,52 @@ PORTS = {
     "leader": (-1.0, 0.0),
     "follower": (1.0, 0.0),
 }
-KINDS: tuple[JointKind, ...] = ("fixed", "rotational", "translational", "free")
+TYPES: tuple[JointType, ...] = ("fixed", "revolute", "prismatic", "planar")
 
 Segment: TypeAlias = tuple[Point, Point]
 
 
-@dataclasses.dataclass(frozen=True)
-class Recipe:
-    """A tree in numbers: joint i leads to link i + 1 from link `parents[i]`; `leaders[i]` is the joint it follows."""
-
-    parents: tuple[int, ...]
-    kinds: tuple[JointKind, ...]
-    leaders: tuple[int | None, ...]
-    framed: frozenset[str] = frozenset()
-    """Inner links with a connector of their own."""
-
-    def tree(self) -> Tree:
-        count = len(self.parents)
-        children: dict[str, list[TreeJoint]] = {f"link{index}": [] for index in range(count + 1)}
-        for index in range(count):
-            kind, moves = self.kinds[index], self.kinds[index] in ("rotational", "translational")
-            driven = moves and self.leaders[index] is None
-            names = (f"j{index}Axis", f"j{index}Support") if driven else (None, None)
-            children[f"link{self.parents[index]}"].append(TreeJoint(f"j{index}", f"link{index + 1}", kind, *names))
-        frames = [link for link, joints in children.items() if not joints or link in self.framed]
-        couplings = [
-            TreeCoupling(f"mimic{index}", f"j{leader}", f"j{index}")
-            for index, leader in enumerate(self.leaders)
-            if leader is not None
-        ]
-        return Tree("link0", children, {link: f"{link}Frame" for link in frames}, couplings)
+def draw(*joints: Joint, frames: tuple[str, ...] = ()) -> Diagram:
+    tree = skeleton(*joints)
+    return layout(tree, connector_names(tree, Options(frames=frames)))
 
 
-def recipe(random_: random.Random, links: int, depth: int, mimics: float) -> Recipe:
+def random_robot(random_: random.Random, links: int, depth: int, mimics: float) -> tuple[KinematicTree, Connectors]:
     """A random tree: every joint starts at one of the last `depth` links; followers and leaders in any order."""
     count = links - 1
-    parents = tuple(random_.randrange(max(0, index + 1 - depth), index + 1) for index in range(count))
-    kinds = tuple(random_.choices(KINDS, (2, 5, 2, 1), k=count))
-    movers = [index for index in range(count) if kinds[index] in ("rotational", "translational")]
+    types = random_.choices(TYPES, (2, 5, 2, 1), k=count)
+    movers = [index for index in range(count) if types[index] in MOTION_KINDS]
     rank = {mover: place for place, mover in enumerate(random_.sample(movers, len(movers)))}
-    leaders: list[int | None] = [None] * count
-    for follower in movers:
-        choice = [leader for leader in movers if rank[leader] < rank[follower]]
-        if choice and random_.random() < mimics:
-            leaders[follower] = random_.choice(choice)
-    framed = frozenset(f"link{index}" for index in range(links) if random_.random() < mimics / 2)
-    return Recipe(parents, kinds, tuple(leaders), framed)
+    joints = []
+    for index, kind in enumerate(types):
+        mimic = None
+        if index in rank and random_.random() < mimics:
+            choice = [leader for leader in movers if rank[leader] < rank[index]]
+            mimic = Mimic(f"j{random_.choice(choice)}") if choice else None
+        parent = random_.randrange(max(0, index + 1 - depth), index + 1)
+        joints.append(Joint(f"j{index}", kind, f"l{parent}", f"l{index + 1}", mimic=mimic))
+    tree = KinematicTree.of(Robot("r", tuple(Link(f"l{index}") for index in range(links)), tuple(joints)))
+    framed = tuple(f"l{index}" for index in range(links) if random_.random() < mimics / 2)
+    return tree, connector_names(tree, Options(frames=framed))
 
 
-recipes = st.builds(
-    recipe, st.randoms(use_true_random=False), st.integers(1, 40), st.integers(1, 40), st.sampled_from([0.0, 0.2, 0.8])
-)
-
-
-def chain(kinds: list[JointKind]) -> Tree:
-    return Recipe(tuple(range(len(kinds))), tuple(kinds), (None,) * len(kinds)).tree()
-
-
-def connections(tree: Tree) -> set[tuple[str, str]]:
-    """What the robot model has to connect, said independently of the layout."""
-    joints = {joint.name: (link, joint) for link, found in tree.children.items() for joint in found}
-    ends = {("frame_a", f"{tree.root}.frame_a")}
-    ends |= {(f"{link}.frame_a", frame) for link, frame in tree.frames.items()}
-    for name, (parent, joint) in joints.items():
-        ends |= {(f"{parent}.frame_a", f"{name}.frame_a"), (f"{name}.frame_b", f"{joint.child}.frame_a")}
-        if joint.axis and joint.support:
-            ends |= {(f"{name}.axis", joint.axis), (f"{name}.support", joint.support)}
-    for coupling in tree.couplings:
-        ends.add((f"{coupling.name}.leader", f"{coupling.leader}.axis"))
-        ends.add((f"{coupling.name}.follower", f"{coupling.follower}.axis"))
+def connections(tree: KinematicTree, names: Connectors) -> set[tuple[str, str]]:
+    """What the robot model has to connect, said independently of the layout; here components have URDF's names."""
+    ends = {("frame_a", f"{tree.links[0].name}.frame_a")}
+    ends |= {(f"{link}.frame_a", frame) for link, frame in names.frames.items()}
+    for joint in tree.joints:
+        ends |= {
+            (f"{joint.parent}.frame_a", f"{joint.name}.frame_a"),
+            (f"{joint.name}.frame_b", f"{joint.child}.frame_a"),
+        }
+        if joint.type in MOTION_KINDS and joint.mimic:
+            coupling = f"{joint.name}Mimic"
+            ends |= {
+                (f"{coupling}.leader", f"{joint.mimic.joint}.axis"),
+                (f"{coupling}.follower", f"{joint.name}.axis"),
+            }
+        elif joint.type in MOTION_KINDS:
+            ends |= {(f"{joint.name}.{end}", f"{joint.name}{end.capitalize()}") for end in ("axis", "support")}
     return ends
 
 
@@ -132,7 +112,7 @@ def segments(points: Path) -> list[Segment]:
 def crossed(diagram: Diagram) -> list[tuple[tuple[str, str], str]]:
     """Lines that touch a component: a foreign one anywhere, one of their own anywhere but at the port."""
     found = []
-    for ends, points in diagram.lines.items():
+    for ends, (_, points) in diagram.lines.items():
         own = {end.partition(".")[0]: "." in end for end in ends}
         runs = segments(points)
         for name, place in diagram.placements.items():
@@ -158,7 +138,7 @@ def overlaid(diagram: Diagram) -> list[tuple[tuple[str, str], tuple[str, str]]]:
     """Pairs of lines that share a piece of their way and nothing else."""
     joined = {ends: nets(ends) for ends in diagram.lines}
     straight: defaultdict[tuple[bool, int], list[tuple[int, int, tuple[str, str]]]] = defaultdict(list)
-    for ends, points in diagram.lines.items():
+    for ends, (_, points) in diagram.lines.items():
         for (x1, y1), (x2, y2) in segments(points):
             upright = x1 == x2
             span = (y1, y2) if upright else (x1, x2)
@@ -173,7 +153,7 @@ def overlaid(diagram: Diagram) -> list[tuple[tuple[str, str], tuple[str, str]]]:
     return found
 
 
-def steps(tree: Tree) -> int:
+def steps(tree: KinematicTree, names: Connectors) -> int:
     """Calls, of Python functions and built-in ones, that a layout takes."""
     count = 0
 
@@ -184,7 +164,7 @@ def steps(tree: Tree) -> int:
     before = sys.getprofile()
     sys.setprofile(seen)
     try:
-        layout(tree)
+        layout(tree, names)
     finally:
         sys.setprofile(before)
     return count
@@ -192,8 +172,7 @@ def steps(tree: Tree) -> int:
 
 def test_one_joint_in_full() -> None:
     """frame_a at (-100, 0), base, shoulder, arm, its frame: joints on the spine, links below, connectors above."""
-    shoulder = TreeJoint("shoulder", "arm", "rotational", "shoulderAxis", "shoulderSupport")
-    diagram = layout(Tree("base", {"base": [shoulder]}, {"arm": "armFrame"}))
+    diagram = draw(Joint("shoulder", "revolute", "base", "arm"))
     assert diagram.extent == (-116, -44, 36, 34)
     assert diagram.placements == {
         "frame_a": Placement(-116, -16, -84, 16),
@@ -205,133 +184,87 @@ def test_one_joint_in_full() -> None:
         "shoulderSupport": Placement(-66, 14, -54, 26),
     }
     assert diagram.lines == {
-        ("frame_a", "base.frame_a"): ((-100, 0), (-76, 0), (-76, -26), (-72, -26)),
-        ("base.frame_a", "shoulder.frame_a"): ((-72, -26), (-76, -26), (-76, 0), (-56, 0)),
-        ("shoulder.frame_b", "arm.frame_a"): ((-36, 0), (-28, 0), (-28, -26), (-24, -26)),
-        ("arm.frame_a", "armFrame"): ((-24, -26), (-28, -26), (-28, 0), (26, 0)),
-        ("shoulder.axis", "shoulderAxis"): ((-46, 10), (-46, 20)),
-        ("shoulder.support", "shoulderSupport"): ((-52, 10), (-52, 12), (-60, 12), (-60, 20)),
+        ("frame_a", "base.frame_a"): ("frame", ((-100, 0), (-76, 0), (-76, -26), (-72, -26))),
+        ("base.frame_a", "shoulder.frame_a"): ("frame", ((-72, -26), (-76, -26), (-76, 0), (-56, 0))),
+        ("shoulder.frame_b", "arm.frame_a"): ("frame", ((-36, 0), (-28, 0), (-28, -26), (-24, -26))),
+        ("arm.frame_a", "armFrame"): ("frame", ((-24, -26), (-28, -26), (-28, 0), (26, 0))),
+        ("shoulder.axis", "shoulderAxis"): ("rotational", ((-46, 10), (-46, 20))),
+        ("shoulder.support", "shoulderSupport"): ("rotational", ((-52, 10), (-52, 12), (-60, 12), (-60, 20))),
     }
-    assert set(diagram.kinds.values()) == {"frame", "rotational"}
 
 
 def test_an_inner_link_has_its_frame_below_it() -> None:
-    arm = TreeJoint("mount", "hand", "fixed")
-    diagram = layout(Tree("palm", {"palm": [arm]}, {"palm": "palmFrame", "hand": "handFrame"}))
+    diagram = draw(Joint("mount", "fixed", "palm", "hand"), frames=("palm",))
     palm, frame = diagram.placements["palm"], diagram.placements["palmFrame"]
     assert frame.y2 < palm.y1
     assert frame.centre[0] == palm.centre[0]
 
 
 def test_a_chain_is_one_row_from_left_to_right() -> None:
-    diagram = layout(chain(["rotational", "fixed", "translational"]))
-    order = ["frame_a", "link0", "j0", "link1", "j1", "link2", "j2", "link3", "link3Frame"]
+    types: tuple[JointType, ...] = ("revolute", "fixed", "prismatic")
+    diagram = draw(*(Joint(f"j{n}", kind, f"l{n}", f"l{n + 1}") for n, kind in enumerate(types)))
+    order = ["frame_a", "l0", "j0", "l1", "j1", "l2", "j2", "l3", "l3Frame"]
     assert sorted(order, key=lambda name: diagram.placements[name].centre) == order
     heights = {name: diagram.placements[name].centre[1] for name in order}
-    assert {heights[name] for name in ("frame_a", "j0", "j1", "j2", "link3Frame")} == {0}
-    assert len({heights[f"link{number}"] for number in range(4)}) == 1
+    assert {heights[name] for name in ("frame_a", "j0", "j1", "j2", "l3Frame")} == {0}
+    assert len({heights[f"l{number}"] for number in range(4)}) == 1
 
 
 def test_the_first_child_goes_on_and_the_next_ones_stand_below() -> None:
-    children = [TreeJoint(name, f"{name}Foot", "fixed") for name in ("first", "second", "third")]
-    diagram = layout(
-        Tree("trunk", {"trunk": children}, {f"{joint.name}Foot": f"{joint.name}Frame" for joint in children})
-    )
-    x, heights = zip(*(diagram.placements[joint.name].centre for joint in children), strict=True)
+    diagram = draw(*(Joint(name, "fixed", "trunk", f"{name}Foot") for name in ("a", "b", "c")))
+    x, heights = zip(*(diagram.placements[name].centre for name in ("a", "b", "c")), strict=True)
     assert len(set(x)) == 1
     assert list(heights) == sorted(heights, reverse=True)
     assert heights[0] == diagram.placements["frame_a"].centre[1]
 
 
 def test_a_coupling_joins_leader_and_follower_in_the_kind_of_each() -> None:
-    left = TreeJoint("left", "leftFinger", "rotational", "leftAxis", "leftSupport")
-    right = TreeJoint("right", "rightFinger", "translational")
-    couplings = [TreeCoupling("mimic", "left", "right")]
-    frames = {"leftFinger": "leftFrame", "rightFinger": "rightFrame"}
-    diagram = layout(Tree("palm", {"palm": [left, right]}, frames, couplings))
-    assert diagram.kinds["mimic.leader", "left.axis"] == "rotational"
-    assert diagram.kinds["mimic.follower", "right.axis"] == "translational"
-    assert diagram.placements["mimic"].y1 > diagram.placements["right"].y2
+    right = Joint("right", "prismatic", "palm", "rightFinger", mimic=Mimic("left"))
+    stay = Joint("stay", "revolute", "camera", "lens", mimic=Mimic("mount"))
+    mount = Joint("mount", "fixed", "palm", "camera")
+    diagram = draw(Joint("left", "revolute", "palm", "leftFinger"), right, mount, stay)
+    assert diagram.lines["rightMimic.leader", "left.axis"][0] == "rotational"
+    assert diagram.lines["rightMimic.follower", "right.axis"][0] == "translational"
+    assert diagram.placements["rightMimic"].y1 > diagram.placements["right"].y2
+    held = [ends for ends in diagram.lines if ends[0].startswith("stayMimic")]
+    assert held == [("stayMimic.follower", "stay.axis")], "its leader never moves"
 
 
-@settings(deadline=None)
-@given(recipes)
-def test_every_connection_has_a_line_from_port_to_port(found: Recipe) -> None:
-    tree = found.tree()
-    diagram = layout(tree)
-    assert set(diagram.lines) == connections(tree) == set(diagram.kinds)
-    for (start, end), points in diagram.lines.items():
-        assert points[0] == port(diagram, start)
-        assert points[-1] == port(diagram, end)
-
-
-@settings(deadline=None)
-@given(recipes)
-def test_no_two_components_touch(found: Recipe) -> None:
-    tree = found.tree()
-    diagram = layout(tree)
-    inner = {name for link, joints in tree.children.items() for name in (link, *(joint.name for joint in joints))}
-    assert inner | {coupling.name for coupling in tree.couplings} <= set(diagram.placements)
-    assert touching(dict(diagram.placements)) == []
-
-
-@settings(deadline=None)
-@given(recipes)
-def test_everything_lies_inside_the_extent_and_on_the_grid(found: Recipe) -> None:
-    diagram = layout(found.tree())
+@settings(deadline=None, max_examples=200)
+@given(st.randoms(use_true_random=False), st.integers(1, 40), st.integers(1, 40), st.sampled_from([0.0, 0.2, 0.8]))
+def test_any_robot_is_drawn_well(random_: random.Random, links: int, depth: int, mimics: float) -> None:
+    tree, names = random_robot(random_, links, depth, mimics)
+    diagram = layout(tree, names)
+    assert set(diagram.lines) == connections(tree, names)
+    inner = {link.name for link in tree.links} | {joint.name for joint in tree.joints} | {*names.couplings.values()}
+    assert inner < set(diagram.placements)
     x1, y1, x2, y2 = diagram.extent
+    for ends, (_, points) in diagram.lines.items():
+        assert (points[0], points[-1]) == (port(diagram, ends[0]), port(diagram, ends[1]))
+        upright = [a[0] == b[0] for a, b in itertools.pairwise(points)]
+        assert all((a[0] == b[0]) != (a[1] == b[1]) for a, b in itertools.pairwise(points)), "parallel to an axis"
+        assert all(a != b for a, b in itertools.pairwise(upright)), "bends at every point"
     corners = [((place.x1, place.y1), (place.x2, place.y2)) for place in diagram.placements.values()]
-    for x, y in itertools.chain(*corners, *diagram.lines.values(), [(x1, y1), (x2, y2)]):
+    for x, y in itertools.chain(*corners, *(points for _, points in diagram.lines.values())):
         assert x1 <= x <= x2
         assert y1 <= y <= y2
         assert x % 2 == y % 2 == 0
-
-
-@settings(deadline=None)
-@given(recipes)
-def test_lines_are_axis_parallel_and_bend_at_every_point(found: Recipe) -> None:
-    for points in layout(found.tree()).lines.values():
-        upright = [a[0] == b[0] for a, b in itertools.pairwise(points)]
-        assert all((a[0] == b[0]) != (a[1] == b[1]) for a, b in itertools.pairwise(points))
-        assert all(a != b for a, b in itertools.pairwise(upright))
-
-
-@settings(deadline=None)
-@given(recipes)
-def test_no_line_runs_through_a_component(found: Recipe) -> None:
-    assert crossed(layout(found.tree())) == []
-
-
-@settings(deadline=None)
-@given(recipes)
-def test_lines_that_are_not_connected_never_lie_on_top_of_each_other(found: Recipe) -> None:
-    assert overlaid(layout(found.tree())) == []
-
-
-@settings(deadline=None)
-@given(recipes)
-def test_frames_of_root_and_leaves_stand_at_their_borders(found: Recipe) -> None:
-    tree = found.tree()
-    diagram = layout(tree)
-    x1, _, x2, _ = diagram.extent
+    assert touching(dict(diagram.placements)) == []
+    assert crossed(diagram) == []
+    assert overlaid(diagram) == []
     assert diagram.placements["frame_a"].x1 == x1
-    leaves = [frame for link, frame in tree.frames.items() if not tree.children.get(link)]
-    assert {diagram.placements[frame].x2 for frame in leaves} == {x2}
+    assert {diagram.placements[names.frames[leaf.name]].x2 for leaf in tree.leaves()} == {x2}
 
 
 def test_long_chains_wide_stars_and_large_trees_come_through() -> None:
     """3000 links: no recursion, and no work that grows with their square."""
     for depth in (1, 40, 3000):
-        tree = recipe(random.Random(depth), 3000, depth, 0.0).tree()
-        diagram = layout(tree)
-        assert set(diagram.lines) == connections(tree)
+        tree, names = random_robot(random.Random(depth), 3000, depth, 0.0)
+        diagram = layout(tree, names)
+        assert set(diagram.lines) == connections(tree, names)
         assert touching(dict(diagram.placements)) == []
-        assert max(map(len, diagram.lines.values())) <= 7
-
-
-def test_the_work_grows_with_the_links_not_with_their_square() -> None:
-    for depth in (1, 20, 10_000):
-        small, large = (steps(recipe(random.Random(1), links, depth, 0.2).tree()) for links in (100, 800))
+        assert max(len(points) for _, points in diagram.lines.values()) <= 7
+        small, large = (steps(*random_robot(random.Random(1), links, depth, 0.2)) for links in (100, 800))
         assert large < 10 * small
 
 

@@ -1,4 +1,4 @@
-"""Poses, lowest points and start positions against independent answers."""
+"""Poses and start positions against independent answers."""
 
 from __future__ import annotations
 
@@ -12,13 +12,12 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from support.trees import NUMBERS, ORIGINS, SCALAR, robots
+from support.trees import NUMBERS, SCALAR, robots
 
 from urdfsync.urdf.kinematics.poses import (
     IDENTITY,
     Pose,
     link_poses,
-    lowest_point,
     motion,
     own_range,
     pose,
@@ -26,24 +25,17 @@ from urdfsync.urdf.kinematics.poses import (
 )
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import (
-    Box,
-    Capsule,
-    Cylinder,
     Joint,
     JointType,
     Limit,
     Link,
-    Mesh,
     Mimic,
     Origin,
     Robot,
-    Sphere,
     Vector,
 )
 
 Array = NDArray[np.float64]
-
-SIZES = st.floats(0.01, 3)
 
 
 def homogeneous(value: Pose) -> Array:
@@ -109,57 +101,6 @@ def test_rpy_turns_about_fixed_axes_x_first() -> None:
 @pytest.mark.parametrize("kind", ["fixed", "planar", "floating"])
 def test_joints_without_a_position_stay_where_they_are(kind: str) -> None:
     assert motion(Joint("j", kind, "a", "b"), 1.0) == IDENTITY  # type: ignore[arg-type]
-
-
-def circle(radius: float, height: float) -> Array:
-    angles = np.linspace(0, 2 * math.pi, 241)
-    return np.stack([radius * np.cos(angles), radius * np.sin(angles), np.full_like(angles, height)], axis=1)
-
-
-def ball(radius: float, height: float) -> Array:
-    elevations = np.linspace(-math.pi / 2, math.pi / 2, 121)
-    rings = [circle(radius * math.cos(e), radius * math.sin(e) + height) for e in elevations]
-    return np.concatenate(rings)
-
-
-def surface(shape: Box | Sphere | Cylinder | Capsule) -> Array:
-    """Points of a shape, dense where it may touch a plane."""
-    match shape:
-        case Box(size=size):
-            return np.array(np.meshgrid(*([-edge / 2, edge / 2] for edge in size))).reshape(3, -1).T
-        case Sphere(radius=radius):
-            return ball(radius, 0)
-        case Cylinder(radius=radius, length=length):
-            return np.concatenate([circle(radius, end * length / 2) for end in (-1, 1)])
-        case Capsule(radius=radius, length=length):
-            return np.concatenate([ball(radius, end * length / 2) for end in (-1, 1)])
-
-
-SHAPES = st.one_of(
-    st.builds(Box, st.tuples(SIZES, SIZES, SIZES)),
-    st.builds(Sphere, SIZES),
-    st.builds(Cylinder, SIZES, SIZES),
-    st.builds(Capsule, SIZES, SIZES),
-)
-
-
-@settings(deadline=None, max_examples=50)
-@given(SHAPES, ORIGINS)
-@example(Cylinder(0.3, 0.1), Origin((0, 0, 1), (math.pi / 2, 0, 0)))
-def test_the_lowest_point_is_that_of_the_surface(shape: Box | Sphere | Cylinder | Capsule, origin: Origin) -> None:
-    at = homogeneous(pose(origin))
-    lowest = (surface(shape) @ at[:3, :3].T + at[:3, 3])[:, 2].min()
-    found = lowest_point(shape, pose(origin))
-    assert found is not None
-    assert found <= lowest + 1e-12
-    assert found >= lowest - 1e-3 * (1 + np.abs(surface(shape)).max())
-
-
-def test_the_lowest_point_of_a_mesh_is_that_of_its_hull() -> None:
-    hull = [(0.0, 0.0, -1.0), (0.0, -2.0, 0.0), (1.0, 1.0, 1.0)]
-    assert lowest_point(Mesh("m.stl"), pose(Origin((5, 5, 5))), hull) == 4
-    assert lowest_point(Mesh("m.stl"), pose(Origin((5, 5, 5), (math.pi / 2, 0, 0))), hull) == pytest.approx(3)
-    assert lowest_point(Mesh("m.stl"), IDENTITY, ()) is None
 
 
 def followed(robot: Robot, leader: str) -> Iterator[tuple[Joint, float, float]]:

@@ -43,8 +43,14 @@ def _dae(
     </COLLADA>""".encode()
 
 
+def _read(content: bytes) -> Array:
+    """The corners of all triangles."""
+    points, faces = read_collada(content)
+    return points[faces]
+
+
 def _bounds(content: bytes) -> list[list[float]]:
-    return bounds(read_collada(content).reshape(-1, 3))
+    return bounds(_read(content).reshape(-1, 3))
 
 
 def _volume(corners: Array) -> float:
@@ -53,7 +59,7 @@ def _volume(corners: Array) -> float:
 
 
 def test_box_has_twelve_triangles_that_look_outwards() -> None:
-    corners = read_collada(_dae())
+    corners = _read(_dae())
     assert corners.shape == (12, 3, 3)
     assert _volume(corners) == pytest.approx(6)
     assert bounds(corners.reshape(-1, 3)) == [[0, 0, 0], [1, 2, 3]]
@@ -83,7 +89,7 @@ def test_nodes_place_each_of_two_geometries() -> None:
       <node><matrix>0 -1 0 10  1 0 0 20  0 0 1 30  0 0 0 1</matrix><instance_geometry url="#box"/>
         <node><translate>0 0 100</translate><scale>2 2 2</scale><instance_geometry url="#cube"/></node></node>"""
     content = _dae(scene, _box() + _box(1, 1, 1, "cube"), '<unit meter="0.1"/>')
-    corners = read_collada(content)
+    corners = _read(content)
     assert corners.shape == (24, 3, 3)
     assert bounds(corners[:12].reshape(-1, 3)) == [pytest.approx([0.8, 2, 3]), pytest.approx([1, 2.1, 3.3])]
     assert bounds(corners[12:].reshape(-1, 3)) == [pytest.approx([0.8, 2, 13]), pytest.approx([1, 2.2, 13.2])]
@@ -104,7 +110,7 @@ def test_node_of_the_library_is_placed_where_it_is_instanced() -> None:
 
 
 def test_mirroring_node_keeps_the_outer_sides() -> None:
-    corners = read_collada(_dae('<node><scale>1 1 -1</scale><instance_geometry url="#box"/></node>'))
+    corners = _read(_dae('<node><scale>1 1 -1</scale><instance_geometry url="#box"/></node>'))
     assert bounds(corners.reshape(-1, 3)) == [[0, 0, -3], [1, 2, 0]]
     assert _volume(corners) == pytest.approx(6)
 
@@ -121,7 +127,7 @@ def test_lines_and_nodes_without_a_shape_are_left_out() -> None:
     lines = '<lines count="1"><input semantic="VERTEX" source="#box-v" offset="0"/><p>0 7</p></lines>'
     strips = '<linestrips count="1"><input semantic="VERTEX" source="#box-v" offset="0"/><p>0 7 1</p></linestrips>'
     scene = PLACED + '<node><instance_camera url="#no"/><instance_light url="#no"/><extra><any/></extra></node>'
-    assert len(read_collada(_dae(scene, _box(extra=lines + strips)))) == 12
+    assert len(_read(_dae(scene, _box(extra=lines + strips)))) == 12
 
 
 def test_skin_stands_as_it_is_bound() -> None:
@@ -147,7 +153,7 @@ def test_skin_stands_as_it_is_bound() -> None:
 
 
 def test_scene_without_geometry_has_no_triangles() -> None:
-    assert read_collada(_dae("<node/>")).shape == (0, 3, 3)
+    assert _read(_dae("<node/>")).shape == (0, 3, 3)
 
 
 @pytest.mark.parametrize(
@@ -176,4 +182,4 @@ def test_scene_without_geometry_has_no_triangles() -> None:
 )
 def test_what_cannot_be_read_is_said(content: bytes, reason: str) -> None:
     with pytest.raises(MeshError, match=reason):
-        read_collada(content)
+        _read(content)

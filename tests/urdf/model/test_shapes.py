@@ -2,18 +2,31 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+from typing import Any
 
+import numpy as np
 import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from support.skeletons import skeleton
+from support.trees import ORIGINS
 
 from urdfsync.domain import Import
+from urdfsync.urdf.kinematics.poses import pose
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.shapes import GREY, PINK, Numbers, contacts, hull, looks, meshes, numbers
+from urdfsync.urdf.model.shapes import GREY, PINK, contacts, link_shapes, standing_height, structure
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,
+    Capsule,
     Collision,
+    Cylinder,
     Geometry,
+    Joint,
+    Limit,
     Link,
     Material,
     Mesh,
@@ -22,7 +35,9 @@ from urdfsync.urdf.robot import (
     Visual,
 )
 
-PACKAGE = "Plant.Arm"
+Array = NDArray[np.float64]
+
+SIZES = st.floats(0.01, 3)
 MESH = Mesh("meshes/a.stl")
 POINTS = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0]]
 
@@ -32,18 +47,11 @@ def imported(points: list[list[float]]) -> Mapping[str, Import]:
     return {key(MESH): Import("Resources/a_12345678.stl", "", "", 1, facts)}
 
 
-def visual_of(
-    geometry: Geometry, material: Material | None = None, imports: Mapping[str, Import] | None = None
-) -> Numbers:
-    link = Link("l", visuals=(Visual(geometry, material=material),))
-    visuals, _ = numbers(link, imports or {}, PACKAGE, Options())
-    return visuals[0]
-
-
-def test_a_mesh_has_a_modelica_uri_and_its_bounds() -> None:
-    visual = visual_of(MESH, imports=imported(POINTS))
-    assert visual.uri == "modelica://Plant.Arm/Resources/a_12345678.stl"
-    assert [list(corner) for corner in visual.bounds] == [[0, 0, -1], [1, 0.5, 0]]
+def shapes_of(
+    *geometries: Geometry, imports: Mapping[str, Import] | None = None, **options: Any
+) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    link = Link("l", visuals=tuple(map(Visual, geometries)), collisions=tuple(map(Collision, geometries)))
+    return link_shapes(link, imports or {}, "Plant.Arm", Options(**options))
 
 
 @pytest.mark.parametrize(
@@ -53,71 +61,120 @@ def test_a_mesh_has_a_modelica_uri_and_its_bounds() -> None:
         (Material("textured", texture="t.png"), GREY, 1),
         (Material(rgba=(1, 0.5, 0, 0.25)), (255, 128, 0), 0.25),
         (Material(rgba=(1.5, -0.25, 1e300, 7)), (255, 0, 255), 1),
-        (Material(rgba=(-1e300, 0, 0, -1)), (0, 0, 0), 0),
     ],
 )
 def test_colours_are_integers_that_tools_take(
     material: Material | None, color: tuple[int, ...], opacity: float
 ) -> None:
-    visual = visual_of(Sphere(1), material)
-    assert (visual.color, visual.opacity) == (color, opacity)
+    link = Link("l", visuals=(Visual(Sphere(1), name='a "b"', material=material),))
+    ((visual,), _) = link_shapes(link, {}, "Arm", Options())
+    assert (visual["color"], visual["opacity"], visual["title"]) == (color, opacity, 'Visual 1: "a "b""')
 
 
 def test_shapes_keep_their_numbers_when_a_mesh_is_not_found() -> None:
-    shapes: tuple[Geometry, ...] = (Sphere(1), MESH, Sphere(2))
-    link = Link("l", visuals=tuple(map(Visual, shapes)), collisions=tuple(map(Collision, shapes)))
-    for visuals, collisions in (looks(link, {}, Options()), numbers(link, {}, PACKAGE, Options())):
-        assert [shape.component for shape in visuals] == ["visual1", "visual3"]
-        assert [shape.component for shape in collisions] == ["collision1", "collision3"]
-    visible, tangible = looks(link, {}, Options())
-    assert [shape.y for shape in visible + tangible] == [30, 60, -30, -60]
+    visuals, collisions = shapes_of(Sphere(1), MESH, Sphere(2))
+    assert [(shape["component"], shape["y"]) for shape in visuals] == [("visual1", 30), ("visual3", 60)]
+    assert [(shape["component"], shape["y"]) for shape in collisions] == [("collision1", -30), ("collision3", -60)]
+    assert collisions[0]["color"] == PINK
 
 
-def test_titles_tell_the_name_if_there_is_one() -> None:
-    link = Link("l", visuals=(Visual(Sphere(1)), Visual(Sphere(1), name='a "b"')), collisions=(Collision(Sphere(1)),))
-    visuals, collisions = numbers(link, {}, PACKAGE, Options())
-    assert [shape.title for shape in visuals + collisions] == ["Visual 1", 'Visual 2: "a "b""', "Collision 1"]
-    assert collisions[0].color == PINK
+def test_a_mesh_has_a_modelica_uri_and_its_bounds_and_a_hull_only_to_stand_on() -> None:
+    (visual,), (collision,) = shapes_of(MESH, imports=imported(POINTS))
+    assert visual["uri"] == "modelica://Plant.Arm/Resources/a_12345678.stl"
+    assert visual["bounds"] == [[0, 0, -1], [1, 0.5, 0]]
+    assert collision["hull"] == ()
+    (visual,), (collision,) = shapes_of(MESH, imports=imported(POINTS), base="floating")
+    assert (visual["hull"], collision["hull"]) == ((), POINTS)
 
 
 def test_collisions_can_be_left_out() -> None:
-    link = Link("l", visuals=(Visual(Sphere(1)),), collisions=(Collision(Sphere(1)),))
-    hidden = Options(collisions=False)
-    for visuals, collisions in (looks(link, {}, hidden), numbers(link, {}, PACKAGE, hidden)):
-        assert (len(visuals), len(collisions)) == (1, 0)
+    visuals, collisions = shapes_of(Sphere(1), collisions=False)
+    assert (len(visuals), len(collisions)) == (1, 0)
 
 
-@pytest.mark.parametrize(("base", "points"), [("fixed", ()), ("floating", POINTS)])
-def test_only_what_stands_on_the_ground_needs_a_hull(base: str, points: object) -> None:
-    link = Link("l", visuals=(Visual(MESH),), collisions=(Collision(MESH),))
-    visuals, collisions = numbers(link, imported(POINTS), PACKAGE, Options(base=base))  # type: ignore[arg-type]
-    assert visuals[0].hull == ()
-    assert collisions[0].hull == points
+def test_models_have_no_numbers_of_shapes() -> None:
+    (shape,), _ = shapes_of(Sphere(0.123456))
+    assert "123456" in repr(shape)
+    assert "123456" not in repr(structure([shape]))
 
 
-def test_every_collision_touches_the_ground_but_a_mesh_without_points() -> None:
-    shapes = tuple(Collision(shape, Origin()) for shape in (Box((1, 1, 1)), MESH, Sphere(1)))
-    options = Options(base="floating")
-
-    def touching(points: list[list[float]]) -> list[tuple[str, str, int]]:
-        _, collisions = looks(Link("l", collisions=shapes), imported(points), options)
-        return [(contact.component, contact.type, contact.y) for contact in contacts(collisions)]
-
-    assert touching(POINTS) == [("contact1", "Box", -30), ("contact2", "Points", -60), ("contact3", "Sphere", -90)]
-    assert touching([]) == [("contact1", "Box", -30), ("contact3", "Sphere", -90)]
-
-
-def test_without_a_ground_nothing_touches_it() -> None:
-    _, collisions = looks(Link("l", collisions=(Collision(Sphere(1)),)), {}, Options())
-    assert contacts(collisions) == []
+@pytest.mark.parametrize(("base", "points", "names"), [
+    ("floating", POINTS, ["contact1 Box", "contact2 Points", "contact3 Sphere"]),
+    ("floating", [], ["contact1 Box", "contact3 Sphere"]),
+    ("fixed", POINTS, []),
+])  # fmt: skip
+def test_every_collision_touches_the_ground_but_a_mesh_without_points(
+    base: str, points: list[list[float]], names: list[str]
+) -> None:
+    _, collisions = shapes_of(Box((1, 1, 1)), MESH, Sphere(1), imports=imported(points), base=base)
+    assert [f"{contact['component']} {contact['type']}" for contact in contacts(collisions)] == names
 
 
-def test_the_imports_of_shapes_are_those_that_they_show() -> None:
-    found, others = imported(POINTS), {"b.stl": imported([])[key(MESH)]}
-    assert meshes([Visual(MESH), Visual(Sphere(1)), Visual(Mesh("c.stl"))], {**found, **others}) == found
-    assert meshes([Visual(MESH)], {}) == {}
+def body(name: str, *shapes: Geometry) -> Link:
+    return Link(name, collisions=tuple(map(Collision, shapes)))
 
 
-def test_the_hull_is_that_of_the_import() -> None:
-    assert hull(MESH, imported(POINTS)) == POINTS
-    assert hull(MESH, {}) == hull(Sphere(1), imported(POINTS)) == ()
+@pytest.mark.parametrize(
+    ("shape", "height"),
+    [(Sphere(0.3), 0.3), (Box((1, 1, 0.5)), 0.25), (Cylinder(0.2, 0.6), 0.3), (Capsule(0.2, 0.6), 0.5), (MESH, 1)],
+)
+def test_a_body_stands_on_its_lowest_shape(shape: Geometry, height: float) -> None:
+    tree = skeleton(links=(body("a", Sphere(0.1), shape),))
+    assert standing_height(tree, imported(POINTS)) == pytest.approx(height, abs=1e-12)
+
+
+def circle(radius: float, height: float) -> Array:
+    angles = np.linspace(0, 2 * math.pi, 241)
+    return np.stack([radius * np.cos(angles), radius * np.sin(angles), np.full_like(angles, height)], axis=1)
+
+
+def ball(radius: float, height: float) -> Array:
+    elevations = np.linspace(-math.pi / 2, math.pi / 2, 121)
+    rings = [circle(radius * math.cos(e), radius * math.sin(e) + height) for e in elevations]
+    return np.concatenate(rings)
+
+
+def surface(shape: Box | Sphere | Cylinder | Capsule) -> Array:
+    """Points of a shape, dense where it may touch a plane."""
+    match shape:
+        case Box(size=size):
+            return np.array(np.meshgrid(*([-edge / 2, edge / 2] for edge in size))).reshape(3, -1).T
+        case Sphere(radius=radius):
+            return ball(radius, 0)
+        case Cylinder(radius=radius, length=length):
+            return np.concatenate([circle(radius, end * length / 2) for end in (-1, 1)])
+        case Capsule(radius=radius, length=length):
+            return np.concatenate([ball(radius, end * length / 2) for end in (-1, 1)])
+
+
+SHAPES = st.one_of(
+    st.builds(Box, st.tuples(SIZES, SIZES, SIZES)),
+    st.builds(Sphere, SIZES),
+    st.builds(Cylinder, SIZES, SIZES),
+    st.builds(Capsule, SIZES, SIZES),
+)
+
+
+@settings(deadline=None, max_examples=50)
+@given(SHAPES, ORIGINS)
+@example(Cylinder(0.3, 0.1), Origin((0, 0, 1), (math.pi / 2, 0, 0)))
+def test_the_lowest_point_is_that_of_the_surface(shape: Box | Sphere | Cylinder | Capsule, origin: Origin) -> None:
+    rotation, place = map(np.array, pose(origin))
+    lowest = (surface(shape) @ rotation.T + place)[:, 2].min()
+    height = standing_height(skeleton(links=(Link("a", collisions=(Collision(shape, origin),)),)), {})
+    assert height is not None
+    assert -height <= lowest + 1e-11
+    assert -height >= lowest - 1e-3 * (1 + np.abs(surface(shape)).max())
+
+
+def test_joints_are_at_their_start_and_shapes_turn_with_them() -> None:
+    leg = Joint("leg", "prismatic", "a", "b", Origin((0, 0, -1)), axis=(0, 0, -1), limit=Limit(0.5, 2))
+    assert standing_height(skeleton(leg, links=(body("a", Sphere(0.1)), body("b", Sphere(0.25)))), {}) == 1.75
+    wheel = Joint("wheel", "continuous", "a", "b", Origin((0, 0, -1), (math.pi / 2, 0, 0)), axis=(0, 0, 1))
+    assert standing_height(skeleton(wheel, links=(Link("a"), body("b", Cylinder(0.25, 0.05)))), {}) == 1.25
+
+
+def test_there_is_no_height_without_a_shape_or_beyond_all_numbers() -> None:
+    assert standing_height(skeleton(links=(body("a", MESH),)), {}) is None
+    joints = [Joint(b, "fixed", a, b, Origin((0, 0, 1.7e308))) for a, b in ("ab", "bc")]
+    assert standing_height(skeleton(*joints, links=(body("c", Sphere(1)),)), {}) is None

@@ -1,44 +1,13 @@
-"""Modelica compilers: each works in a process of its own, which takes a job and gives a result per task.
-
-A compiler is native code that takes gigabytes for large robots and keeps them, and may crash.
-"""
+"""What a Modelica compiler gets and gives: jobs of tasks, and a result for each task."""
 
 from __future__ import annotations
 
-import contextlib
-import importlib.util
-import os
-import shutil
-import signal
-import subprocess
-import sys
-import tempfile
-import threading
-from collections.abc import Callable, Generator, Iterator, Mapping
-from pathlib import Path
-from typing import IO, cast
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Protocol
 
 import msgspec
 
-from urdfsync.check.cache import UserCache
-from urdfsync.check.results import CompilerName
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.extras import install_command
-
-MISSING = 3
-"""The exit code of a worker without a compiler; the last line that it writes to stderr says why there is none."""
-
-_TITLES = {"rumoca": "the compiler", "omc": "OpenModelica"}
-_NEEDED = {"rumoca": ("rumoca",), "omc": ("OMPython",)}
-_SHARED = ("psutil", "filelock")  # what the check itself needs
-_INSTALL = {
-    "rumoca": install_command("check"),
-    "omc": f"install OpenModelica and `{install_command('check', 'omc')}`, or check without `--tool omc`",
-}
-_REPORT = {
-    "rumoca": "report it to the authors of rumoca",
-    "omc": "check without `--tool omc`, and report it to the authors of OpenModelica",
-}
+from urdfsync.diagnostics import UrdfsyncError
 
 
 class Simulation(msgspec.Struct, frozen=True):
@@ -95,11 +64,61 @@ class CompileJob(msgspec.Struct, frozen=True):
     tasks: tuple[CompileTask, ...]
 
 
+class Complaint(msgspec.Struct, frozen=True):
+    """One thing that a compiler does not like."""
+
+    message: str
+    code: str = "does-not-compile"
+    file: str = ""
+    """As the compiler names it; empty if it does not."""
+    line: int = 0
+    column: int = 0
+    missing: str = ""
+    """A name that the compiler can't find."""
+    kind: str = ""
+    """Of that name: component, function or class."""
+
+
 class CompilerError(UrdfsyncError):
     """A compiler is missing or broke down; the code of the one diagnostic says which."""
 
 
-def compile_task(model: str, libraries: tuple[str, ...] = ("Modelica", "UrdfSync")) -> CompileTask:
+class Compiler(Protocol):
+    """A module of this package that drives one compiler. To add one, list it in `COMPILERS`."""
+
+    TITLE: str
+    """What messages call the compiler."""
+    MODULES: tuple[str, ...]
+    """What has to be installed."""
+    INSTALL: str
+    """How to get it, as a hint."""
+    REPORT: str
+    """What to do when the compiler crashes, as a hint."""
+    SIMULATES: bool
+
+    def missing_program(self) -> str:
+        """Return why the compiler can't run although its modules are installed; empty if it can."""
+        ...
+
+    def environment(self, cache: str, folder: str) -> dict[str, str]:
+        """Return variables for its process: `cache` is a folder of the user's that stays, `folder` a temporary one."""
+        ...
+
+    def work(self, job: CompileJob) -> Iterator[CompileResult]:
+        """Do all tasks of a job in this process, in order. Raises ImportError if the compiler does not start."""
+        ...
+
+    def complaints(self, problem: str) -> list[Complaint]:
+        """Return what the text of `CompileResult.problem` complains about, in its order."""
+        ...
+
+
+def one_line(text: str) -> str:
+    """The text with each run of blanks and line ends as one blank."""
+    return " ".join(text.split())
+
+
+def compile_task(model: str, libraries: Sequence[str] = ("Modelica", "UrdfSync")) -> CompileTask:
     """Compile a model of one of the roots, by its full name; `libraries` are the top-level packages that it needs.
 
     The text has to name each root in an import, or rumoca does not load it.
@@ -107,144 +126,3 @@ def compile_task(model: str, libraries: tuple[str, ...] = ("Modelica", "UrdfSync
     names = dict.fromkeys((*libraries, model.partition(".")[0]))
     imports = "".join(f"  import {name};\n" for name in names)
     return CompileTask("Probe_", f"model Probe_\n{imports}  extends {model};\nend Probe_;\n", title=model)
-
-
-def require(compiler: CompilerName) -> None:
-    """Raise CompilerError, with what to install, if anything is missing that a check with this compiler needs."""
-    for name in (*_NEEDED[compiler], *_SHARED):
-        if importlib.util.find_spec(name) is None:
-            raise _missing(compiler, f"{name} is not installed")
-    if compiler == "omc" and shutil.which("omc") is None and not os.environ.get("OPENMODELICAHOME"):
-        raise _missing(compiler, "`omc` is not on the PATH")
-
-
-def run_job(compiler: CompilerName, job: CompileJob, cache: UserCache) -> Generator[CompileResult, None, None]:
-    """Do the tasks of a job in a process; gives a result for each, in order, as soon as it is known.
-
-    A model that does not compile is a result. Raises CompilerError if the compiler is missing or breaks down. The
-    process ends with the generator.
-    """
-    require(compiler)
-    done = 0
-    with (
-        tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder,
-        tempfile.TemporaryFile() as errors,
-    ):
-        worker = subprocess.Popen(  # noqa: S603 - a command of ours
-            python_module(f"urdfsync.check.compilers.{compiler}"),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=errors,
-            env={**os.environ, **importable(), **_environment(compiler, cache, folder)},
-        )
-        with worker:
-            try:
-                for line in _answers(worker, job):
-                    yield msgspec.json.decode(line, type=CompileResult)
-                    done += 1
-            finally:
-                worker.kill()
-        errors.seek(0)
-        words = errors.read().decode(errors="replace").split("\n")
-    if done < len(job.tasks):
-        last_line = next((line for line in reversed(words) if line.strip()), "")
-        raise _breakdown(compiler, worker.returncode, job.tasks[done].title, last_line.strip())
-
-
-def _answers(worker: subprocess.Popen[bytes], job: CompileJob) -> Iterator[bytes]:
-    """Hand over a job; the lines that the worker answers until it ends. Its stdin stays open: see `serve`."""
-    stdin, stdout = cast(IO[bytes], worker.stdin), cast(IO[bytes], worker.stdout)
-    with contextlib.suppress(BrokenPipeError):  # it has ended already, and its exit code says why
-        stdin.write(msgspec.json.encode(job) + b"\n")
-        stdin.flush()
-    yield from stdout
-    worker.wait()
-
-
-def serve(work: Callable[[CompileJob], Iterator[CompileResult]]) -> int:
-    """Be a worker: take a job from stdin, do the work, and write a line with each result; the exit code.
-
-    The process ends when whoever started it does.
-    """
-    answers = reserve_stdout()
-    job = msgspec.json.decode(sys.stdin.buffer.readline(), type=CompileJob)
-    end_with_parent()
-    try:
-        for result in work(job):
-            answers.write(msgspec.json.encode(result) + b"\n")
-            answers.flush()
-    except ImportError as error:
-        sys.stderr.write(f"{error}\n")
-        return MISSING
-    return 0
-
-
-def reserve_stdout() -> IO[bytes]:
-    """The stdout of this process; what native code prints goes to stderr from now on."""
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)
-    return answers
-
-
-def end_with_parent() -> None:
-    """End this process and its children when its stdin is closed; call it after the last line was read from there."""
-
-    def wait() -> None:
-        while os.read(0, 4096):  # not through sys.stdin, whose lock would disturb the interpreter at its end
-            pass
-        import psutil  # an optional extra, which checks need
-
-        for child in psutil.Process().children(recursive=True):
-            child.kill()  # a compiler at work may not let its own thread look at stdin
-        os._exit(1)  # the main thread may be in native code
-
-    threading.Thread(target=wait, name="end-with-parent", daemon=True).start()
-
-
-def python_module(module: str) -> list[str]:
-    """The command that runs a module with this Python; the working folder has no say in what it imports."""
-    return [sys.executable, "-P", "-m", module]
-
-
-def importable() -> dict[str, str]:
-    """What the environment of such a command needs so that it finds this package, if that is not installed."""
-    home = Path(__file__).parents[3]
-    if home.name in ("site-packages", "dist-packages"):
-        return {}
-    others = os.environ.get("PYTHONPATH")
-    return {"PYTHONPATH": os.pathsep.join([str(home), *([others] if others else [])])}
-
-
-def _environment(compiler: CompilerName, cache: UserCache, folder: str) -> dict[str, str]:
-    """What the environment of a compiler says of folders; `folder` is a temporary one."""
-    if compiler == "omc":
-        return dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)  # for its log, its port and what it may write
-    # rumoca adds its own name to the cache, and looks at MODELICAPATH for whatever the roots do not have
-    return {"XDG_CACHE_HOME": str(cache.compiler.parent), "MODELICAPATH": ""}
-
-
-def _missing(compiler: CompilerName, reason: str) -> CompilerError:
-    message = f"there is no compiler: {reason}"
-    return CompilerError(Diagnostic(Severity.ERROR, "no-compiler", message, hint=_INSTALL[compiler]))
-
-
-def _breakdown(compiler: CompilerName, code: int, title: str, last_line: str) -> CompilerError:
-    """Why a worker ended before it was through, at the model `title`."""
-    said = f": {last_line}" if last_line else ""
-    if code == MISSING:
-        return _missing(compiler, f"{_TITLES[compiler]} does not start{said}")
-    message = f"{_TITLES[compiler]} broke down at {title}: {exit_cause(code)}{said}"
-    hint = _REPORT[compiler]
-    if code == -9:
-        hint = "most likely the system for want of memory: check fewer robots at a time"
-    return CompilerError(Diagnostic(Severity.ERROR, "compiler-crashed", message, hint=hint))
-
-
-def exit_cause(code: int) -> str:
-    """The exit code of a process in words: `exit code 3`, `signal 11 (SIGSEGV)`."""
-    if code >= 0xC0000000:  # Windows
-        return f"exception 0x{code:08X}"
-    if code >= 0:
-        return f"exit code {code}"
-    names = {one.value: f" ({one.name})" for one in signal.Signals}
-    return f"signal {-code}{names.get(-code, '')}"

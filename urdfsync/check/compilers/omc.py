@@ -1,12 +1,13 @@
-"""OpenModelica: the process that compiles and balances models with it, without simulation. Untried with a real `omc`.
+"""OpenModelica: models are compiled and balanced with it, not simulated. Untried with a real `omc`.
 
 Written from the documentation of its scripting functions and of its client library, OMPython.
 """
 
 from __future__ import annotations
 
+import os
 import re
-import sys
+import shutil
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -14,7 +15,21 @@ from typing import Any, TypeAlias
 
 import msgspec
 
-from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask, SimulationResult, serve
+from urdfsync.check.compilers.compiler import (
+    CompileJob,
+    CompileResult,
+    CompileTask,
+    Complaint,
+    SimulationResult,
+    one_line,
+)
+from urdfsync.extras import install_command
+
+TITLE = "OpenModelica"
+MODULES: tuple[str, ...] = ("OMPython",)
+INSTALL = f"install OpenModelica and `{install_command('omc')}`, or check without `--tool omc`"
+REPORT = "check without `--tool omc`, and report it to the authors of OpenModelica"
+SIMULATES = False
 
 Ask: TypeAlias = Callable[[str], str]
 """Sends an expression to `omc`, and returns its answer as it comes. Raises RefusedError."""
@@ -25,9 +40,38 @@ _ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
 _COUNTS = re.compile(r"has (\d+) equation\(s\) and (\d+) variable\(s\)")
 _FIRST = ("Complex", "ModelicaServices", "Modelica")  # what other libraries rest on
 
+_MESSAGE = re.compile(
+    r"^(?:\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)-\d+:\d+:\w+\] )?(?P<level>Error|Warning|Notification): ",
+    re.MULTILINE,
+)
+
 
 class RefusedError(Exception):
     """`omc` or its client library gives no answer, but says why."""
+
+
+def missing_program() -> str:
+    """See `Compiler`."""
+    is_there = shutil.which("omc") or os.environ.get("OPENMODELICAHOME")
+    return "" if is_there else "`omc` is not on the PATH"
+
+
+def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
+    """See `Compiler`: the temporary folder is for its log, its port and what it may write."""
+    return dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
+
+
+def complaints(problem: str) -> list[Complaint]:
+    """See `Compiler`. Each message goes on to the beginning of the next one; only errors count."""
+    found = list(_MESSAGE.finditer(problem))
+    ends = [*(one.start() for one in found[1:]), len(problem)]
+    errors = []
+    for one, end in zip(found, ends, strict=bool(found)):
+        if one["level"] == "Error":
+            words, line, column = one_line(problem[one.end() : end]), int(one["line"] or 0), int(one["column"] or 0)
+            errors.append(Complaint(words, file=one["file"] or "", line=line, column=column))
+    words = one_line(problem)
+    return errors or ([Complaint(words)] if words else [])
 
 
 def work(job: CompileJob) -> Iterator[CompileResult]:
@@ -143,7 +187,3 @@ def _session() -> Ask:
     except errors as error:
         raise RefusedError(str(error)) from error
     return ask
-
-
-if __name__ == "__main__":
-    sys.exit(serve(work))

@@ -1,4 +1,8 @@
-"""The embedded compiler, rumoca: the process that does a job with it."""
+"""rumoca, the embedded compiler: jobs done with it, and its messages.
+
+rumoca says everything in one text: complaints in lines or after semicolons, some with a place in brackets, some drawn
+with a frame around the source. Of names that are not there it does not say where they stand.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +11,7 @@ import re
 import sys
 import time
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -15,17 +20,86 @@ from urdfsync.check.compilers.compiler import (
     CompileJob,
     CompileResult,
     CompileTask,
+    Complaint,
     Simulation,
     SimulationResult,
-    serve,
+    one_line,
 )
+from urdfsync.extras import install_command
 
 if TYPE_CHECKING:
     import rumoca
 
+TITLE = "the compiler"
+MODULES: tuple[str, ...] = ("rumoca",)
+INSTALL = install_command("check")
+REPORT = "report it to the authors of rumoca"
+SIMULATES = True
+
 _FILE = "Task.mo"  # always the same, so that a text takes the place of the one before in the compiler's memory
 _UNKNOWN = frozenset(("state", "algebraic", "output", "discrete_real", "discrete_value"))
 _SPAN = re.compile(r" @ Span \{.*?\) \}")
+
+_SHADOW = "variability violation: "
+"""rumoca 0.10.2 says this of sound models of the Modelica Standard Library as soon as something else is wrong."""
+_COLOURS = re.compile(r"\x1b\[[0-9;]*m")
+_UNPARSED = re.compile(r"Failed to load source root '([^']*)': parse source-root files")
+_LAYOUT = re.compile(r"invalid Modelica package layout under '[^']*': (.*)", re.DOTALL)
+_LAYOUT_FILE = re.compile(r"\b(file|directory) '([^']*)'")
+_FRAMED = re.compile(r"×(?P<words>[^╭]*?)\n\s*╭─+\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)\]")
+_PIECES = re.compile(r"\n|; (?=\S)")
+_PREFIXES = re.compile(
+    r"^(?:- <[^>]*> \[\w+\]: |\w+ failed: |[\w.]+ failed in \w+: |[\w.]+ could not be compiled: |Failed to [^:]*: )+"
+)
+_PLACE = re.compile(r" \[(?P<file>[^\[\]]*):(?P<line>\d+):(?P<column>\d+)\]$")
+_MISSING = re.compile(
+    r"unresolved (?P<kind>component reference|function call|type reference|import|extends base class): '(?P<name>.+)'$"
+    r"|base class not found: `(?P<base>[^`]+)` does not exist$"
+)
+
+
+def missing_program() -> str:
+    """See `Compiler`: all of it is in the module."""
+    return ""
+
+
+def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
+    """See `Compiler`. rumoca looks at MODELICAPATH for whatever the roots do not have, so that goes."""
+    return {"XDG_CACHE_HOME": str(Path(cache).parent), "MODELICAPATH": ""}  # it adds its own name to the first
+
+
+def complaints(problem: str) -> list[Complaint]:
+    """See `Compiler`. A complaint that only follows from another one is left out."""
+    text = _COLOURS.sub("", problem).strip()
+    if unparsed := _UNPARSED.search(text):
+        message = "the compiler can't read one of the files, and does not say which"
+        return [Complaint(message, "syntax", unparsed[1])]
+    if layout := _LAYOUT.search(text):
+        found = []
+        for rule in re.split(r";\s+(?=PKG-\d+)", layout[1]):
+            file = _LAYOUT_FILE.search(rule)
+            words = _LAYOUT_FILE.sub(r"the \1", re.sub(r"PKG-\d+ ", "", rule, count=1), count=1)
+            found.append(Complaint(one_line(words), "layout", file[2] if file else ""))
+        return found
+    found = [
+        Complaint(
+            one_line(one["words"].replace("│", " ")), file=one["file"], line=int(one["line"]), column=int(one["column"])
+        )
+        for one in _FRAMED.finditer(text)
+    ]
+    for piece in () if found else _PIECES.split(text):
+        words = _PREFIXES.sub("", piece.strip())
+        if not words or words[-1] == ":":  # a heading
+            continue
+        if place := _PLACE.search(words):
+            line, column = int(place["line"]), int(place["column"])
+            found.append(Complaint(one_line(words[: place.start()]), file=place["file"], line=line, column=column))
+        elif named := _MISSING.match(words):
+            kind = {"component reference": "component", "function call": "function"}.get(named["kind"] or "", "class")
+            found.append(Complaint(one_line(words), missing=named["name"] or named["base"], kind=kind))
+        else:
+            found.append(Complaint(one_line(words)))
+    return [one for one in found if not one.message.startswith(_SHADOW)] or found[:1]
 
 
 def work(job: CompileJob) -> Iterator[CompileResult]:
@@ -112,7 +186,3 @@ def _peak_megabytes() -> float:
 
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak / 1e6 if sys.platform == "darwin" else peak * 1024 / 1e6
-
-
-if __name__ == "__main__":
-    sys.exit(serve(work))

@@ -10,14 +10,14 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Literal, NamedTuple, TypeAlias
 
 from urdfsync.domain import Target
-from urdfsync.urdf.diagram.layout import Diagram, JointKind, LineKind, layout
-from urdfsync.urdf.diagram.routing import Path, Placement, Point
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
-from urdfsync.urdf.model.robot import connector_names, couplings, tree
+from urdfsync.urdf.diagram.layout import Diagram, LineKind, Path, Placement, Point, layout
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
-Kind: TypeAlias = Literal["link", "coupling"] | JointKind
+Kind: TypeAlias = Literal["link", "fixed", "rotational", "translational", "free", "coupling"]
+_Interval: TypeAlias = tuple[int, int]
 
 # Size of one unit of the diagram. It grows with the robot, so that the smallest text is 10 pixels high at 100 %:
 # a viewer scrolls over a wide robot.
@@ -30,15 +30,7 @@ _ADVANCE = 0.56  # mean width of a character, by font size
 _BEND = 2.0  # radius of the bends of flange lines: joining a bus looks unlike crossing it
 
 
-class Label(NamedTuple):
-    """Kind and name of a component, and the text inside its icon: mass or ratio."""
-
-    kind: Kind
-    name: str
-    detail: str = ""
-
-
-class _Look(NamedTuple):
+class _Icon(NamedTuple):
     fill: str
     stroke: str
     rounding: int
@@ -48,12 +40,12 @@ class _Look(NamedTuple):
     legend: str
 
 
-_LOOKS: Mapping[Kind, _Look] = {
-    "link": _Look(
+_ICONS: Mapping[Kind, _Icon] = {
+    "link": _Icon(
         "#e4e7eb", "#7d848f", 3, "M-3 -3.2a3 3 0 1 0 6 0a3 3 0 1 0 -6 0M-3 -3.2H3M0 -6.2V-0.2", 5.2, "link, mass"
     ),
-    "fixed": _Look("#f8f9fa", "#9aa0a9", 3, "M-7 0H7M-2.2 -2.2L2.2 2.2M-2.2 2.2L2.2 -2.2", 7, "fixed joint"),
-    "rotational": _Look(
+    "fixed": _Icon("#f8f9fa", "#9aa0a9", 3, "M-7 0H7M-2.2 -2.2L2.2 2.2M-2.2 2.2L2.2 -2.2", 7, "fixed joint"),
+    "rotational": _Icon(
         "#fdebc8",
         "#a86800",
         5,
@@ -61,7 +53,7 @@ _LOOKS: Mapping[Kind, _Look] = {
         0.3,
         "rotational joint",
     ),
-    "translational": _Look(
+    "translational": _Icon(
         "#dbf0dd",
         "#1f7a33",
         2,
@@ -69,7 +61,7 @@ _LOOKS: Mapping[Kind, _Look] = {
         -1.6,
         "translational joint",
     ),
-    "free": _Look(
+    "free": _Icon(
         "#ebe4f7",
         "#6b46b8",
         5,
@@ -77,7 +69,7 @@ _LOOKS: Mapping[Kind, _Look] = {
         7,
         "planar or floating joint",
     ),
-    "coupling": _Look(
+    "coupling": _Icon(
         "#dceafa",
         "#2766a3",
         2,
@@ -87,7 +79,7 @@ _LOOKS: Mapping[Kind, _Look] = {
     ),
 }
 
-_LINE_LOOKS = ("frame", "translational support", "rotational support", "translational", "rotational")
+_LINE_STYLES = ("frame", "translational support", "rotational support", "translational", "rotational")
 
 _STYLE = """
 text { font-family: Helvetica, Arial, "Liberation Sans", sans-serif; fill: #2b2f36; }
@@ -111,82 +103,72 @@ text { font-family: Helvetica, Arial, "Liberation Sans", sans-serif; fill: #2b2f
 
 def draw(robot: Robot, target: Target, options: Options) -> str:
     """Return the robot model's diagram as SVG, in the layout of the generated model, with masses and ratios."""
-    skeleton = KinematicTree.of(robot, taken=(target.name,))
-    names = connector_names(skeleton, options)
-    labels = {}
-    for link in skeleton.links:
-        component = skeleton.link(link.name).component
-        labels[component] = Label("link", component, f"{_rounded(link.inertial.mass)} kg" if link.inertial else "")
-    ratios: dict[str, str] = {}
-    for joint in skeleton.joints:
-        component = skeleton.joint(joint.name).component
-        kind = MOTION_KINDS.get(joint.type) or ("fixed" if joint.type == "fixed" else "free")
-        labels[component] = Label(kind, component)
-        if joint.mimic:
-            ratios[component] = f"× {_rounded(joint.mimic.multiplier)}"
-    for coupling in couplings(skeleton, names):
-        ratio = ratios[coupling.follower] if coupling.leader else "held"
-        labels[coupling.component] = Label("coupling", coupling.component, ratio)
-    return svg(layout(tree(skeleton, names)), labels, target.package)
-
-
-def _rounded(value: float) -> str:
-    """Three digits; from a thousand on, the others are zeros rather than an exponent."""
-    return f"{float(f'{value:.3g}'):g}"
-
-
-def svg(diagram: Diagram, labels: Mapping[str, Label], title: str = "") -> str:
-    """Draw a layout; `labels` has an entry for each placed component except the model's own connectors.
-
-    Raises KeyError for a component without label.
-    """
+    tree = KinematicTree.of(robot, taken=(target.name,))
+    names = connector_names(tree, options)
+    # Kind of each component, and the text inside its icon: mass or ratio.
+    labels: dict[str, tuple[Kind, str]] = {}
+    for link in tree.links:
+        mass = f"{_rounded(link.inertial.mass)} kg" if link.inertial else ""
+        labels[tree.link(link.name).component] = "link", mass
+    types = {joint.name: joint.type for joint in tree.joints}
+    for joint in tree.joints:
+        free: Kind = "fixed" if joint.type == "fixed" else "free"
+        labels[tree.joint(joint.name).component] = MOTION_KINDS.get(joint.type) or free, ""
+        if joint.name in names.couplings and joint.mimic:
+            ratio = f"× {_rounded(joint.mimic.multiplier)}" if types[joint.mimic.joint] in MOTION_KINDS else "held"
+            labels[names.couplings[joint.name]] = "coupling", ratio
+    diagram = layout(tree, names)
     x1, y1, x2, y2 = diagram.extent
-    kinds = {label.kind for name, label in labels.items() if name in diagram.placements}
-    legend = _legend_rows([kind for kind in _LOOKS if kind in kinds], x2 - x1 + _MARGIN)
+    kinds = {kind for kind, _ in labels.values()}
+    legend = _legend_rows([kind for kind in _ICONS if kind in kinds], x2 - x1 + _MARGIN)
     left, top = x1 - _MARGIN, -y2 - _HEADER
     width, height = x2 - x1 + 2 * _MARGIN, y2 - y1 + _HEADER + _FOOTER + _LEGEND * len(legend)
-    own = {end: diagram.kinds[ends] for ends in diagram.lines for end in ends if "." not in end}
-    flanges = {name: kind for name, kind in own.items() if kind != "frame"}
-    frames = own.keys() - flanges.keys()
-    driven = {start: end for start, end in diagram.lines if start.endswith(".support")}
-    supports = set(driven.values())
     body = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width * _PIXELS}" height="{height * _PIXELS}" '
         f'viewBox="{left} {top} {width} {height}">',
-        f"<title>{_escaped(title)}</title>",
+        f"<title>{_escaped(target.package)}</title>",
         f"<style>\n{_STYLE}\n</style>",
         f'<rect x="{left}" y="{top}" width="{width}" height="{height}" fill="#f4f5f7"/>',
         f'<rect x="{x1}" y="{-y2}" width="{x2 - x1}" height="{y2 - y1}" fill="#ffffff" stroke="#d5d8dd" '
         'stroke-width="0.5"/>',
-        _text((x1, -y2 - 13), title, "title", 7, x2 - x1),
+        _text((x1, -y2 - 13), target.package, "title", 7, x2 - x1),
         *_lines(diagram),
         *(f'<circle class="dot-{kind}" cx="{x}" cy="{-y}" r="1.2"/>' for kind, (x, y) in _junctions(diagram)),
     ]
+    flanges: dict[str, tuple[LineKind, bool]] = {}  # their motion, and whether they are supports
+    for joints, is_support in ((names.axes, False), (names.supports, True)):
+        flanges |= {connector: (MOTION_KINDS[types[joint]], is_support) for joint, connector in joints.items()}
+    driven = {tree.joint(name).component for name in names.axes}
     for name, placement in diagram.placements.items():
         if name in flanges:
-            body += _flange(placement, flanges[name], is_support=name in supports)
-        elif name in frames:
-            body += _frame(name, placement, is_root=name == "frame_a")
+            body += _flange(placement, *flanges[name])
+        elif name in labels:
+            body += _component(name, *labels[name], placement, driven=name in driven)
         else:
-            body += _component(labels[name], placement, driven=f"{name}.support" in driven)
+            body += _frame(name, placement, is_root=name == "frame_a")
     body += _legend(legend, (x1, -y1 + _FOOTER))
     return "\n".join([*filter(None, body), "</svg>", ""])
 
 
-def _component(label: Label, placement: Placement, *, driven: bool) -> Iterator[str]:
+def _rounded(value: float) -> str:
+    """Return three digits; from a thousand on, the others are zeros rather than an exponent."""
+    return f"{float(f'{value:.3g}'):g}"
+
+
+def _component(name: str, kind: Kind, detail: str, placement: Placement, *, driven: bool) -> Iterator[str]:
     x, y = placement.centre
     yield "<g>"
-    yield f"<title>{_escaped(label.name)}</title>"
-    yield from _icon(label.kind, (x, -y), 1.0, glyph=label.kind != "link" or bool(label.detail))
-    yield _text((x, -y + _LOOKS[label.kind].detail + 1.3), label.detail, "middle", _FONT, 17)
-    if label.kind == "link":
-        yield _text((placement.x1, -placement.y1 + 4), label.name, "", _FONT, 40)
+    yield f"<title>{_escaped(name)}</title>"
+    yield from _icon(kind, (x, -y), 1.0, glyph=kind != "link" or bool(detail))
+    yield _text((x, -y + _ICONS[kind].detail + 1.3), detail, "middle", _FONT, 17)
+    if kind == "link":
+        yield _text((placement.x1, -placement.y1 + 4), name, "", _FONT, 40)
     elif driven:  # above the connectors, since the next joint's stand right of them
-        yield from _haloed((placement.x1, -placement.y2 - 16.5), label.name, 42)
-    elif label.kind in ("rotational", "translational"):
-        yield from _haloed((x + 1.5, -placement.y2 - 2.4), label.name, 34)
+        yield from _haloed((placement.x1, -placement.y2 - 16.5), name, 42)
+    elif kind in ("rotational", "translational"):
+        yield from _haloed((x + 1.5, -placement.y2 - 2.4), name, 34)
     else:
-        yield from _haloed((placement.x1, -placement.y2 - 2.4), label.name, 42)
+        yield from _haloed((placement.x1, -placement.y2 - 2.4), name, 42)
     yield "</g>"
 
 
@@ -197,12 +179,12 @@ def _haloed(at: tuple[float, float], text: str, room: float, style: str = "") ->
 
 
 def _icon(kind: Kind, centre: tuple[float, float], scale: float, glyph: bool = True) -> Iterator[str]:
-    look = _LOOKS[kind]
+    icon = _ICONS[kind]
     zoom = "" if scale == 1 else f" scale({scale:.9g})"
-    yield f'<g transform="translate({centre[0]:.9g} {centre[1]:.9g}){zoom}" stroke="{look.stroke}">'
-    yield f'<rect x="-10" y="-10" width="20" height="20" rx="{look.rounding}" fill="{look.fill}" stroke-width="0.6"/>'
+    yield f'<g transform="translate({centre[0]:.9g} {centre[1]:.9g}){zoom}" stroke="{icon.stroke}">'
+    yield f'<rect x="-10" y="-10" width="20" height="20" rx="{icon.rounding}" fill="{icon.fill}" stroke-width="0.6"/>'
     if glyph:
-        yield f'<path class="glyph" d="{look.glyph}"/>'
+        yield f'<path class="glyph" d="{icon.glyph}"/>'
     yield "</g>"
 
 
@@ -217,7 +199,7 @@ def _frame(name: str, placement: Placement, *, is_root: bool) -> Iterator[str]:
         yield from _haloed((placement.x2 - 2, -placement.y1 + 4.5), name, 58, "port end")
 
 
-def _flange(placement: Placement, motion: LineKind, *, is_support: bool) -> Iterator[str]:
+def _flange(placement: Placement, motion: LineKind, is_support: bool) -> Iterator[str]:
     """Draw a connector of a joint. It has no name in the picture: the joint's stands above it."""
     half = (placement.y2 - placement.y1) // 3
     colour = "#000000" if motion == "rotational" else "#007f00"
@@ -232,72 +214,59 @@ def _rectangle(centre: Point, half: Point, style: str) -> str:
 
 
 def _lines(diagram: Diagram) -> Iterator[str]:
-    """Draw all lines of one look as one path, so that a shared trunk is painted once."""
-    looks: dict[str, list[str]] = {look: [] for look in _LINE_LOOKS}
-    for ends, points in diagram.lines.items():
-        look = diagram.kinds[ends] + (" support" if ends[0].endswith(".support") else "")
-        looks[look].append(_curved(points, 0 if look == "frame" else _BEND))
-    for look, paths in looks.items():
+    """Draw all lines of one style as one path, so that a shared trunk is painted once."""
+    styles: dict[str, list[str]] = {style: [] for style in _LINE_STYLES}
+    for (start, _), (kind, points) in diagram.lines.items():
+        style = kind + (" support" if start.endswith(".support") else "")
+        styles[style].append(_curved(points, 0 if kind == "frame" else _BEND))
+    for style, paths in styles.items():
         if paths:
-            yield f'<path class="line {look}" d="{" ".join(paths)}"/>'
+            yield f'<path class="line {style}" d="{" ".join(paths)}"/>'
 
 
 def _curved(points: Path, radius: float) -> str:
     """Return path data of a polyline. Each bend is rounded, at most up to the middle of its shorter side."""
-    if not points:
-        return ""
     data = [f"M{points[0][0]} {-points[0][1]}"]
-    for before, bend, after in zip(points, points[1:], points[2:], strict=False):
-        reach = min(radius, _distance(before, bend) / 2, _distance(bend, after) / 2)
-        (x1, y1), (x2, y2) = _towards(bend, before, reach), _towards(bend, after, reach)
-        data.append(f"L{x1:.9g} {-y1:.9g}" + (f"Q{bend[0]} {-bend[1]} {x2:.9g} {-y2:.9g}" if reach else ""))
+    for before, (x, y), after in zip(points, points[1:], points[2:], strict=False):
+        # One of the two terms of each length is zero, since segments are axis-parallel.
+        sides = [(a - x, b - y, abs(a - x) + abs(b - y)) for a, b in (before, after)]
+        reach = min(radius, *(length / 2 for *_, length in sides))
+        (x1, y1), (x2, y2) = ((x + reach * (dx // length), y + reach * (dy // length)) for dx, dy, length in sides)
+        data.append(f"L{x1:.9g} {-y1:.9g}" + (f"Q{x} {-y} {x2:.9g} {-y2:.9g}" if reach else ""))
     data.append(f"L{points[-1][0]} {-points[-1][1]}")
     return "".join(data)
-
-
-def _distance(a: Point, b: Point) -> int:
-    return abs(a[0] - b[0]) + abs(a[1] - b[1])
-
-
-def _sign(value: int) -> int:
-    return (value > 0) - (value < 0)
-
-
-def _towards(a: Point, b: Point, distance: float) -> tuple[float, float]:
-    return a[0] + distance * _sign(b[0] - a[0]), a[1] + distance * _sign(b[1] - a[1])
 
 
 def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
     """Return the points where three or more segments of a net meet. The lines of a net share their kind and one end."""
     uses = Counter(end for ends in diagram.lines for end in ends)
-    nets: defaultdict[tuple[LineKind, str], list[Path]] = defaultdict(list)
-    for ends, points in diagram.lines.items():
-        nets[diagram.kinds[ends], max(ends, key=uses.__getitem__)].append(points)
-    return sorted({(kind, point) for (kind, _), net in nets.items() for point in _branchings(net)})
+    nets = defaultdict[tuple[LineKind, str], list[Path]](list)
+    for ends, (kind, points) in diagram.lines.items():
+        nets[kind, max(ends, key=uses.__getitem__)].append(points)
+    found = set[tuple[LineKind, Point]]()
+    for (kind, _), paths in nets.items():
+        across, upright = defaultdict[int, list[_Interval]](list), defaultdict[int, list[_Interval]](list)
+        for path in paths:
+            for one, other in itertools.pairwise(path):
+                (x1, y1), (x2, y2) = sorted((one, other))
+                if y1 == y2:
+                    across[y1].append((x1, x2))
+                else:
+                    upright[x1].append((y1, y2))
+        runs = {y: _united(intervals) for y, intervals in across.items()}
+        falls = {x: _united(intervals) for x, intervals in upright.items()}
+        for x, y in {point for path in paths for point in path}:
+            run, fall = runs.get(y, []), falls.get(x, [])
+            # Coordinates are even: one step beside a point lies inside a segment or outside of all.
+            ways = [_is_inside(x + step, run) for step in (-1, 1)] + [_is_inside(y + step, fall) for step in (-1, 1)]
+            if sum(ways) > 2:
+                found.add((kind, (x, y)))
+    return sorted(found)
 
 
-def _branchings(net: Iterable[Path]) -> Iterator[Point]:
-    points: set[Point] = set()
-    across: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
-    upright: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
-    for path in net:
-        points.update(path)
-        for (x1, y1), (x2, y2) in itertools.pairwise(path):
-            if y1 == y2:
-                across[y1].append((min(x1, x2), max(x1, x2)))
-            else:
-                upright[x1].append((min(y1, y2), max(y1, y2)))
-    runs = {y: _united(intervals) for y, intervals in across.items()}
-    falls = {x: _united(intervals) for x, intervals in upright.items()}
-    for x, y in points:  # coordinates are even: one step beside a point lies inside a segment or outside of all
-        run, fall = runs.get(y, []), falls.get(x, [])
-        if _inside(x - 1, run) + _inside(x + 1, run) + _inside(y - 1, fall) + _inside(y + 1, fall) > 2:
-            yield x, y
-
-
-def _united(intervals: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
+def _united(intervals: Iterable[_Interval]) -> list[_Interval]:
     """Join intervals that touch or overlap; the result is sorted."""
-    united: list[tuple[int, int]] = []
+    united: list[_Interval] = []
     for start, end in sorted(intervals):
         if united and start <= united[-1][1]:
             united[-1] = united[-1][0], max(end, united[-1][1])
@@ -306,7 +275,7 @@ def _united(intervals: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
     return united
 
 
-def _inside(value: int, intervals: list[tuple[int, int]]) -> bool:
+def _is_inside(value: int, intervals: list[_Interval]) -> bool:
     index = bisect.bisect_left(intervals, (value, value)) - 1
     return index >= 0 and value < intervals[index][1]
 
@@ -325,7 +294,7 @@ def _legend_rows(kinds: Iterable[Kind], width: float) -> list[list[Kind]]:
 
 
 def _legend_width(kind: Kind) -> float:
-    return 15 + _width(_LOOKS[kind].legend, _FONT)
+    return 15 + _width(_ICONS[kind].legend, _FONT)
 
 
 def _legend(rows: list[list[Kind]], start: Point) -> Iterator[str]:
@@ -333,7 +302,7 @@ def _legend(rows: list[list[Kind]], start: Point) -> Iterator[str]:
         x, y = float(start[0]), start[1] + _LEGEND * index
         for kind in row:
             yield from _icon(kind, (x + 4, y), 0.35)
-            yield _text((x + 9, y + 1.3), _LOOKS[kind].legend, "legend", _FONT, _legend_width(kind))
+            yield _text((x + 9, y + 1.3), _ICONS[kind].legend, "legend", _FONT, _legend_width(kind))
             x += _legend_width(kind)
 
 

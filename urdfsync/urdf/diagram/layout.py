@@ -13,25 +13,27 @@ joint continues the link's row; every other one starts a row of its own, below a
 Components keep to columns. A link hangs on a vertical trunk at the left of its column, and the joints
 that start at it stand on the spines of their rows, right of the trunk: so a trunk only passes rows
 that lie right of it. Above a joint that can be driven stand the connectors of its axis and its support.
-A mimic coupling stands above its follower; the line from its leader runs through the gap between two columns.
+A mimic coupling stands above its follower; the line from its leader runs through the gap between two columns,
+on a track that no other line has there.
+
+Lines consist of axis-parallel segments. All coordinates are even, y points upwards.
 """
 
 from __future__ import annotations
 
+import heapq
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import chain
-from typing import Literal, NamedTuple, TypeAlias
+from collections.abc import Hashable, Iterable, Mapping
+from typing import Literal, NamedTuple, TypeAlias, TypeVar
 
-import msgspec
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.connectors import Connectors
+from urdfsync.urdf.robot import MOTION_KINDS
 
-from urdfsync.urdf.diagram import routing
-from urdfsync.urdf.diagram.routing import CONNECTOR, SIZE, Path, Placement, Point, Row, RowNeeds, square
-
-JointKind: TypeAlias = Literal["fixed", "rotational", "translational", "free"]
+Point: TypeAlias = tuple[int, int]
+Path: TypeAlias = tuple[Point, ...]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]
-Connection: TypeAlias = tuple[str, str]
-"""The two ends of a connect equation, as they are written there."""
+Key = TypeVar("Key", bound=Hashable)
 
 PORTS: Mapping[str, Point] = {
     "frame_a": (-100, 0),
@@ -46,286 +48,227 @@ PORTS: Mapping[str, Point] = {
 FRAME_A: Point = (-100, 0)
 """Middle of the connector `frame_a` in every robot's diagram."""
 
-_LINK_AT = 4  # from a column's trunk to the left edge of its links and couplings
-_JOINT_AT = 20  # from a column's trunk to the left edge of its joints
-_DROP = 26  # from a row's spine down to the middle of its links
-_FRAME = 32  # size of a frame connector, as in the Modelica Standard Library
+_SIZE = 20  # width and height of a component, and of the frame connectors at the right
+_CONNECTOR = 12  # width and height of a connector that stands beside a component
+_FRAME = 32  # size of the connector of the root frame, as in the Modelica Standard Library
+_COLUMN = 48  # from trunk to trunk, as long as one track is enough in the gap between
+_TRACK = 4  # distance of neighbouring lines
+_NAME = 8  # room for a name above a component
+_LINK_X = 14  # from a column's trunk to the middle of its links and couplings
+_JOINT_X = 30  # from a column's trunk to the middle of its joints
+_LINK_Y = 26  # from a row's spine down to the middle of its links
+_BELOW = 44  # from a row's spine down to its end: link, its name, a gap
+_ABOVE = 20  # from a row's spine up to the connectors of its joints
 _TRUNK = 8  # from the connector of the root frame to the first trunk
 _MARGIN = 44  # from the last trunk to the connectors at the right: a link and its name
-_LEAF = 20  # size of the frame connectors at the right
-_ABOVE = 20  # from a row's spine up to the connectors of its joints
 _ASIDE = 8  # from an axis to the support's connector, and to the line that passes the axis's own
 
 
-class TreeJoint(msgspec.Struct, frozen=True):
-    """A joint that leads to the link `child`; `axis` and `support` name its connectors, None if it has none."""
+class Placement(NamedTuple):
+    """A component's rectangle in the diagram: lower left corner (x1, y1), upper right corner (x2, y2)."""
 
-    name: str
-    child: str
-    kind: JointKind
-    axis: str | None = None
-    support: str | None = None
+    x1: int
+    y1: int
+    x2: int
+    y2: int
 
+    @classmethod
+    def around(cls, centre: Point, size: int = _SIZE) -> Placement:
+        """Return a square around a point."""
+        (x, y), half = centre, size // 2
+        return cls(x - half, y - half, x + half, y + half)
 
-class TreeCoupling(msgspec.Struct, frozen=True):
-    """A mimic coupling between the axis flanges of two joints; a joint follows at most one other.
+    @property
+    def centre(self) -> Point:
+        """The middle of the rectangle."""
+        return (self.x1 + self.x2) // 2, (self.y1 + self.y2) // 2
 
-    Without a `leader` the coupling holds its follower by itself.
-    """
-
-    name: str
-    leader: str | None
-    follower: str
-
-
-class Tree(msgspec.Struct, frozen=True):
-    """A tree of links and joints, and the couplings between joints, all by component names.
-
-    `children` gives the joints that start at a link, in the order they are drawn; links without any
-    may be left out. `frames` names the connectors of links that have one.
-    """
-
-    root: str
-    children: Mapping[str, Sequence[TreeJoint]]
-    frames: Mapping[str, str]
-    couplings: Sequence[TreeCoupling] = ()
+    def port(self, connector: str) -> Point:
+        """Return the place in the diagram of a component's connector."""
+        x, y = PORTS[connector]
+        return self.x1 + (self.x2 - self.x1) * (x + 100) // 200, self.y1 + (self.y2 - self.y1) * (y + 100) // 200
 
 
-class Diagram(msgspec.Struct, frozen=True):
-    """A finished layout on a grid of 2, y upwards.
+class Diagram(NamedTuple):
+    """A finished layout on a grid of 2, by component names.
 
-    `extent` (x1, y1, x2, y2) holds everything. A line leads from the first of its two ends to the
-    second in axis-parallel segments; lines at one of the model's own connectors end in its middle.
+    `extent` (x1, y1, x2, y2) holds everything. A line leads from the first of its two ends, as they stand in the
+    connect equation, to the second; lines at one of the model's own connectors end in its middle.
     """
 
     extent: tuple[int, int, int, int]
-    placements: Mapping[str, Placement]
-    lines: Mapping[Connection, Path]
-    kinds: Mapping[Connection, LineKind]
+    placements: dict[str, Placement]
+    lines: dict[tuple[str, str], tuple[LineKind, Path]]
 
 
-def layout(tree: Tree) -> Diagram:
+class _Row(NamedTuple):
+    """Heights of a row."""
+
+    spine: int
+    band: int
+    """Middle of its couplings."""
+    tracks: list[int]
+    bottom: int
+
+
+def layout(tree: KinematicTree, names: Connectors) -> Diagram:
     """Place every component and route every connection of the robot model, in linear time.
 
-    No two components overlap and no line crosses a component. `tree` has to be one, with distinct
-    names, and its couplings join rotational and translational joints.
+    No two components overlap and no line crosses a component.
     """
-    plan = _plan(tree)
-    dx, dy = _shift(plan)
-    lines: dict[Connection, Path] = {}
-    kinds: dict[Connection, LineKind] = {}
-    for ends, kind, points in chain(_frame_lines(tree, plan), _flange_lines(plan), _coupling_lines(tree, plan)):
-        lines[ends] = routing.path([(x + dx, y + dy) for x, y in points])
-        kinds[ends] = kind
-    extent = (dx, plan.rows[-1].bottom + dy, plan.right + dx, dy)
-    return Diagram(extent, {name: place.moved(dx, dy) for name, place in _components(tree, plan)}, lines, kinds)
-
-
-class _Cell(NamedTuple):
-    row: int
-    column: int
-
-
-_Line: TypeAlias = tuple[Connection, LineKind, list[Point]]
-
-
-class _Cells(msgspec.Struct, frozen=True):
-    """The cell of every link and joint: a joint stands in its parent's column and in its child's row."""
-
-    links: Mapping[str, _Cell]
-    joints: Mapping[str, _Cell]
-    parts: Mapping[str, TreeJoint]
-
-
-class _Detours(msgspec.Struct, frozen=True):
-    """Track numbers of the lines from leaders to couplings: in a row, in the gap left of a column; by leader."""
-
-    rows: Mapping[int, Mapping[str, int]]
-    columns: Mapping[int, Mapping[str, int]]
-
-
-class _Plan(msgspec.Struct, frozen=True):
-    """All coordinates before anchoring: the left border at x = 0, the upper one at y = 0."""
-
-    cells: _Cells
-    detours: _Detours
-    rows: Sequence[Row]
-    trunks: Sequence[int]
-    right: int
-    connectors: dict[str, Placement]
-
-    def link(self, name: str) -> Placement:
-        row, column = self.cells.links[name]
-        x = self.trunks[column] + _LINK_AT + SIZE // 2
-        return square((x, self.rows[row].spine - _DROP))
-
-    def joint(self, name: str) -> Placement:
-        row, column = self.cells.joints[name]
-        x = self.trunks[column] + _JOINT_AT + SIZE // 2
-        return square((x, self.rows[row].spine))
-
-    def coupling(self, follower: str) -> Placement:
-        row, column = self.cells.joints[follower]
-        x = self.trunks[column] + _LINK_AT + SIZE // 2
-        return square((x, self.rows[row].band))
-
-
-def _plan(tree: Tree) -> _Plan:
-    cells = _arrange(tree)
-    detours = _detours(tree, cells)
-    rows = routing.rows(_needs(tree, cells, detours), 0)
-    columns = range(1 + max(cell.column for cell in cells.links.values()))
-    trunks = routing.trunks([_count(detours.columns.get(column, {})) for column in columns], _FRAME + _TRUNK // 2)
-    right = trunks[-1] + _MARGIN + _LEAF
-    plan = _Plan(cells, detours, rows, trunks, right, {"frame_a": square((_FRAME // 2, rows[0].spine), _FRAME)})
-    plan.connectors.update(_connectors(tree, plan))
-    return plan
-
-
-def _connectors(tree: Tree, plan: _Plan) -> Iterator[tuple[str, Placement]]:
-    """Yield the model's own connectors: frames of leaves at the right, all others beside their link or joint."""
-    for name, joint in plan.cells.parts.items():
-        x, y = plan.joint(name).centre
-        if joint.axis and joint.support:
-            support = x + SIZE * PORTS["support"][0] // 200
-            yield joint.axis, square((x, y + _ABOVE), CONNECTOR)
-            yield joint.support, square((support - _ASIDE, y + _ABOVE), CONNECTOR)
-    for link, frame in tree.frames.items():
-        row = plan.rows[plan.cells.links[link].row]
-        if tree.children.get(link):
-            icon = plan.link(link)
-            yield frame, square((icon.centre[0], icon.y1 - CONNECTOR), CONNECTOR)
-        else:
-            yield frame, square((plan.right - _LEAF // 2, row.spine), _LEAF)
-
-
-def _arrange(tree: Tree) -> _Cells:
-    links = {tree.root: _Cell(0, 0)}
-    joints: dict[str, _Cell] = {}
-    parts: dict[str, TreeJoint] = {}
-    last = 0
-    stack = _branches(tree, tree.root, links[tree.root])
-    while stack:
-        joint, column, row = stack.pop()
-        if row is None:
+    # Cells, as (row, column): a joint stands in its parent's column and in its child's row.
+    links, joints = {tree.links[0].name: (0, 0)}, {}
+    last, continued = 0, set()
+    for joint in tree.joints:
+        row, column = links[joint.parent]
+        if joint.parent in continued:
             row = last = last + 1
-        parts[joint.name] = joint
-        joints[joint.name] = _Cell(row, column)
-        links[joint.child] = _Cell(row, column + 1)
-        stack += _branches(tree, joint.child, links[joint.child])
-    return _Cells(links, joints, parts)
+        continued.add(joint.parent)
+        joints[joint.name], links[joint.child] = (row, column), (row, column + 1)
+    columns = 1 + max(column for _, column in links.values())
+    # A leader that does not move has no line to its coupling.
+    motions = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
+    leaders = {joint.name: mimic.joint for joint, mimic in tree.followers() if motions[mimic.joint]}
+    across, along = _detours(leaders, joints)
+
+    banded = {joints[name][0] for name in names.couplings}
+    driven = {joints[name][0] for name in names.axes}
+    framed = {links[name][0] for name in names.frames if name in continued}
+    top, rows = 0, list[_Row]()
+    for _ in range(2):  # the second time with `frame_a`, which is on the first spine, at its height
+        top, rows = FRAME_A[1] - (rows[0].spine if rows else 0), []
+        below = top
+        for row in range(last + 1):
+            lanes = [below - _TRACK * (track + 1) for track in range(_count(across.get(row, {})))]
+            below -= _TRACK * len(lanes)
+            band = below - _NAME - _SIZE // 2
+            below -= (_NAME + _SIZE) * (row in banded) + (_CONNECTOR + _TRACK) * (row in driven)
+            spine = below - _NAME - _SIZE // 2
+            below = spine - _BELOW - (_CONNECTOR + _TRACK) * (row in framed)
+            rows.append(_Row(spine, band, lanes, below))
+    left = FRAME_A[0] - _FRAME // 2
+    trunks = [left + _FRAME + _TRUNK // 2 + _TRACK * (_count(along.get(0, {})) + 1)]
+    for column in range(1, columns):
+        trunks.append(trunks[-1] + _COLUMN + _TRACK * max(0, _count(along.get(column, {})) - 1))
+    right = trunks[-1] + _MARGIN + _SIZE
+
+    link_boxes, joint_boxes = {}, {}
+    for name, (row, column) in links.items():
+        link_boxes[name] = Placement.around((trunks[column] + _LINK_X, rows[row].spine - _LINK_Y))
+    for name, (row, column) in joints.items():
+        joint_boxes[name] = Placement.around((trunks[column] + _JOINT_X, rows[row].spine))
+    placements = {"frame_a": Placement.around(FRAME_A, _FRAME)}
+    for name, axis in names.axes.items():
+        (x, _), y = joint_boxes[name].centre, joint_boxes[name].centre[1] + _ABOVE
+        placements[axis] = Placement.around((x, y), _CONNECTOR)
+        aside = joint_boxes[name].port("support")[0] - _ASIDE
+        placements[names.supports[name]] = Placement.around((aside, y), _CONNECTOR)
+    for name, frame in names.frames.items():
+        if name in continued:
+            below_link = link_boxes[name].centre[0], link_boxes[name].y1 - _CONNECTOR
+            placements[frame] = Placement.around(below_link, _CONNECTOR)
+        else:
+            placements[frame] = Placement.around((right - _SIZE // 2, rows[links[name][0]].spine))
+    placements |= {tree.link(name).component: box for name, box in link_boxes.items()}
+    placements |= {tree.joint(name).component: box for name, box in joint_boxes.items()}
+    for name, coupling in names.couplings.items():
+        row, column = joints[name]
+        placements[coupling] = Placement.around((trunks[column] + _LINK_X, rows[row].band))
+
+    lines: dict[tuple[str, str], tuple[LineKind, Path]] = {}
+    children = tree.children()
+    for name, (row, column) in links.items():
+        component, trunk, port = tree.link(name).component, trunks[column], link_boxes[name].port("frame_a")
+        own, foot = f"{component}.frame_a", (trunk, port[1])
+        if name == tree.links[0].name:
+            lines["frame_a", own] = "frame", _path([FRAME_A, (trunk, rows[row].spine), foot, port])
+        if name in names.frames:
+            end = placements[names.frames[name]].centre
+            lines[own, names.frames[name]] = "frame", _path([port, foot, (trunk, end[1]), end])
+        for joint in children.get(name, ()):
+            joint_name, box = tree.joint(joint.name).component, joint_boxes[joint.name]
+            start, end = box.port("frame_a"), box.port("frame_b")
+            lines[own, f"{joint_name}.frame_a"] = "frame", _path([port, foot, (trunk, start[1]), start])
+            child, turn = link_boxes[joint.child].port("frame_a"), trunks[column + 1]
+            ends = f"{joint_name}.frame_b", f"{tree.link(joint.child).component}.frame_a"
+            lines[ends] = "frame", _path([end, (turn, end[1]), (turn, child[1]), child])
+    for name, axis in names.axes.items():
+        component, box = tree.joint(name).component, joint_boxes[name]
+        kind, start, support = motions[name] or "frame", box.port("axis"), box.port("support")
+        lines[f"{component}.axis", axis] = kind, _path([start, placements[axis].centre])
+        end, bend = placements[names.supports[name]].centre, support[1] + 2
+        points = [support, (support[0], bend), (end[0], bend), end]
+        lines[f"{component}.support", names.supports[name]] = kind, _path(points)
+    for name, coupling in names.couplings.items():
+        follower, box, end = tree.joint(name).component, placements[coupling], joint_boxes[name].port("axis")
+        start = box.port("follower")
+        points = [start, (end[0], start[1]), end]
+        lines[f"{coupling}.follower", f"{follower}.axis"] = motions[name] or "frame", _path(points)
+        if name in leaders:
+            leader = leaders[name]
+            row, column = joints[leader][0], joints[name][1]
+            start, end = box.port("leader"), joint_boxes[leader].port("axis")
+            x = trunks[column] - _TRACK * (along[column][leader] + 1)
+            y = rows[row].tracks[across[row][leader]]
+            points = [start, (x, start[1]), (x, y), (end[0], y), end]
+            if leader in names.axes:  # its connector stands above the axis: pass it
+                aside, bend = end[0] + _ASIDE, end[1] + 2
+                points = [start, (x, start[1]), (x, y), (aside, y), (aside, bend), (end[0], bend), end]
+            ends = f"{coupling}.leader", f"{tree.joint(leader).component}.axis"
+            lines[ends] = motions[leader] or "frame", _path(points)
+    return Diagram((left, rows[-1].bottom, right, top), placements, lines)
 
 
-def _branches(tree: Tree, link: str, cell: _Cell) -> list[tuple[TreeJoint, int, int | None]]:
-    """Return the joints that start at a link, last one first, each with column and row; None is a new row."""
-    children = tree.children.get(link, ())
-    return [(joint, cell.column, None if index else cell.row) for index, joint in enumerate(children)][::-1]
+_Tracks: TypeAlias = Mapping[int, Mapping[str, int]]
 
 
-def _detours(tree: Tree, cells: _Cells) -> _Detours:
-    followers: defaultdict[str, list[_Cell]] = defaultdict(list)
-    for coupling in tree.couplings:
-        if coupling.leader is not None:
-            followers[coupling.leader].append(cells.joints[coupling.follower])
-    across: defaultdict[int, dict[str, tuple[int, int]]] = defaultdict(dict)
-    along: defaultdict[int, dict[str, tuple[int, int]]] = defaultdict(dict)
-    for leader, found in followers.items():
-        row, column = cells.joints[leader]
-        passed = [column, *(cell.column for cell in found)]
+def _detours(leaders: Mapping[str, str], joints: Mapping[str, tuple[int, int]]) -> tuple[_Tracks, _Tracks]:
+    """Return the track of each leader's lines: above each row, and in the gap left of each column.
+
+    `leaders` has the leader of each follower, `joints` the cells of joints.
+    """
+    followers = defaultdict[str, list[tuple[int, int]]](list)
+    for follower, leader in leaders.items():
+        followers[leader].append(joints[follower])
+    across, along = (defaultdict[int, dict[str, tuple[int, int]]](dict) for _ in range(2))
+    for leader, cells in followers.items():
+        row, column = joints[leader]
+        passed = [column, *(cell[1] for cell in cells)]
         across[row][leader] = min(passed), max(passed)
-        for cell in found:
-            low, high = along[cell.column].get(leader, (row, row))
-            along[cell.column][leader] = min(low, cell.row), max(high, cell.row)
-    return _Detours(
-        {row: routing.tracks(intervals) for row, intervals in across.items()},
-        {column: routing.tracks(intervals) for column, intervals in along.items()},
+        for cell in cells:
+            low, high = along[cell[1]].get(leader, (row, row))
+            along[cell[1]][leader] = min(low, cell[0]), max(high, cell[0])
+    return (
+        {row: tracks(intervals) for row, intervals in across.items()},
+        {column: tracks(intervals) for column, intervals in along.items()},
     )
 
 
-def _needs(tree: Tree, cells: _Cells, detours: _Detours) -> list[RowNeeds]:
-    """Return the contents of each row, from top to bottom."""
-    driven = {cells.joints[name].row for name, joint in cells.parts.items() if joint.axis}
-    banded = {cells.joints[coupling.follower].row for coupling in tree.couplings}
-    framed = {cells.links[link].row for link in tree.frames if tree.children.get(link)}
-    return [
-        RowNeeds(_count(detours.rows.get(row, {})), row in banded, row in driven, row in framed)
-        for row in range(1 + max(cell.row for cell in cells.links.values()))
-    ]
+def tracks(intervals: Mapping[Key, tuple[int, int]]) -> dict[Key, int]:
+    """Number the tracks of a channel, from 0, so that closed intervals on one track don't touch.
+
+    The left-edge method: as few tracks as the densest place of the channel needs.
+    """
+    assigned: dict[Key, int] = {}
+    busy: list[tuple[int, int]] = []
+    for key, (start, end) in sorted(intervals.items(), key=lambda item: item[1]):
+        track = heapq.heappop(busy)[1] if busy and busy[0][0] < start else len(busy)
+        assigned[key] = track
+        heapq.heappush(busy, (end, track))
+    return assigned
 
 
 def _count(assigned: Mapping[str, int]) -> int:
     return 1 + max(assigned.values(), default=-1)
 
 
-def _components(tree: Tree, plan: _Plan) -> Iterator[tuple[str, Placement]]:
-    yield from plan.connectors.items()
-    for name in plan.cells.links:
-        yield name, plan.link(name)
-    for name in plan.cells.joints:
-        yield name, plan.joint(name)
-    for coupling in tree.couplings:
-        yield coupling.name, plan.coupling(coupling.follower)
-
-
-def _frame_lines(tree: Tree, plan: _Plan) -> Iterator[_Line]:
-    for link, (row, column) in plan.cells.links.items():
-        trunk, spine = plan.trunks[column], plan.rows[row].spine
-        port = plan.link(link).at(PORTS["frame_a"])
-        foot, head = (trunk, port[1]), (trunk, spine)
-        if link == tree.root:
-            yield ("frame_a", f"{link}.frame_a"), "frame", [plan.connectors["frame_a"].centre, head, foot, port]
-        if frame := tree.frames.get(link):
-            end = plan.connectors[frame].centre
-            yield (f"{link}.frame_a", frame), "frame", [port, foot, (trunk, end[1]), end]
-        for joint in tree.children.get(link, ()):
-            icon = plan.joint(joint.name)
-            start, end = icon.at(PORTS["frame_a"]), icon.at(PORTS["frame_b"])
-            yield (f"{link}.frame_a", f"{joint.name}.frame_a"), "frame", [port, foot, (trunk, start[1]), start]
-            child = plan.link(joint.child).at(PORTS["frame_a"])
-            turn = plan.trunks[column + 1]
-            yield (
-                (f"{joint.name}.frame_b", f"{joint.child}.frame_a"),
-                "frame",
-                [end, (turn, end[1]), (turn, child[1]), child],
-            )
-
-
-def _flange_lines(plan: _Plan) -> Iterator[_Line]:
-    """Yield the lines from joints to the connectors above them."""
-    for name, joint in plan.cells.parts.items():
-        if joint.axis and joint.support:
-            icon = plan.joint(name)
-            axis, support = icon.at(PORTS["axis"]), icon.at(PORTS["support"])
-            yield (f"{name}.axis", joint.axis), _kind(joint), [axis, plan.connectors[joint.axis].centre]
-            end = plan.connectors[joint.support].centre
-            bend = support[1] + 2
-            yield (f"{name}.support", joint.support), _kind(joint), [support, (support[0], bend), (end[0], bend), end]
-
-
-def _coupling_lines(tree: Tree, plan: _Plan) -> Iterator[_Line]:
-    for coupling in tree.couplings:
-        icon, follower = plan.coupling(coupling.follower), plan.cells.parts[coupling.follower]
-        start, end = icon.at(PORTS["follower"]), plan.joint(follower.name).at(PORTS["axis"])
-        yield (f"{coupling.name}.follower", f"{follower.name}.axis"), _kind(follower), [start, (end[0], start[1]), end]
-        if coupling.leader is None:
+def _path(points: Iterable[Point]) -> Path:
+    """Return the polyline without repeated points and without points inside a straight run."""
+    found: list[Point] = []
+    for point in points:
+        if found and point == found[-1]:
             continue
-        leader = plan.cells.parts[coupling.leader]
-        row, column = plan.cells.joints[leader.name].row, plan.cells.joints[follower.name].column
-        y = plan.rows[row].tracks[plan.detours.rows[row][leader.name]]
-        x = routing.gap_track(plan.trunks[column], plan.detours.columns[column][leader.name])
-        start, end = icon.at(PORTS["leader"]), plan.joint(leader.name).at(PORTS["axis"])
-        points = [start, (x, start[1]), (x, y), (end[0], y), end]
-        if leader.axis:  # the connector stands above the axis: pass it
-            aside, bend = end[0] + _ASIDE, end[1] + 2
-            points = [start, (x, start[1]), (x, y), (aside, y), (aside, bend), (end[0], bend), end]
-        yield (f"{coupling.name}.leader", f"{leader.name}.axis"), _kind(leader), points
-
-
-def _kind(joint: TreeJoint) -> LineKind:
-    return "translational" if joint.kind == "translational" else "rotational"
-
-
-def _shift(plan: _Plan) -> Point:
-    """Return the offset that brings `frame_a` to its place in the class that all robots extend."""
-    (x, y), (at_x, at_y) = plan.connectors["frame_a"].centre, FRAME_A
-    return at_x - x, at_y - y
+        if len(found) > 1 and (found[-2][0] == found[-1][0] == point[0] or found[-2][1] == found[-1][1] == point[1]):
+            found.pop()
+        found.append(point)
+    return tuple(found)

@@ -6,9 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from urdfsync.domain import Effect, ElementKey, Target, Version
 from urdfsync.urdf.drives import can_be_driven, driven_joints
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
-from urdfsync.urdf.model.robot import connector_names
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import MOTION_KINDS, Motion
 from urdfsync.urdf.snapshot import from_snapshot
 
 _RUN: Mapping[Motion, Mapping[str, str]] = {
@@ -30,8 +31,11 @@ def interface(
     says so.
     """
     earlier = old.options if isinstance(old.options, Options) else options
-    if "package" not in options.approach or "package" not in earlier.approach:
+    if "package" not in earlier.approach:
         return ()
+    if "package" not in options.approach:
+        hint = 'list "package" in `approach` to keep it, with its connectors'
+        return [Effect(("robot", "model"), target.name, None, hint=hint)]
     before, after = (KinematicTree.of(from_snapshot(version.snapshot), (target.name,)) for version in (old, new))
     one, other = connector_names(before, earlier), connector_names(after, options)
     links = {renames.get(("link", link.name), link.name) for link in before.links} & {link.name for link in after.links}

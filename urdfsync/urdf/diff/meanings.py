@@ -9,10 +9,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 from urdfsync.domain import ChangeClass, ChangeKind, Difference, Import, Meaning, Version
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, Motion
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Mesh
+from urdfsync.urdf.robot import MOTION_KINDS, Mesh, Motion
 
 _ABSENT = object()
 _Group: TypeAlias = Literal["visuals", "collisions"]

@@ -10,8 +10,8 @@ from collections.abc import Set as AbstractSet
 import msgspec
 
 from urdfsync.urdf.kinematics.poses import Pose, compose, dot, link_poses, pose, start_positions
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
-from urdfsync.urdf.robot import Joint, Link, Vector
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Motion, Vector
 
 _ROUNDING = 1e-6  # of angles, and of lengths in relation to where they are
 _ROUNDING_SQUARED = _ROUNDING**2

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
-from urdfsync.urdf.robot import Box, Capsule, Cylinder, Geometry, Joint, Origin, Sphere, Vector
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Origin, Vector
 
 Matrix = tuple[Vector, Vector, Vector]
 Pose = tuple[Matrix, Vector]
@@ -74,22 +74,6 @@ def start_positions(tree: KinematicTree) -> Mapping[str, float]:
             position = min(max(0.0, lower), upper)
         positions[joint.name] = _near(position)
     return positions
-
-
-def lowest_point(geometry: Geometry, at: Pose, hull: Iterable[Sequence[float]] = ()) -> float | None:
-    """Return the smallest z of a shape at a pose; of a mesh that of its `hull`, None if that is empty."""
-    up, height = at[0][2], at[1][2]
-    match geometry:
-        case Box(size=size):
-            return height - sum(abs(a) * edge / 2 for a, edge in zip(up, size, strict=True))
-        case Sphere(radius=radius):
-            return height - radius
-        case Capsule(radius=radius, length=length):
-            return height - abs(up[2]) * length / 2 - radius
-        case Cylinder(radius=radius, length=length):
-            return height - abs(up[2]) * length / 2 - radius * math.hypot(up[0], up[1])
-        case _:
-            return min((height + dot(up, point) for point in hull), default=None)
 
 
 def _ranges(tree: KinematicTree) -> Mapping[str, tuple[float, float]]:

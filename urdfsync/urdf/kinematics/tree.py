@@ -8,21 +8,11 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Literal
 
 import msgspec
 
 from urdfsync.urdf.names import Identifier, Key, identify, natural_key
-from urdfsync.urdf.robot import Joint, Limit, Link, Mimic, Robot
-
-Motion = Literal["rotational", "translational"]
-
-MOTION_KINDS: Mapping[str, Motion] = {
-    "continuous": "rotational",
-    "revolute": "rotational",
-    "prismatic": "translational",
-}
-"""Kind of motion of each joint type that has one axis."""
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Motion, Robot
 
 
 class KinematicTree(msgspec.Struct, frozen=True):
@@ -96,13 +86,3 @@ class KinematicTree(msgspec.Struct, frozen=True):
         for joint in order:  # grows while it is walked
             order += (follower for follower, _ in followers.get(joint.name, ()))
         return order
-
-
-def strip_numbers(joint: Joint) -> Joint:
-    """Return the joint without its numbers: with its ends, its type, its leader and what drives it.
-
-    A limit stays, without its numbers: whether a joint has one decides with others whether it is driven.
-    """
-    limit = None if joint.limit is None else Limit()
-    mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
-    return Joint(joint.name, joint.type, joint.parent, joint.child, limit=limit, mimic=mimic, actuated=joint.actuated)

@@ -16,11 +16,14 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+import collada
 import numpy as np
+from collada import controller, polylist, scene, triangleset
+from collada.common import DaeError, DaeUnsupportedError
 from lxml import etree
 
-from urdfsync.urdf.meshes.errors import MeshError, guarded
-from urdfsync.urdf.meshes.geometry import Array, placed
+from urdfsync.urdf.meshes.errors import MeshError, damage_is_an_error
+from urdfsync.urdf.meshes.geometry import Array, Triangles, joined, placed
 
 _NO_SHAPE = (
     "library_animations",
@@ -40,17 +43,19 @@ _NO_SHAPE = (
 _NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes"}
 
 
-def read_collada(content: bytes) -> Array:
-    """Corners of all triangles (n × 3 × 3, metres). Raises MeshError."""
+def read_collada(content: bytes) -> Triangles:
+    """Read all triangles, in metres. Raises MeshError."""
     root = _parse(content)
     unit = _unit(root)
     for tag, name in _NOT_READ.items():
         if root.find(f".//{{*}}{tag}") is not None:
             raise MeshError(f"it has {name}, which urdfsync doesn't read")
     etree.strip_elements(root, *(f"{{*}}{tag}" for tag in _NO_SHAPE), with_tail=False)
-    with guarded():
-        parts = [part for node in _scene(root).nodes for part in _triangles(node, np.identity(4))]
-        return unit * np.concatenate([np.empty((0, 3, 3)), *parts])
+    shapes = etree.tostring(root)
+    del root  # pycollada parses them into a tree of its own
+    with damage_is_an_error():
+        mesh = joined(part for node in _scene(shapes).nodes for part in _triangles(node, np.identity(4)))
+        return Triangles(unit * mesh.points, mesh.faces)
 
 
 def _parse(content: bytes) -> etree._Element:
@@ -79,12 +84,9 @@ def _unit(root: etree._Element) -> float:
     return unit
 
 
-def _scene(root: etree._Element) -> Any:
+def _scene(content: bytes) -> Any:
     """The scene as pycollada's object. What it can't make sense of is an error, what it doesn't know is not."""
-    import collada
-    from collada.common import DaeError, DaeUnsupportedError
-
-    document = collada.Collada(io.BytesIO(etree.tostring(root)), ignore=[DaeError])
+    document = collada.Collada(io.BytesIO(content), ignore=[DaeError])
     if not all(isinstance(fault, DaeUnsupportedError) for fault in document.errors):
         raise MeshError(f"its content isn't consistent: {document.errors[0]}")
     if document.scene is None:
@@ -92,10 +94,8 @@ def _scene(root: etree._Element) -> Any:
     return document.scene
 
 
-def _triangles(node: Any, pose: Array) -> Iterator[Array]:
-    """Corners of the triangles at and below a node of pycollada's scene; `pose` (4 × 4) is that of the parent."""
-    from collada import controller, scene
-
+def _triangles(node: Any, pose: Array) -> Iterator[Triangles]:
+    """The triangles at and below a node of pycollada's scene; `pose` (4 × 4) is that of the parent."""
     if isinstance(node, scene.NodeNode):
         yield from _triangles(node.node, pose)
     elif isinstance(node, scene.Node):
@@ -104,25 +104,23 @@ def _triangles(node: Any, pose: Array) -> Iterator[Array]:
         for child in node.children:
             yield from _triangles(child, pose)
     elif isinstance(node, scene.GeometryNode):
-        yield from (placed(corners, pose) for corners in _primitives(node.geometry))
+        yield from (placed(part, pose) for part in _primitives(node.geometry))
     elif isinstance(node, scene.ControllerNode) and isinstance(node.controller, controller.Skin):
         skin = node.controller
         pose = _product(pose, skin.bind_shape_matrix)
-        yield from (placed(corners, pose) for corners in _primitives(skin.geometry))
+        yield from (placed(part, pose) for part in _primitives(skin.geometry))
     elif isinstance(node, scene.ControllerNode):
-        yield from (placed(corners, pose) for corners in _primitives(node.controller.source_geometry))
+        yield from (placed(part, pose) for part in _primitives(node.controller.source_geometry))
 
 
-def _primitives(geometry: Any) -> Iterator[Array]:
-    """Corners of the triangles of one geometry, as they stand in the file; lines are left out."""
-    from collada import polylist, triangleset
-
+def _primitives(geometry: Any) -> Iterator[Triangles]:
+    """The triangles of one geometry, as they stand in the file; lines are left out."""
     for primitive in geometry.primitives:
-        faces = primitive.triangleset() if isinstance(primitive, polylist.Polylist) else primitive
-        if isinstance(faces, triangleset.TriangleSet) and faces.vertex is not None:
-            if faces.vertex_index.min() < 0:
+        part = primitive.triangleset() if isinstance(primitive, polylist.Polylist) else primitive
+        if isinstance(part, triangleset.TriangleSet) and part.vertex is not None:
+            if part.vertex_index.min() < 0:
                 raise MeshError("it has a negative index")
-            yield faces.vertex[faces.vertex_index].astype(np.float64)
+            yield Triangles(part.vertex.astype(np.float64), part.vertex_index)
 
 
 def _product(first: Array, second: Array) -> Array:

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-import struct
 from pathlib import Path
-
-import numpy as np
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
-from urdfsync.urdf.meshes import lookup as mesh_lookup
+from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.meshes.errors import MeshError
-from urdfsync.urdf.meshes.geometry import Array, bounds, placed, support_points
-from urdfsync.urdf.meshes.reading import FACET, read_mesh
-from urdfsync.urdf.robot import Vector
+from urdfsync.urdf.meshes.geometry import binary_stl, import_form
+from urdfsync.urdf.meshes.plain import PLAIN
+from urdfsync.urdf.meshes.process import MeshProcess
+from urdfsync.urdf.robot import Mesh
 
-_HEADER = b"binary STL, written by urdfsync".ljust(80)
+_FORMATS = (".dae", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl")
+_SMALL = 1_000_000
+"""Bytes of STL and OBJ files that are read in this process: whatever they hold, that takes less than the limits of the
+other one. Starting it takes as long as a small robot."""
+
+_process = MeshProcess()
 
 
 def convert(dependency: Dependency, file: Path, content: bytes) -> Conversion:
@@ -23,36 +26,25 @@ def convert(dependency: Dependency, file: Path, content: bytes) -> Conversion:
 
     STL and OBJ files without a scale stay as they are; all else becomes binary STL with the scale
     applied. The facts are `bounds` (`[[x, y, z], [x, y, z]]`, least and greatest) and `hull` (see
-    `mesh_geometry.support_points`), in metres and in the mesh's frame.
+    `geometry.support_points`), in metres and in the mesh's frame.
 
     Raises SourceError with one diagnostic, `unreadable-mesh`, if the file can't be read as a mesh.
     """
-    mesh = mesh_lookup.mesh(dependency.key)
+    mesh = lookup.mesh(dependency.key)
     try:
-        corners = _scaled(read_mesh(mesh_lookup.suffix(mesh.filename), content), mesh.scale)
+        return _convert(mesh, content)
     except MeshError as error:
         message = f"the mesh {mesh.filename} can't be read: {error}"
         hint = "export it again, best as STL or OBJ"
         raise SourceError(Diagnostic(Severity.ERROR, "unreadable-mesh", message, str(file), hint=hint)) from error
-    points = corners.reshape(-1, 3)
-    imported = content if mesh_lookup.as_is(mesh) else _binary_stl(corners)
-    return Conversion(imported, {"bounds": bounds(points), "hull": support_points(points)})
 
 
-def _scaled(corners: Array, scale: Vector) -> Array:
-    """The triangles (n × 3 × 3), within the range of the numbers in an STL file. Raises MeshError."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        scaled = placed(corners, np.diag((*scale, 1.0)))
-    if not (np.abs(scaled) <= np.finfo(np.float32).max).all():
-        raise MeshError("its coordinates are too large for single precision")
-    return scaled
-
-
-def _binary_stl(corners: Array) -> bytes:
-    """Triangles (n × 3 × 3) as binary STL; the normal of a triangle without area is zero."""
-    facets = np.zeros(len(corners), dtype=FACET)
-    facets["corners"] = corners
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.sqrt(normals[:, 0] ** 2 + normals[:, 1] ** 2 + normals[:, 2] ** 2)[:, np.newaxis]
-    facets["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
-    return b"".join((_HEADER, struct.pack("<I", len(corners)), facets.tobytes()))
+def _convert(mesh: Mesh, content: bytes) -> Conversion:
+    suffix, as_is = lookup.suffix(mesh.filename), lookup.as_is(mesh)
+    if suffix not in _FORMATS:
+        raise MeshError(f"its format isn't one of {', '.join(_FORMATS)}")
+    if suffix in PLAIN and len(content) <= _SMALL:
+        form, facts = import_form(PLAIN[suffix](content), mesh.scale)
+        return Conversion(content if as_is else binary_stl(form), facts)
+    stl, facts = _process.read(suffix, mesh.scale, content)
+    return Conversion(content if as_is else stl, facts)

@@ -1,18 +1,32 @@
-"""Triangles as arrays: moved, measured, and the few points on which such a body stands or rolls."""
+"""Triangles as arrays: moved, measured, written as STL, and the few points on which such a body stands or rolls."""
 
 from __future__ import annotations
 
 import itertools
 import math
-from typing import TypeAlias
+import struct
+from collections.abc import Iterable
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-Array: TypeAlias = npt.NDArray[np.float64]
+from urdfsync.urdf.meshes.errors import MeshError
+from urdfsync.urdf.robot import Vector
 
+Array: TypeAlias = npt.NDArray[np.float64]
+Indices: TypeAlias = npt.NDArray[np.int64]
+Facts: TypeAlias = dict[str, list[list[float]]]
+
+FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+"""A triangle of a binary STL file."""
+MAX_TRIANGLES = 1_000_000
+"""Of one mesh, in all its places; so many have 50 MB as binary STL."""
+
+_HEADER = b"binary STL, written by urdfsync".ljust(80)
 _STEPS = 36  # directions on each great circle
 _TIE = 1e-9  # of the size: what is meant to be equal differs by rounding
+_THIN = 1e-7  # of the size: points in a plane that lie so near to one line are on it
 _MARGIN = 1e-5  # of the size: far above the error of single precision
 _CHUNK = 1 << 14  # points whose products with all directions stay in the cache
 _MANY = 4  # directions in which a point is extreme, on average, before that looks odd
@@ -20,11 +34,79 @@ _PRODUCTS = 1 << 22  # numbers that a step may work on at a time, to bound the m
 _DIGITS = 6
 
 
-def placed(corners: Array, pose: Array) -> Array:
-    """Triangles (n × 3 × 3) moved by an affine transformation (4 × 4); one that mirrors keeps their outer sides."""
-    x, y, z = (corners[..., axis, np.newaxis] for axis in range(3))
-    moved: Array = x * pose[:3, 0] + y * pose[:3, 1] + z * pose[:3, 2] + pose[:3, 3]
-    return moved[:, ::-1] if np.linalg.det(pose[:3, :3]) < 0 else moved
+class Triangles(NamedTuple):
+    """Triangles whose outer side is the one from which their corners are counter-clockwise."""
+
+    points: Array
+    """n × 3."""
+    faces: Indices
+    """m × 3, of `points`."""
+
+
+def placed(mesh: Triangles, pose: Array) -> Triangles:
+    """Triangles moved by an affine transformation (4 × 4); one that mirrors keeps their outer sides."""
+    points = np.empty(mesh.points.shape)
+    for start in range(0, len(points), _CHUNK):
+        x, y, z = (mesh.points[start : start + _CHUNK, axis, np.newaxis] for axis in range(3))
+        points[start : start + _CHUNK] = x * pose[:3, 0] + y * pose[:3, 1] + z * pose[:3, 2] + pose[:3, 3]
+    return Triangles(points, mesh.faces[:, ::-1] if np.linalg.det(pose[:3, :3]) < 0 else mesh.faces)
+
+
+def joined(parts: Iterable[Triangles]) -> Triangles:
+    """All triangles as one mesh. Raises MeshError if there are more than `MAX_TRIANGLES`."""
+    points, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)]
+    count = triangles = 0
+    for part in parts:
+        triangles += len(part.faces)
+        check_count(triangles)
+        points.append(part.points)
+        faces.append(part.faces + count)
+        count += len(part.points)
+    return Triangles(np.concatenate(points), np.concatenate(faces))
+
+
+def check_count(triangles: int) -> None:
+    """Raise MeshError for more triangles than a mesh may have."""
+    if triangles > MAX_TRIANGLES:
+        raise MeshError(f"it has more than {MAX_TRIANGLES:,} triangles")
+
+
+def import_form(mesh: Triangles, scale: Vector) -> tuple[Triangles, Facts]:
+    """A mesh in metres, and what models need of its shape: `bounds` and `hull` (see `support_points`).
+
+    Raises MeshError for a mesh without triangles, and for numbers that an STL file can't hold.
+    """
+    if not len(mesh.faces):
+        raise MeshError("it has no triangles")
+    if not np.isfinite(bounds(_used_points(mesh))).all():
+        raise MeshError("it has coordinates that aren't finite numbers")
+    with np.errstate(over="ignore", invalid="ignore"):
+        scaled = placed(mesh, np.diag((*scale, 1.0)))
+    points = _used_points(scaled)
+    extent = bounds(points)
+    if not (np.abs(extent) <= np.finfo(np.float32).max).all():
+        raise MeshError("its coordinates are too large for single precision")
+    return scaled, {"bounds": extent, "hull": support_points(points)}
+
+
+def _used_points(mesh: Triangles) -> Array:
+    is_used = np.zeros(len(mesh.points), dtype=np.bool_)
+    is_used[mesh.faces] = True
+    used: Array = mesh.points[is_used]
+    return used
+
+
+def binary_stl(mesh: Triangles) -> bytes:
+    """Triangles as binary STL; the normal of a triangle without area is zero."""
+    facets = np.zeros(len(mesh.faces), dtype=FACET)
+    for start in range(0, len(facets), _CHUNK):
+        part = slice(start, start + _CHUNK)
+        a, b, c = (mesh.points[mesh.faces[part, corner]] for corner in range(3))
+        normals = np.cross(b - a, c - a)
+        lengths = np.sqrt(normals[:, 0] ** 2 + normals[:, 1] ** 2 + normals[:, 2] ** 2)[:, np.newaxis]
+        facets["normal"][part] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+        facets["corners"][part] = np.stack((a, b, c), axis=1)
+    return b"".join((_HEADER, struct.pack("<I", len(facets)), facets.view(np.uint8).data))
 
 
 def bounds(points: Array) -> list[list[float]]:
@@ -65,16 +147,17 @@ def _nearly_extreme(points: Array, directions: Array, size: float) -> list[Array
 
     All points are looked at once, since a large mesh has millions.
     """
-    relative = ((points - points.mean(axis=0)) / (size or 1.0)).astype(np.float32)
+    middle = points.mean(axis=0)
     axes = directions.T.astype(np.float32)
     highest = np.full(len(directions), -np.inf, dtype=np.float32)
     found = []
     for start in range(0, len(points), _CHUNK):
-        heights = relative[start : start + _CHUNK] @ axes
+        part = points[start : start + _CHUNK]
+        heights = ((part - middle) / (size or 1.0)).astype(np.float32) @ axes
         highest = np.maximum(highest, heights.max(axis=0))
         near = heights >= highest - np.float32(_MARGIN)
         if np.count_nonzero(near) > _MANY * len(heights):  # as where many points are one
-            near &= _is_first(points[start : start + _CHUNK])[:, np.newaxis]
+            near &= _is_first(part)[:, np.newaxis]
         rows, columns = np.nonzero(near)
         found.append((columns, rows + start, heights[rows, columns]))
     columns, rows, values = map(np.concatenate, zip(*found, strict=True))
@@ -93,12 +176,15 @@ def _is_first(points: Array) -> npt.NDArray[np.bool_]:
 
 def _corners(tied: Array, direction: Array, size: float) -> Array:
     """Of points in a plane normal to `direction`: those extreme along the other directions, two where these tie too."""
-    if not np.ptp(tied, axis=0).any():
-        return tied[:1]
+    axis = np.ptp(tied, axis=0).argmax()
+    ends = tied[[tied[:, axis].argmin(), tied[:, axis].argmax()]]
+    offsets = np.cross(tied - ends[0], ends[1] - ends[0])
+    if (np.abs(offsets) <= _THIN * size * np.linalg.norm(ends[1] - ends[0])).all():
+        return ends
     along = np.cross(direction, _DIRECTIONS)
     others = np.linalg.norm(along, axis=1) > _MARGIN
     if len(tied) > _CHUNK:
-        tied = np.unique(tied, axis=0)
+        tied = np.unique(np.concatenate(_nearly_extreme(tied, _DIRECTIONS[others], size)), axis=0)
     parts = math.ceil(np.count_nonzero(others) * len(tied) / _PRODUCTS)
     found: list[Array] = []
     for part in np.array_split(np.flatnonzero(others), parts):

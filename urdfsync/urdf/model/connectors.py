@@ -13,6 +13,7 @@ import msgspec
 from urdfsync.urdf.drives import can_be_driven
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import GENERATED, Identifier
+from urdfsync.urdf.options import Options
 
 
 class Connectors(msgspec.Struct, frozen=True):
@@ -28,34 +29,41 @@ class Connectors(msgspec.Struct, frozen=True):
     """Of joints that follow another one."""
 
 
-def connectors(skeleton: KinematicTree, frames: Iterable[str]) -> Connectors:
-    """The names for a robot; `frames` are the links that get a frame of their own."""
-    taken = _taken(skeleton)
-    driven = [joint.name for joint in skeleton.joints if can_be_driven(joint)]
+def connector_names(tree: KinematicTree, options: Options) -> Connectors:
+    """Return the names for a robot, in canonical order.
+
+    Names in the option `frames` that are no link are left out: `check_options` reports them.
+    """
+    taken = _taken(tree)
+    if options.frames == "all":  # with the root, although it has frame_a: a link that becomes the root keeps its frame
+        framed = {link.name for link in tree.links}
+    else:
+        framed = {leaf.name for leaf in tree.leaves()}.union(() if options.frames == "leaves" else options.frames)
+    driven = [joint.name for joint in tree.joints if can_be_driven(joint)]
     return Connectors(
-        {name: _free(skeleton.link(name), "Frame", taken) for name in frames},
-        {name: _free(skeleton.joint(name), "Axis", taken) for name in driven},
-        {name: _free(skeleton.joint(name), "Support", taken) for name in driven},
-        {joint.name: _free(skeleton.joint(joint.name), "Mimic", taken) for joint, _ in skeleton.followers()},
+        {link.name: _free(tree.link(link.name), "Frame", taken) for link in tree.links if link.name in framed},
+        {name: _free(tree.joint(name), "Axis", taken) for name in driven},
+        {name: _free(tree.joint(name), "Support", taken) for name in driven},
+        {joint.name: _free(tree.joint(joint.name), "Mimic", taken) for joint, _ in tree.followers()},
     )
 
 
-def visual_names(skeleton: KinematicTree, visuals: Mapping[str, Iterable[str]]) -> dict[str, tuple[str, ...]]:
-    """Components of the whole-robot record for visuals, by link; `visuals` are `visual1`, `visual2`, … of each link."""
-    taken = _taken(skeleton)
+def visual_names(tree: KinematicTree, visuals: Mapping[str, Iterable[str]]) -> dict[str, list[str]]:
+    """Return components of the whole-robot record, by link; `visuals` has `visual1`, `visual2`, … of each link."""
+    taken = _taken(tree)
     return {
-        link: tuple([_free(skeleton.link(link), word[0].upper() + word[1:], taken) for word in words])
+        link: [_free(tree.link(link), word[0].upper() + word[1:], taken) for word in words]
         for link, words in visuals.items()
     }
 
 
-def _taken(skeleton: KinematicTree) -> frozenset[str]:
-    """Names that are not to be had, in lower case."""
-    return GENERATED | {identifier.component.lower() for identifier in skeleton.names.values()}
+def _taken(tree: KinematicTree) -> frozenset[str]:
+    """Return the names that are not to be had, in lower case."""
+    return GENERATED | {identifier.component.lower() for identifier in tree.names.values()}
 
 
 def _free(identifier: Identifier, suffix: str, taken: frozenset[str]) -> str:
-    """The component's name with a suffix, and with the first free number from 2 if that is taken."""
+    """Return the component's name with a suffix, and with the first free number from 2 if that is taken."""
     name, number = identifier.component + suffix, 2
     while name.lower() in taken:
         name, number = f"{identifier.component}{suffix}_{number}", number + 1

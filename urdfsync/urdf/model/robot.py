@@ -1,227 +1,138 @@
-"""Template data of the robot model, `<Robot>.mo`: connectors, parts and connections, and their places."""
+"""Template data of `<Robot>.mo`, `<Robot>Run.mo` and `<Robot>Test.mo`: their parts, connections, and places.
+
+They depend on the structure of the robot alone, on no number of the URDF.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
 from typing import Any
 
-import msgspec
-
 from urdfsync.domain import Target
-from urdfsync.urdf.diagram import layout
-from urdfsync.urdf.frames import frame_links
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
+from urdfsync.urdf.diagram.layout import layout
+from urdfsync.urdf.drives import driven_joints
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model import notes
-from urdfsync.urdf.model.connectors import Connectors, connectors
+from urdfsync.urdf.model.connectors import Connectors, connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint, JointType
+from urdfsync.urdf.robot import MOTION_KINDS
 
-ROW = 20
-"""Height of a row of connectors on the icon: an axis, and its support 10 below."""
+_ROW = 20  # height of a row of connectors on the icon: an axis, and its support 10 below
 _PICTURE = 100  # where the picture on the icon ends, and the rows begin
+_FRAME_Y = -50  # where the benches of the library have the frame that the robot is connected to
 
 
-class Frame(msgspec.Struct, frozen=True):
-    """A frame connector of a link; `y` is its height on the icon."""
-
-    connector: str
-    link: str
-    name: str
-    y: int
-
-
-class Drive(msgspec.Struct, frozen=True):
-    """The connectors of a joint that can be driven; `y` is the height of the axis on the icon."""
-
-    joint: str
-    name: str
-    motion: Motion
-    axis: str
-    support: str
-    y: int
-
-
-class Part(msgspec.Struct, frozen=True):
-    """A link."""
-
-    component: str
-    type: str
-    name: str
-
-
-class Following(msgspec.Struct, frozen=True):
-    """How a joint follows another one, by the names of components; without a `leader`, it is held."""
-
-    coupling: str
-    leader: str | None
-    leader_motion: Motion | None
-
-
-class JointPart(msgspec.Struct, frozen=True):
-    """A joint; `axis` is its connector, if it can be driven, `followers` are the couplings of joints that follow it."""
-
-    component: str
-    type: str
-    kind: JointType
-    title: str
-    axis: str | None
-    follows: Following | None
-    followers: tuple[str, ...]
-
-
-class Coupling(msgspec.Struct, frozen=True):
-    """A mimic coupling, by the names of components; without a `leader` it holds its follower by itself."""
-
-    component: str
-    leader: str | None
-    leader_motion: Motion | None
-    follower: str
-    follower_motion: Motion
-    name: str
-    leader_name: str
-
-
-class Line(msgspec.Struct, frozen=True):
-    """A connection in the robot's diagram."""
-
-    start: str
-    end: str
-    kind: layout.LineKind
-    points: str
-
-
-def robot_data(skeleton: KinematicTree, target: Target, options: Options) -> dict[str, Any]:
-    """Data of the robot model. It depends on the structure of the robot alone, on no number of the URDF."""
-    names = connector_names(skeleton, options)
-    frames, drives = _frames(skeleton, names), drive_rows(skeleton, names)
-    diagram = layout.layout(tree(skeleton, names))
+def robot_data(tree: KinematicTree, target: Target, options: Options) -> dict[str, Any]:
+    """Return the data of the robot model."""
+    names = connector_names(tree, options)
+    top = _icon_top(names)
+    kinds = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
+    followers = tree.followers_by_leader()
+    joints, couplings = [], []
+    for joint in tree.joints:
+        identifier, follows = tree.joint(joint.name), None
+        if joint.mimic is not None and kinds[joint.name]:
+            # A leader that does not move holds its follower, which then has none in the model.
+            motion = kinds[joint.mimic.joint]
+            leader = tree.joint(joint.mimic.joint).component if motion else None
+            follows = {"leader": leader, "leader_motion": motion}
+            coupling = {
+                "component": names.couplings[joint.name],
+                "follower": identifier.component,
+                "follower_motion": kinds[joint.name],
+                "name": joint.name,
+                "leader_name": joint.mimic.joint,
+            }
+            couplings.append(follows | coupling)
+        part = {
+            "component": identifier.component,
+            "type": identifier.type,
+            "kind": joint.type,
+            "title": notes.joint_title(joint),
+            "axis": names.axes.get(joint.name),
+            "follows": follows,
+            "followers": [
+                names.couplings[follower.name]
+                for follower, _ in followers.get(joint.name, ())
+                if kinds[joint.name] is not None
+            ],
+        }
+        joints.append(part)
+    diagram = layout(tree, names)
     return {
         "within": target.package,
         "type": target.name,
         "title": f"robot {target.name}",
-        "note": notes.robot_note(target.name),
         "base": options.base,
-        "frames": frames,
-        "drives": drives,
-        "links": [
-            Part(skeleton.link(link.name).component, skeleton.link(link.name).type, link.name)
-            for link in skeleton.links
+        "frames": [
+            {"connector": connector, "link": tree.link(name).component, "name": name, "y": top - 10 - _ROW * row}
+            for row, (name, connector) in enumerate(names.frames.items())
         ],
-        "joints": _joints(skeleton, names),
-        "couplings": couplings(skeleton, names),
-        "top": icon_top(names),
+        "drives": _drives(tree, names),
+        "links": [
+            {"component": tree.link(link.name).component, "type": tree.link(link.name).type, "name": link.name}
+            for link in tree.links
+        ],
+        "joints": joints,
+        "couplings": couplings,
+        "top": top,
         "extent": _extent(diagram.extent),
         "diagram": {name: _extent((box.x1, box.y1, box.x2, box.y2)) for name, box in diagram.placements.items()},
         "lines": [
-            Line(start, end, diagram.kinds[start, end], ", ".join([f"{{{x}, {y}}}" for x, y in points]))
-            for (start, end), points in diagram.lines.items()
+            {"start": start, "end": end, "kind": kind, "points": ", ".join([f"{{{x}, {y}}}" for x, y in points])}
+            for (start, end), (kind, points) in diagram.lines.items()
         ],
     }
 
 
-def connector_names(skeleton: KinematicTree, options: Options) -> Connectors:
-    """The names of a robot's connectors."""
-    return connectors(skeleton, (link.name for link in frame_links(skeleton, options)))
+def bench_data(tree: KinematicTree, target: Target, options: Options) -> dict[str, Any]:
+    """Return the data of Run and Test.
+
+    The robot's icon has one and a half times its size in the diagram, so that its rows are 30 apart, and a drive of
+    20 has its place beside each.
+    """
+    names = connector_names(tree, options)
+    top = _icon_top(names)
+    rows, driven = _drives(tree, names), driven_joints(tree.joints, options)
+    return {
+        "within": target.package,
+        "type": target.name,
+        "title": f"robot {target.name}",
+        "base": options.base,
+        "visualizer": options.visualizer,
+        "drives": [
+            row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["name"] in driven
+        ],
+        "passive": [row["joint"] for row in rows if row["name"] not in driven],
+        "inputs": options.inputs,
+        "bottom": _FRAME_Y - 150,
+        "top": _FRAME_Y + top * 3 // 2,
+        "icon_top": top,
+    }
 
 
-def drive_rows(skeleton: KinematicTree, names: Connectors) -> list[Drive]:
-    """The joints that can be driven, from top to bottom of the icon."""
-    joints = [joint for joint in skeleton.joints if joint.name in names.axes]
-    top = icon_top(names)
+def _drives(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
+    """Return the joints that can be driven, from top to bottom of the icon; `y` is the height of the axis there."""
+    top = _icon_top(names)
+    joints = [joint for joint in tree.joints if joint.name in names.axes]
     return [
-        Drive(
-            skeleton.joint(joint.name).component,
-            joint.name,
-            MOTION_KINDS[joint.type],
-            names.axes[joint.name],
-            names.supports[joint.name],
-            top - 10 - ROW * row,
-        )
+        {
+            "joint": tree.joint(joint.name).component,
+            "name": joint.name,
+            "motion": MOTION_KINDS[joint.type],
+            "axis": names.axes[joint.name],
+            "support": names.supports[joint.name],
+            "y": top - 10 - _ROW * row,
+        }
         for row, joint in enumerate(joints)
     ]
 
 
-def icon_top(names: Connectors) -> int:
-    """Where the icon ends above: over the picture there is a row for each connector at one side."""
+def _icon_top(names: Connectors) -> int:
+    """Return where the icon ends above: over the picture there is a row for each connector at one side."""
     rows = max(len(names.frames), len(names.axes))
-    return _PICTURE + ROW * rows + 10 if rows else _PICTURE
+    return _PICTURE + _ROW * rows + 10 if rows else _PICTURE
 
 
-def couplings(skeleton: KinematicTree, names: Connectors) -> list[Coupling]:
-    """One entry per joint that follows another one."""
-    types = {joint.name: joint.type for joint in skeleton.joints}
-    result = []
-    for joint, mimic in skeleton.followers():
-        motion = MOTION_KINDS.get(types[mimic.joint])
-        leader = skeleton.joint(mimic.joint).component if motion else None
-        follower = skeleton.joint(joint.name).component
-        coupling = names.couplings[joint.name]
-        result.append(Coupling(coupling, leader, motion, follower, MOTION_KINDS[joint.type], joint.name, mimic.joint))
-    return result
-
-
-def tree(skeleton: KinematicTree, names: Connectors) -> layout.Tree:
-    """What the robot's diagram shows."""
-    children = {
-        skeleton.link(link).component: [
-            layout.TreeJoint(
-                skeleton.joint(joint.name).component,
-                skeleton.link(joint.child).component,
-                MOTION_KINDS.get(joint.type) or ("fixed" if joint.type == "fixed" else "free"),
-                names.axes.get(joint.name),
-                names.supports.get(joint.name),
-            )
-            for joint in joints
-        ]
-        for link, joints in skeleton.children().items()
-    }
-    return layout.Tree(
-        root=skeleton.link(skeleton.links[0].name).component,
-        children=children,
-        frames={skeleton.link(link).component: name for link, name in names.frames.items()},
-        couplings=[layout.TreeCoupling(c.component, c.leader, c.follower) for c in couplings(skeleton, names)],
-    )
-
-
-def _frames(skeleton: KinematicTree, names: Connectors) -> list[Frame]:
-    top = icon_top(names)
-    return [
-        Frame(connector, skeleton.link(name).component, name, top - 10 - ROW * row)
-        for row, (name, connector) in enumerate(names.frames.items())
-    ]
-
-
-def _joints(skeleton: KinematicTree, names: Connectors) -> list[JointPart]:
-    followers = skeleton.followers_by_leader()
-    types = {joint.name: joint.type for joint in skeleton.joints}
-    return [
-        JointPart(
-            skeleton.joint(joint.name).component,
-            skeleton.joint(joint.name).type,
-            joint.type,
-            notes.joint_title(joint),
-            names.axes.get(joint.name),
-            _following(skeleton, joint, types, names),
-            tuple(
-                names.couplings[follower.name]
-                for follower, _ in followers.get(joint.name, ())
-                if joint.type in MOTION_KINDS
-            ),
-        )
-        for joint in skeleton.joints
-    ]
-
-
-def _following(
-    skeleton: KinematicTree, joint: Joint, types: Mapping[str, JointType], names: Connectors
-) -> Following | None:
-    if joint.mimic is None or joint.type not in MOTION_KINDS:
-        return None
-    motion = MOTION_KINDS.get(types[joint.mimic.joint])
-    leader = skeleton.joint(joint.mimic.joint).component if motion else None
-    return Following(names.couplings[joint.name], leader, motion)
-
-
-def _extent(box: Iterable[int]) -> str:
+def _extent(box: tuple[int, int, int, int]) -> str:
     x1, y1, x2, y2 = box
     return f"{{{{{x1}, {y1}}}, {{{x2}, {y2}}}}}"

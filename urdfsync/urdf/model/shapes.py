@@ -1,190 +1,129 @@
-"""Visuals and collisions of a link as the templates need them."""
+"""Visuals and collisions of a link as the templates need them, and how high a robot stands on its collisions."""
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import TypeAlias, TypeVar
-
-import msgspec
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from urdfsync.domain import Import
-from urdfsync.urdf.meshes import lookup as mesh_lookup
+from urdfsync.urdf.kinematics.poses import compose, dot, link_poses, pose, start_positions
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import (
-    Collision,
-    Geometry,
-    Link,
-    Material,
-    Mesh,
-    Origin,
-    Visual,
-)
+from urdfsync.urdf.robot import Box, Capsule, Collision, Cylinder, Geometry, Link, Mesh, Sphere, Visual
 
 GREY = (180, 180, 180)
 PINK = (255, 105, 180)
 _ROW = 30  # distance of the shapes in the link's diagram
-_Shape = TypeVar("_Shape", Visual, Collision)
+_IN_MODEL = ("component", "type", "label", "is_collision", "y")
 
 
-class Look(msgspec.Struct, frozen=True):
-    """What of a shape a model can say: nothing that is a number or a name in the URDF."""
-
-    component: str
-    type: str
-    label: str
-    is_collision: bool
-    y: int
-    touches: bool
-    """Whether it has a ground contact."""
-
-
-class Numbers(msgspec.Struct, frozen=True):
-    """What of a shape a record can say."""
-
-    component: str
-    type: str
-    title: str
-    origin: Origin
-    geometry: Geometry
-    uri: str
-    """Where a mesh is; empty for all other shapes."""
-    bounds: Sequence[Sequence[float]]
-    """Lower and upper corner of a mesh, in metres; empty for all other shapes."""
-    color: tuple[int, ...]
-    opacity: float
-    hull: Sequence[Sequence[float]]
-
-
-class Contact(msgspec.Struct, frozen=True):
-    """A ground contact, of the collision shape that `record` is the record of."""
-
-    component: str
-    type: str
-    record: str
-    y: int
-
-
-Looks: TypeAlias = tuple[tuple[Look, ...], tuple[Look, ...]]
-"""Visuals and collisions."""
-
-
-def looks(link: Link, imports: Mapping[str, Import], options: Options) -> Looks:
-    """A link's visuals and collisions for its model; a shape whose mesh was never found is left out.
-
-    Shapes are numbered as in the URDF, so that the others keep their names when a mesh is found later.
-    """
-    visuals = _found(link.visuals, imports)
-    collisions = _found(link.collisions, imports) if options.collisions else ()
-    return (
-        tuple(
-            _look("visual", number, row, type(shape.geometry).__name__, touches=False)
-            for row, (number, shape) in enumerate(visuals, 1)
-        ),
-        tuple(
-            _look("collision", number, -row, type(shape.geometry).__name__, touches=_touches(shape, imports, options))
-            for row, (number, shape) in enumerate(collisions, 1)
-        ),
-    )
-
-
-@functools.lru_cache(maxsize=256)  # the shapes of one link look like those of the others
-def _look(word: str, number: int, row: int, kind: str, *, touches: bool) -> Look:
-    """The look of a shape; `row` counts upwards from the body in the link's diagram."""
-    return Look(f"{word}{number}", kind, f"{word.capitalize()} {number}", word == "collision", row * _ROW, touches)
-
-
-def numbers(
+def link_shapes(
     link: Link, imports: Mapping[str, Import], package: str, options: Options
-) -> tuple[list[Numbers], list[Numbers]]:
-    """A link's visuals and collisions for its record; the same ones as in its model."""
-    visuals = [
-        _shape_numbers("visual", number, shape, _mesh(shape.geometry, imports, package), *_color(shape.material))
-        for number, shape in _found(link.visuals, imports)
-    ]
-    collisions = [
-        _shape_numbers(
-            "collision",
-            number,
-            shape,
-            _mesh(shape.geometry, imports, package),
-            PINK,
-            0.5,
-            hull(shape.geometry, imports) if options.base == "floating" else (),
-        )
-        for number, shape in (_found(link.collisions, imports) if options.collisions else ())
-    ]
+) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """Return a link's visuals and collisions, each with all that models and records say of it.
+
+    A shape whose mesh was never found is left out. Shapes are numbered as in the URDF, so that the others keep their
+    names when a mesh is found later.
+    """
+    visuals: list[dict[str, Any]] = []
+    for number, visual in _with_numbers(link.visuals, imports):
+        shape = _shape("visual", number, visual, imports, package)
+        shape["y"] = _ROW * (len(visuals) + 1)
+        shape["color"], shape["opacity"] = GREY, 1.0
+        if visual.material is not None and visual.material.rgba is not None:
+            *rgb, alpha = (min(max(part, 0.0), 1.0) for part in visual.material.rgba)
+            shape["color"], shape["opacity"] = tuple(round(255 * part) for part in rgb), alpha
+        visuals.append(shape)
+    collisions: list[dict[str, Any]] = []
+    for number, collision in _with_numbers(link.collisions, imports) if options.collisions else ():
+        shape = _shape("collision", number, collision, imports, package)
+        shape |= {"y": -_ROW * (len(collisions) + 1), "is_collision": True, "color": PINK, "opacity": 0.5}
+        if options.base == "floating":
+            shape["hull"] = hull(collision.geometry, imports)
+            shape["touches"] = not isinstance(collision.geometry, Mesh) or bool(shape["hull"])
+        collisions.append(shape)
     return visuals, collisions
 
 
-def _shape_numbers(
-    word: str,
-    number: int,
-    shape: Visual | Collision,
-    mesh: tuple[str, Sequence[Sequence[float]]],
-    color: tuple[int, ...],
-    opacity: float,
-    points: Sequence[Sequence[float]] = (),
-) -> Numbers:
-    title = f"{word.capitalize()} {number}" + (f': "{shape.name}"' if shape.name else "")
-    kind = type(shape.geometry).__name__
-    return Numbers(f"{word}{number}", kind, title, shape.origin, shape.geometry, *mesh, color, opacity, points)
+def structure(shapes: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Return what a model says of shapes: no number and no name of the URDF."""
+    return [{key: shape[key] for key in _IN_MODEL} for shape in shapes]
 
 
-def contacts(collisions: Iterable[Look]) -> list[Contact]:
-    """The ground contacts of a link: one per collision shape, a mesh by its outermost points.
+def contacts(collisions: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Return the ground contacts of a link, of the collision shapes that `record` names.
 
-    A mesh without any has none.
+    A mesh touches with its outermost points; one without any has no contact.
     """
     return [
-        Contact(
-            shape.component.replace("collision", "contact"),
-            "Points" if shape.type == "Mesh" else shape.type,
-            shape.component,
-            shape.y,
-        )
+        {
+            "component": shape["component"].replace("collision", "contact"),
+            "type": "Points" if shape["type"] == "Mesh" else shape["type"],
+            "record": shape["component"],
+            "y": shape["y"],
+        }
         for shape in collisions
-        if shape.touches
+        if shape["touches"]
     ]
 
 
-def meshes(shapes: Iterable[Visual | Collision], imports: Mapping[str, Import]) -> Mapping[str, Import]:
-    """The imported meshes of some shapes."""
-    if not imports:
-        return imports
-    keys = (mesh_lookup.key(shape.geometry) for shape in shapes if isinstance(shape.geometry, Mesh))
-    return {key: imports[key] for key in keys if key in imports}
-
-
-def _found(shapes: Sequence[_Shape], imports: Mapping[str, Import]) -> Iterator[tuple[int, _Shape]]:
-    """The shapes that can be shown, with their numbers."""
-    for number, shape in enumerate(shapes, 1):
-        if not isinstance(shape.geometry, Mesh) or mesh_lookup.key(shape.geometry) in imports:
-            yield number, shape
-
-
-def _touches(shape: Collision, imports: Mapping[str, Import], options: Options) -> bool:
-    return options.base == "floating" and (not isinstance(shape.geometry, Mesh) or bool(hull(shape.geometry, imports)))
-
-
 def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence[float]]:
-    """Outermost points of an imported mesh, in metres; empty for all other shapes."""
-    if not isinstance(geometry, Mesh):
-        return ()
-    found = imports.get(mesh_lookup.key(geometry))
+    """Return the outermost points of an imported mesh, in metres; nothing for all other shapes."""
+    found = imports.get(lookup.key(geometry)) if isinstance(geometry, Mesh) else None
     return found.facts["hull"] if found else ()
 
 
-def _mesh(geometry: Geometry, imports: Mapping[str, Import], package: str) -> tuple[str, Sequence[Sequence[float]]]:
-    """Address and bounds of an imported mesh; both empty for all other shapes."""
-    if not isinstance(geometry, Mesh):
-        return "", ()
-    found = imports[mesh_lookup.key(geometry)]
-    return f"modelica://{package}/{found.target}", found.facts["bounds"]
+def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float | None:
+    """Return the height of the root frame when the lowest collision shape just touches the ground.
+
+    A mesh touches with its outermost points. None if there is no shape, or its place is beyond all numbers.
+    """
+    poses = link_poses(tree, start_positions(tree))
+    heights = []
+    for link in tree.links:
+        for shape in link.collisions:
+            (_, _, up), (_, _, height) = compose(poses[link.name], pose(shape.origin))
+            match shape.geometry:
+                case Box(size=size):
+                    heights.append(height - sum(abs(a) * edge / 2 for a, edge in zip(up, size, strict=True)))
+                case Sphere(radius=radius):
+                    heights.append(height - radius)
+                case Capsule(radius=radius, length=length):
+                    heights.append(height - abs(up[2]) * length / 2 - radius)
+                case Cylinder(radius=radius, length=length):
+                    heights.append(height - abs(up[2]) * length / 2 - radius * math.hypot(up[0], up[1]))
+                case mesh:
+                    heights += [height + dot(up, point) for point in hull(mesh, imports)]
+    lowest = min(filter(math.isfinite, heights), default=None)
+    return None if lowest is None else round(-lowest, 12)
 
 
-def _color(material: Material | None) -> tuple[tuple[int, ...], float]:
-    if material is None or material.rgba is None:
-        return GREY, 1.0
-    *rgb, alpha = (min(max(part, 0.0), 1.0) for part in material.rgba)
-    return tuple(round(255 * part) for part in rgb), alpha
+def _with_numbers(shapes: Sequence[Visual | Collision], imports: Mapping[str, Import]) -> list[tuple[int, Any]]:
+    """Return the shapes that can be shown, with their numbers from 1."""
+    return [
+        (number, shape)
+        for number, shape in enumerate(shapes, 1)
+        if not isinstance(shape.geometry, Mesh) or lookup.key(shape.geometry) in imports
+    ]
+
+
+def _shape(
+    word: str, number: int, shape: Visual | Collision, imports: Mapping[str, Import], package: str
+) -> dict[str, Any]:
+    label = f"{word.capitalize()} {number}"
+    found = imports[lookup.key(shape.geometry)] if isinstance(shape.geometry, Mesh) else None
+    return {
+        "component": f"{word}{number}",
+        "type": type(shape.geometry).__name__,
+        "label": label,
+        "title": f'{label}: "{shape.name}"' if shape.name else label,
+        "is_collision": False,
+        "touches": False,
+        "origin": shape.origin,
+        "geometry": shape.geometry,
+        "uri": f"modelica://{package}/{found.target}" if found else "",
+        "bounds": found.facts["bounds"] if found else (),
+        "hull": (),
+    }

@@ -9,89 +9,67 @@ that refer to the numbers of links and joints are written out in the template.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 
 import msgspec
 
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
-from urdfsync.urdf.robot import Joint
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Motion
 
 _TURNS: Mapping[Motion, int] = {"rotational": 1, "translational": 2}
 
 
-class Structure(msgspec.Struct, frozen=True):
+class Tables(msgspec.Struct, frozen=True):
     """The integer tables, as `UrdfSync.Records.Robot` describes them."""
 
-    link_bodies: tuple[int, ...]
+    link_bodies: list[int]
     """Per link: its body."""
-    joint_tree: tuple[tuple[int, int], ...]
+    joint_tree: list[tuple[int, int]]
     """Per moving joint: the body that carries it, and 1 if it turns or 2 if it slides."""
-    first_joints: tuple[int, ...]
+    first_joints: list[int]
     """Per body: the first joint that it carries; the number of joints + 1 if there is none."""
-    next_joints: tuple[int, ...]
+    next_joints: list[int]
     """Per moving joint: the next one on the same body; the number of joints + 1 if there is none."""
-    moving: Mapping[Motion, tuple[int, ...]]
+    moving: Mapping[Motion, list[int]]
     """The moving joints of each kind."""
-    axes: Mapping[Motion, tuple[int, ...]]
+    axes: Mapping[Motion, list[int]]
     """Per driven axis of each kind: its moving joint."""
-    followers: tuple[tuple[int, int], ...]
+    followers: list[tuple[int, int]]
     """Per joint that follows another one, leaders first: its number and that of its leader, 0 if that does not move."""
 
 
-def obstacles(joints: Iterable[Joint]) -> Iterator[Joint]:
-    """The joints for which the generic robot has no place: planar and floating ones."""
-    return (joint for joint in joints if joint.type not in MOTION_KINDS and joint.type != "fixed")
+def obstacles(joints: Iterable[Joint]) -> list[Joint]:
+    """Return the joints for which the generic robot has no place: planar and floating ones."""
+    return [joint for joint in joints if joint.type not in MOTION_KINDS and joint.type != "fixed"]
 
 
 def has_tables(joints: Iterable[Joint]) -> bool:
-    """Whether the generic robot can take a robot with these joints: none is planar or floating."""
-    return not any(obstacles(joints))
+    """Return whether the generic robot can take a robot with these joints: none is planar or floating."""
+    return not obstacles(joints)
 
 
-def structure(skeleton: KinematicTree) -> Structure:
-    """The integer tables of a robot that has some (see `has_tables`)."""
-    moving = moving_joints(skeleton)
+def tables(tree: KinematicTree) -> Tables:
+    """Return the integer tables of a robot that has some (see `has_tables`)."""
+    moving = [joint for joint in tree.joints if joint.type in MOTION_KINDS]
     numbers = {joint.name: number for number, joint in enumerate(moving, 1)}
-    bodies = {skeleton.links[0].name: 1}
-    for joint in skeleton.joints:
+    bodies = {tree.links[0].name: 1}
+    for joint in tree.joints:
         bodies[joint.child] = numbers[joint.name] + 1 if joint.name in numbers else bodies[joint.parent]
-    carriers = [bodies[joint.parent] for joint in moving]
-    first, following = _carried(carriers)
-    return Structure(
-        link_bodies=tuple(bodies[link.name] for link in skeleton.links),
-        joint_tree=tuple(
-            (body, _TURNS[MOTION_KINDS[joint.type]]) for body, joint in zip(carriers, moving, strict=True)
-        ),
+    none = len(moving) + 1
+    first, following = [none] * none, [none] * len(moving)
+    for joint in reversed(moving):
+        number, body = numbers[joint.name], bodies[joint.parent]
+        following[number - 1], first[body - 1] = first[body - 1], number
+    return Tables(
+        link_bodies=[bodies[link.name] for link in tree.links],
+        joint_tree=[(bodies[joint.parent], _TURNS[MOTION_KINDS[joint.type]]) for joint in moving],
         first_joints=first,
         next_joints=following,
-        moving={
-            motion: tuple(numbers[joint.name] for joint in moving if MOTION_KINDS[joint.type] == motion)
-            for motion in _TURNS
-        },
-        axes={motion: tuple(numbers[joint.name] for joint in skeleton.axes(motion)) for motion in _TURNS},
-        followers=tuple(
+        moving={kind: [numbers[j.name] for j in moving if MOTION_KINDS[j.type] == kind] for kind in _TURNS},
+        axes={kind: [numbers[joint.name] for joint in tree.axes(kind)] for kind in _TURNS},
+        followers=[
             (numbers[joint.name], numbers.get(joint.mimic.joint, 0))
-            for joint in following_joints(skeleton)
-            if joint.mimic
-        ),
+            for joint in tree.leaders_first()
+            if joint.type in MOTION_KINDS and joint.mimic
+        ],
     )
-
-
-def following_joints(skeleton: KinematicTree) -> list[Joint]:
-    """The moving joints that follow others, leaders first."""
-    return [joint for joint in skeleton.leaders_first() if joint.type in MOTION_KINDS and joint.mimic is not None]
-
-
-def moving_joints(skeleton: KinematicTree) -> list[Joint]:
-    """The joints that turn or slide, in canonical order."""
-    return [joint for joint in skeleton.joints if joint.type in MOTION_KINDS]
-
-
-def _carried(carriers: Sequence[int]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Per body its first joint, and per joint the next one of the same body; `carriers` has the body of each joint."""
-    none = len(carriers) + 1
-    first, following = [none] * none, [none] * len(carriers)
-    for number in range(len(carriers), 0, -1):
-        body = carriers[number - 1]
-        following[number - 1], first[body - 1] = first[body - 1], number
-    return tuple(first), tuple(following)

@@ -10,7 +10,7 @@ import functools
 import math
 import re
 from collections.abc import Collection, Iterable, Iterator
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -20,6 +20,7 @@ from urdfsync.urdf.robot import Extension, Vector
 from urdfsync.urdf.validate import Finding, nearest
 
 Missing = TypeVar("Missing", float, None)
+Numbers = TypeVar("Numbers", bound=msgspec.Struct)
 
 _DECIMAL = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _BLANKS = re.compile(r"[ \t\r\n\f\v]+")
@@ -71,25 +72,18 @@ class Findings:
     def result(self) -> tuple[Diagnostic, ...]:
         """Return all diagnostics by line; more than three warnings of one code become one."""
         by_code: dict[tuple[Severity, str], list[Diagnostic]] = {}
-        for diagnostic in sorted(self._diagnostics, key=_place):
+        for diagnostic in sorted(self._diagnostics, key=lambda found: (found.line, found.column)):
             by_code.setdefault((diagnostic.severity, diagnostic.code), []).append(diagnostic)
         shown: list[Diagnostic] = []
         for (severity, _), group in by_code.items():
-            alone = severity is Severity.ERROR or len(group) <= _SHOWN_ALONE
-            shown += group if alone else [_merge(group)]
-        return tuple(sorted(shown, key=_place))
-
-
-def _place(diagnostic: Diagnostic) -> tuple[int, int]:
-    return diagnostic.line, diagnostic.column
-
-
-def _merge(group: list[Diagnostic]) -> Diagnostic:
-    """Return the first diagnostic, with the lines of the others in its message."""
-    lines = list(dict.fromkeys(str(diagnostic.line) for diagnostic in group[1:]))
-    shown = ", ".join(lines[:_LINES_SHOWN]) + (", …" if len(lines) > _LINES_SHOWN else "")
-    message = f"{group[0].message} (and {len(group) - 1} more like it: line{'s' * (len(lines) > 1)} {shown})"
-    return msgspec.structs.replace(group[0], message=message)
+            if severity is Severity.ERROR or len(group) <= _SHOWN_ALONE:
+                shown += group
+                continue
+            lines = list(dict.fromkeys(str(diagnostic.line) for diagnostic in group[1:]))
+            listed = ", ".join(lines[:_LINES_SHOWN]) + (", …" if len(lines) > _LINES_SHOWN else "")
+            more = f"(and {len(group) - 1} more like it: line{'s' * (len(lines) > 1)} {listed})"
+            shown.append(msgspec.structs.replace(group[0], message=f"{group[0].message} {more}"))
+        return tuple(sorted(shown, key=lambda found: (found.line, found.column)))
 
 
 class Element(msgspec.Struct, frozen=True, eq=False, gc=False):
@@ -155,6 +149,11 @@ class Element(msgspec.Struct, frozen=True, eq=False, gc=False):
         """Return a number, or `missing` if the attribute is absent."""
         values = self._numbers(name, 1)
         return missing if values is None else values[0]
+
+    def numbers(self, kind: type[Numbers]) -> Numbers:
+        """Return a struct of numbers; its fields have the names of the attributes, and their defaults."""
+        defaults: tuple[Any, ...] = kind.__struct_defaults__
+        return kind(*map(self.number, kind.__struct_fields__, defaults))
 
     def vector(self, name: str, missing: Vector) -> Vector:
         """Return three numbers, or `missing` if the attribute is absent."""

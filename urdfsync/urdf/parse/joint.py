@@ -11,7 +11,6 @@ from typing import get_args
 
 from urdfsync.urdf.parse.fields import Element
 from urdfsync.urdf.parse.link import read_origin
-from urdfsync.urdf.parse.xml import Node
 from urdfsync.urdf.robot import (
     Calibration,
     Dynamics,
@@ -25,8 +24,7 @@ from urdfsync.urdf.robot import (
 from urdfsync.urdf.validate import LIMITED, SCALAR, nearest
 
 _TYPES: tuple[JointType, ...] = get_args(JointType)
-_PARTS = ("parent", "child", "origin", "axis", "limit", "dynamics", "mimic", "calibration", "safety_controller")
-_SAFETY = ("k_velocity", "k_position", "soft_lower_limit", "soft_upper_limit")
+_PARTS = [name for name in Joint.__struct_fields__ if name not in ("name", "type", "actuated")]
 _X = (1.0, 0.0, 0.0)
 
 
@@ -43,8 +41,11 @@ def read_joint(element: Element, extensions: list[Extension]) -> Joint | None:
         return None
     if kind is None:
         return Joint(name, "fixed", parent, child)
-    axis, dynamics = element.child("axis", "xyz"), element.child("dynamics", "damping", "friction")
-    calibration = element.child("calibration", "rising", "falling")
+    axis, dynamics = element.child("axis", "xyz"), element.child("dynamics", *Dynamics.__struct_fields__)
+    calibration = element.child("calibration", *Calibration.__struct_fields__)
+    safety = element.child("safety_controller", *SafetyController.__struct_fields__)
+    if safety and "k_velocity" not in safety.node.attributes:
+        safety.warn("missing-gain", f"{safety.path} has no 'k_velocity', taken as 0", "add k_velocity=…")
     return Joint(
         name=name,
         type=kind,
@@ -53,12 +54,10 @@ def read_joint(element: Element, extensions: list[Extension]) -> Joint | None:
         origin=read_origin(element),
         axis=axis.vector("xyz", _X) if axis else _X,
         limit=_read_limit(element, kind),
-        dynamics=Dynamics(dynamics.number("damping", 0.0), dynamics.number("friction", 0.0)) if dynamics else None,
+        dynamics=dynamics.numbers(Dynamics) if dynamics else None,
         mimic=_read_mimic(element),
-        calibration=Calibration(calibration.number("rising", None), calibration.number("falling", None))
-        if calibration
-        else None,
-        safety_controller=_read_safety_controller(element),
+        calibration=calibration.numbers(Calibration) if calibration else None,
+        safety_controller=safety.numbers(SafetyController) if safety else None,
     )
 
 
@@ -84,7 +83,7 @@ def _read_end(element: Element, tag: str) -> str:
 
 def _read_limit(joint: Element, kind: JointType) -> Limit | None:
     """Read the limits; what is absent is 0 for a position, and no limit for effort and velocity."""
-    element = joint.child("limit", "lower", "upper", "effort", "velocity")
+    element = joint.child("limit", *Limit.__struct_fields__)
     if element is None:
         if kind in LIMITED:
             message = f"{joint.path} is {kind} but has no <limit>: it moves without limits"
@@ -98,12 +97,7 @@ def _read_limit(joint: Element, kind: JointType) -> Limit | None:
         absent += [f"{' and '.join(unlimited)}, taken as unlimited"] if unlimited else []
         hint = "add what is missing, or make a joint that turns freely continuous"
         element.warn("missing-limit-value", f"{element.path} has no {'; no '.join(absent)}", hint)
-    return Limit(
-        element.number("lower", 0.0),
-        element.number("upper", 0.0),
-        element.number("effort", None),
-        element.number("velocity", None),
-    )
+    return element.numbers(Limit)
 
 
 def _read_mimic(joint: Element) -> Mimic | None:
@@ -115,31 +109,19 @@ def _read_mimic(joint: Element) -> Mimic | None:
     return Mimic(leader, multiplier, offset) if leader else None
 
 
-def _read_safety_controller(joint: Element) -> SafetyController | None:
-    """Read soft limits and gains, each 0 if absent; URDF requires the gain of the velocity."""
-    element = joint.child("safety_controller", *_SAFETY)
-    if element is None:
-        return None
-    if "k_velocity" not in element.node.attributes:
-        element.warn("missing-gain", f"{element.path} has no 'k_velocity', taken as 0", "add k_velocity=…")
-    return SafetyController(*(element.number(name, 0.0) for name in _SAFETY))
-
-
 def read_actuated(element: Element) -> Iterator[tuple[str, str]]:
     """Yield path and name of each joint that a `<transmission>` or `<ros2_control>` drives.
 
     An example of a path: `transmission wheel_trans / joint wheel`.
     """
-    for node in _driven_joints(element.node):
-        if name := node.attributes.get("name", ""):
-            yield Element(node, f"{element.path} / joint {name}", element.findings).path, name
-
-
-def _driven_joints(node: Node) -> Iterator[Node]:
-    for child in node.children:
-        if child.tag == "transmission" and node.tag == "ros2_control":
-            yield from _driven_joints(child)
-        elif child.tag == "joint" and (
-            node.tag == "transmission" or any(part.tag == "command_interface" for part in child.children)
-        ):
-            yield child
+    is_control = element.node.tag == "ros2_control"
+    for node in element.node.children:
+        if node.tag == "transmission" and is_control:
+            driven = [child for child in node.children if child.tag == "joint"]
+        elif node.tag == "joint" and (not is_control or any(part.tag == "command_interface" for part in node.children)):
+            driven = [node]
+        else:
+            continue
+        for joint in driven:
+            if name := joint.attributes.get("name", ""):
+                yield Element(joint, f"{element.path} / joint {name}", element.findings).path, name

@@ -24,8 +24,13 @@ from urdfsync.urdf.robot import (
     Visual,
 )
 
-_SHAPES = ("box", "cylinder", "capsule", "sphere", "mesh")
-_COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_SHAPES: Mapping[str, type[Geometry]] = {
+    "box": Box,
+    "cylinder": Cylinder,
+    "capsule": Capsule,
+    "sphere": Sphere,
+    "mesh": Mesh,
+}
 _UNIT = (1.0, 1.0, 1.0)
 _ZERO = (0.0, 0.0, 0.0)
 
@@ -67,17 +72,18 @@ def read_origin(element: Element) -> Origin:
 
 def _read_inertial(element: Element) -> Inertial:
     """Read mass, centre of mass and inertia; what is absent is 0, with a warning."""
-    mass, inertia = element.child("mass", "value"), element.child("inertia", *_COMPONENTS)
+    components = Inertia.__struct_fields__
+    mass, inertia = element.child("mass", "value"), element.child("inertia", *components)
     if mass is None or "value" not in mass.node.attributes:
         (mass or element).warn("missing-mass", f"{element.path} has no mass: it is taken as 0", "add the mass")
-    absent = [name for name in _COMPONENTS if inertia is None or name not in inertia.node.attributes]
+    absent = [name for name in components if inertia is None or name not in inertia.node.attributes]
     if absent:
         message = f"{element.path} has no {', '.join(absent)}: taken as 0"
         (inertia or element).warn("missing-inertia", message, "add all six components of the inertia")
     return Inertial(
         mass.number("value", 0.0) if mass else 0.0,
         read_origin(element),
-        Inertia(*(inertia.number(name, 0.0) for name in _COMPONENTS)) if inertia else Inertia(),
+        inertia.numbers(Inertia) if inertia else Inertia(),
     )
 
 
@@ -107,20 +113,18 @@ def _shapes(link: Element, tag: str) -> Iterator[tuple[Element, Element]]:
 
 
 def _read_geometry(element: Element) -> Geometry:
+    kind = _SHAPES[element.node.tag]
+    element.expect(kind.__struct_fields__)
     match element.node.tag:
         case "box":
-            element.expect(("size",))
             return Box(element.required_vector("size"))
-        case "sphere":
-            element.expect(("radius",))
-            return Sphere(element.required("radius"))
         case "mesh":
-            element.expect(("filename", "scale"))
             return Mesh(element.text("filename"), element.vector("scale", _UNIT))
+        case "sphere":
+            return Sphere(element.required("radius"))
         case tag:
-            element.expect(("radius", "length"))
-            kind = Cylinder if tag == "cylinder" else Capsule
-            return kind(element.required("radius"), element.required("length"))
+            round_kind = Cylinder if tag == "cylinder" else Capsule
+            return round_kind(element.required("radius"), element.required("length"))
 
 
 def read_material(element: Element) -> Material:
@@ -176,14 +180,14 @@ def resolve_materials(
         if material.name and material.name not in table:
             message = f"material {material.name!r} is not defined"
             findings.warn("unknown-material", findings.line(path), message, "define it in the robot or in a visual")
-    return tuple(_with_materials(link, table) for link in links.values())
 
+    def resolved(visual: Visual) -> Visual:
+        if visual.material is None:
+            return visual
+        found = None if visual.material == Material() else table.get(visual.material.name, visual.material)
+        return msgspec.structs.replace(visual, material=found)
 
-def _with_materials(link: Link, table: Mapping[str, Material]) -> Link:
-    visuals = []
-    for visual in link.visuals:
-        material = visual.material
-        if material is not None:
-            material = None if material == Material() else table.get(material.name, material)
-        visuals.append(msgspec.structs.replace(visual, material=material))
-    return msgspec.structs.replace(link, visuals=tuple(visuals))
+    return tuple(
+        msgspec.structs.replace(link, visuals=tuple(map(resolved, link.visuals))) if link.visuals else link
+        for link in links.values()
+    )

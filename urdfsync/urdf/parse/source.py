@@ -57,12 +57,12 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = False) -> Robot
     """
     findings = Findings(file)
     try:
-        root, text, warnings = xml.parse(content)
+        root = xml.parse(content)
     except ParseError as error:
         findings.extend([error.diagnostic])
         return RobotReading(None, findings.result(), {})
-    findings.extend(warnings)
-    robot = _read_robot(root, findings) if _is_urdf(root, text, findings) else None
+    findings.extend(root.document.warnings)
+    robot = _read_robot(root, findings) if _is_urdf(root, findings) else None
     if cross_check and robot is not None and not findings.failed:
         _cross_check(content, robot, findings)
     return RobotReading(None if findings.failed else robot, findings.result(), findings.lines)
@@ -76,7 +76,7 @@ def _cross_check(content: bytes, robot: Robot, findings: Findings) -> None:
     findings.extend_checks(compare_readers(content, robot))
 
 
-def _is_urdf(root: Node, text: str, findings: Findings) -> bool:
+def _is_urdf(root: Node, findings: Findings) -> bool:
     """Return whether this is a URDF that xacro has expanded; if not, add one error that says what it is."""
     if root.tag != "robot":
         kind, _, hint = _OTHER_ROOTS.get(root.tag, "no URDF; name the URDF file instead").partition("; ")
@@ -84,7 +84,7 @@ def _is_urdf(root: Node, text: str, findings: Findings) -> bool:
         findings.add(Severity.ERROR, "not-urdf", root.line, message, hint)
         return False
     # One of these is in each text with something of xacro, since `&` may stand for any character. Most have none.
-    if not any(sign in text for sign in ("xacro:", "$", "&")):
+    if not any(sign in root.document.content for sign in (b"xacro:", b"$", b"&")):
         return True
     has_links = any(child.tag == "link" for child in root.children)
     tags: list[Node] = []

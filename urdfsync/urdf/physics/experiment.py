@@ -10,7 +10,7 @@ import numpy as np
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Deviation, Quantity, Target
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
@@ -18,7 +18,7 @@ from urdfsync.urdf.physics import completion, motion
 from urdfsync.urdf.physics.probe import FORCE, MASS, MOMENT, TORQUE, RobotVariables, probe, robot_variables
 from urdfsync.urdf.physics.reading import Array, pinocchio, read
 from urdfsync.urdf.physics.reference import Configuration, FrameMotion, Instant, Reference
-from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
 Series: TypeAlias = Mapping[str, Sequence[float]]
 

@@ -12,11 +12,12 @@ import msgspec
 
 from urdfsync.domain import Probe, Target
 from urdfsync.modelica.literals import vector
-from urdfsync.urdf.kinematics.tree import MOTION_KINDS, KinematicTree, Motion
-from urdfsync.urdf.model.robot import connector_names
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
+from urdfsync.urdf.robot import MOTION_KINDS, Motion
 
 _GROUND_DEPTH = 1e9  # m: the contacts of a mobile robot are that far down, and nothing touches
 _DRIVE = """

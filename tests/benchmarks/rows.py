@@ -1,0 +1,261 @@
+"""The rows of the speed table: what is measured, against what, and the bar that it shall keep.
+
+All robots are built with the default configuration.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import os
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from support.corpus import REPOSITORY
+from support.daemon import LIMIT, Watch
+
+from benchmarks.measuring import Cost, Measurement, Pair, Reading, UnexpectedError, measure, run
+from benchmarks.published import Published
+from benchmarks.robots import Source, mesh, write_meshes, write_workspace
+
+ARM = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
+REFERENCE = 12.0
+"""Milliseconds of `python -c pass` on the machine that bars in milliseconds are meant for."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Tools:
+    """What all rows need."""
+
+    folder: Path
+    """An empty one."""
+    scripts: Path
+    """Folder of the console scripts `urdfsync`, `urdfsync-hook` and `empty`, which does nothing, and of `python`."""
+    published: Published | None
+
+    def urdfsync(self, *arguments: str) -> list[str]:
+        """A command."""
+        return [str(self.scripts / "urdfsync"), *arguments]
+
+    def empty(self) -> Cost:
+        """Measure a console script that does nothing."""
+        return measure([str(self.scripts / "empty")], self.folder)
+
+    def python(self) -> Cost:
+        """Measure a Python that does nothing."""
+        return measure([str(self.scripts / "python"), "-c", "pass"], self.folder)
+
+
+def ratio(at_most: float | None = None) -> Reading:
+    """The ratio of wall-clock times."""
+    return Reading(lambda mine, other: mine.wall / other.wall, at_most)
+
+
+CPU = Reading(lambda mine, other: mine.cpu / other.cpu, what="CPU time")
+
+
+def scaled(at_most: float) -> Reading:
+    """Milliseconds, where the other takes `REFERENCE`."""
+    return Reading(
+        lambda mine, other: mine.wall / other.wall * REFERENCE, at_most, f"ms where that takes {REFERENCE:g}"
+    )
+
+
+def nothing_to_do(tools: Tools) -> Iterator[Pair]:
+    """A command where everything is in step, beside an empty console script."""
+    for outputs, robots, links, bar in (("400", 1, 97, 1.3), ("8,000", 100, 17, 3.5)):
+        place = write_workspace(tools.folder / outputs, robots, links)
+        commands = {"build": tools.urdfsync("build"), "status": tools.urdfsync("status")}
+        run([*commands["build"], "--quiet"], place)
+        time.sleep(0.1)  # files that have just been written could change within the same tick of the clock
+        for name, command in commands.items():
+            run(command, place)
+            what = f"{name}, {outputs} outputs"
+            yield Pair(
+                what, _command(command, place, "in step"), "empty console script", tools.empty, [ratio(bar), CPU]
+            )
+        hook = [str(tools.scripts / "urdfsync-hook"), "check"]
+        for arguments in (
+            ["init", "-q"],
+            ["add", "."],
+            ["-c", "user.name=b", "-c", "user.email=b", "commit", "-qm", "all"],
+        ):
+            run(["git", *arguments], place)
+        run(hook, place)
+        what = f"pre-commit hook, {outputs} outputs"
+        yield Pair(what, _command(hook, place, ""), "empty console script", tools.empty, [ratio(), CPU])
+
+
+def one_mass_changed(tools: Tools) -> Iterator[Pair]:
+    """A build by a process of its own after one mass has changed."""
+    for links, bar in ((11, 2.5), (100, 1.5)):
+        if tools.published:
+            place = write_workspace(tools.folder / f"{links}", 1, links)
+            other = tools.folder / f"published {links}"
+            pair = (changed(tools, place), "published tool", changed_by(tools.published, place / "robot0.urdf", other))
+            yield Pair(f"{links} links", *pair, [ratio(bar), CPU])
+
+
+def first_build(tools: Tools) -> Iterator[Pair]:
+    """A build where nothing is built yet."""
+    for links, bar in ((11, 3.0), (100, 1.3), (1000, 0.03)):
+        if tools.published:
+            place = write_workspace(tools.folder / f"{links}", 1, links)
+            other = first_by(tools.published, place / "robot0.urdf", tools.folder / f"published {links}")
+            readings = [ratio(bar), CPU]
+            if links == 1000:
+                readings.append(Reading(lambda mine, other: mine.peak / other.peak, 1.5, "peak memory"))
+            yield Pair(f"{links:,} links", first(tools, place), "published tool", other, readings, links == 1000)
+    arm = tools.folder / "arm"
+    arm.mkdir()
+    (arm / "urdfsync.toml").write_text(f'[robots.robot0]\nsource = "{ARM.as_posix()}"\npackage = "Robot0"\n')
+    meshes = write_workspace(tools.folder / "meshes", 1, 11, mesh)
+    write_meshes(meshes, 11)
+    for what, place, bar in (
+        ("six-axis arm, COLLADA among its meshes", arm, 45),
+        ("11 links, STL and OBJ", meshes, 18),
+    ):
+        yield Pair(what, first(tools, place), "python -c pass", tools.python, [ratio(bar), CPU])
+
+
+def growth(tools: Tools) -> Iterator[Pair]:
+    """The exponent with which CPU time grows, from 1,000 to 10,000 links."""
+    few, many = (write_workspace(tools.folder / f"{links}", 1, links) for links in (1000, 10_000))
+    exponent = Reading(lambda mine, other: math.log10(mine.cpu / other.cpu), 1.1, "exponent of CPU time")
+    pair = ("10,000 links", first(tools, many), "1,000 links", first(tools, few), [exponent])
+    yield Pair(*pair, is_slow=True)
+
+
+def daemon(tools: Tools) -> Iterator[Pair]:
+    """One mass changed in the daemon, which does not wait for more events (`--settle 0 --sample 0`)."""
+    for links, bar in ((11, 15), (133, 40), (1000, 250)):
+        place = write_workspace(tools.folder / f"{links}", 1, links)
+        with Watch(place, "--settle", "0", "--sample", "0", "--rescan", "3600") as watch:
+            watch.rest()
+            pair = (Edits(watch, place), "python -c pass", tools.python, [scaled(bar), CPU])
+            yield Pair(f"{links:,} links", *pair)
+
+
+def check(tools: Tools) -> Iterator[Pair]:
+    """A check whose answers are cached."""
+    command = tools.urdfsync("check", "six_axis_arm", "--config", str(REPOSITORY / "urdfsync.toml"))
+    yield Pair(
+        "six-axis arm", _command(command, tools.folder, "six_axis_arm"), "python -c pass", tools.python, [ratio()]
+    )
+
+
+TABLES = {
+    "noop": ("nothing to do", nothing_to_do),
+    "change": ("one mass changed, whole process", one_mass_changed),
+    "build": ("first build", first_build),
+    "watch": ("one mass changed in the daemon", daemon),
+    "growth": ("growth of a first build", growth),
+    "check": ("check with warm caches", check),
+}
+
+
+def first(tools: Tools, folder: Path) -> Measurement:
+    """A first build of the only robot of a folder."""
+
+    def measurement() -> Cost:
+        for name in ("modelica", ".urdfsync"):
+            put_aside(folder / name)
+        os.sync()
+        cost = measure(tools.urdfsync("build"), folder, "files written")
+        if not (folder / "modelica/Robot0/package.mo").is_file():
+            raise UnexpectedError(f"the robot of {folder} is not built")
+        return cost
+
+    return measurement
+
+
+def changed(tools: Tools, folder: Path) -> Measurement:
+    """A build after the mass of one link has changed; the folder is built before."""
+    run(tools.urdfsync("build", "--quiet"), folder)
+    source = Source(folder / "robot0.urdf")
+
+    def measurement() -> Cost:
+        mass = source.edit()
+        os.sync()
+        cost = measure(tools.urdfsync("build"), folder, "written")
+        _require_mass(folder, mass)
+        return cost
+
+    return measurement
+
+
+def first_by(published: Published, source: Path, folder: Path) -> Measurement:
+    """A first build by the published tool, in a folder of its own."""
+
+    def measurement() -> Cost:
+        put_aside(folder)
+        os.sync()
+        return published.build(source, folder)
+
+    return measurement
+
+
+def changed_by(published: Published, original: Path, folder: Path) -> Measurement:
+    """An update by the published tool after the mass of one link has changed, in a folder of its own."""
+    folder.mkdir()
+    source = Source(folder / original.name)
+    source.path.write_bytes(original.read_bytes())
+    published.build(source.path, folder / "out")
+
+    def measurement() -> Cost:
+        mass = source.edit()
+        os.sync()
+        return published.update(source.path, folder / "out", mass)
+
+    return measurement
+
+
+class Edits:
+    """A daemon and the robot that it watches; each call changes a mass, and measures until it is told to be built."""
+
+    def __init__(self, watch: Watch, folder: Path) -> None:
+        self._watch, self._folder, self._source = watch, folder, Source(folder / "robot0.urdf")
+
+    def __call__(self) -> Cost:
+        """Return the time from the edit to the daemon's event `built`, and its CPU time meanwhile."""
+        pid, since = self._watch.process.pid, self._watch.mark
+        self._rest(pid)
+        used = _cpu(pid)
+        mass = self._source.edit()
+        begin = time.perf_counter()
+        self._watch.wait("built", lambda event: bool(event["files"]), since)
+        wall = time.perf_counter() - begin
+        _require_mass(self._folder, mass)
+        self._rest(pid)
+        return Cost(wall, _cpu(pid) - used)
+
+    def _rest(self, pid: int) -> None:
+        """Wait until the daemon uses no more processor time."""
+        end, used = time.monotonic() + LIMIT, -1.0
+        while used != (used := _cpu(pid)):
+            if time.monotonic() > end:
+                raise TimeoutError("the daemon does not come to rest")
+            time.sleep(0.3)
+
+
+def put_aside(path: Path) -> None:
+    """Move a folder away, if it is there. It is not deleted: ext4 makes files slowly where many have just gone."""
+    if path.exists():
+        path.rename(Path(tempfile.mkdtemp(prefix="old-", dir=path.parent.parent)) / path.name)
+
+
+def _command(command: list[str], folder: Path, expected: str) -> Measurement:
+    return lambda: measure(command, folder, expected)
+
+
+def _require_mass(folder: Path, mass: str) -> None:
+    records = (folder / "modelica/Robot0/Links").glob("*Parameters.mo")
+    if not any(f"mass = {mass}," in record.read_text(encoding="utf-8") for record in records):
+        raise UnexpectedError(f"no record of {folder} has the mass {mass}")
+
+
+def _cpu(pid: int) -> float:
+    """Seconds that a process has run, with threads that have ended: its clock, as `clock_getcpuclockid` names it."""
+    return time.clock_gettime((~pid << 3) | 2)

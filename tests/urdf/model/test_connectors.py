@@ -1,0 +1,76 @@
+"""Names of connectors: which links and joints have them, and that they never take another's name."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import pytest
+from hypothesis import given
+from support.skeletons import GRIPPER, skeleton
+from support.trees import robots
+
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.connectors import connector_names
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Joint, JointType, Mimic, Robot
+
+HAND = skeleton(
+    Joint("j2", "fixed", "palm", "thumb"),
+    Joint("j1", "fixed", "palm", "index"),
+    Joint("j3", "fixed", "index", "index tip"),
+)
+
+
+@pytest.mark.parametrize(
+    ("frames", "names"),
+    [
+        ("leaves", ["index tip", "thumb"]),
+        ("all", ["palm", "index", "index tip", "thumb"]),
+        ((), ["index tip", "thumb"]),
+        (("palm",), ["palm", "index tip", "thumb"]),
+        (("thumb", "index", "index", "gone", "j1"), ["index", "index tip", "thumb"]),
+    ],
+)
+def test_frames_are_those_of_leaves_and_what_is_asked_for_in_canonical_order(
+    frames: Literal["leaves", "all"] | tuple[str, ...], names: list[str]
+) -> None:
+    assert [*connector_names(HAND, Options(frames=frames)).frames] == names
+
+
+def test_only_joints_that_follow_nothing_have_an_axis() -> None:
+    names = connector_names(GRIPPER, Options())
+    assert names.axes == {"turn": "turnAxis", "slide": "slideAxis"}
+    assert names.supports == {"turn": "turnSupport", "slide": "slideSupport"}
+    assert names.couplings == {"lock": "lockMimic", "other": "otherMimic", "pinion": "pinionMimic"}
+    assert names.frames == {"lens": "lensFrame", "right": "rightFrame", "gear": "gearFrame"}
+
+
+@pytest.mark.parametrize("kind", ["fixed", "planar", "floating"])
+def test_joints_without_one_axis_have_no_flanges(kind: JointType) -> None:
+    assert connector_names(skeleton(Joint("j", kind, "a", "b")), Options()).axes == {}
+
+
+def test_a_connector_gives_way_to_an_element_which_keeps_its_file() -> None:
+    robot = skeleton(
+        Joint("elbow", "revolute", "elbowAxis", "hand"),
+        Joint("wrist", "revolute", "hand", "handFrame"),
+        Joint("follow", "revolute", "handFrame", "followMimic", mimic=Mimic("elbow")),
+        Joint("elbowAxis_2", "fixed", "handFrame", "elbowSupport"),
+        Joint("rotational", "continuous", "handFrame", "wheel"),
+    )
+    assert (robot.joint("elbow").type, robot.link("elbowAxis").type) == ("Elbow", "ElbowAxis")
+    names = connector_names(robot, Options(frames=("hand", "handFrame")))
+    assert names.axes == {"elbow": "elbowAxis_3", "wrist": "wristAxis", "rotational": "rotationalAxis_2"}
+    assert names.supports["elbow"] == "elbowSupport_2"
+    assert names.frames["hand"] == "handFrame_2"
+    assert names.couplings == {"follow": "followMimic_2"}
+
+
+@given(robots())
+def test_no_two_components_have_one_name(robot: Robot) -> None:
+    tree = KinematicTree.of(robot)
+    names = connector_names(tree, Options(frames="all"))
+    assert len(names.frames) == len(robot.links)
+    connectors = [*names.frames.values(), *names.axes.values(), *names.supports.values(), *names.couplings.values()]
+    every = [name.lower() for name in (*connectors, *(identifier.component for identifier in tree.names.values()))]
+    assert len(every) == len(set(every))

@@ -1,0 +1,209 @@
+"""The status at the bottom of a terminal: it is replaced, and nothing else is ever erased; what commands print."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from rich.text import Text
+from support.daemon import REPOSITORY
+from support.screen import Screen
+
+from urdfsync.watch.terminal import StatusArea, StderrCapture
+
+
+@pytest.fixture(autouse=True)
+def _terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TERM", "xterm-256color")
+
+
+def area(screen: Screen) -> StatusArea:
+    result = StatusArea(screen)
+    result.console.size = (screen.width, screen.height)
+    return result
+
+
+def write(found: StatusArea, lines: list[str], status: list[str] | None = None) -> None:
+    found.write([Text(line) for line in lines], None if status is None else [Text(line) for line in status])
+
+
+def test_lines_scroll_above_the_status() -> None:
+    screen = Screen()
+    found = area(screen)
+    write(found, ["one"], ["arm settling", "cart in step"])
+    write(found, ["two", "three"])
+    assert screen.shown() == ["one", "two", "three", "arm settling", "cart in step"]
+    write(found, [], ["arm in step"])
+    assert screen.shown() == ["one", "two", "three", "arm in step"]
+    found.close()
+    assert screen.shown() == ["one", "two", "three"]
+
+
+def test_each_change_is_written_at_once() -> None:
+    screen = Screen()
+    found = area(screen)
+    write(found, ["one", "two"], ["status"])
+    write(found, ["three", "four"], ["another"])
+    assert screen.writes == 2
+
+
+def test_the_cursor_stays_visible_and_what_the_terminal_echoes_goes() -> None:
+    screen = Screen()
+    found = area(screen)
+    write(found, [], ["status"])
+    assert screen.has_cursor
+    screen.write("^C")
+    write(found, ["stopped"], [])
+    assert screen.shown() == ["stopped"]
+
+
+def test_long_lines_are_the_terminals_matter_and_a_long_status_is_cut() -> None:
+    screen = Screen(width=20)
+    found = area(screen)
+    write(found, ["x" * 30], ["y" * 30])
+    assert screen.shown() == ["x" * 20, "x" * 10, "y" * 19 + "…"]
+    wide = Screen(width=200)
+    write(area(wide), ["x" * 150], ["y" * 150])
+    assert [len(row) for row in wide.shown()] == [150, 79]
+
+
+@pytest.mark.parametrize("width", [30, 60])
+def test_after_a_resize_nothing_is_erased_but_status(width: int) -> None:
+    screen = Screen(width=40)
+    found = area(screen)
+    write(found, ["one", "two"], ["a" * 39, "b" * 39])
+    screen.width = width
+    found.console.width = width
+    write(found, ["three"], ["c" * 39])
+    assert [row for row in screen.shown() if row in ("one", "two", "three")] == ["one", "two", "three"]
+    assert screen.shown()[-1][:29] == "c" * 29
+
+
+def test_on_a_lower_terminal_there_is_less_room() -> None:
+    assert [area(Screen(height=height)).room for height in (60, 24, 12, 9, 4, 2)] == [20, 8, 4, 4, 3, 1]
+
+
+def test_a_shell_that_has_the_terminal_finds_no_status_and_none_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ctrl-Z, then `bg`, and later `fg`."""
+    screen, group = Screen(), os.getpgrp()
+    found = area(screen)
+    monkeypatch.setattr(screen, "fileno", lambda: 1)
+    monkeypatch.setattr(os, "tcgetpgrp", lambda _: group)
+    monkeypatch.setattr(os, "kill", lambda *_: screen.write("$ of a shell\n"))
+    write(found, ["one"], ["status"])
+    found._suspend(0, None)
+    assert screen.shown() == ["one", "$ of a shell", "status"], "continued at once"
+    monkeypatch.setattr(os, "tcgetpgrp", lambda _: group + 1)
+    found._suspend(0, None)
+    write(found, ["two"], ["status 2"])
+    assert screen.shown() == ["one", "$ of a shell", "$ of a shell", "two"]
+    monkeypatch.setattr(os, "tcgetpgrp", lambda _: group)
+    write(found, [])
+    assert screen.shown()[-2:] == ["two", "status 2"]
+
+
+ROW = st.text("abc", max_size=25)
+
+
+@given(st.lists(st.tuples(st.lists(ROW, max_size=4), st.none() | st.lists(ROW, max_size=5)), max_size=12))
+def test_scrollback_is_never_erased(steps: list[tuple[list[str], list[str] | None]]) -> None:
+    screen = Screen(width=10, height=6)
+    found = area(screen)
+    written: list[str] = []
+    for lines, status in steps:
+        write(found, lines, status and status[:5])
+        written += [line[start : start + 10] for line in lines for start in range(0, max(len(line), 1), 10)]
+    found.close()
+    assert screen.shown() == "\n".join(written).rstrip("\n").split("\n")
+
+
+# Commands on a real terminal
+
+PROGRAM = r"""
+import os
+from pathlib import Path
+from urdfsync.watch import events
+from urdfsync.watch.report import TextReport
+
+def opened():
+    return [number for number in range(50) if os.path.exists(f"/dev/fd/{number}")]
+
+before = opened()
+with TextReport() as listener:
+    listener.show(events.Started(Path("urdfsync.toml"), ("arm", "cart")))
+    os.system(r"exec >&2; printf 'one\r\ntwo\n\n 10 %%\r100 %%\n\033[2Jthree\033[31m red\033[0m\nfour'")
+assert opened() == before
+os.system("echo after >&2")
+"""
+
+
+def seen(program: str) -> list[str]:
+    """What a program leaves on a terminal of 60 columns and 18 rows."""
+    import fcntl
+    import pty
+    import struct
+    import termios
+
+    master, slave = pty.openpty()
+    fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 18, 60, 0, 0))
+    environment = {**os.environ, "PYTHONPATH": str(REPOSITORY), "TERM": "xterm", "NO_COLOR": "1"}
+    with subprocess.Popen([sys.executable, "-c", program], stdin=slave, stdout=slave, stderr=slave, env=environment):
+        os.close(slave)
+        output = b""
+        while chunk := _read(master):
+            output += chunk
+    os.close(master)
+    screen = Screen(60, 18)
+    screen.write(output.decode())
+    return screen.shown()
+
+
+def _read(terminal: int) -> bytes:
+    try:
+        return os.read(terminal, 4096)
+    except OSError:  # nobody has the other end any more
+        return b""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of POSIX")
+def test_what_commands_print_scrolls_above_the_status_and_stays() -> None:
+    rows = seen(PROGRAM)
+    assert rows[0].endswith("  watching 2 robots of urdfsync.toml")
+    assert rows[1:] == ["one", "two", "", "100 %", "three red", "four", "after"]
+
+
+OUTLIVED = r"""
+import os, subprocess
+from pathlib import Path
+from urdfsync.watch import events
+from urdfsync.watch.report import TextReport
+
+with TextReport() as listener:
+    listener.show(events.Started(Path("urdfsync.toml"), ("arm",)))
+    command = "echo early >&2; sleep 1; seq 20000 >&2; echo late >&2; touch {}"
+    subprocess.Popen(command, shell=True)
+    listener.show(events.Stopping("SIGTERM"))
+os._exit(0)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of POSIX")
+def test_a_command_that_outlives_the_daemon_still_reaches_the_terminal(tmp_path: Path) -> None:
+    """It would die of SIGPIPE if the daemon's pipe had no reader any more."""
+    rows = seen(OUTLIVED.format(tmp_path / "done"))
+    assert (tmp_path / "done").exists()
+    assert rows[-2:] == ["20000", "late"]
+    assert "early" in rows
+
+
+def test_a_stream_that_is_no_terminal_is_left_alone() -> None:
+    before = os.fstat(2).st_ino
+    capture = StderrCapture(StatusArea(sys.stderr))
+    capture.start()
+    assert os.fstat(2).st_ino == before
+    capture.close()

@@ -1,0 +1,112 @@
+"""What a build says beside its actions: of names and connectors that go, of packages that moved or are outdated."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator
+
+from urdfsync.config import Config, shown
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.actions import CONFLICTS, DELETES, Actions, Kind
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.inputs import Inputs, orphaned_robots
+from urdfsync.engine.package_files import key_of
+from urdfsync.modelica.names import LIBRARY
+from urdfsync.state import repair
+from urdfsync.state.record import Choice
+from urdfsync.state.store import Store
+
+_FEW = 3
+"""So many files are named; of more, only their number."""
+
+
+def find_all(generation: Generation, actions: Actions, names: list[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Return all findings of a build in the order of their places; `names` are those about names that go."""
+    inputs = generation.inputs
+    found = [*generation.diagnostics, *inputs.parents.diagnostics, *names]
+    if inputs.former_name:
+        message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; what urdfsync recorded of it goes"
+        place = shown(inputs.config.file), inputs.robot.lines[""]
+        found.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} with the new name", *place))
+    if inputs.recovered:
+        found.append(repair.repaired(inputs.recovered, inputs.robot.name, shown(inputs.store.folder)))
+    found += [*_left_behind(inputs, actions), *_lost_connectors(generation), *_outdated(inputs, actions)]
+    return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
+
+
+def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
+    """A warning if something stays in the folder that a package had in the last build."""
+    files, old = inputs.files, inputs.files.path(inputs.old_folder)
+    if inputs.old_folder == inputs.folder or any(action.held for action in actions):
+        return
+    message = f"the package moved from {shown(old)} to {shown(inputs.robot.folder)}"
+    place = shown(inputs.config.file), inputs.robot.lines[""]
+    if not files.is_inside(f"{inputs.old_folder}/package.mo"):
+        message += ", and the old folder is none of urdfsync's any more"
+        yield Diagnostic(Severity.WARNING, "left-behind", message, *place, hint="delete it by hand")
+        return
+    gone, new = {files.path(action.path) for action in actions if action.kind in DELETES}, inputs.robot.folder
+    below = sorted(path for path in old.rglob("*") if not path.is_dir())
+    rest = [path for path in below if path not in gone and new not in path.parents]
+    if rest and inputs.old_folder not in inputs.own_folders:
+        message += "; the old folder was not built in this checkout, so it stays as it is"
+        hint = f"take over what you need, then delete it: `rm -r {shlex.quote(shown(old))}`"
+        yield Diagnostic(Severity.WARNING, "left-behind", message, *place, hint=hint)
+    elif rest:
+        named = [shown(path) for path in rest[:_FEW]] + ([f"{len(rest) - _FEW} more"] if len(rest) > _FEW else [])
+        message += f"; what you wrote or edited, and what that needs, stayed behind: {', '.join(named)}"
+        hint = "take over what you need, then delete the old folder"
+        yield Diagnostic(Severity.WARNING, "left-behind", message, *place, hint=hint)
+
+
+def _lost_connectors(generation: Generation) -> Iterator[Diagnostic]:
+    """Notes on what users may have connected to, and what has another name now, or none."""
+    inputs, changes = generation.inputs, generation.changes_since_complete
+    complete, robot = inputs.last_complete, inputs.robot
+    if complete is None or changes is None or not (changes.is_structural or changes.generator):
+        return
+    for one in inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options):
+        element, connector = one.path
+        if one.old is not None:
+            now = f"is now `{one.new}`" if one.new else "is gone"
+            message = f"{element}: its {connector} `{one.old}` {now}"
+            place = shown(robot.source), generation.lines.get(element, 0)
+            yield Diagnostic(Severity.NOTE, "connector-changed", message, *place, hint=one.hint)
+
+
+def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
+    """Warnings of a package that an older urdfsync wrote, and that does not fit the library any more.
+
+    One if it waits for conflicts, and one for each file that the user keeps.
+    """
+    if inputs.complete_revision is None or inputs.complete_revision >= inputs.domain.fits_since:
+        return
+    conflicts = [shown(inputs.files.path(one.origin or one.path)) for one in actions if one.kind in CONFLICTS]
+    if conflicts and any(action.held for action in actions):
+        named = conflicts[0] if len(conflicts) == 1 else f"each of {len(conflicts)} conflicts"
+        command = conflicts[0] if len(conflicts) == 1 else f"--all --robot {inputs.robot.name}"
+        message = f"an older urdfsync wrote this package: it does not fit the library {LIBRARY} of this version"
+        hint = f"it fits the library again once {named} is resolved: urdfsync resolve {command}"
+        folder = shown(inputs.files.path(inputs.old_folder))
+        yield Diagnostic(Severity.WARNING, "outdated-package", message, folder, hint=hint)
+    for action in actions:
+        if action.kind is Kind.KEEP and action.choice is Choice.KEEP:
+            message = f"this file stays as it is, but it was made for an older library {LIBRARY}"
+            hint = f"`urdfsync check {inputs.robot.name}` tells whether it fits the rest of the package"
+            file = shown(inputs.files.path(action.path))
+            yield Diagnostic(Severity.WARNING, "outdated-file", message, file, hint=hint)
+
+
+def orphaned_state(config: Config) -> list[Diagnostic]:
+    """A note if there is state of robots that are in the configuration no more."""
+    store = Store(config.root, shown)
+    built = set(store.names())
+    heirs = {key_of(robot.folder, config.root) for robot in config.robots if robot.name not in built}
+    found = [name for name, folder in orphaned_robots(store, config) if folder not in heirs]
+    if not found:
+        return []
+    listed = ", ".join(f"`{name}`" for name in found)
+    message = f"the state of {listed} is still there, but the configuration has no such robot"
+    folder = shown(store.folder / "robots")
+    hint = f"bring the robot back, or delete {folder}/{found[0]}.* and what is left of its package"
+    return [Diagnostic(Severity.NOTE, "stray-state", message, shown(config.file), hint=hint)]

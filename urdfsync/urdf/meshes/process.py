@@ -1,0 +1,135 @@
+"""The process that reads meshes of strangers: what a file is made to do, it does there, within limits."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import os
+import signal
+import subprocess
+import threading
+import time
+from typing import IO, TypeAlias, cast
+
+import msgspec
+
+from urdfsync.processes import exit_cause, importable, python_module
+from urdfsync.urdf.meshes.errors import MeshError
+from urdfsync.urdf.robot import Vector
+
+CPU_SECONDS = 4.0
+"""For one mesh, on Linux and macOS. A command with one such mesh stays below 5 s."""
+MEMORY = 450_000_000
+"""Bytes that the process may allocate, on Linux. Its libraries have some 50 MB besides."""
+WALL_SECONDS = 60.0
+"""For one mesh, everywhere. A busy machine may need so long for the CPU time."""
+OUT_OF_MEMORY = 3
+"""The exit code of a process that needs more."""
+_PATIENCE = 1.0  # s for a process to end that has closed its stdout
+_MAX_LINE = 10_000_000
+_MAX_STL = 60_000_000
+
+Facts: TypeAlias = dict[str, list[list[float]]]
+
+
+class Request(msgspec.Struct, frozen=True):
+    """A line for the process; so many bytes of a mesh follow."""
+
+    suffix: str
+    scale: Vector
+    size: int
+    seconds: float
+    """CPU time that reading it may take."""
+
+
+class Answer(msgspec.Struct, frozen=True):
+    """A line from the process; so many bytes of binary STL follow."""
+
+    size: int = 0
+    facts: Facts = {}
+    problem: str = ""
+    """Why the file is no mesh; empty if it is one."""
+    is_last: bool = False
+    """Whether the process has grown, so that the next mesh would not have all the memory that it may have."""
+
+
+class MeshProcess:
+    """The process, started for the first mesh and kept; after a mesh that reached a limit, the next one starts another.
+
+    Signals are handled while it reads. It ends when this process does, however that ends, since its stdin is closed.
+    """
+
+    def __init__(self) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+        self._lock = threading.Lock()  # workers of a cluster are threads
+
+    def read(self, suffix: str, scale: Vector, content: bytes) -> tuple[bytes, Facts]:
+        """Return a mesh as binary STL, with its facts. Raises MeshError, or OSError if no process can be started."""
+        with self._lock:
+            process = self._process = self._process or self._start()
+            began = time.monotonic()
+            timer = threading.Timer(WALL_SECONDS, process.kill)
+            timer.start()
+            try:
+                answer, stl = _ask(process, Request(suffix, scale, len(content), CPU_SECONDS), content)
+                if answer.is_last:
+                    self.end()
+            except (OSError, ValueError) as error:  # it ends, or the answer is none
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    process.wait(_PATIENCE)
+                self.end()
+                raise MeshError(_reason(process.returncode, time.monotonic() - began)) from error
+            except BaseException:  # an interruption leaves the rest of an answer in the pipe
+                self.end()
+                raise
+            finally:
+                timer.cancel()
+        if answer.problem:
+            raise MeshError("".join(char if char.isprintable() else " " for char in answer.problem[:300]))
+        return stl, answer.facts
+
+    def end(self) -> None:
+        """End the process, if there is one."""
+        process, self._process = self._process, None
+        if process is not None:
+            atexit.unregister(self.end)
+            process.kill()
+            process.wait()
+            for pipe in (process.stdin, process.stdout):
+                with contextlib.suppress(OSError):  # what was not written is lost
+                    cast(IO[bytes], pipe).close()
+
+    def _start(self) -> subprocess.Popen[bytes]:
+        atexit.register(self.end)
+        return subprocess.Popen(  # noqa: S603 - a command of ours
+            python_module("urdfsync.urdf.meshes.worker"),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env={**os.environ, **importable(), "OPENBLAS_NUM_THREADS": "1"},  # each thread would have memory of its own
+            start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends the process
+        )
+
+
+def _ask(process: subprocess.Popen[bytes], request: Request, content: bytes) -> tuple[Answer, bytes]:
+    """Have a mesh read. Raises OSError or ValueError if the process does not answer as it should."""
+    stdin, stdout = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stdout)
+    stdin.write(msgspec.json.encode(request) + b"\n")
+    stdin.write(content)
+    stdin.flush()
+    answer = msgspec.json.decode(stdout.readline(_MAX_LINE), type=Answer)
+    stl = stdout.read(min(answer.size, _MAX_STL))
+    if len(stl) != answer.size:
+        raise ValueError("the answer ends early, or is too large")
+    return answer, stl
+
+
+def _reason(code: int, seconds: float) -> str:
+    """Why a process ended before it answered."""
+    if seconds >= WALL_SECONDS:
+        return f"reading it takes longer than {WALL_SECONDS:g} s"
+    if code == -getattr(signal, "SIGPROF", 0):
+        return f"reading it takes more than {CPU_SECONDS:g} s"
+    if code == OUT_OF_MEMORY:
+        return f"reading it takes more than {MEMORY // 1_000_000} MB of memory"
+    return f"it ended the process that read it ({exit_cause(code)})"

@@ -1,0 +1,95 @@
+"""The program that reads meshes, one after the other, each within limits of time and memory; `process` starts it."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import IO
+
+import msgspec
+
+from urdfsync.processes import reserve_stdout
+from urdfsync.urdf.meshes.errors import MeshError, damage_is_an_error
+from urdfsync.urdf.meshes.geometry import Triangles, binary_stl, import_form
+from urdfsync.urdf.meshes.plain import PLAIN
+from urdfsync.urdf.meshes.process import MEMORY, OUT_OF_MEMORY, Answer, Request
+
+if sys.platform != "win32":
+    import resource
+
+_UNUSED = ("PIL", "httpx", "networkx", "scipy")
+"""Packages that trimesh takes where they are installed, and that no reading of ours needs: half a second, and 60 MB."""
+_GROWN = 200_000
+"""Kilobytes that the process needs at most for an ordinary mesh; its libraries are 60,000 of them."""
+
+
+def main() -> None:
+    """Answer requests until stdin is closed."""
+    sys.modules.update(dict.fromkeys(_UNUSED))  # type: ignore[arg-type] # None lets an import fail
+    requests, answers = sys.stdin.buffer, reserve_stdout()
+    while line := requests.readline():
+        request = msgspec.json.decode(line, type=Request)
+        try:
+            answer, stl = _answer(request, requests)
+        except MemoryError:
+            os._exit(OUT_OF_MEMORY)
+        answers.write(msgspec.json.encode(answer) + b"\n" + stl)
+        answers.flush()
+    os._exit(0)  # tidying up libraries takes a tenth of a second
+
+
+def _answer(request: Request, requests: IO[bytes]) -> tuple[Answer, bytes]:
+    content = requests.read(request.size)
+    try:
+        read = reader(request.suffix)
+        with _limits(request.seconds):
+            mesh, facts = import_form(read(content), request.scale)
+            stl = binary_stl(mesh)
+    except MeshError as error:
+        return Answer(problem=str(error)), b""
+    is_last = sys.platform == "linux" and resource.getrusage(resource.RUSAGE_SELF).ru_maxrss > _GROWN
+    return Answer(len(stl), facts, is_last=is_last), stl
+
+
+def reader(suffix: str) -> Callable[[bytes], Triangles]:
+    """Return the reader of a format. Only the library that it needs is loaded: trimesh takes 0.5 s."""
+    if suffix in PLAIN:
+        return PLAIN[suffix]
+    with damage_is_an_error():
+        if suffix == ".dae":
+            from urdfsync.urdf.meshes.collada import read_collada
+
+            return read_collada
+        from urdfsync.urdf.meshes.scenes import read_scene
+
+        return partial(read_scene, suffix)
+
+
+@contextlib.contextmanager
+def _limits(seconds: float) -> Iterator[None]:
+    """Limit time and memory of one mesh, and let no file be written. Libraries are loaded without limits."""
+    if sys.platform == "win32":
+        yield
+        return
+    limits = {resource.RLIMIT_FSIZE: 0, resource.RLIMIT_CORE: 0}
+    if sys.platform == "linux":  # macOS knows this limit, and does not keep it
+        limits[resource.RLIMIT_DATA] = MEMORY
+    before = {kind: resource.getrlimit(kind) for kind in limits}
+    for kind, limit in limits.items():
+        resource.setrlimit(kind, (limit, before[kind][1]))
+    # ends the process; RLIMIT_CPU counts whole seconds, and all meshes that it has read
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        for kind, both in before.items():
+            resource.setrlimit(kind, both)
+
+
+if __name__ == "__main__":
+    main()
