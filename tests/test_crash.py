@@ -21,7 +21,7 @@ from support.marks import LONG
 
 from urdfsync import render
 from urdfsync.state import file_operations
-from urdfsync.state.journal import find_phase
+from urdfsync.state.journal import FORMAT, JournalFolder, Phase
 from urdfsync.state.record import Choice
 
 LADDER = "modelica/Ladder"
@@ -35,6 +35,10 @@ MINE = b"\n// mine\n"
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")
 
 Contents = Mapping[str, bytes | None]
+
+
+def phase(project: Path) -> Phase | None:
+    return JournalFolder(project, project / ".urdfsync/journal").phase()
 
 
 def edit(path: Path, old: str, new: str) -> None:
@@ -264,7 +268,7 @@ def test_a_system_that_refuses_leaves_all_as_it_was(changed: Path, tmp_path: Pat
         assert result.failed, operation
         assert any(os.strerror(number) in found.message for found in result.diagnostics)
         assert result.unfinished or contents(project) == before, operation
-        assert lasting or not result.unfinished or find_phase(project / ".urdfsync"), operation
+        assert lasting or not result.unfinished or phase(project), operation
         assert_healed(project, wanted, operation)
 
 
@@ -421,7 +425,7 @@ def crashed(changed: Path, tmp_path: Path) -> Path:
     """The changed network after a build that was killed when half of its files were in place."""
     swaps = [op for op in recorded(crashes.copy(changed, tmp_path / "work")) if op.name == "exchange"]
     assert killed(changed, swaps[len(swaps) // 2].number)
-    assert find_phase(changed / ".urdfsync") == "apply"
+    assert phase(changed) == "apply"
     return changed
 
 
@@ -445,7 +449,7 @@ def test_another_robot_recovers_as_well(crashed: Path) -> None:
     result = run(crashed)
     assert {"recovered", "stray-state"} == {found.code for found in result.diagnostics}
     assert "R3" in (crashed / LADDER / "Elements/package.order").read_text()
-    assert find_phase(crashed / ".urdfsync") is None
+    assert phase(crashed) is None
 
 
 def rewrite(journal: Path, old: str = "", new: str = "") -> None:
@@ -457,7 +461,7 @@ def rewrite(journal: Path, old: str = "", new: str = "") -> None:
 @pytest.mark.parametrize(
     ("place", "code"),
     [
-        ("../victim.mo", "outside"),
+        ("../victim.mo", "broken-journal"),
         (".git/hooks/pre-commit", "broken-journal"),
         ("modelica/.git/Resources/victim", "broken-journal"),
         ("urdfsync.toml", "broken-journal"),
@@ -506,24 +510,22 @@ def test_a_journal_that_was_not_written_here_is_refused(crashed: Path, phase: st
     assert not run(crashed).failed
 
 
-def test_what_an_older_urdfsync_has_left_is_refused(project: Path) -> None:
+@pytest.mark.parametrize("name", ["apply.json", "undo.json"])
+def test_a_journal_of_an_older_urdfsync_is_refused(project: Path, name: str) -> None:
     run(project)
-    state = project / ".urdfsync"
-    for name in ("journal/apply.json", "journal/undo.json", "undo/3"):
-        (state / name).parent.mkdir(exist_ok=True)
-        (state / name).write_text('{"robot":"ladder","token":"12","steps":[],"format":2}')
-        before = contents(project)
-        for repair in (False, True):
-            (found,) = run(project, repair=repair).diagnostics
-            assert found.code == "older-state"
-            assert "undo" in found.hint
-        assert contents(project) == before
-        (state / name).unlink()
+    journal = project / ".urdfsync/journal" / name
+    journal.write_text('{"robot":"ladder","token":"12","steps":[],"format":2}')
+    before = contents(project)
+    (found,) = run(project).diagnostics
+    assert (found.code, found.message) == ("broken-journal", "an older urdfsync was interrupted here")
+    assert contents(project) == before
+    assert not run(project, repair=True).failed
+    assert journal.with_name("refused.json").read_text().endswith('"format":2}')
     assert run(project).in_step
 
 
 def test_a_journal_of_a_newer_urdfsync_is_left_alone(crashed: Path) -> None:
-    rewrite(crashed / ".urdfsync/journal/apply.json", '"format":3', '"format":4')
+    rewrite(crashed / ".urdfsync/journal/apply.json", f'"format":{FORMAT}', f'"format":{FORMAT + 1}')
     before = contents(crashed)
     assert [found.code for found in run(crashed, repair=True).diagnostics] == ["newer-state"]
     assert contents(crashed) == before

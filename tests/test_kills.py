@@ -26,7 +26,7 @@ from support.crashes import Operation, before_each, contents, run
 from support.urdfs import joint, limit, link, robot
 
 from urdfsync.outcome import Result
-from urdfsync.state.journal import find_phase
+from urdfsync.state.journal import JournalFolder
 
 KILLS = int(os.environ.get("URDFSYNC_KILLS", "40"))
 SAME = 10
@@ -167,7 +167,7 @@ def test_a_build_that_is_killed_at_any_time_is_finished(
         for _ in range(random.choice((1, 1, 1, 2))):  # what finishes a build may be killed, too
             _kill(project, scene, random)
             tally["kills"] += 1
-            tally["halfway"] += find_phase(project / ".urdfsync") is not None
+            tally["halfway"] += JournalFolder(project, project / ".urdfsync/journal").phase() is not None
         scene.assert_healed(project, number)
         tally["healed"] += 1
         tally["with conflicts"] += bool(scene.conflicts)
@@ -191,7 +191,7 @@ def test_a_build_on_a_full_disk_is_finished_when_there_is_room(
         with before_each(refuse):
             tally["failed"] += run(project).failed
         tally["full disks"] += 1
-        tally["halfway"] += find_phase(project / ".urdfsync") is not None
+        tally["halfway"] += JournalFolder(project, project / ".urdfsync/journal").phase() is not None
         scene.assert_healed(project, (number, first))
         tally["healed"] += 1
     with capsys.disabled():

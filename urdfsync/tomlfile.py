@@ -64,24 +64,15 @@ def _is_too_deep(document: dict[str, Any]) -> bool:
     return any(level)
 
 
-def strings(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
-    """Every key and every string of a document, with its path."""
-    for path, value in _walk(document):
-        yield path, path[-1]
+def strings(table: dict[str, Any] | list[Any], path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Every key and every string of a document, with its path; a list's items count by their number."""
+    for key, value in table.items() if isinstance(table, dict) else enumerate(table):
+        here = (*path, str(key))
+        yield here, str(key)
         if isinstance(value, str):
-            yield path, value
-
-
-def _walk(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], Any]]:
-    """Every value that is not the document itself, with its path; a list's items count by their number."""
-    waiting: list[tuple[tuple[str, ...], Any]] = [((), document)]
-    while waiting:
-        path, value = waiting.pop()
-        if path:
-            yield path, value
-        if len(path) <= DEEPEST and isinstance(value, dict | list):
-            items = value.items() if isinstance(value, dict) else enumerate(value)
-            waiting += [((*path, str(key)), item) for key, item in items]
+            yield here, value
+        elif isinstance(value, dict | list):
+            yield from strings(value, here)
 
 
 def _explain(problem: tomli.TOMLDecodeError, text: str) -> tuple[str, int, int, str]:

@@ -102,130 +102,93 @@ def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> Non
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        pytest.param(
+        (
             robot("sorce = 'x'"),
             "urdfsync.toml:5: error: unknown key `sorce` in robot `arm`; did you mean `source`? [unknown-key]",
-            id="unknown key",
         ),
-        pytest.param(
+        (
             robot("grund = true"),
             "urdfsync.toml:5: error: unknown key `grund` in robot `arm`; did you mean `ground`? [unknown-key]",
-            id="unknown option",
         ),
-        pytest.param(
+        (
             "[default]\n" + robot(),
             "urdfsync.toml:1: error: unknown key `default` in the configuration; "
             "did you mean `defaults`? [unknown-key]",
-            id="unknown table",
         ),
-        pytest.param(
+        (
             "[defaults]\nsource = 'a'\n" + robot(),
             "urdfsync.toml:2: error: `source` can't have a default: every robot has its own [unknown-key]",
-            id="default of a robot's own key",
         ),
-        pytest.param(
+        (
             "[defaults]\nprefx = 'a'\n" + robot(),
             "urdfsync.toml:2: error: unknown key `prefx` in `[defaults]`; did you mean `prefix`? [unknown-key]",
-            id="unknown default",
         ),
-        pytest.param(
+        (
             "[robots.arm]\ndomain = 'rcnetwork'\nsource = 'a'",
             "urdfsync.toml:1: error: robot `arm` has no `package`; add a line `package = …` [missing-key]",
-            id="missing key",
         ),
-        pytest.param(
+        (
             robot("create_parents = 'yes'"),
             "urdfsync.toml:5: error: `create_parents` must be true or false, not a string [wrong-value]",
-            id="wrong type",
         ),
-        pytest.param(
+        (
             robot("package_paths = ['a', 1]"),
             "urdfsync.toml:5: error: `package_paths`[1] must be a string, not an integer [wrong-value]",
-            id="wrong type inside",
         ),
-        pytest.param(
+        (
             robot("on_build = true"),
             'urdfsync.toml:5: error: `on_build` must be "nothing" or "check", not true [wrong-value]',
-            id="wrong choice",
         ),
-        pytest.param(
+        (
             robot("[check]\nlibary = 'x'"),
             "urdfsync.toml:6: error: unknown key `libary` in `[check]`; did you mean `library`? [unknown-key]",
-            id="unknown key of checks",
         ),
-        pytest.param(
+        (
             robot("[check]\nlibrary = 4"),
             "urdfsync.toml:6: error: `library` must be a string, not an integer [wrong-value]",
-            id="wrong type in checks",
         ),
-        pytest.param(
+        (
             robot("[check]\nlibrary = ''"),
             "urdfsync.toml:6: error: `library` must name a folder; "
             "give the path of the folder that holds the Modelica Standard Library, or take the line out [wrong-value]",
-            id="no folder",
         ),
-        pytest.param(
-            "check = true\n" + robot(),
-            "urdfsync.toml:1: error: `check` must be a table [wrong-value]",
-            id="checks are no table",
-        ),
-        pytest.param(
+        ("check = true\n" + robot(), "urdfsync.toml:1: error: `check` must be a table [wrong-value]"),
+        (
             "[defaults]\noutput = 1\n" + robot(),
             "urdfsync.toml:2: error: `output` must be a string, not an integer [wrong-value]",
-            id="wrong type of a default",
         ),
-        pytest.param(
-            robot("ground = 1"),
-            "urdfsync.toml:5: error: `ground` must be true or false, not an integer [wrong-value]",
-            id="wrong type of an option",
-        ),
-        pytest.param(
+        (robot("ground = 1"), "urdfsync.toml:5: error: `ground` must be true or false, not an integer [wrong-value]"),
+        (
             "[robots.arm]\nsource = 'a'\npackage = 'Arm'\nbase = 'floatin'",
             'urdfsync.toml:4: error: `base` must be "fixed" or "floating", not "floatin" [wrong-value]',
-            id="none of the choices",
         ),
-        pytest.param(
+        (
             robot().replace("rcnetwork", "rcnetwok"),
             'urdfsync.toml:4: error: there is no domain `rcnetwok`; did you mean "rcnetwork"? [unknown-domain]',
-            id="unknown domain",
         ),
-        pytest.param("robots = 3", "urdfsync.toml:1: error: `robots` must be a table [wrong-value]", id="no table"),
-        pytest.param(
-            "[robots]\narm = 3", "urdfsync.toml:2: error: `robots.arm` must be a table [wrong-value]", id="no robot"
-        ),
-        pytest.param(
+        ("robots = 3", "urdfsync.toml:1: error: `robots` must be a table [wrong-value]"),
+        ("[robots]\narm = 3", "urdfsync.toml:2: error: `robots.arm` must be a table [wrong-value]"),
+        (
             "",
             "urdfsync.toml: error: the configuration has no robot; "
             "add a table `[robots.NAME]` with `source` and `package` [no-robots]",
-            id="empty",
         ),
-        pytest.param(
-            robot() + "x = ",
-            "urdfsync.toml:5: error: invalid value; strings stand in quotes [toml-syntax]",
-            id="syntax, end of document",
-        ),
-        pytest.param(
-            "[robots\n",
-            "urdfsync.toml:1:8: error: expected ']' at the end of a table declaration [toml-syntax]",
-            id="syntax",
-        ),
-        pytest.param(
+        (robot() + "x = ", "urdfsync.toml:5: error: invalid value; strings stand in quotes [toml-syntax]"),
+        ("[robots\n", "urdfsync.toml:1:8: error: expected ']' at the end of a table declaration [toml-syntax]"),
+        (
             robot('class = "2nd"'),
             "urdfsync.toml:5: error: `class`: '2nd' is no Modelica identifier; "
             "use letters, digits and `_`, a letter first [modelica-name]",
-            id="no identifier",
         ),
-        pytest.param(
+        (
             robot('class = "robot"'),
             "urdfsync.toml:5: error: `robot` can't be the class of a robot model; set `class` to a name with a "
             "capital first that neither Modelica nor urdfsync has a use for [modelica-name]",
-            id="class that looks like a component",
         ),
-        pytest.param(
+        (
             robot('class = "Links"'),
             "urdfsync.toml:5: error: `Links` can't be the class of a robot model; set `class` to a name with a "
             "capital first that neither Modelica nor urdfsync has a use for [modelica-name]",
-            id="class that hides another",
         ),
     ],
 )

@@ -118,10 +118,11 @@ def test_a_fresh_clone_leaves_a_former_folder_and_this_checkout_does_not(project
     assert contents(clone / "modelica/Filter") == contents(project / "modelica/Filter")
 
 
-def test_a_clone_that_has_built_moves_its_package(project: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("left_out", [("base", "folders.json", "stamp"), ()], ids=["clone", "copy"])
+def test_a_clone_that_has_built_moves_its_package(project: Path, tmp_path: Path, left_out: Sequence[str]) -> None:
     assert run("build") == 0
     clone = tmp_path / "clone"
-    shutil.copytree(project, clone, ignore=shutil.ignore_patterns("base", "folders.json", "stamp"))
+    shutil.copytree(project, clone, ignore=shutil.ignore_patterns(*left_out))
     config = str(clone / "urdfsync.toml")
     assert run("build", "--config", config) == 0
     move(clone)
@@ -147,13 +148,10 @@ def test_renamed_robots_and_moved_packages_take_their_files_along(
     for step in steps:
         step(project)
         assert run("build") == 0
-    packages = [path.parent.name for path in project.rglob("package.mo") if path.parent.name != "Elements"]
-    assert packages == ["Filter" if move in steps else "Ladder"]
-    assert Store(project).written_folders("ladder" if _rename_robot not in steps else "filter") == {
-        path.parent.relative_to(project).as_posix()
-        for path in project.rglob("package.mo")
-        if path.parent.name != "Elements"
-    }
+    (package,) = (path.parent for path in project.rglob("package.mo") if path.parent.name != "Elements")
+    assert package.name == ("Filter" if move in steps else "Ladder")
+    robot = "filter" if _rename_robot in steps else "ladder"
+    assert package.relative_to(project).as_posix() in Store(project).written_folders(robot)
 
 
 @pytest.mark.parametrize(

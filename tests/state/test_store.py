@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 from pathlib import Path
 
-import msgspec
 import pytest
 
 from urdfsync.diagnostics import OutputError, StateError
-from urdfsync.files import digest, text_digest
+from urdfsync.files import digest
 from urdfsync.state import manifest, modelfile
 from urdfsync.state.manifest import Generator, Manifest, Source
 from urdfsync.state.store import Store
@@ -50,13 +51,6 @@ def built(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_what_was_never_built_has_no_state(tmp_path: Path) -> None:
-    store = Store(tmp_path)
-    assert store.load("arm") is None
-    assert store.names() == []
-    assert store.texts("arm") == (None, None)
-
-
 def test_what_is_written_is_loaded(built: Path) -> None:
     state = Store(built).load("arm")
     assert state is not None
@@ -66,12 +60,6 @@ def test_what_is_written_is_loaded(built: Path) -> None:
     assert state.intact
     assert Store(built).names() == ["arm"]
     assert Store(built).texts("arm") == (TEXT, MODEL)
-
-
-def test_the_manifest_is_written_last(tmp_path: Path) -> None:
-    store = Store(tmp_path)
-    store.load("arm")
-    assert [change.path.name for change in store.changes("arm", TEXT, MODEL, None)] == ["arm.json", "arm.toml"]
 
 
 def test_what_is_there_is_not_written_again(built: Path) -> None:
@@ -114,14 +102,6 @@ def test_a_state_that_is_no_text_is_refused_with_its_name(built: Path, number: i
     assert Store(built).texts("arm")[number] == "\N{REPLACEMENT CHARACTER}"
 
 
-def test_a_link_is_not_followed(built: Path) -> None:
-    path, _ = Store(built).paths("arm")
-    path.rename(built / "elsewhere.toml")
-    path.symlink_to(built / "elsewhere.toml")
-    with pytest.raises(OutputError, match="symbolic link"):
-        Store(built).load("arm")
-
-
 def test_the_witness_is_what_was_loaded(built: Path) -> None:
     store = Store(built)
     store.load("arm")
@@ -135,39 +115,12 @@ def test_the_witness_is_what_was_loaded(built: Path) -> None:
     assert not Store(built).is_unchanged(witness)
 
 
-def test_a_state_that_comes_later_is_noticed(tmp_path: Path) -> None:
-    store = Store(tmp_path)
-    store.load("arm")
-    write(*Store(tmp_path).changes("arm", TEXT, None, None))
-    assert not store.is_unchanged(store.witness())
-
-
 def test_changes_rest_on_what_was_loaded_not_on_what_came_later(built: Path) -> None:
     store = Store(built)
     store.load("arm")
     store.paths("arm")[0].write_text("saved in between")
     (change,) = store.changes("arm", TEXT + "\n", None, None)
     assert change.old == digest(TEXT.encode())
-
-
-def test_a_robot_with_another_name_takes_everything_with_it(built: Path) -> None:
-    store = Store(built)
-    assert store.load("leg") is None
-    store.load("arm")
-    write(*store.changes("leg", TEXT, MODEL, "arm"))
-    assert files(built) == {"robots/leg.toml", "robots/leg.json"}
-
-
-def test_bases(built: Path) -> None:
-    text = "record A\nend A;\n"
-    hash_ = text_digest(text.encode())
-    store = Store(built)
-    assert not store.has_bases("arm")
-    store.bases("arm").add({hash_: text})
-    assert store.has_bases("arm")
-    assert not store.has_bases("leg")
-    assert Store(built).bases("arm").get(hash_) == text
-    assert Store(built).bases("leg").get(hash_) is None
 
 
 def test_texts_of_conflicts_come_stay_and_go(tmp_path: Path) -> None:
@@ -179,11 +132,6 @@ def test_texts_of_conflicts_come_stay_and_go(tmp_path: Path) -> None:
     assert Store(tmp_path).conflicts("arm", {"B.base.mo": b"2", "B.merge.txt": b"3"}, None) == []
     write(*Store(tmp_path).conflicts("arm", {}, None))
     assert files(tmp_path) == set()
-
-
-def test_conflicts_of_other_robots_are_not_touched(tmp_path: Path) -> None:
-    write(*Store(tmp_path).conflicts("arm", {"A.base.mo": b"1"}, None))
-    assert Store(tmp_path).conflicts("leg", {}, None) == []
 
 
 def test_conflicts_of_a_robot_with_another_name_go(tmp_path: Path) -> None:
@@ -201,17 +149,63 @@ def test_version_control_is_told_once_and_by_nobody_else(tmp_path: Path) -> None
     assert Store(tmp_path).ignoring() == []
 
 
-def test_a_drawing_is_written_if_it_is_another(tmp_path: Path) -> None:
-    path, changes = Store(tmp_path).drawing("arm", "<svg/>")
-    assert path == tmp_path / ".urdfsync" / "svg" / "arm.svg"
+def test_the_manifest_is_written_last_and_that_of_a_former_name_goes_after_it(built: Path) -> None:
+    store = Store(built)
+    assert store.load("leg") is None
+    store.load("arm")
+    changes = list(store.changes("leg", TEXT, MODEL, "arm"))
+    assert [change.path.name for change in changes] == ["leg.json", "leg.toml", "arm.toml", "arm.json"]
     write(*changes)
-    assert Store(tmp_path).drawing("arm", "<svg/>") == (path, [])
-    assert len(Store(tmp_path).drawing("arm", "<svg></svg>")[1]) == 1
+    assert files(built) == {"robots/leg.toml", "robots/leg.json"}
 
 
-def test_names_are_those_of_manifests(built: Path) -> None:
-    for name in ("leg.json", "notes.txt"):
-        (built / ".urdfsync" / "robots" / name).write_text("")
-    renamed = msgspec.structs.replace(MANIFEST, package="Hand")
-    write(*Store(built).changes("a.b", manifest.dumps(renamed), None, None))
-    assert Store(built).names() == ["a.b", "arm"]
+FOLDERS = ".urdfsync/folders.json"
+
+
+def test_noted_folders_are_those_of_each_robot(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    assert store.written_folders("arm") == frozenset()
+    store.note_folders("arm", ["m/Arm"])
+    store.note_folders("leg", ["m/Leg", "m/Old"])
+    written = (tmp_path / FOLDERS).stat().st_ino
+    store.note_folders("leg", ["m/Old", "m/Leg"])
+    assert (tmp_path / FOLDERS).stat().st_ino == written, "it is as it was"
+    assert Store(tmp_path).written_folders("leg") == {"m/Leg", "m/Old"}
+    store.note_folders("hand", ["m/Arm"], former="arm")
+    assert [Store(tmp_path).written_folders(robot) for robot in ("arm", "hand")] == [frozenset(), {"m/Arm"}]
+
+
+@pytest.mark.parametrize("change", ["copied", "touched", "cut short", "link", "folder"])
+def test_folders_that_were_not_noted_here_do_not_count(tmp_path: Path, change: str) -> None:
+    Store(tmp_path).note_folders("arm", ["m/Arm"])
+    file = tmp_path / FOLDERS
+    copy = file.with_name("copy")
+    shutil.copy2(file, copy)
+    if change == "touched":
+        os.utime(file)
+    elif change == "cut short":
+        file.write_bytes(b"{")
+    else:
+        file.unlink()
+        if change == "copied":
+            copy.rename(file)
+        elif change == "link":
+            file.symlink_to(copy)
+        else:
+            file.mkdir()
+    assert Store(tmp_path).written_folders("arm") == frozenset()
+
+
+def test_folders_are_not_noted_through_a_link(tmp_path: Path) -> None:
+    outside, root = tmp_path / "outside", tmp_path / "root"
+    (root / ".urdfsync").mkdir(parents=True)
+    outside.mkdir()
+    for name in ("folders.json", ".folders.json.urdfsync-tmp"):
+        (root / ".urdfsync" / name).symlink_to(outside / "victim")
+    Store(root).note_folders("arm", ["m/Arm"])
+    assert Store(root).written_folders("arm") == {"m/Arm"}
+    shutil.rmtree(root / ".urdfsync")
+    (root / ".urdfsync").symlink_to(outside)
+    with pytest.raises(OutputError, match="symbolic link"):
+        Store(root).note_folders("arm", ["m/Arm"])
+    assert list(outside.iterdir()) == []

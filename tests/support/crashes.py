@@ -158,14 +158,14 @@ def contents(project: Path) -> Mapping[str, bytes | None]:
     left_out = (".urdfsync/lock", ".urdfsync/journal", ".urdfsync/base", ".urdfsync/folders.json")
     names = [name for name in found if name not in left_out and not name.startswith(".urdfsync/base/")]
     contents = {name: found[name].read_bytes() if found[name].is_file() else None for name in sorted(names)}
-    store = Store(project)
-    folders = {f"folders of {robot}": repr(sorted(store.written_folders(robot))).encode() for robot in store.names()}
-    return contents | folders | {f".urdfsync/base/{robot}": _needed(project, robot) for robot in store.names()}
+    return contents | {f".urdfsync/base/{robot}": _needed(project, robot) for robot in Store(project).names()}
 
 
 def _needed(project: Path, robot: str) -> bytes:
-    """The bases that a manifest needs, by their hashes."""
+    """The bases that a manifest needs, by their hashes, and whether its folder is noted."""
     store = Store(project)
     state, bases = store.load(robot), store.bases(robot)
-    needed = {record.base for record in state.manifest.files.values() if record.base} if state else set()
-    return repr([(digest, bases.get(digest)) for digest in sorted(needed)]).encode()
+    assert state is not None
+    needed = {record.base for record in state.manifest.files.values() if record.base}
+    is_noted = state.manifest.folder in store.written_folders(robot)
+    return repr([is_noted, [(digest, bases.get(digest)) for digest in sorted(needed)]]).encode()

@@ -35,7 +35,6 @@ output = "modelica"  # the folder that the packages go into
 # package_paths = []  # folders that hold packages, where sources refer to files in them
 # templates = "templates"  # a folder with templates that replace single ones of urdfsync
 """
-
 _LONGEST = 80
 """A longer stem is cut: robots and packages become names of files."""
 
@@ -65,48 +64,55 @@ def make_draft(file: Path, sources: Sequence[Path], domain_name: str) -> Draft:
     A source that is named twice counts once. Raises ConfigError if the file exists or if there is no source,
     SourceError if one that is named can't be read, or none of those that were found.
     """
-    if file.exists():
-        raise _exists(file)
+    _refuse_existing(file)
     domain = registry.domain(domain_name)
-    found = [] if sources else list(_search(file.parent, f".{domain.name}"))
-    if not sources and not found:
+    found = list(sources or _search(file.parent, f".{domain.name}"))
+    if not found:
         message, hint = f"no *.{domain.name} below {shown(file.parent)}", "name the sources: `urdfsync init SOURCE`"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-source", message, hint=hint))
     guesses: list[Guess] = []
     said: list[Diagnostic] = []
     broken: list[Diagnostic] = []
-    for source in _once(sources or found):
+    unique: dict[str, Path] = {}
+    for source in found:
+        unique.setdefault(os.path.realpath(source), source)
+    for source in unique.values():
         try:
-            options, diagnostics = _propose(domain, source, file.parent)
+            guess, diagnostics = _guess(domain, source, file.parent, guesses)
         except SourceError as error:
             if sources:
                 raise
             broken += error.diagnostics
-            said.append(_passed_over(source, error))
-            continue
-        said += diagnostics
-        guesses.append(_guess(file.parent, source, options, guesses))
+            first = next(found for found in error.diagnostics if found.severity is Severity.ERROR)
+            hint = f"put it right and add it, or run `urdfsync init {shown(source)}`"
+            message = f"{first.message}; passed over"
+            said.append(msgspec.structs.replace(first, severity=Severity.WARNING, message=message, hint=hint))
+        else:
+            guesses.append(guess)
+            said += diagnostics
     if not guesses:
         raise SourceError(*broken)
-    return Draft(file, _text(guesses, domain), tuple(guesses), tuple(said))
+    text = "\n".join([_HEADER, _DEFAULTS, *(_table(guess, domain) for guess in guesses)])
+    return Draft(file, text, tuple(guesses), tuple(said))
 
 
 def write(draft: Draft) -> None:
     """Write a draft, as a whole or not at all. Raises ConfigError if that fails, or if the file exists by now."""
-    file = draft.file
-    if file.exists():
-        raise _exists(file)
+    _refuse_existing(draft.file)
     try:
-        put(file, draft.text.encode())
+        put(draft.file, draft.text.encode())
     except OSError as error:
-        message = f"the configuration can't be written: {error.strerror}"
+        message, place = f"the configuration can't be written: {error.strerror}", shown(draft.file)
         hint = "check the folder's permissions and the space on the disk, or name another file with --config"
-        raise ConfigError(Diagnostic(Severity.ERROR, "config-not-written", message, shown(file), hint=hint)) from None
+        raise ConfigError(Diagnostic(Severity.ERROR, "config-not-written", message, place, hint=hint)) from None
 
 
-def _exists(file: Path) -> ConfigError:
-    hint = "add a table `[robots.NAME]` to it, or name another file with --config"
-    return ConfigError(Diagnostic(Severity.ERROR, "config-exists", "the file exists already", shown(file), hint=hint))
+def _refuse_existing(file: Path) -> None:
+    if os.path.lexists(file):
+        hint = "add a table `[robots.NAME]` to it, or name another file with --config"
+        raise ConfigError(
+            Diagnostic(Severity.ERROR, "config-exists", "the file exists already", shown(file), hint=hint)
+        )
 
 
 def _search(folder: Path, suffix: str) -> Iterator[Path]:
@@ -117,22 +123,10 @@ def _search(folder: Path, suffix: str) -> Iterator[Path]:
         yield from (Path(parent, name) for name in found)
 
 
-def _once(sources: Sequence[Path]) -> list[Path]:
-    """The sources without those that are the same file as one before."""
-    unique: dict[str, Path] = {}
-    for source in sources:
-        unique.setdefault(os.path.realpath(source), source)
-    return list(unique.values())
-
-
-def _passed_over(source: Path, error: SourceError) -> Diagnostic:
-    first = next(found for found in error.diagnostics if found.severity is Severity.ERROR)
-    message, hint = f"{first.message}; passed over", f"put it right and add it, or run `urdfsync init {shown(source)}`"
-    return msgspec.structs.replace(first, severity=Severity.WARNING, message=message, hint=hint)
-
-
-def _propose(domain: Domain, source: Path, root: Path) -> tuple[tuple[Proposal, ...], list[Diagnostic]]:
-    if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in _written(source, root)):
+def _guess(domain: Domain, source: Path, root: Path, taken: Sequence[Guess]) -> tuple[Guess, Sequence[Diagnostic]]:
+    """A robot for a source, under a name that none of the others has; with warnings. Raises SourceError."""
+    path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
+    if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
         raise SourceError(Diagnostic(Severity.ERROR, "source-name", message, shown(source), hint=hint))
     try:
@@ -141,41 +135,20 @@ def _propose(domain: Domain, source: Path, root: Path) -> tuple[tuple[Proposal, 
         message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
         raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(source), hint=hint)) from None
     reading = domain.read(content, shown(source), domain.options())
-    errors = [found for found in reading.diagnostics if found.severity is Severity.ERROR]
-    if errors or reading.snapshot is None:
+    if reading.snapshot is None or any(found.severity is Severity.ERROR for found in reading.diagnostics):
         raise SourceError(*reading.diagnostics)
-    return tuple(domain.propose(reading.snapshot)), list(reading.diagnostics)
-
-
-def _guess(root: Path, source: Path, options: tuple[Proposal, ...], taken: Sequence[Guess]) -> Guess:
     stem = source.name.partition(".")[0][:_LONGEST]
-    count = "" if _is_free(stem, "", taken) else next(str(n) for n in range(2, 10_000) if _is_free(stem, str(n), taken))
-    return Guess(_robot_name(stem) + count, _written(source, root), class_name(stem) + count, options)
-
-
-def _written(source: Path, root: Path) -> str:
-    """A source's path as the configuration names it."""
-    path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
-    return path.as_posix()
-
-
-def _is_free(stem: str, count: str, taken: Sequence[Guess]) -> bool:
-    robot, package = _robot_name(stem) + count, (class_name(stem) + count).casefold()
-    return not any(guess.robot == robot or guess.package.casefold() == package for guess in taken)
-
-
-def _robot_name(stem: str) -> str:
     name = re.sub(r"[^a-z0-9]+", "_", stem.lower()).strip("_")
-    return name if is_robot_name(name) else f"robot_{name}".rstrip("_")
-
-
-def _text(guesses: Sequence[Guess], domain: Domain) -> str:
-    parts = [_HEADER, _DEFAULTS]
-    parts += [_table(guess, domain) for guess in guesses]
-    return "\n".join(parts)
+    name, package = name if is_robot_name(name) else f"robot_{name}".rstrip("_"), class_name(stem)
+    names = {name for guess in taken for name in (guess.robot, guess.package.casefold())}
+    counts = ("", *map(str, range(2, len(taken) + 2)))
+    count = next(count for count in counts if names.isdisjoint((name + count, (package + count).casefold())))
+    guess = Guess(name + count, path.as_posix(), package + count, tuple(domain.propose(reading.snapshot)))
+    return guess, reading.diagnostics
 
 
 def _table(guess: Guess, domain: Domain) -> str:
+    """The table of a robot, with its options: those that are guessed, and the others as comments."""
     lines = [
         f"[robots.{guess.robot}]",
         _line("source", guess.source),
@@ -185,30 +158,23 @@ def _table(guess: Guess, domain: Domain) -> str:
         lines.append(_line("domain", domain.name))
     proposed = {proposal.option: proposal for proposal in guess.options}
     for field in msgspec.structs.fields(domain.options):
-        proposal = proposed.get(field.encode_name)
-        if proposal:
+        choices = " or ".join(f'"{choice}"' for choice in values.choices(field.type))
+        if choices and values.is_list(field.type):
+            choices += ", or several"
+        elif choices and values.may_be_list(field.type):
+            choices += ", or a list of names"
+        if proposal := proposed.get(field.encode_name):
             reason = " ".join("".join(char if char.isprintable() else " " for char in proposal.reason).split())
-            lines.append(f"{_line(proposal.option, proposal.value)}  # {_choices(field.type)}guessed: {reason}")
+            comment = f"{choices}; guessed: {reason}" if choices else f"guessed: {reason}"
+            lines.append(f"{_line(proposal.option, proposal.value)}  # {comment}")
         elif field.default not in (msgspec.NODEFAULT, None):  # TOML has no null
-            lines.append(f"# {_line(field.encode_name, field.default)}{_comment(field.type)}")
+            lines.append(f"# {_line(field.encode_name, field.default)}{f'  # {choices}' if choices else ''}")
     return "\n".join(lines) + "\n"
 
 
 def _line(key: str, value: Any) -> str:
     plain_value = msgspec.to_builtins(value)
     if isinstance(plain_value, list | tuple):  # tomli_w gives each item a line, which can't be one comment
-        items = (_line("item", item).removeprefix("item = ") for item in plain_value)
+        items = (tomli_w.dumps({"item": item}).strip().removeprefix("item = ") for item in plain_value)
         return f"{key} = [{', '.join(items)}]"
     return tomli_w.dumps({key: plain_value}).strip()
-
-
-def _choices(kind: Any) -> str:
-    allowed = values.choices(kind)
-    words = " or ".join(f'"{choice}"' for choice in allowed)
-    more = ", or several" if values.is_list(kind) else ", or a list of names" if values.may_be_list(kind) else ""
-    return f"{words}{more}; " if allowed else ""
-
-
-def _comment(kind: Any) -> str:
-    choices = _choices(kind).removesuffix("; ")
-    return f"  # {choices}" if choices else ""

@@ -26,7 +26,7 @@ from urdfsync.config.settings import (
     Keys,
     RobotConfig,
 )
-from urdfsync.config.values import WrongValueError, convert
+from urdfsync.config.values import convert
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, Target
 from urdfsync.spelling import nearest
@@ -44,10 +44,11 @@ def find(start: Path) -> Path:
 
 def load(file: Path) -> Config:
     """Read a configuration file. Raises ConfigError with everything that is wrong in it."""
-    name, code = shown(file), "unreadable-config"
-    line = 0
+    code, line = "unreadable-config", 0
     try:
         text = dependencies.read_file(file).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+        place = file.absolute()
+        return parse(text, place.resolve() if ".." in place.parts else place, shown(file))
     except FileNotFoundError:
         message, hint, code = "the configuration does not exist", "write one with `urdfsync init SOURCE`", "no-config"
     except UnicodeDecodeError as error:
@@ -55,10 +56,7 @@ def load(file: Path) -> Config:
         message, hint = "the configuration is not UTF-8", "save it as UTF-8"
     except OSError as error:
         message, hint = f"the configuration can't be read: {error.strerror}", "name a file that you may read"
-    else:
-        place = file.absolute()
-        return parse(text, place.resolve() if ".." in place.parts else place, name)
-    raise ConfigError(Diagnostic(Severity.ERROR, code, message, name, line, hint=hint))
+    raise ConfigError(Diagnostic(Severity.ERROR, code, message, shown(file), line, hint=hint))
 
 
 def parse(text: str, file: Path, name: str) -> Config:
@@ -84,6 +82,10 @@ class _Table(NamedTuple):
     path: tuple[str, ...]
     inherited: Collection[str] = ()
 
+    def place(self, key: str) -> tuple[str, ...]:
+        """Where a key stands."""
+        return ("defaults", key) if key in self.inherited else (*self.path, key)
+
 
 class _Reader:
     """One pass over a document; gathers `problems` instead of stopping at the first."""
@@ -93,8 +95,6 @@ class _Reader:
         self._document = tomlfile.parse(text, file, ConfigError)
         self._lines = tomlfile.lines(text)
         self._file, self._root = file, root
-        self._options: set[str] = set()
-        """The options of all domains that the robots have."""
 
     def check_characters(self) -> None:
         """No name, path or option has a use for a control character, and some systems stop at one."""
@@ -104,22 +104,28 @@ class _Reader:
 
     def robots(self) -> Iterator[RobotConfig]:
         """Every robot whose table is right."""
-        document = _Table(self._document, "the configuration", ())
-        self._refuse_unknown(document, ("check", "defaults", "robots"))
+        self._refuse_unknown(_Table(self._document, "the configuration", ()), ("check", "defaults", "robots"))
         defaults, robots = self._subtable("defaults"), self._subtable("robots")
         if not robots and not self.problems:
             hint = "add a table `[robots.NAME]` with `source` and `package`"
             self._report("no-robots", (), "the configuration has no robot", hint)
+        known = set(_KEY_NAMES)
         for name, values in robots.items():
             if not isinstance(values, dict):
                 self._report("wrong-value", ("robots", name), f"`robots.{name}` must be a table")
-            elif (robot := self._robot(name, values, defaults)) is not None:
-                yield robot
+            elif not is_robot_name(name):
+                message = f"the robot's name {name!r} can't be a file's name"
+                hint = "use letters, digits, `_`, `-` and `.`, a letter or digit first"
+                self._report("robot-name", ("robots", name), message, hint)
+            elif (domain := self._domain(name, values, defaults)) is not None:
+                known |= _names_of(domain.options)
+                if (robot := self._robot(name, values, defaults, domain)) is not None:
+                    yield robot
         for key in OWN_KEYS:
             if key in defaults:
                 message = f"`{key}` can't have a default: every robot has its own"
                 self._report("unknown-key", ("defaults", key), message)
-        self._refuse_unknown(_Table(defaults, "`[defaults]`", ("defaults",)), _KEY_NAMES | self._options)
+        self._refuse_unknown(_Table(defaults, "`[defaults]`", ("defaults",)), known)
 
     def check(self) -> CheckConfig:
         """The table `[check]`."""
@@ -136,32 +142,24 @@ class _Reader:
     def find_clashes(self, robots: Sequence[RobotConfig]) -> None:
         """Two robots must not share a manifest or a package's folder, nor may one stand in the other's."""
         names: dict[str, str] = {}
-        folders: dict[str, str] = {}
+        folders = {_folded(robot.folder): robot.name for robot in reversed(robots)}
         for robot in robots:
+            place = ("robots", robot.name, "package")
+            inside = [folders[_folded(parent)] for parent in robot.folder.parents if _folded(parent) in folders]
             if (other := names.setdefault(robot.name.casefold(), robot.name)) != robot.name:
-                self._clash(robot.name, f"robots `{other}` and `{robot.name}` differ in case only")
-            elif (other := folders.setdefault(_folded(robot.folder), robot.name)) != robot.name:
-                self._clash(robot.name, f"robots `{other}` and `{robot.name}` have the same package")
-        for robot in robots:
-            for parent in robot.folder.parents:
-                if other := folders.get(_folded(parent), ""):
-                    self._clash(robot.name, f"the package of robot `{robot.name}` lies inside that of robot `{other}`")
+                self._report("clash", place, f"robots `{other}` and `{robot.name}` differ in case only")
+            elif (other := folders[_folded(robot.folder)]) != robot.name:
+                self._report("clash", place, f"robots `{other}` and `{robot.name}` have the same package")
+            for other in inside:
+                message = f"the package of robot `{robot.name}` lies inside that of robot `{other}`"
+                self._report("clash", place, message)
 
-    def _robot(self, name: str, values: dict[str, Any], defaults: dict[str, Any]) -> RobotConfig | None:
-        path = ("robots", name)
-        if not is_robot_name(name):
-            hint = "use letters, digits, `_`, `-` and `.`, a letter or digit first"
-            self._report("robot-name", path, f"the robot's name {name!r} can't be a file's name", hint)
-            return None
-        domain = self._domain(path, str(values.get("domain", defaults.get("domain", "urdf"))), "domain" in values)
-        if domain is None:
-            return None
-        before = len(self.problems)
-        options = _names_of(domain.options)
-        self._options |= options
-        self._refuse_unknown(_Table(values, f"robot `{name}`", path), _KEY_NAMES | options)
+    def _robot(self, name: str, own: dict[str, Any], defaults: dict[str, Any], domain: Domain) -> RobotConfig | None:
+        """A robot by its own table and the defaults; None if anything in it is wrong."""
+        before, options = len(self.problems), _names_of(domain.options)
+        self._refuse_unknown(_Table(own, f"robot `{name}`", ("robots", name)), _KEY_NAMES | options)
         usable = {key: value for key, value in defaults.items() if key in (_KEY_NAMES - set(OWN_KEYS)) | options}
-        table = _Table(usable | values, f"robot `{name}`", path, usable.keys() - values.keys())
+        table = _Table(usable | own, f"robot `{name}`", ("robots", name), usable.keys() - own.keys())
         keys, chosen = self._read(table, Keys), self._read(table, domain.options)
         if keys is not None:
             self._check_keys(table, keys)
@@ -181,49 +179,46 @@ class _Reader:
             merging=keys.on_conflict == "merge",
             checking=keys.on_build == "check",
             options=chosen,
-            lines={key: self._line(*_place(table, key)) for key in ("", *table.values)},
+            lines={key: self._line(*table.place(key)) for key in ("", *table.values)},
         )
 
-    def _domain(self, path: tuple[str, ...], name: str, is_own: bool) -> Domain | None:
+    def _domain(self, robot: str, own: dict[str, Any], defaults: dict[str, Any]) -> Domain | None:
         try:
-            return registry.domain(name)
+            return registry.domain(str(own.get("domain", defaults.get("domain", "urdf"))))
         except ConfigError as error:
-            line = self._line(*path, "domain") if is_own else self._line("defaults", "domain")
+            line = self._line("robots", robot, "domain") if "domain" in own else self._line("defaults", "domain")
             self.problems += [msgspec.structs.replace(d, file=self._file, line=line) for d in error.diagnostics]
             return None
 
     def _check_keys(self, table: _Table, keys: Keys) -> None:
         """Names and paths that can be read, and can't be used."""
         for key, message, hint in find_name_problems(keys.package, keys.class_):
-            self._report("modelica-name", _place(table, key), message, hint)
+            self._report("modelica-name", table.place(key), message, hint)
         if not keys.source:
-            self._report(
-                "wrong-value", _place(table, "source"), "`source` must name a file", "give the path of the source"
-            )
-        output = _place(table, "output")
+            hint = "give the path of the source"
+            self._report("wrong-value", table.place("source"), "`source` must name a file", hint)
         if not keys.output:
             hint = 'write "." for the folder of the configuration itself'
-            self._report("wrong-value", output, "`output` must name a folder", hint)
+            self._report("wrong-value", table.place("output"), "`output` must name a folder", hint)
         if Path(_folded(_absolute(self._root / keys.output))).is_relative_to(_folded(self._root / STATE_FOLDER)):
             message = f"`output` can't be in {STATE_FOLDER}: that is where urdfsync keeps its own files"
-            self._report("wrong-value", output, message, "name another folder")
+            self._report("wrong-value", table.place("output"), message, "name another folder")
 
     def _read(self, table: _Table, struct: type[Any]) -> Any:
         """The keys of `table` that `struct` has, as its instance; None if any of them is wrong or missing."""
-        values, complete = {}, True
+        values: dict[str, Any] = {}
+        before = len(self.problems)
         for field in msgspec.structs.fields(struct):
             key = field.encode_name
             try:
                 if key in table.values:
                     values[field.name] = convert(key, table.values[key], field.type)
                 elif field.required:
-                    complete = False
                     self._report("missing-key", table.path, f"{table.name} has no `{key}`", f"add a line `{key} = …`")
-            except WrongValueError as error:
-                complete = False
-                self._report("wrong-value", _place(table, key), str(error))
+            except ValueError as error:
+                self._report("wrong-value", table.place(key), str(error))
         try:
-            return struct(**values) if complete else None
+            return struct(**values) if len(self.problems) == before else None
         except (TypeError, ValueError) as error:
             self._report("wrong-value", table.path, f"{table.name}: {error}")
             return None
@@ -242,19 +237,11 @@ class _Reader:
         self._report("wrong-value", (key,), f"`{key}` must be a table")
         return {}
 
-    def _clash(self, robot: str, message: str) -> None:
-        self._report("clash", ("robots", robot, "package"), message)
-
     def _line(self, *path: str) -> int:
         return tomlfile.nearest(self._lines, *filter(None, path))
 
     def _report(self, code: str, path: tuple[str, ...], message: str, hint: str = "") -> None:
         self.problems.append(Diagnostic(Severity.ERROR, code, message, self._file, self._line(*path), hint=hint))
-
-
-def _place(table: _Table, key: str) -> tuple[str, ...]:
-    """Where a key of a robot stands: in its own table or in `[defaults]`."""
-    return ("defaults", key) if key in table.inherited else (*table.path, key)
 
 
 def _names_of(struct: type[Any]) -> set[str]:

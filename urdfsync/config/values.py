@@ -18,29 +18,23 @@ _WORDS = {
     "bool": "true or false",
     "array": "a list",
     "object": "a table",
-    "null": "nothing",
 }
 
 
-class WrongValueError(Exception):
-    """A value is not of its key's type; the message names key, allowed and given value."""
-
-
 def convert(key: str, value: Any, kind: Any) -> Any:
-    """The value of a key as its type. Raises WrongValueError."""
+    """The value of a key as its type. Raises ValueError, whose message names key, allowed and given value."""
     try:
         return msgspec.convert(value, kind)
     except msgspec.ValidationError as error:
-        raise WrongValueError(_in_words(key, value, kind, str(error))) from None
+        raise ValueError(_in_words(key, value, kind, str(error))) from None
 
 
 def choices(kind: Any) -> tuple[Any, ...]:
     """The values that a Literal type allows, or those in a list of it, or in a union with it; empty for other types."""
-    if is_list(kind):
-        kind = get_args(kind)[0]
-    if _is_union(kind):
-        return next((get_args(part) for part in get_args(kind) if get_origin(part) is Literal), ())
-    return get_args(kind) if get_origin(kind) is Literal else ()
+    if get_origin(kind) is Literal:
+        return get_args(kind)
+    parts = get_args(kind)[:1] if is_list(kind) else get_args(kind) if _is_union(kind) else ()
+    return next((found for part in parts if not is_list(part) and (found := choices(part))), ())
 
 
 def is_list(kind: Any) -> bool:
@@ -58,24 +52,19 @@ def _is_union(kind: Any) -> bool:
 
 
 def _in_words(key: str, value: Any, kind: Any, error: str) -> str:
-    allowed = [_as_written(choice) for choice in choices(kind)]
+    allowed = list(map(json.dumps, choices(kind)))
+    given = json.dumps(value, ensure_ascii=False, default=str)
+    if isinstance(value, dict | list):
+        given = _WORDS["object" if isinstance(value, dict) else "array"]
     if allowed and is_list(kind):
-        wrong = next((item for item in value if item not in choices(kind)), None) if isinstance(value, list) else None
-        but = f"not {_as_written(value)}" if wrong is None else f"and {_as_written(wrong)} is none of these"
+        wrong = [item for item in value if item not in choices(kind)] if isinstance(value, list) else []
+        but = f"and {json.dumps(wrong[0], default=str)} is none of these" if wrong else f"not {given}"
         return f"`{key}` must be a list of {' and '.join(allowed)}, {but}"
     if allowed and not (may_be_list(kind) and isinstance(value, list)):
-        listed = " or a list" if may_be_list(kind) else ""
-        return f"`{key}` must be {' or '.join(allowed)}{listed}, not {_as_written(value)}"
+        return f"`{key}` must be {' or '.join(allowed)}{' or a list' if may_be_list(kind) else ''}, not {given}"
     match = _EXPECTED.match(error)
     if match is None:
         return f"`{key}`: {error[0].lower()}{error[1:]}"
-    names = [_WORDS.get(name.strip(), name.strip()) for name in match["type"].split("|") if name.strip() != "null"]
+    names = [_WORDS.get(name, name) for name in match["type"].split(" | ") if name != "null"]
     got = f", not {_WORDS.get(match['got'], match['got'])}" if match["got"] else ""
     return f"`{key}`{match['at'] or ''} must be {' or '.join(names)}{got}"
-
-
-def _as_written(value: Any) -> str:
-    """A value as TOML writes it; of a list or table only the kind."""
-    if isinstance(value, dict | list):
-        return _WORDS["object" if isinstance(value, dict) else "array"]
-    return json.dumps(value, ensure_ascii=False) if isinstance(value, str | bool) else str(value)

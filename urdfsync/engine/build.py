@@ -102,7 +102,7 @@ class _Builder:
                 if self._is_current(plan):
                     return plan
                 continue
-            if plan.writes or plan.bases or any(action.writes for action in plan.actions):
+            if plan.writes or plan.bases or not plan.is_noted or any(action.writes for action in plan.actions):
                 dependencies.mark_incomplete()  # what was read is about to change
                 with profiling.stage("waiting"):
                     self._lock.acquire(waiting=self._wait)
@@ -123,15 +123,14 @@ class _Builder:
         changes = [*shared, *store.ignoring(), *plan.writes]
         bases = store.bases(robot.name)
         bases.add(plan.bases)
-        folder = files.key(robot.folder)
-        store.note_folders(robot.name, {folder, *store.written_folders(plan.former_name or robot.name)})
+        former = {plan.former_folder} & store.written_folders(robot.name)
+        store.note_folders(robot.name, {files.key(robot.folder), *former}, plan.former_name)
         if not changes:
             return ()
         applied = self._transactions.apply(robot.name, changes, plan.emptied)
         self.notes += applied.diagnostics
         if plan.mentioned is not None and not applied.overtaken:
             bases.prune(plan.mentioned)
-            store.note_folders(robot.name, [folder], plan.former_name)
             if plan.former_name:
                 store.bases(plan.former_name).prune(())
         return applied.overtaken
@@ -172,7 +171,8 @@ def _joined(first: Plan, second: Plan) -> Plan:
     """
     known = {action.path for action in second.actions}
     done = {action.path: action for action in first.actions if action.writes}
-    actions = [done.get(one.path, one) if one.kind is Kind.UNCHANGED else one for one in second.actions]
+    in_order = (Kind.UNCHANGED, Kind.ADOPT, Kind.INCLUDED, Kind.FORGET)
+    actions = [done.get(one.path, one) if one.kind in in_order else one for one in second.actions]
     deleted = [one for path, one in done.items() if path not in known and one.kind in DELETES]
     return msgspec.structs.replace(
         second,

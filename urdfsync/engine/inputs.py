@@ -79,6 +79,11 @@ class Inputs:
             former &= self.store.written_folders(self.former_name or self.robot.name)
         return self.folder, *sorted(former)
 
+    @property
+    def is_noted(self) -> bool:
+        """Whether a build in this checkout noted the package's folder."""
+        return self.folder in self.store.written_folders(self.robot.name)
+
     def own_files(self, recorded: Manifest) -> dict[str, FileRecord]:
         """Return the recorded files that a build may delete and move, by key."""
         inside = tuple(f"{folder}/" for folder in self.own_folders)

@@ -82,7 +82,8 @@ def _plan_if_current(inputs: Inputs) -> Plan | None:
     if not options.dry and renewed != recorded:
         writes = list(store.changes(inputs.robot.name, manifest.dumps(renewed), None, None))
     left_out = imports.reminder(found, recorded.dependencies, shown(inputs.robot.source))
-    return Plan(decision.actions, store.witness(), (), decision.shared, left_out, writes=tuple(writes))
+    plan = Plan(decision.actions, store.witness(), (), decision.shared, left_out, writes=tuple(writes))
+    return plan if options.dry else msgspec.structs.replace(plan, is_noted=inputs.is_noted)
 
 
 def _plan_generation(inputs: Inputs) -> Plan:

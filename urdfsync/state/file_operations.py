@@ -61,11 +61,12 @@ def write(path: Path, content: bytes, like: Path | None = None) -> None:
     try:
         while content:
             content = content[os.write(descriptor, content) :]
+        if like is not None:
+            with contextlib.suppress(FileNotFoundError):
+                mode = stat.S_IMODE(like.lstat().st_mode)
+                os.chmod(descriptor if os.chmod in os.supports_fd else path, mode)  # noqa: PTH101
     finally:
         os.close(descriptor)
-    if like is not None:
-        with contextlib.suppress(FileNotFoundError):
-            path.chmod(stat.S_IMODE(like.lstat().st_mode))
 
 
 def write_bound(path: Path, encode: Callable[[int, int], bytes]) -> None:
@@ -76,7 +77,8 @@ def write_bound(path: Path, encode: Callable[[int, int], bytes]) -> None:
     with os.fdopen(os.open(path, _CREATE, 0o666), "wb") as file:
         status = os.fstat(file.fileno())
         file.write(encode(status.st_ino, status.st_mtime_ns))
-    os.utime(path, ns=(status.st_mtime_ns, status.st_mtime_ns))  # writing has changed it
+    follows = os.utime not in os.supports_follow_symlinks  # only where there is no other way
+    os.utime(path, ns=(status.st_mtime_ns, status.st_mtime_ns), follow_symlinks=follows)  # writing has changed it
 
 
 def is_bound(path: Path, inode: int, time: int) -> bool:

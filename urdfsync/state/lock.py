@@ -64,27 +64,35 @@ class Lock:
         """
         if self.held:
             return
+        descriptor, place = None, self._path
         try:
-            descriptor = self._open(shared)
-        except OSError as error:
-            if shared and isinstance(error, FileNotFoundError):
-                return
-            raise failure(error, self._shown(self._path)) from None
-        try:
+            if self._folder is not None:
+                descriptor = os.open(self._folder, os.O_RDONLY)
+            elif shared:
+                descriptor = self._open(os.O_RDONLY)
+            else:
+                self._path.parent.mkdir(exist_ok=True)
+                descriptor = self._open(os.O_RDWR | os.O_CREAT)
+            place = self._folder or self._path
             self._wait_for(descriptor, shared, waiting)
-            if not shared:
-                self._sign()
         except OSError as error:
+            if descriptor is None:
+                if shared and isinstance(error, FileNotFoundError):
+                    return
+                raise failure(error, self._shown(place)) from None
             os.close(descriptor)
             if self._folder is None or error.errno not in _NO_FOLDER_LOCKS:
-                raise failure(error, self._shown(self._folder or self._path), "it can't be locked") from None
+                raise failure(error, self._shown(place), "it can't be locked") from None
             self._folder = None  # the same for all processes here
             self.acquire(shared, waiting)
         except BaseException:
-            os.close(descriptor)
+            if descriptor is not None:
+                os.close(descriptor)
             raise
         else:
             self._descriptor = descriptor
+            if not shared:
+                self._sign()
 
     def release(self) -> None:
         """Let the lock go, if it is held."""
@@ -99,14 +107,6 @@ class Lock:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.release()
-
-    def _open(self, shared: bool) -> int:
-        if self._folder is not None:
-            return os.open(self._folder, os.O_RDONLY)
-        if shared:
-            return self._open_file(os.O_RDONLY)
-        self._path.parent.mkdir(exist_ok=True)
-        return self._open_file(os.O_RDWR | os.O_CREAT)
 
     def _wait_for(self, descriptor: int, shared: bool, waiting: Callable[[], None]) -> None:
         end = time.monotonic() + (0 if self._expired else self._wait)
@@ -126,38 +126,30 @@ class Lock:
 
     def _sign(self) -> None:
         """Leave the number of this process in the file, unless it is there: a daemon locks again and again."""
-        number = f"{os.getpid()}\n".encode()
+        number = f"{os.getpid()}\n"
         with contextlib.suppress(OSError):  # the number is for people only
             self._path.parent.mkdir(exist_ok=True)
-            descriptor = self._open_file(os.O_RDWR | os.O_CREAT)
-            try:
-                is_alone = os.fstat(descriptor).st_nlink < 2  # else it may be a file of the user's, under another name
-                if is_alone and os.read(descriptor, len(number) + 1) != number:
-                    os.lseek(descriptor, 0, os.SEEK_SET)
-                    os.ftruncate(descriptor, 0)
-                    os.write(descriptor, number)
-            finally:
-                os.close(descriptor)
+            with os.fdopen(self._open(os.O_RDWR | os.O_CREAT), "r+", errors="replace") as file:
+                is_alone = os.fstat(file.fileno()).st_nlink < 2  # else it may be a file of the user
+                if is_alone and file.read(len(number) + 1) != number:
+                    file.seek(0)
+                    file.truncate()
+                    file.write(number)
 
     def _locked(self) -> LockedError:
-        who = "another process"
-        with contextlib.suppress(OSError):
-            descriptor = self._open_file(os.O_RDONLY)
-            try:
-                holder = os.read(descriptor, 20).decode(errors="replace").strip()
-            finally:
-                os.close(descriptor)
-            who = f"process {holder}" if holder.isdecimal() else who
+        holder = ""
+        with contextlib.suppress(OSError), os.fdopen(self._open(os.O_RDONLY), errors="replace") as file:
+            holder = file.read(20).strip()
+        who = f"process {holder}" if holder.isdecimal() else "another process"
         message = f"{who} is building here, and did not finish within {self._wait:g} s"
         hint = "wait for it or end it, then build again"
         return LockedError(Diagnostic(Severity.ERROR, "locked", message, self._shown(self._path), hint=hint))
 
-    def _open_file(self, flags: int) -> int:
+    def _open(self, flags: int) -> int:
         """Open the file itself: a link is not followed, and a pipe in its place is not waited for."""
         if self._path.parent.is_symlink():
             raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(self._path.parent))
-        flags |= getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
-        return os.open(self._path, flags, 0o666)
+        return os.open(self._path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0), 0o666)
 
 
 def build_lock(root: Path, folder: Path, wait: float, shown: Callable[[Path], str] = str) -> Lock:

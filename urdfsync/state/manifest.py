@@ -6,11 +6,10 @@ Two files in `.urdfsync/robots/`, both committed: `<robot>.toml`, which people r
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import posixpath
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import msgspec
@@ -19,7 +18,7 @@ import tomli_w
 from urdfsync import tomlfile
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Role
-from urdfsync.state.record import FileRecord, RecordState
+from urdfsync.state.record import FileRecord
 
 FORMAT = 1
 """Raised when an older urdfsync could misread what a newer one records."""
@@ -96,18 +95,19 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True):
     def recorded(self) -> Manifest:
         """What comes back from the manifest's text: sorted, and without what lies outside of the package."""
         inside, above = f"{self.folder}/", _order_above(self.folder)
+        names = {kind: dict(sorted(names.items())) for kind, names in sorted(self.names.items()) if names}
+        orders = {path: order for path, order in self.orders.items() if path == above or path.startswith(inside)}
+        files = {}
+        for path, record in sorted(self.files.items()):
+            if path.startswith(inside):
+                origin = record.origin and inside + record.origin[len(inside) :]
+                files[path] = msgspec.structs.replace(record, origin=origin) if origin else record
         return msgspec.structs.replace(
             self,
-            names={kind: dict(sorted(names.items())) for kind, names in sorted(self.names.items()) if names},
+            names=names,
             dependencies=dict(sorted(self.dependencies.items())),
-            orders={
-                path: names for path, names in sorted(self.orders.items()) if path == above or path.startswith(inside)
-            },
-            files={
-                path: _with_origin(record, inside + (record.origin or "")[len(inside) :])
-                for path, record in sorted(self.files.items())
-                if path.startswith(inside)
-            },
+            orders=dict(sorted(orders.items())),
+            files=files,
         )
 
 
@@ -116,46 +116,15 @@ def dumps(manifest: Manifest) -> str:
     manifest = manifest.recorded
     above, below = _order_above(manifest.folder), len(manifest.folder) + 1
     document = msgspec.to_builtins(manifest)
-    document["orders"] = {
-        _PARENT if path == above else path[below:]: list(names) for path, names in manifest.orders.items()
-    }
-    document["orders"] = dict(sorted(document["orders"].items()))
+    orders = {_PARENT if path == above else path[below:]: list(names) for path, names in manifest.orders.items()}
+    document["orders"] = dict(sorted(orders.items()))
     document["files"] = {path[below:]: record for path, record in document["files"].items()}
     for record in document["files"].values():
         if "origin" in record:
             record["origin"] = record["origin"][below:]
-    left_out = {key for key in ("names", "dependencies", "orders", "files") if not document[key]}
-    left_out |= {"options"} if manifest.options is None else set()
-    return _HEADER + tomli_w.dumps({key: value for key, value in document.items() if key not in left_out})
-
-
-def with_overtaken(planned: bytes, before: Iterable[bytes], keys: Iterable[str]) -> bytes:
-    """The text of a manifest after a build that left files alone because somebody saved them in between.
-
-    `planned` is the text as it was planned, `before` are those of the manifests that it replaces, and `keys` are the
-    paths of these files. Their records stay as they were, and say that the files conflict. The source counts as
-    another one: so no build takes the package for up to date until all of it was looked at again.
-    """
-    manifest = loads(planned.decode(), "")
-    files, orders = dict(manifest.files), dict(manifest.orders)
-    known_files: dict[str, FileRecord] = {}
-    known_orders: dict[str, tuple[str, ...]] = {}
-    for text in before:
-        with contextlib.suppress(StateError, UnicodeDecodeError):  # a state that `--repair` is about to replace
-            recorded = loads(text.decode(), "")
-            known_files |= recorded.files
-            known_orders |= recorded.orders
-    for key in keys:
-        if key in orders or key in known_orders:
-            orders[key] = known_orders.get(key, ())
-        record = known_files.get(key)
-        if record is None and key in files:
-            record = FileRecord(files[key].owner, files[key].role)
-        if record is not None:
-            files[key] = msgspec.structs.replace(record, state=RecordState.CONFLICT)
-    source = msgspec.structs.replace(manifest.source, hash="")
-    orders = {key: names for key, names in orders.items() if names}
-    return dumps(msgspec.structs.replace(manifest, source=source, files=files, orders=orders)).encode()
+    optional = ("names", "dependencies", "orders", "files")
+    kept = {key: value for key, value in document.items() if value is not None and (value or key not in optional)}
+    return _HEADER + tomli_w.dumps(kept)
 
 
 def loads(text: str, file: str) -> Manifest:
@@ -169,15 +138,24 @@ def loads(text: str, file: str) -> Manifest:
     try:
         manifest = msgspec.convert(data, Manifest)
     except msgspec.ValidationError as error:
-        raise StateError(_broken(str(error), data, text, file)) from None
-    _check_places(manifest, text, file)
-
-    folder, above = manifest.folder, _order_above(manifest.folder)
-    files = {
-        f"{folder}/{path}": _with_origin(record, f"{folder}/{record.origin}")
-        for path, record in sorted(manifest.files.items())
+        message, _, place = str(error).partition(" - at `$")
+        line = tomlfile.nearest(tomlfile.lines(text), *_wrong_keys(data, place))
+        message = f"this is no state of urdfsync: {message[0].lower()}{message[1:]}"
+        raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=REPAIR)) from None
+    for is_own, path, keys in _paths(manifest):
+        if not is_own:
+            line = tomlfile.nearest(tomlfile.lines(text), *keys)
+            message = f"the recorded path {path!r} does not belong to the package `{manifest.package}`"
+            hint = "restore the state from version control, or delete it: a build then adopts what is as it would be"
+            raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=hint))
+    folder, files = manifest.folder, {}
+    for path, record in sorted(manifest.files.items()):
+        origin = record.origin and f"{folder}/{record.origin}"
+        files[f"{folder}/{path}"] = msgspec.structs.replace(record, origin=origin) if origin else record
+    orders = {
+        _order_above(folder) if path == _PARENT else f"{folder}/{path}": names
+        for path, names in manifest.orders.items()
     }
-    orders = {above if path == _PARENT else f"{folder}/{path}": names for path, names in manifest.orders.items()}
     return msgspec.structs.replace(manifest, files=files, orders=dict(sorted(orders.items())))
 
 
@@ -205,33 +183,30 @@ def check_format(value: object, file: str, text: str = "") -> None:
     raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=REPAIR))
 
 
-def _with_origin(record: FileRecord, origin: str) -> FileRecord:
-    """The record with another origin, if it has one."""
-    return msgspec.structs.replace(record, origin=origin) if record.origin else record
+def _wrong_keys(data: Mapping[str, Any], place: str) -> list[str]:
+    """The keys to a wrong value, whose place msgspec names without the key of its entry: `.files[...].role`."""
+    keys = re.findall(r"\w+", place)
+    if "[...]" in place:
+        for key, entry in data[keys[0]].items():
+            try:
+                msgspec.convert({**data, keys[0]: {key: entry}}, Manifest)
+            except msgspec.ValidationError:
+                return [keys[0], key, *keys[1:]]
+    return keys
 
 
-def _check_places(manifest: Manifest, text: str, file: str) -> None:
-    """Refuse every path at which no build has written a file of the package; keys are those of the text."""
-    for fine, path, place in _places(manifest):
-        if not fine:
-            line = tomlfile.nearest(tomlfile.lines(text), *place)
-            message = f"the recorded path {path!r} does not belong to the package `{manifest.package}`"
-            hint = "restore the state from version control, or delete it: a build then adopts what is as it would be"
-            raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=hint))
-
-
-def _places(manifest: Manifest) -> Iterator[tuple[bool, str, tuple[str, ...]]]:
-    """Every path in the text: whether it is fine, the path, and the keys that lead to it."""
-    folder, steps = manifest.folder, manifest.package.split(".")
-    yield _is_normal(folder) and folder.split("/")[-len(steps) :] == steps, folder, ("folder",)
+def _paths(manifest: Manifest) -> Iterator[tuple[bool, str, tuple[str, ...]]]:
+    """Every path in the text: whether a build writes such a file of the package, the path, and the keys to it."""
+    folder, package = manifest.folder, manifest.package.split(".")
+    yield _is_normal(folder) and folder.split("/")[-len(package) :] == package, folder, ("folder",)
     yield _is_text(manifest.source.path), manifest.source.path, ("source", "path")
     for path, record in manifest.files.items():
         yield _is_of_role(path, record.role), path, ("files", path)
         if record.origin is not None:
             yield _is_of_role(record.origin, record.role), record.origin, ("files", path, "origin")
     for path, names in manifest.orders.items():
-        own = set(names) <= {steps[-1]} if path == _PARENT else _is_inside(path)
-        yield own and posixpath.basename(path) == _ORDER, path, ("orders", path)
+        is_own = set(names) <= {package[-1]} if path == _PARENT else _is_inside(path)
+        yield is_own and posixpath.basename(path) == _ORDER, path, ("orders", path)
     for key, dependency in manifest.dependencies.items():
         yield _is_of_role(dependency.target, Role.IMPORT), dependency.target, ("dependencies", key, "target")
 
@@ -252,29 +227,11 @@ def _is_of_role(path: str, role: Role) -> bool:
 
 
 def _is_inside(path: str) -> bool:
-    """Whether a path from a folder is that of a file below it."""
-    return bool(_PLAIN.fullmatch(path)) or (_is_normal(path) and not any(p.startswith(".") for p in path.split("/")))
+    """Whether a path from a folder is that of a file below it, hidden ones apart."""
+    if _PLAIN.fullmatch(path):
+        return True
+    return _is_normal(path) and not any(part.startswith(".") for part in path.split("/"))
 
 
 def _order_above(folder: str) -> str:
     return posixpath.join(posixpath.dirname(folder), _ORDER)
-
-
-def _broken(error: str, data: Mapping[str, Any], text: str, file: str) -> Diagnostic:
-    message, _, place = error.partition(" - at `$")
-    path = re.findall(r"\w+", place)
-    entries = data.get(path[0]) if "[...]" in place else None
-    if isinstance(entries, dict):
-        path = [path[0], next((key for key, entry in entries.items() if not _fits(path[0], entry)), ""), *path[1:]]
-    line = tomlfile.nearest(tomlfile.lines(text), *path)
-    message = f"this is no state of urdfsync: {message[0].lower()}{message[1:]}"
-    return Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=REPAIR)
-
-
-def _fits(table: str, entry: object) -> bool:
-    kinds = {"dependencies": DependencyRecord, "orders": tuple[str, ...], "files": FileRecord}
-    try:
-        msgspec.convert(entry, kinds.get(table, dict[str, str]))
-    except msgspec.ValidationError:
-        return False
-    return True

@@ -122,7 +122,7 @@ class Store:
         def encode(inode: int, written: int) -> bytes:
             return msgspec.json.encode(_WrittenFolders(new, inode, written))
 
-        self._tree.check_folder(self.folder)
+        Tree(self._tree.root, self._shown).check_folder(self.folder)
         try:
             file_operations.make_folder(self.folder)
             file_operations.remove(temporary)  # of a build that was killed here
@@ -135,7 +135,8 @@ class Store:
         """The packages' folders by robot; empty if the file is not there, or was not written in this checkout."""
         file = self.folder / _FOLDERS
         try:
-            noted = msgspec.json.decode(self._tree.read(file) or b"", type=_WrittenFolders)
+            content = Tree(self._tree.root, self._shown).read(file)  # finds a folder that this build has made
+            noted = msgspec.json.decode(content or b"", type=_WrittenFolders)
             return noted.folders if file_operations.is_bound(file, noted.inode, noted.written) else {}
         except (OSError, OutputError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return {}
@@ -163,13 +164,13 @@ class Store:
         `former` is the name that the robot had in the state that was loaded, if it has another one now.
         """
         path, beside = self.paths(robot)
-        for file in self.paths(former) if former else ():
-            if self._bytes(file) is not None:
-                yield self._change(file, None)
         for file, text in ((beside, model), (path, recorded)):
             old, content = self._bytes(file) or b"", None if text is None else text.encode()
             if content is not None and content != (old.replace(b"\r\n", b"\n") if b"\r" in old else old):
                 yield self._change(file, content)
+        for file in self.paths(former) if former else ():
+            if self._bytes(file) is not None:
+                yield self._change(file, None)
 
     def ignoring(self) -> list[Change]:
         """How version control is told what is safe to lose, unless it has been told already."""

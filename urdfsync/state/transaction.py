@@ -6,8 +6,10 @@ A transaction only goes forward:
 2. The journal makes the intent durable. Until then nothing has changed, and an error or a crash leaves no trace.
 3. Each target is exchanged with its new file. The old file stands under the temporary name then, where its hash shows
    whether it is the one that was planned with. If it is not, somebody has saved the target in between: the two are
-   exchanged back, and the target is *overtaken*. It stays as it is, and the manifest records it as a conflict.
-4. The manifest takes its place, and what is left under temporary names is removed.
+   exchanged back, and the target is *overtaken*.
+4. The recorded state takes its place, the manifest last, unless a target was overtaken: then it stays as it was, and
+   the next plan finds new files as they would be written, and a conflict in the one that was saved.
+5. What is left under temporary names is removed.
 
 Whoever finds a journal finishes the transaction by the same steps: what stands in a target and under its temporary
 name says how far it is. A temporary name that holds bytes that nobody planned with holds a save of the user's. It is
@@ -21,33 +23,21 @@ import itertools
 import os
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import NoReturn
 
 import msgspec
 
 from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree, digest, failure
-from urdfsync.state import file_operations, manifest
-from urdfsync.state.journal import (
-    Journal,
-    Phase,
-    Step,
-    check_folders,
-    check_paths,
-    find_phase,
-    is_pending,
-    journal_file,
-    load,
-    refuse_old,
-    save,
-    set_aside,
-    unfinished_file,
-)
+from urdfsync.state import file_operations
+from urdfsync.state.journal import Journal, JournalFolder, Phase, Step
 
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""
-_ADJUSTED = "overtaken"
-"""In the temporary name of a manifest that says that files were overtaken."""
+_STATE_FILES = {"robots": (".toml", ".json"), "svg": (".svg",)}
+"""Folders and suffixes of the files in the state folder that transactions write, beside those of conflicts."""
+_REPAIR = "`urdfsync build --repair` sets the journal aside; files that are half way are shown as conflicts then"
 
 
 class UnfinishedError(OutputError):
@@ -80,36 +70,36 @@ class Transactions:
     ) -> None:
         """`root` is the configuration's folder, `folder` the state folder; `outputs` may be written to as well."""
         self._root, self._folder, self._shown, self._outputs = root, folder, shown, outputs
+        self._journals = JournalFolder(root, folder / "journal", shown)
 
     def pending(self) -> bool:
         """Whether a transaction is under way, or was when its process ended. Needs no lock."""
-        return is_pending(self._folder)
+        return self._journals.is_pending()
 
     @profiling.stage("writing")
     def apply(self, robot: str, changes: Sequence[Change], emptied: Iterable[Path] = ()) -> Applied:
-        """Make all changes; the manifest is the last one. `emptied` are folders to remove if they are empty then.
+        """Make all changes. `emptied` are folders to remove if they are empty then.
 
         Raises OutputError if a file can't be written: nothing has changed then. Raises UnfinishedError if that shows
         only when files have changed already; `recover` goes on.
         """
-        paths = [change.path for change in changes]
-        trees = self._trees()
-        check_paths(paths, trees, self._folder, self._shown)
-        journal = Journal(
-            robot,
-            os.urandom(8).hex(),
-            tuple(Step(self._key(c.path), c.old, None if c.content is None else digest(c.content)) for c in changes),
-            tuple(self._key(folder) for folder in self._missing_folders(changes)),
-            tuple(map(self._key, emptied)),
-        )
-        transaction = _Transaction(self._root, self._folder, self._shown, journal)
+        steps = (Step(self._key(c.path), c.old, None if c.content is None else digest(c.content)) for c in changes)
+        made = self._missing_folders(change.path.parent for change in changes if change.content is not None)
+        journal = Journal(robot, os.urandom(8).hex(), tuple(steps), tuple(made), tuple(map(self._key, emptied)))
+        self._check(journal)
         try:
-            transaction.prepare(change.content for change in changes)
-            applied = self._finish(transaction)
+            self._prepare(journal, [change.content for change in changes])
+            applied = self._finish(journal)
         except UnfinishedError:
             raise
         except BaseException as error:
-            self._give_up(transaction, error)
+            known = error.diagnostics if isinstance(error, OutputError) else ()
+            if self._journals.phase() in (Phase.APPLY, Phase.DONE):  # durable: only forward
+                if known:
+                    raise UnfinishedError(*known) from error
+                self._finish(journal)  # Ctrl-C: it takes some milliseconds
+            else:
+                self._discard(journal, known)
             raise
         profiling.count("written", len(changes) - len(applied.overtaken))
         return applied
@@ -120,212 +110,166 @@ class Transactions:
         With `repair`, a journal that can't be believed is set aside. Raises StateError for such a journal otherwise,
         and UnfinishedError if the transaction can't be finished.
         """
-        phase = find_phase(self._folder)
-        if phase is None:
-            if self.pending():
-                refuse_old(self._folder, self._shown)
+        if not self.pending():
             return ()
         try:
-            transaction = self._load(phase)
+            journal = self._journals.load()
+            self._check(journal, self._journals.file(self._journals.phase()))
         except StateError as error:
             if not repair or {found.code for found in error.diagnostics} != {"broken-journal"}:
                 raise
             return (self._set_aside(),)
-        if phase is Phase.PREPARE:
-            try:
-                transaction.discard()
-            except OSError as error:
-                raise self._unfinished(error) from None
+        if self._journals.phase() is Phase.PREPARE:
+            self._discard(journal)
             return ()
-        applied = self._finish(transaction)
-        message = f"the last build of robot `{transaction.journal.robot}` was interrupted; it is finished"
+        applied = self._finish(journal)
+        message = f"the last build of robot `{journal.robot}` was interrupted; it is finished"
         return Diagnostic(Severity.NOTE, "recovered", message), *applied.diagnostics
 
-    def _give_up(self, transaction: _Transaction, error: BaseException) -> None:
-        """End a transaction that was stopped: go back as long as nothing is durable, else forward."""
-        known = error.diagnostics if isinstance(error, OutputError) else ()
-        if find_phase(self._folder) in (Phase.APPLY, Phase.DONE):
-            if known:
-                raise UnfinishedError(*known) from error
-            self._finish(transaction)  # Ctrl-C: it takes some milliseconds
-            return
+    def _prepare(self, journal: Journal, contents: Sequence[bytes | None]) -> None:
+        """Write all new files, and make the intent durable. Raises OutputError."""
+        written, place = [], self._folder
         try:
-            transaction.discard()
-        except OSError as other:
-            raise self._unfinished(other, *known) from error
-
-    def _load(self, phase: Phase) -> _Transaction:
-        journal = load(self._root, self._folder, phase, self._shown)
-        transaction = _Transaction(self._root, self._folder, self._shown, journal)
-        trees, source = self._trees(), journal_file(self._folder, phase)
-        check_paths(transaction.targets, trees, self._folder, self._shown, source)
-        check_folders(transaction.folders, trees, self._folder, self._shown)
-        return transaction
-
-    def _finish(self, transaction: _Transaction) -> Applied:
-        try:
-            return transaction.finish()
+            file_operations.make_folder(self._folder)
+            place = self._journals.folder
+            file_operations.make_folder(place)
+            place = self._journals.file(Phase.PREPARE)
+            self._journals.save(journal)  # before the first temporary file, or nobody would know of that
+            for place in map(self._path, journal.made):
+                file_operations.make_folder(place)
+            for file, content in zip(self._files(journal), contents, strict=True):
+                if content is not None:
+                    place = file.path
+                    file_operations.write(file.temporary, content, file.path)
+                    written.append(file.temporary)
+            place = self._folder
+            file_operations.sync(written)
+            self._journals.enter(Phase.APPLY)
+            file_operations.sync([self._journals.folder])
         except OSError as error:
-            raise self._unfinished(error) from None
+            raise failure(error, self._shown(place)) from None
+
+    def _discard(self, journal: Journal, known: Sequence[Diagnostic] = ()) -> None:
+        """Remove all traces of a transaction of which no target has changed; `known` is why. Raises UnfinishedError."""
+        try:
+            for file in self._files(journal):
+                file_operations.remove(file.temporary)
+            for path in reversed(journal.made):
+                file_operations.remove_folder(self._path(path))
+            self._journals.remove()
+        except OSError as error:
+            self._refuse_to_finish(error, known)
+
+    def _finish(self, journal: Journal) -> Applied:
+        """Change all targets that have not changed yet, and remove all traces. Raises UnfinishedError."""
+        files = self._files(journal)
+        overtaken: list[Path] = []
+        try:
+            if self._journals.phase() is not Phase.DONE:
+                overtaken = self._change(files)
+                file_operations.sync(sorted({file.path.parent for file in files if file.path.parent.is_dir()}))
+                self._journals.enter(Phase.DONE)
+            left = {str(path) for folder in {file.path.parent for file in files} for path in _files_in(folder)}
+            saved = [(file, name) for file in files for name in file.clear(left)]
+            for path in journal.emptied:
+                file_operations.remove_folder(self._path(path))
+            self._journals.remove()
+        except OSError as error:
+            self._refuse_to_finish(error)
+        message = "it was saved in the instant in which a build replaced it; that save is kept as"
+        return Applied(
+            tuple(overtaken),
+            tuple(
+                Diagnostic(Severity.WARNING, "kept-save", f"{message} {self._shown(name)}", self._shown(file.path))
+                for file, name in saved
+            ),
+        )
+
+    def _change(self, files: Sequence[_File]) -> list[Path]:
+        """Change all targets, the recorded state last. Returns those that somebody saved in between."""
+        state = [file for file in files if file.path.parent == self._folder / "robots"]
+        others = [file for file in files if file not in state]
+        changed = [file.change() for file in others]
+        # again, since somebody may have written to an old file through a handle that was opened before
+        again = [done if file.old is None else file.change() for file, done in zip(others, changed, strict=True)]
+        overtaken = [file.path for file, done in zip(others, again, strict=True) if not done]
+        for file in state:
+            if not overtaken and not file.change():
+                overtaken.append(file.path)
+        return overtaken
+
+    def _check(self, journal: Journal, source: Path | None = None) -> None:
+        """Refuse files and folders that no build writes, and links on the way. Raises StateError or OutputError.
+
+        `source` is the file of a journal that was found; None for a build that is about to write.
+        """
+        trees = [Tree(self._root, self._shown), *(Tree(output, self._shown) for output in self._outputs)]
+        paths = [(self._path(step.path), False) for step in journal.steps]
+        paths += [(self._path(path), True) for path in (*journal.made, *journal.emptied)]
+        for path, is_folder in paths:
+            tree = next((tree for tree in trees if tree.covers(path)), None)
+            if tree is None or not self._is_written(path, tree.root, is_folder):
+                code, hint = ("broken-journal", _REPAIR) if source else ("outside", "")
+                if source and tree is None:
+                    hint = f"bring back the `output` that the robot had, and build; {_REPAIR}"
+                message, file = f"{self._shown(path)} is no file that a build writes", self._shown(source or path)
+                raise StateError(Diagnostic(Severity.ERROR, code, message, file, hint=hint))
+            tree.check_folder(path.parent)
+
+    def _is_written(self, path: Path, root: Path, is_folder: bool) -> bool:
+        """Whether a path below a root is of a package, around one, or of the state."""
+        if path.is_relative_to(self._folder):
+            parts = path.relative_to(self._folder).parts
+            if is_folder or parts == (".gitignore",):
+                return True
+            is_state = len(parts) == 2 and path.suffix in _STATE_FILES.get(parts[0], ())
+            return is_state or (len(parts) > 1 and parts[0] == "conflicts")
+        parts = path.relative_to(root).parts
+        if any(part.startswith(".") for part in parts):  # `.git` among them
+            return False
+        return is_folder or parts[-1] == "package.order" or path.suffix == ".mo" or "Resources" in parts[1:-1]
 
     def _set_aside(self) -> Diagnostic:
         try:
-            aside = set_aside(self._folder)
+            aside = self._journals.set_aside()
         except OSError as error:
-            raise self._unfinished(error) from None
+            self._refuse_to_finish(error)
         message = "the journal of an interrupted build was set aside, and nothing was done of it"
         hint = f"look at files called .*{TEMPORARY} in packages: they may hold what somebody saved meanwhile"
         return Diagnostic(Severity.WARNING, "refused-journal", message, self._shown(aside), hint=hint)
 
-    def _unfinished(self, error: OSError, *first: Diagnostic) -> UnfinishedError:
+    def _refuse_to_finish(self, error: OSError, known: Sequence[Diagnostic] = ()) -> NoReturn:
         place = Path(error.filename) if isinstance(error.filename, str) else self._folder
         message = f"an interrupted build can't be brought to an end: {error.strerror or error}"
         hint = "repair that, then build again"
-        return UnfinishedError(*first, Diagnostic(Severity.ERROR, "unfinished", message, self._shown(place), hint=hint))
+        found = Diagnostic(Severity.ERROR, "unfinished", message, self._shown(place), hint=hint)
+        raise UnfinishedError(*known, found) from error
 
-    def _trees(self) -> list[Tree]:
-        return [Tree(self._root, self._shown), *(Tree(output, self._shown) for output in self._outputs)]
+    def _files(self, journal: Journal) -> list[_File]:
+        paths = [self._path(step.path) for step in journal.steps]
+        return [
+            _File(path, path.with_name(f".{journal.token}-{number}{TEMPORARY}"), step.old, step.new)
+            for number, (path, step) in enumerate(zip(paths, journal.steps, strict=True))
+        ]
 
-    def _missing_folders(self, changes: Iterable[Change]) -> list[Path]:
-        """The folders that these files need and that do not exist, outermost first."""
+    def _missing_folders(self, folders: Iterable[Path]) -> list[str]:
+        """The folders that files need and that do not exist, outermost first."""
         missing: set[Path] = set()
-        for innermost in {change.path.parent for change in changes if change.content is not None}:
+        for innermost in set(folders):
             for folder in (innermost, *innermost.parents):
                 if folder == self._root or folder in missing or folder.is_dir():
                     break
                 missing.add(folder)
-        return sorted(missing)
+        return list(map(self._key, sorted(missing)))
 
     def _key(self, path: Path) -> str:
+        """A path as journals name it: from the configuration's folder, POSIX."""
         if path.is_relative_to(self._root):
             return path.relative_to(self._root).as_posix()
         return Path(os.path.relpath(path, self._root)).as_posix()
 
-
-class _Transaction:
-    """The files of one journal."""
-
-    def __init__(self, root: Path, folder: Path, shown: Callable[[Path], str], journal: Journal) -> None:
-        self.journal = journal
-        self._root, self._folder, self._shown = root, folder, shown
-        self._files = []
-        for number, step in enumerate(journal.steps):
-            path = _join(root, step.path)
-            self._files.append(_File(path, self._temporary(path, number), step.old, step.new))
-
-    @property
-    def targets(self) -> list[Path]:
-        """The files that change."""
-        return [file.path for file in self._files]
-
-    @property
-    def folders(self) -> list[Path]:
-        """The folders that come or go."""
-        return [_join(self._root, path) for path in (*self.journal.made, *self.journal.emptied)]
-
-    def prepare(self, contents: Iterable[bytes | None]) -> None:
-        """Write all new files, and make the intent durable. Raises OutputError."""
-        journal = journal_file(self._folder, Phase.PREPARE)
-        for folder in (self._folder, journal.parent):
-            with self._about(folder):
-                file_operations.make_folder(folder)
-        with self._about(journal):
-            save(self._folder, self.journal)
-            file_operations.sync([journal])  # before the first temporary file, or nobody would know of that
-        for path in self.journal.made:
-            with self._about(_join(self._root, path)):
-                file_operations.make_folder(_join(self._root, path))
-        written = []
-        for file, content in zip(self._files, contents, strict=True):
-            if content is not None:
-                with self._about(file.path):
-                    file_operations.write(file.temporary, content, file.path)
-                written.append(file.temporary)
-        with self._about(self._folder):
-            file_operations.sync(written)
-            self._enter(Phase.APPLY)
-            file_operations.sync([journal.parent])
-
-    def discard(self) -> None:
-        """Remove all traces of a transaction of which no target has changed. Raises OSError."""
-        for file in self._files:
-            file_operations.remove(file.temporary)
-        for path in reversed(self.journal.made):
-            file_operations.remove_folder(_join(self._root, path))
-        for journal in (unfinished_file(self._folder), journal_file(self._folder, Phase.PREPARE)):
-            file_operations.remove(journal)
-
-    def finish(self) -> Applied:
-        """Change all targets that have not changed yet, the manifest last, and remove all traces. Raises OSError."""
-        overtaken: list[Path] = []
-        if find_phase(self._folder) is not Phase.DONE:
-            overtaken = self._change_all()
-            file_operations.sync(sorted({path.parent for path in self.targets if path.parent.is_dir()}))
-            self._enter(Phase.DONE)
-        last = self._files[-1]
-        adjusted = _File(last.path, self._temporary(last.path, _ADJUSTED), last.old, last.new)
-        left = {str(path) for folder in {path.parent for path in self.targets} for path in _files_in(folder)}
-        saved = [(file, name) for file in (*self._files, adjusted) for name in file.clear(left)]
-        for path in self.journal.emptied:
-            file_operations.remove_folder(_join(self._root, path))
-        file_operations.remove(journal_file(self._folder, Phase.DONE))
-        return Applied(tuple(overtaken), tuple(self._told(file, name) for file, name in saved))
-
-    def _change_all(self) -> list[Path]:
-        """Change the targets. Returns those that somebody saved in between."""
-        *others, last = self._files
-        changed = [file.change() for file in others]
-        # again, since somebody may have written to an old file through a handle that was opened before
-        overtaken = [
-            file.path
-            for file, done in zip(others, changed, strict=True)
-            if not (done if file.old is None else file.change())
-        ]
-        is_manifest = _is_manifest(last) and last.new is not None
-        done = self._record(last, overtaken) if overtaken and is_manifest else last.change()
-        return overtaken if done else [*overtaken, last.path]
-
-    def _record(self, last: _File, overtaken: Sequence[Path]) -> bool:
-        """Change the manifest, which says that other files were overtaken. Returns False if it was overtaken itself."""
-        temporary = self._temporary(last.path, _ADJUSTED)
-        planned = _find(last.new, [last.temporary, last.path])
-        if planned is None:
-            return False
-        before = [(file.old, (file.path, file.temporary, temporary)) for file in self._files if _is_manifest(file)]
-        recorded = (_find(old, paths) for old, paths in before)
-        keys = [step.path for step, file in zip(self.journal.steps, self._files, strict=True) if file.path in overtaken]
-        text = manifest.with_overtaken(planned, [found for found in recorded if found is not None], keys)
-        current = hash_of(last.path)
-        adjusted = _File(last.path, temporary, last.new if current == last.new else last.old, digest(text))
-        if current != adjusted.new and (adjusted.old is None or hash_of(temporary) != adjusted.old):
-            file_operations.remove(temporary)  # a run that was killed may have written half of it
-            file_operations.write(temporary, text, last.path)
-        if adjusted.change():
-            return True
-        if hash_of(temporary) == adjusted.new:
-            file_operations.remove(temporary)
-        return False
-
-    def _told(self, file: _File, name: Path) -> Diagnostic:
-        message = f"it was saved in the instant in which a build replaced it; that save is kept as {self._shown(name)}"
-        return Diagnostic(Severity.WARNING, "kept-save", message, self._shown(file.path))
-
-    def _temporary(self, path: Path, name: int | str) -> Path:
-        return path.with_name(f".{self.journal.token}-{name}{TEMPORARY}")
-
-    def _enter(self, phase: Phase) -> None:
-        """Rename the journal."""
-        now = find_phase(self._folder)
-        if now is not None and now is not phase:
-            file_operations.replace(journal_file(self._folder, now), journal_file(self._folder, phase))
-
-    @contextlib.contextmanager
-    def _about(self, path: Path) -> Iterator[None]:
-        """Turn an error of the system into one about a file."""
-        try:
-            yield
-        except OSError as error:
-            raise failure(error, self._shown(path)) from None
+    def _path(self, key: str) -> Path:
+        return Path(os.path.normpath(self._root / key))
 
 
 class _File(msgspec.Struct, frozen=True):
@@ -420,22 +364,3 @@ def _files_in(folder: Path) -> list[Path]:
         return list(folder.iterdir())
     except (FileNotFoundError, NotADirectoryError):
         return []
-
-
-def _find(wanted: str | None, paths: Iterable[Path]) -> bytes | None:
-    """The content of this hash, from one of several files."""
-    for path in paths if wanted else ():
-        with contextlib.suppress(IsADirectoryError):
-            content = file_operations.read(path)
-            if content is not None and digest(content) == wanted:
-                return content
-    return None
-
-
-def _is_manifest(file: _File) -> bool:
-    return file.path.suffix == ".toml" and file.path.parent.name == "robots"
-
-
-def _join(root: Path, path: str) -> Path:
-    """The path that a journal gives from the configuration's folder."""
-    return Path(os.path.normpath(root / path))
