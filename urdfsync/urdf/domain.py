@@ -35,6 +35,7 @@ from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.kinematics.base_guess import guess_base
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes.lookup import dependencies
+from urdfsync.urdf.meshes.single_thread import single_thread
 from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
@@ -90,7 +91,8 @@ class UrdfDomain(Domain):
 
     def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
         """Return a mesh as STL or OBJ, with its bounds and its outermost points."""
-        from urdfsync.urdf.meshes.convert import convert  # with numpy, which only a new mesh needs
+        with single_thread():
+            from urdfsync.urdf.meshes.convert import convert  # with numpy, which only a new mesh needs
 
         return convert(dependency, file, content)
 

@@ -15,6 +15,7 @@ import msgspec
 
 from urdfsync.processes import exit_cause, importable, python_module
 from urdfsync.urdf.meshes.errors import MeshError
+from urdfsync.urdf.meshes.single_thread import VARIABLE
 from urdfsync.urdf.robot import Vector
 
 CPU_SECONDS = 4.0
@@ -106,7 +107,7 @@ class MeshProcess:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            env={**os.environ, **importable(), "OPENBLAS_NUM_THREADS": "1"},  # each thread would have memory of its own
+            env={**os.environ, **importable(), VARIABLE: "1"},  # each thread would have memory of its own
             start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends the process
         )
 
