@@ -1,6 +1,6 @@
 """All checks of the project: `python -m tests [--long] [pytest arguments]`.
 
-With `--long`, as CI runs them, the tests follow that take long and show for more robots what others show for some.
+With `--long`, as CI runs them, the tests follow that take more than some seconds.
 """
 
 import os
@@ -18,16 +18,16 @@ CHECKS = {
     "types": ["mypy"],
     "imports": ["lint-imports", "--no-cache"],
     "examples in step": ["urdfsync", "build", "--check"],
-    "tests": [*PYTEST, "-m", "not long and not large"],
+    "tests": [*PYTEST, "-m", "not slow and not large"],
 }
-LONG = {"long tests": [*PYTEST, "-m", "long and not large"]}
+SLOW = {"slow tests": [*PYTEST, "-m", "slow and not large"]}
 
 
 def main() -> int:
     """Run every check, even after one has failed; the exit code is 1 if any did."""
     failed = []
     given = [argument for argument in sys.argv[1:] if argument != "--long"]
-    checks = CHECKS | LONG if "--long" in sys.argv else CHECKS
+    checks = CHECKS | SLOW if "--long" in sys.argv else CHECKS
     for name, (module, *arguments) in checks.items():
         print(f"== {name}", flush=True)  # noqa: T201
         extra = given if module == "pytest" else []

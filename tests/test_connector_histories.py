@@ -16,7 +16,6 @@ from typing import NamedTuple
 import pytest
 from lxml import etree
 from support import replay
-from support.marks import LONG
 from support.packages import RENDERER, read
 from support.replay import Project
 
@@ -284,7 +283,7 @@ STEPS = ("upkie_camera", "stompymicro_robot_fixed", "so101_new_calib")
 """Histories with leaves that get children, joints that stop, and names that come back."""
 
 
-@pytest.mark.parametrize("ending", [STEPS[0], *(pytest.param(step, marks=LONG) for step in STEPS[1:])])
+@pytest.mark.parametrize("ending", [STEPS[0], *(pytest.param(step, marks=pytest.mark.slow) for step in STEPS[1:])])
 def test_build_and_diff_name_each_case(
     corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], ending: str
 ) -> None:

@@ -70,7 +70,7 @@ def test_diagrams_of_the_corpus_are_well_drawn(files: Sequence[str], corpus: Pat
         assert_well_drawn(generate(corpus / file, BOT, base=proposed_base(content)), file)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("base", ["fixed", "floating"])
 @pytest.mark.parametrize("files", SOURCES.values(), ids=SOURCES)
 def test_diagrams_of_all_versions_are_well_drawn(files: Sequence[str], base: str, corpus: Path) -> None:

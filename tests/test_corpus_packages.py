@@ -103,7 +103,6 @@ def syntax_errors(text: str) -> list[str]:
     return [d.message for d in rumoca.validate_source(text) if d.rule == "syntax-error"]
 
 
-@pytest.mark.long
 @pytest.mark.slow
 def test_rumoca_parses_every_text(corpus: Path) -> None:
     for text, place in texts().items():
@@ -129,7 +128,6 @@ def test_both_parsers_accept_every_kind_of_statement(corpus: Path) -> None:
     assert len(parsed) > 50
 
 
-@pytest.mark.long
 @pytest.mark.slow
 @pytest.mark.parametrize("part", range(PARTS))
 def test_pymoca_parses_every_kind_of_text(part: int, corpus: Path) -> None:
@@ -223,7 +221,6 @@ def test_the_compiler_accepts_layout_and_names(files: Sequence[str], corpus: Pat
     assert_names_are_known(files[-1], tmp_path)
 
 
-@pytest.mark.long
 @pytest.mark.slow
 @each_history
 def test_the_compiler_accepts_layout_and_names_of_all_versions(
@@ -273,6 +270,7 @@ def test_the_compiler_notices_a_wrong_layout(tmp_path: Path) -> None:
         unknown_names(folder)
 
 
+@pytest.mark.slow
 def test_the_compiler_notices_an_unknown_name(tmp_path: Path) -> None:
     folder = SMALL.write(tmp_path)
     arm = folder / "Links" / "Arm.mo"
@@ -311,6 +309,7 @@ def nasty_package(tmp_path_factory: pytest.TempPathFactory) -> Package:
     return generate(nasty.write(tmp_path_factory.mktemp("nasty")), nasty.TARGET)
 
 
+@pytest.mark.slow
 def test_nasty_names_give_right_modelica(nasty_package: Package) -> None:
     for path, text in nasty_package.models.items():
         assert syntax_errors(text) == [], path

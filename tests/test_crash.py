@@ -17,7 +17,6 @@ from typing import IO
 import pytest
 from support import crashes
 from support.crashes import Operation, before_each, contents, killed, recorded, run, sample
-from support.marks import LONG
 
 from urdfsync import render
 from urdfsync.state import file_operations
@@ -32,7 +31,7 @@ MANIFEST = ".urdfsync/robots/ladder.toml"
 RENDERER = render.Renderer
 MINE = b"\n// mine\n"
 
-pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")]
 
 Contents = Mapping[str, bytes | None]
 
@@ -220,7 +219,6 @@ def test_a_source_that_changes_after_a_crash(changed: Path, tmp_path: Path) -> N
 
 
 @pytest.mark.slow
-@pytest.mark.long
 def test_a_robot_with_thirty_joints(tmp_path: Path) -> None:
     project = tmp_path / "project"
     project.mkdir()
@@ -253,7 +251,7 @@ def chain(joints: int) -> str:
 FALLIBLE = [name for name in crashes.NAMES if name != "remove_folder"]  # which passes over every error
 
 
-@pytest.mark.parametrize("number", [errno.ENOSPC, pytest.param(errno.EACCES, marks=LONG)])
+@pytest.mark.parametrize("number", [errno.ENOSPC, pytest.param(errno.EACCES, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("lasting", [False, True])
 def test_a_system_that_refuses_leaves_all_as_it_was(changed: Path, tmp_path: Path, number: int, lasting: bool) -> None:
     before, wanted = contents(changed), expected(changed, tmp_path / "clean")

@@ -15,7 +15,7 @@ from support.workplace import Fault
 FUZZ = Path(__file__).with_name("fuzz.py")
 PATIENCE = 300.0
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no such signals and FIFOs")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform == "win32", reason="no such signals and FIFOs")]
 
 
 @pytest.mark.parametrize(("run", "count"), [(urdf.run, 60), (config.run, 10), (state.run, 10)])
@@ -27,7 +27,6 @@ def test_no_case_shows_a_fault(
 
 
 @pytest.mark.slow
-@pytest.mark.long
 @pytest.mark.parametrize(("kind", "count"), [("URDF", 2000), ("config", 100), ("state", 100)])
 def test_no_case_of_many_shows_a_fault(kind: str, count: int) -> None:
     command = [sys.executable, str(FUZZ), kind, str(count), "--seed", "5000"]

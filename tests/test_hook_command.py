@@ -19,7 +19,7 @@ from urdfsync import cli, hook
 from urdfsync.hooks import check
 from urdfsync.state.lock import build_lock
 
-pytestmark = NEEDS_GIT
+pytestmark = [pytest.mark.slow, NEEDS_GIT]
 
 Capture = pytest.CaptureFixture[str]
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]

@@ -29,7 +29,7 @@ pytestmark = [
     pytest.mark.skipif(not PRE_COMMIT.is_file(), reason="pre-commit is not installed"),
 ]
 
-MODES = pytest.mark.parametrize("mode", ["build", pytest.param("check", marks=pytest.mark.long)])
+MODES = pytest.mark.parametrize("mode", ["build", pytest.param("check", marks=pytest.mark.slow)])
 """What differs between them is shown by `test_hook_command.py` without commits; also what tests marked long show."""
 
 
@@ -122,7 +122,7 @@ def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[..., S
     assert site.status() == []
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_paths_are_those_of_the_folder_in_which_git_was_called(make: Callable[..., Site]) -> None:
     site = make("build")
     resistor(120)
@@ -147,7 +147,7 @@ def test_a_staged_source_with_later_changes(make: Callable[..., Site], mode: str
     assert site.status() == ["MM ladder.json"], "nothing was written, nothing is lost"
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @MODES
 def test_a_change_of_the_source_that_is_not_staged(make: Callable[..., Site], mode: str) -> None:
     site = make(mode)
@@ -162,7 +162,7 @@ def test_a_change_of_the_source_that_is_not_staged(make: Callable[..., Site], mo
     ]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_outputs_that_are_staged_in_part(make: Callable[..., Site]) -> None:
     """The state and a record have changes that are stashed: what a build would write could not stay."""
     site = make("build")
@@ -258,7 +258,7 @@ def numbers(name: str) -> list[str]:
     return text.replace("=", " ").replace(";", " ").replace(")", " ").split()
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @MODES
 def test_all_files(make: Callable[..., Site], mode: str) -> None:
     """Then pre-commit does not stash anything."""

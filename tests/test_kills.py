@@ -37,7 +37,6 @@ CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\ncross_check
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.long,
     pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system"),
 ]
 

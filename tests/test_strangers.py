@@ -17,7 +17,6 @@ from pathlib import Path
 import pytest
 from support import hostile
 from support.git import NEEDS_GIT, Repository
-from support.marks import LONG
 from support.urdfs import joint, limit, link, robot
 from support.workplace import WATCH, Workplace, changes, contents
 
@@ -145,7 +144,7 @@ def _attack(work: Workplace, stale: Path, name: str, commands: Sequence[Sequence
 
 
 IN_PROCESS = [
-    pytest.param(name, marks=LONG if name == "a long chain" else ())
+    pytest.param(name, marks=pytest.mark.slow if name == "a long chain" else ())
     for name in hostile.ATTACKS
     if name not in ("modules", "a domain of the repository")
 ]
@@ -163,7 +162,6 @@ def test_an_attack_meets_every_command(tmp_path: Path, stale: Path, name: str) -
 
 @pytest.mark.parametrize("name", IN_PROCESS)
 @pytest.mark.parametrize("command", LONGER, ids=lambda command: str(command[0]))
-@pytest.mark.long
 @pytest.mark.slow
 def test_an_attack_meets_the_commands_that_take_longer(
     tmp_path: Path, stale: Path, name: str, command: Sequence[str]

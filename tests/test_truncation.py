@@ -97,6 +97,7 @@ def end_of(content: bytes) -> int:
     return content.rindex(b"</robot>") + len(b"</robot>")
 
 
+@pytest.mark.slow
 def test_every_truncation_is_one_error_and_changes_nothing(tmp_path: Path) -> None:
     content = FULL.encode()
     project = built(tmp_path / "project", content)

@@ -11,7 +11,6 @@ from pathlib import Path
 
 import psutil
 import pytest
-from support.marks import LONG
 from support.urdfs import dynamics, joint, link, robot
 
 COMMAND = [sys.executable, "-m", "urdfsync", "check", "--json"]
@@ -63,7 +62,9 @@ def _is_compiler(process: psutil.Process) -> bool:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signals")
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL, pytest.param(signal.SIGTERM, marks=LONG)])
+@pytest.mark.parametrize(
+    "number", [signal.SIGINT, signal.SIGKILL, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)]
+)
 def test_no_process_is_left_by_an_end_in_the_midst(arm: Path, number: signal.Signals) -> None:
     with psutil.Popen(COMMAND, cwd=arm, stdout=subprocess.PIPE) as process:
         compilers: list[psutil.Process] = []

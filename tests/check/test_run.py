@@ -114,6 +114,7 @@ def test_it_is_told_what_is_being_done(robots: Config, tmp_path: Path) -> None:
     assert ("late: at work", 50, 100) in steps
 
 
+@pytest.mark.slow
 def test_time_and_memory_are_limited_and_what_was_found_until_then_stays(robots: Config) -> None:
     early, slow = check(robots, ["early", "slow"], CheckOptions(timeout=6, jobs=2))
     assert not early.failed
@@ -124,6 +125,7 @@ def test_time_and_memory_are_limited_and_what_was_found_until_then_stays(robots:
     assert "--memory" in big.diagnostics[0].hint
 
 
+@pytest.mark.slow
 def test_whoever_needs_more_than_a_share_gets_all_of_it_alone(robots: Config, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two at a time have 300 MB each; each takes 400 MB, which is there for one of them."""
     monkeypatch.setattr(run, "_EXPECTED_MEMORY", 3e8)

@@ -10,7 +10,6 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from support.marks import LONG
 
 from urdfsync import config, uptodate
 from urdfsync.dependencies import NO_STAT
@@ -190,7 +189,7 @@ def test_a_file_that_was_changed_back_in_time_is_seen(project: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=LONG)])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_any_row_of_edits_is_seen(project: Path, seed: int) -> None:
     random = Random(seed)
     _follow(project, random, (random.choice(EDITS) for _ in range(30)))

@@ -169,6 +169,7 @@ def test_links_in_the_repository_lead_to_what_is_staged(repo: Repository) -> Non
 CONTENTS = st.sampled_from([None, "one\n", "two\n"])
 
 
+@pytest.mark.slow
 @settings(max_examples=6, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     files=st.dictionaries(st.sampled_from(["f/a", "f/b", "f/g/c", "f/h/d"]), st.tuples(CONTENTS, CONTENTS, CONTENTS))

@@ -13,7 +13,6 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from support.marks import LONG
 
 from urdfsync.merge import Merge, merge, split_lines
 from urdfsync.merge.lines import find_flaw, merge_lines
@@ -505,7 +504,7 @@ def files() -> list[list[str]]:
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed: there is nothing to compare with")
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=LONG) for seed in range(1, 8))])
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 8))])
 def test_lines_merge_as_in_git(seed: int, files: list[list[str]], tmp_path: Path) -> None:
     rng = random.Random(seed)
     clean = 0

@@ -14,7 +14,6 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from support.marks import LONG
 
 from urdfsync.merge.sequence import Replacement, compare
 
@@ -85,12 +84,15 @@ def case(rng: random.Random, length: int, alphabet: int, strange: float) -> tupl
     [
         *((12, 60, *case) for case in [(2, 0), (5, 0.5)]),
         *(
-            pytest.param(12, 60, alphabet, strange, marks=LONG)
+            pytest.param(12, 60, alphabet, strange, marks=pytest.mark.slow)
             for alphabet in (1, 2, 5, 30)
             for strange in (0, 0.1, 0.5, 0.8)
         ),
         *[(2, 700, 30, 0), (2, 2000, 20, 0.6)],
-        *(pytest.param(*case, marks=LONG) for case in [(2, 700, 2, 0), (2, 1500, 300, 0), (2, 2000, 2000, 0.1)]),
+        *(
+            pytest.param(*case, marks=pytest.mark.slow)
+            for case in [(2, 700, 2, 0), (2, 1500, 300, 0), (2, 2000, 2000, 0.1)]
+        ),
     ],
 )
 def test_replacements_are_those_of_git(count: int, length: int, alphabet: int, strange: float, tmp_path: Path) -> None:

@@ -7,15 +7,12 @@ from pathlib import Path
 
 import pytest
 from support import corpus, nasty
-from support.marks import LONG
 from support.modelica import Task, compile_task, execute
 from support.packages import Package, generate, proposed_base
 
 from urdfsync.domain import Target
 from urdfsync.modelica.names import class_name
 
-CHOSEN = ("oems-turtlebot3_burger",)
-"""One that drives; one that stands is that of the page on models of your own. Others are compiled in the long run."""
 MANY_JOINTS = 3
 """Larger ones take long, and their robots are compiled for the comparison with Pinocchio anyway."""
 FAULTY = {"robots/random/spot_ros/spot_description/urdf/spot_arm.urdf"}
@@ -24,16 +21,10 @@ FAULTY = {"robots/random/spot_ros/spot_description/urdf/spot_arm.urdf"}
 
 def _cases() -> list[object]:
     return [
-        pytest.param(file, id=corpus.label(file), marks=_marks(file, joints))
+        pytest.param(file, id=corpus.label(file), marks=pytest.mark.large if joints > MANY_JOINTS else pytest.mark.slow)
         for file, joints in corpus.moving_joints().items()
         if file not in FAULTY
     ]
-
-
-def _marks(file: str, joints: int) -> list[pytest.MarkDecorator]:
-    if joints > MANY_JOINTS:
-        return [pytest.mark.large]
-    return [pytest.mark.slow] if corpus.label(file) in CHOSEN else LONG
 
 
 def tasks(package: Package) -> Sequence[Task]:
@@ -51,7 +42,6 @@ def test_robot_and_benches_compile(file: str, corpus: Path, modelica_library: Pa
     assert [outcome.error for outcome in outcomes] == ["", "", ""]
 
 
-@pytest.mark.long
 @pytest.mark.slow
 def test_nasty_names_compile(modelica_library: Path, tmp_path: Path) -> None:
     package = generate(nasty.write(tmp_path / "source"), nasty.TARGET)

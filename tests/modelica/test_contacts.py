@@ -325,7 +325,7 @@ end Case;
 """
 
 
-@pytest.mark.parametrize("drive", ["speed", pytest.param("torque", marks=pytest.mark.long)])
+@pytest.mark.parametrize("drive", ["speed", pytest.param("torque", marks=pytest.mark.slow)])
 def test_the_axles_of_a_driven_cart_stay_at_the_radius_of_its_wheels(session: Any, drive: str) -> None:
     result = simulate(session, cart(drive), seconds=3)
     wheels = [Motion(result, f"wheel{k}") for k in range(1, 5)]

@@ -134,7 +134,7 @@ def test_the_sensor_shows_what_it_feels_on_a_circle(found: Mapping[str, Series])
     assert np.array([series.values[name] for name in IMU]) == pytest.approx(np.array(expected), rel=1e-6, abs=1e-6)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_whole_arm_holds_itself_and_its_payload(modelica_library: Path) -> None:
     """The torque is that of the plain robot, as Pinocchio has it, and that of the payload, by hand."""
     task = Task(OUTSTRETCHED, "Outstretched", [Run(0.08, 0.04, STIFF)], ["robot.elbowAxis.tau", "robot.imu.f[3]"])
@@ -148,7 +148,7 @@ def test_the_whole_arm_holds_itself_and_its_payload(modelica_library: Path) -> N
 
 
 @pytest.mark.parametrize(
-    "model", ["MyArm.Test", pytest.param("UrdfSync.Examples.CustomArm.CustomArmTest", marks=pytest.mark.long)]
+    "model", ["MyArm.Test", pytest.param("UrdfSync.Examples.CustomArm.CustomArmTest", marks=pytest.mark.slow)]
 )
 def test_the_example_and_the_models_on_the_page_compile(modelica_library: Path, tmp_path: Path, model: str) -> None:
     """The page's first block is a package; its elbow has a brake, which the test model of the arm takes along."""

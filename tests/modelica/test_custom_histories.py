@@ -87,7 +87,6 @@ def warnings(result: Result) -> list[str]:
 
 
 @pytest.mark.slow
-@pytest.mark.long
 @pytest.mark.parametrize("history", HISTORIES.values(), ids=HISTORIES)
 def test_an_extension_survives_and_its_torques_differ_as_pinocchio_says(
     corpus: Path, modelica_library: Path, tmp_path: Path, history: History

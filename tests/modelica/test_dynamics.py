@@ -45,7 +45,7 @@ end Axes_;
 
 @pytest.mark.parametrize(
     ("text", "form"),
-    [pytest.param(*case, id=name, marks=[pytest.mark.long] * (name == "ladder")) for name, case in CASES.items()],
+    [pytest.param(*case, id=name, marks=[pytest.mark.slow] * (name == "ladder")) for name, case in CASES.items()],
 )
 def test_functions_agree_with_pinocchio_in_random_configurations(
     modelica_library: Path, tmp_path: Path, text: str, form: Form

@@ -205,7 +205,7 @@ CHOSEN = ("types", "gripper")
 
 @pytest.mark.parametrize(
     "names",
-    [CHOSEN, pytest.param([name for name in DRIVEN if name not in CHOSEN], marks=pytest.mark.long)],
+    [CHOSEN, pytest.param([name for name in DRIVEN if name not in CHOSEN], marks=pytest.mark.slow)],
     ids=["chosen", "others"],
 )
 def test_free_joints_accelerate_as_pinocchio_says(names: Sequence[str], modelica_library: Path, tmp_path: Path) -> None:

@@ -13,15 +13,12 @@ from pathlib import Path
 import pytest
 from support import corpus, physics
 from support.corpus import REPOSITORY
-from support.marks import LONG
 
 from urdfsync.modelica.names import class_name
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import completion
 
-CHOSEN = ("random-schunk_pg70", "oems-turtlebot3_burger")
-"""Axes that slide and follow, and that turn without end: the others are compared in the long run."""
 MANY_JOINTS = 4
 """Robots with more moving joints take much longer: their number of equations grows, and the cost with it."""
 
@@ -38,14 +35,14 @@ def _cases() -> list[object]:
             return [file]
         if file in FAULTY or joints == 0:
             continue
-        cases.append(pytest.param(file, id="-".join([corpus.label(file), *_notes(file)]), marks=_marks(file, joints)))
+        cases.append(
+            pytest.param(
+                file,
+                id="-".join([corpus.label(file), *_notes(file)]),
+                marks=pytest.mark.large if joints > MANY_JOINTS else pytest.mark.slow,
+            )
+        )
     return cases
-
-
-def _marks(file: str, joints: int) -> list[pytest.MarkDecorator]:
-    if joints > MANY_JOINTS:
-        return [pytest.mark.large]
-    return [pytest.mark.slow] if corpus.label(file) in CHOSEN else LONG
 
 
 def _notes(file: str) -> list[str]:
@@ -72,9 +69,9 @@ def test_enough_robots_are_compared(corpus: Path) -> None:
 @pytest.mark.parametrize(
     "names",
     [
-        pytest.param(["six_axis_arm"], marks=pytest.mark.long),
+        pytest.param(["six_axis_arm"], marks=pytest.mark.slow),
         ["wheeled_robot"],
-        pytest.param(["planar_platform", "floating_buoy"], marks=pytest.mark.long),
+        pytest.param(["planar_platform", "floating_buoy"], marks=pytest.mark.slow),
     ],
 )
 def test_examples_move_as_pinocchio_says(names: Sequence[str], modelica_library: Path, tmp_path: Path) -> None:

@@ -88,6 +88,7 @@ manifests = st.builds(
 )
 
 
+@pytest.mark.slow
 @given(manifests)
 def test_what_comes_back_is_known_before(manifest: Manifest) -> None:
     """Whoever writes a manifest need not read it to know what it says."""

@@ -144,7 +144,7 @@ def test_golden_files_are_modelica(variant: str, tmp_path: Path) -> None:
     "models",
     [
         ("Bolted.BoltedRun", "Free.FreeTest"),
-        pytest.param(("Bolted.Bolted", "Bolted.BoltedTest", "Free.Free", "Free.FreeRun"), marks=pytest.mark.long),
+        pytest.param(("Bolted.Bolted", "Bolted.BoltedTest", "Free.Free", "Free.FreeRun"), marks=pytest.mark.slow),
     ],
     ids=["one-bench-each", "others"],
 )

@@ -13,7 +13,6 @@ from pathlib import Path
 import psutil
 import pytest
 from support.daemon import LIMIT, REPOSITORY, Daemons, Watch
-from support.marks import LONG
 
 from urdfsync.check import run
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
@@ -264,8 +263,8 @@ def compilers(watch: Watch) -> list[psutil.Process]:
     [
         ([signal.SIGTERM], 0),
         ([signal.SIGKILL], -9),
-        pytest.param([signal.SIGINT], 130, marks=LONG),
-        pytest.param([signal.SIGINT, signal.SIGINT], 130, marks=LONG),
+        pytest.param([signal.SIGINT], 130, marks=pytest.mark.slow),
+        pytest.param([signal.SIGINT, signal.SIGINT], 130, marks=pytest.mark.slow),
     ],
 )
 def test_builds_go_on_beside_a_compiler_that_is_never_done_and_it_does_not_outlive_the_daemon(

@@ -23,7 +23,7 @@ import watchdog.observers
 from support.daemon import LIMIT, REPOSITORY, Daemons
 from support.git import NEEDS_GIT, Repository
 
-from urdfsync import cli, registry
+from urdfsync import cli, dependencies, registry
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
@@ -451,14 +451,14 @@ def test_a_change_is_built_once_and_confirmed_once(start: Start, passes: list[bo
 
 def test_files_are_read_once_until_they_change(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
     """Files that changed shortly before are hashed each time, since they may be racy: here an hour has gone by."""
-    real_clock, real_open, read = time.time_ns, os.open, list[str]()
+    real_clock, real_read, read = time.time_ns, dependencies.read_unrecorded, list[str]()
 
-    def note(path: str, flags: int) -> int:
+    def note(path: str) -> bytes:
         read.extend({path} - {os.path.abspath("urdfsync.toml")})  # noqa: PTH100
-        return real_open(path, flags)
+        return real_read(path)
 
     monkeypatch.setattr(time, "time_ns", lambda: real_clock() + 3600 * 10**9)
-    monkeypatch.setattr(robots, "_open", note)
+    monkeypatch.setattr(robots, "read_unrecorded", note)
     daemon = start(rescan=0.02)
     probe(daemon)
     await_rescans(monkeypatch, 2)

@@ -13,7 +13,7 @@ LONGER = float(os.environ.get("URDFSYNC_SOAK", "180"))
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seconds", [30.0, pytest.param(LONGER, marks=pytest.mark.long, id="longer")])
+@pytest.mark.parametrize("seconds", [30.0, pytest.param(LONGER, marks=pytest.mark.slow, id="longer")])
 @pytest.mark.skipif(sys.platform == "win32", reason="folders that are watched can't be replaced there")
 def test_nothing_is_lost_and_nothing_stale(tmp_path: Path, seconds: float) -> None:
     soak = watch_soak.run(tmp_path, seconds, seed=1)

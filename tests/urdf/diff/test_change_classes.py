@@ -81,6 +81,7 @@ def check(changes: Changes, before: Mapping[str, File], after: Mapping[str, File
             assert {file.owner for file in found} <= {"robot", *changes.by_element()}
 
 
+@pytest.mark.slow
 @settings(max_examples=300)
 @given(st.randoms(use_true_random=False), st.integers(0, 3), OPTIONS)
 def test_the_class_of_random_changes_says_which_files_differ(random: Random, count: int, options: Options) -> None:

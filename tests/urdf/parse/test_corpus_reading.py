@@ -177,7 +177,7 @@ def test_nothing_is_dropped_and_every_line_is_right(file: str) -> None:
             assert f"<{kind}" in lines[reading.lines[f"{kind} {element.get('name')}"] - 1]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("file", [file for file in ROBOTS if file not in FAULTY])
 def test_the_order_of_elements_makes_no_difference_to_the_snapshot(file: str) -> None:
     root = etree.parse(CORPUS / file).getroot()

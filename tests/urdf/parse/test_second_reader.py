@@ -140,6 +140,7 @@ def test_builds_read_with_it_only_on_request(
     assert ("second-reader-failed" in codes(json.loads(capsys.readouterr().out)["robots"])) == reads
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("line", ["", "cross_check = false\n"])
 def test_check_reads_with_it(project: Path, line: str, capfd: pytest.CaptureFixture[str]) -> None:
     with (project / "urdfsync.toml").open("a") as file:
