@@ -53,6 +53,7 @@ def _noting(function: Callable[..., Any], name: str, calls: set[tuple[str, str]]
 def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     shutil.copytree(in_step, tmp_path / "project")
     monkeypatch.chdir(tmp_path / "project")
+    assert cli._main(["build"]) == 0  # the first one in a copy notes that it wrote this folder
     return tmp_path / "project"
 
 
