@@ -142,7 +142,7 @@ def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bo
     """
     names = robot_variables(skeleton, target, options)
     axes, free = motion.driven_axes(skeleton), motion.free_joints(skeleton)
-    libraries = ["Modelica", "UrdfSync", *(["Visualization2"] if options.visualizer == "visualization2" else [])]
+    libraries = [name for name, _ in options.uses]
     imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
     declarations = [f"inner Modelica.Mechanics.MultiBody.World world({world})"]
