@@ -15,8 +15,9 @@ from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import completion, motion
+from urdfsync.urdf.physics.free_joints import Array, free_joints, free_start
 from urdfsync.urdf.physics.probe import FORCE, MASS, MOMENT, TORQUE, probe, robot_variables
-from urdfsync.urdf.physics.reading import Array, pinocchio, read
+from urdfsync.urdf.physics.reading import pinocchio, read
 from urdfsync.urdf.physics.reference import Configuration, FrameMotion, Reference
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
@@ -61,7 +62,7 @@ class PinocchioExperiment:
             self.notes += made_up
         self._skeleton = KinematicTree.of(_robot(self.content, file), (target.name,))
         self._variables = robot_variables(self._skeleton, target, options)
-        self._axes, self._free = motion.driven_axes(self._skeleton), motion.free_joints(self._skeleton)
+        self._axes, self._free = motion.driven_axes(self._skeleton), free_joints(self._skeleton)
         self._courses = [motion.axis_course(joint) for joint in self._axes]
         names = [[joint.name for joint in joints] for joints in (self._axes, self._free)]
         self._reference = Reference(read(self.content, file), *names)
@@ -166,7 +167,7 @@ class PinocchioExperiment:
 
     def _start(self, time: float) -> Configuration:
         """How the robot begins."""
-        free = {joint.name: self._reference.start(joint.name, motion.free_start(joint)) for joint in self._free}
+        free = {joint.name: self._reference.start(joint.name, free_start(joint)) for joint in self._free}
         return self._reference.state(time, self._courses, free)
 
 

@@ -15,7 +15,7 @@ from urdfsync.modelica.literals import vector
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.physics import motion
+from urdfsync.urdf.physics import free_joints, motion
 from urdfsync.urdf.robot import MOTION_KINDS, Motion
 
 _GROUND_DEPTH = 1e9  # m: the contacts of a mobile robot are that far down, and nothing touches
@@ -141,7 +141,7 @@ def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bo
     With `ballast`, a body hangs on each link without children.
     """
     names = robot_variables(skeleton, target, options)
-    axes, free = motion.driven_axes(skeleton), motion.free_joints(skeleton)
+    axes, free = motion.driven_axes(skeleton), free_joints.free_joints(skeleton)
     libraries = [name for name, _ in options.uses]
     imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
@@ -150,7 +150,7 @@ def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bo
         declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})")
     modifiers = ["checkLimits = false", "fixedStart = false"]
     for joint in free:
-        start = motion.free_start(joint)._asdict().items()
+        start = free_joints.free_start(joint)._asdict().items()
         texts = (f"{k}_start = {vector(v) if isinstance(v, tuple) else repr(v)}" for k, v in start)
         modifiers.append(f"{skeleton.joint(joint.name).component}(fixedStart = true, {', '.join(texts)})")
     declarations += ["MovingBase base", f"{names.declaration}{', '.join(modifiers)})"]
@@ -179,7 +179,7 @@ def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bo
         "end Probe_;",
         "",
     ]
-    stop = motion.duration(skeleton)
+    stop = free_joints.duration(skeleton)
     values = [name for link in skeleton.links for name in (*names.places[link.name], *names.axes[link.name])]
     values += [name for one in free for part in _BODY for name in names.of_body(one.child, part)]
     values += [*names.efforts(skeleton).values(), *FORCE, *TORQUE, *MASS, *MOMENT]
