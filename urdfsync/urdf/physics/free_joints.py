@@ -71,14 +71,14 @@ class FreeJointState(msgspec.Struct, frozen=True):
     """Angular velocity."""
 
 
-def free_joints(skeleton: KinematicTree) -> tuple[Joint, ...]:
+def free_joints(tree: KinematicTree) -> tuple[Joint, ...]:
     """Joints without a drive, each after those that carry it."""
-    return tuple(obstacles(skeleton.joints))
+    return tuple(obstacles(tree.joints))
 
 
-def duration(skeleton: KinematicTree) -> float:
+def duration(tree: KinematicTree) -> float:
     """End of the motion, in s."""
-    return motion.INSTANT if any(joint.type == "floating" for joint in skeleton.joints) else motion.DURATION
+    return motion.INSTANT if any(joint.type == "floating" for joint in tree.joints) else motion.DURATION
 
 
 def free_start(joint: Joint) -> Start:

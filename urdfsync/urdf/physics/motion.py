@@ -61,9 +61,9 @@ def axis_course(joint: Joint) -> Course:
     return Course(position, signed(draw, 0.25, 0.5), signed(draw, 0.5, 1.0))
 
 
-def driven_axes(skeleton: KinematicTree) -> tuple[Joint, ...]:
+def driven_axes(tree: KinematicTree) -> tuple[Joint, ...]:
     """Joints with a drive, first those that turn, then those that slide."""
-    return (*skeleton.axes("rotational"), *skeleton.axes("translational"))
+    return (*tree.axes("rotational"), *tree.axes("translational"))
 
 
 def random_numbers(joint: Joint) -> random.Random:
