@@ -1,4 +1,4 @@
-"""What a command did, for `report` to show and for the exit code."""
+"""What a command did, for `output` to show and for the exit code."""
 
 from __future__ import annotations
 

@@ -58,9 +58,9 @@ def library_artifacts() -> Iterator[Artifact | Order]:
         link = Link("", visuals=(Visual(shape),), collisions=(Collision(shape),))
         kind = type(shape).__name__.lower()
         yield from _link(name, f"{name}Parameters", link, f"Rigid body with a {kind} as visual and as collision.")
-    yield Order("Joints/package.order", tuple(kind.capitalize() for kind in _JOINT_NOTES))
-    for kind, note in _JOINT_NOTES.items():
-        yield _joint(kind, note)
+    yield Order("Joints/package.order", tuple(kind.capitalize() for kind in JOINT_KINDS))
+    for kind in JOINT_KINDS:
+        yield _joint(kind, _JOINT_NOTES[kind])
 
 
 def _link(name: str, record: str, link: Link, note: str) -> Iterator[Artifact]:

@@ -8,9 +8,9 @@ import msgspec
 
 USES = (("Modelica", "4.0.0"), ("UrdfSync", "0.1.0"))
 """Libraries that all generated packages are written for."""
-# No release notes of this library are public. The version is that of the published URDFModelica_Tutorial.
-VISUALIZATION2 = ("Visualization2", "1.1")
-"""The library that packages with the visualizer `visualization2` are written for, too."""
+# No release notes of Visualization2 are public. The version is that of the published URDFModelica_Tutorial.
+_VISUALIZER_USES = {"visualization2": ("Visualization2", "1.1")}
+"""By visualizer, the library that its packages are written for, too."""
 
 
 class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -43,5 +43,5 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     @property
     def uses(self) -> tuple[tuple[str, str], ...]:
         """Libraries that a package with these options needs, with their versions. Only link models have shapes."""
-        drawn = self.visualizer == "visualization2" and "package" in self.approach
-        return (*USES, VISUALIZATION2) if drawn else USES
+        library = _VISUALIZER_USES.get(self.visualizer) if "package" in self.approach else None
+        return (*USES, library) if library else USES

@@ -12,9 +12,10 @@ from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.physics import motion
+from urdfsync.urdf.physics import free_joints, motion
+from urdfsync.urdf.physics.free_joints import FreeJointState
 from urdfsync.urdf.physics.reading import read
-from urdfsync.urdf.physics.reference import Configuration, FrameMotion, FreeJointState, Instant, Reference
+from urdfsync.urdf.physics.reference import Configuration, FrameMotion, Instant, Reference
 from urdfsync.urdf.robot import Joint
 
 Array = NDArray[np.float64]
@@ -49,9 +50,9 @@ class Bot:
         found = read_robot(urdf.encode(), "robot.urdf", cross_check=False).robot
         assert found is not None
         skeleton = KinematicTree.of(found)
-        self.axes, self.free = motion.driven_axes(skeleton), motion.free_joints(skeleton)
+        self.axes, self.free = motion.driven_axes(skeleton), free_joints.free_joints(skeleton)
         self.reference = Reference(read(urdf.encode(), "robot.urdf"), names(self.axes), names(self.free))
-        self.starts = {j.name: self.reference.start(j.name, motion.free_start(j)) for j in self.free}
+        self.starts = {j.name: self.reference.start(j.name, free_joints.free_start(j)) for j in self.free}
 
     def state(self, time: float = 0.0) -> Configuration:
         return self.reference.state(time, [motion.axis_course(joint) for joint in self.axes], self.starts)

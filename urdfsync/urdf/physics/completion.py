@@ -67,12 +67,12 @@ def completed_for_pinocchio(content: bytes) -> CompletedSource:
     return CompletedSource(_bytes(root), notes)
 
 
-def with_inertias(content: bytes, skeleton: KinematicTree) -> CompletedSource:
+def with_inertias(content: bytes, tree: KinematicTree) -> CompletedSource:
     """The URDF with made-up inertias in all links that hang on a moving joint which carries no mass.
 
     The root link counts as moving: a robot without any mass gets inertias in all its links.
     """
-    massless = _massless_links(skeleton)
+    massless = _massless_links(tree)
     if not massless:
         return CompletedSource(content)
     root = xml.parse_tree(content)
@@ -82,7 +82,7 @@ def with_inertias(content: bytes, skeleton: KinematicTree) -> CompletedSource:
                 link.remove(old)
             link.append(_made_up_inertial(link.get("name") or ""))
     links = f"{len(massless)} links" if len(massless) > 1 else f'link "{next(iter(massless))}"'
-    everywhere = len(massless) == len(skeleton.links)
+    everywhere = len(massless) == len(tree.links)
     reason = "the file gives no mass at all" if everywhere else "joints move them without any mass"
     note = f"inertias were made up for {links} of the generated package only, because {reason}"
     return CompletedSource(_bytes(root), (note,))
@@ -98,14 +98,14 @@ def _fill(parent: Element, tag: str, values: Mapping[str, str], filled: Counter[
             filled[tag] += 1
 
 
-def _massless_links(skeleton: KinematicTree) -> set[str]:
+def _massless_links(tree: KinematicTree) -> set[str]:
     """Links below moving joints that carry no mass, those joints' own links included."""
-    massive = {link.name for link in skeleton.links if link.inertial and link.inertial.mass > 0}
-    for joint in reversed(skeleton.joints):  # from the leaves to the root
+    massive = {link.name for link in tree.links if link.inertial and link.inertial.mass > 0}
+    for joint in reversed(tree.joints):  # from the leaves to the root
         if joint.child in massive:
             massive.add(joint.parent)
-    massless = {skeleton.links[0].name} - massive
-    for joint in skeleton.joints:
+    massless = {tree.links[0].name} - massive
+    for joint in tree.joints:
         if joint.child not in massive and (joint.type != "fixed" or joint.parent in massless):
             massless.add(joint.child)
     return massless

@@ -15,8 +15,9 @@ from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import completion, motion
+from urdfsync.urdf.physics.free_joints import Array, free_joints, free_start
 from urdfsync.urdf.physics.probe import FORCE, MASS, MOMENT, TORQUE, probe, robot_variables
-from urdfsync.urdf.physics.reading import Array, pinocchio, read
+from urdfsync.urdf.physics.reading import pinocchio, read
 from urdfsync.urdf.physics.reference import Configuration, FrameMotion, Reference
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
@@ -59,9 +60,9 @@ class PinocchioExperiment:
         if complete:
             self.content, made_up = completion.with_inertias(self.content, KinematicTree.of(robot))
             self.notes += made_up
-        self._skeleton = KinematicTree.of(_robot(self.content, file), (target.name,))
-        self._variables = robot_variables(self._skeleton, target, options)
-        self._axes, self._free = motion.driven_axes(self._skeleton), motion.free_joints(self._skeleton)
+        self._tree = KinematicTree.of(_robot(self.content, file), (target.name,))
+        self._variables = robot_variables(self._tree, target, options)
+        self._axes, self._free = motion.driven_axes(self._tree), free_joints(self._tree)
         self._courses = [motion.axis_course(joint) for joint in self._axes]
         names = [[joint.name for joint in joints] for joints in (self._axes, self._free)]
         self._reference = Reference(read(self.content, file), *names)
@@ -69,14 +70,14 @@ class PinocchioExperiment:
         ballast = self._needs_ballast(file)
         if complete and self._insoluble:
             raise SourceError(self._insoluble)
-        self.probe = probe(self._skeleton, target, options, ballast)
-        self.unchecked = tuple(_unchecked(self._skeleton, options))
+        self.probe = probe(self._tree, target, options, ballast)
+        self.unchecked = tuple(_unchecked(self._tree, options))
 
     def _needs_ballast(self, file: str) -> bool:
         """Whether free joints move no inertia: then bodies hang on the robot, and a note says so."""
         if not self._reference.is_singular(self._start(0.0)):
             return False
-        self._reference.hang_ballast(link.name for link in self._skeleton.leaves())
+        self._reference.hang_ballast(link.name for link in self._tree.leaves())
         names = ", ".join(f"'{joint.name}'" for joint in self._free)
         if self._reference.is_singular(self._start(0.0)):
             message = f"no simulation can tell how {names} move: what they carry has no inertia"
@@ -114,16 +115,16 @@ class PinocchioExperiment:
 
     def _compared(self) -> Iterator[tuple[_Key, Sequence[str]]]:
         """All that is compared, from the root outwards, with the variables that tell it."""
-        names, skeleton = self._variables, self._skeleton
-        for link in skeleton.links:
+        names, tree = self._variables, self._tree
+        for link in tree.links:
             yield _Key(Quantity.POSITION, f"link {link.name}", "m"), names.places[link.name]
             yield _Key(Quantity.ORIENTATION, f"link {link.name}", ""), names.axes[link.name]
-        efforts = names.efforts(skeleton)
-        for joint in skeleton.joints:
+        efforts = names.efforts(tree)
+        for joint in tree.joints:
             if joint.name in efforts:
                 unit = "N·m" if MOTION_KINDS[joint.type] == "rotational" else "N"
                 yield _Key(Quantity.EFFORT, f"joint {joint.name}", unit), (efforts[joint.name],)
-        root = f"link {skeleton.links[0].name}"
+        root = f"link {tree.links[0].name}"
         yield _Key(Quantity.REACTION, root, "N"), FORCE
         yield _Key(Quantity.REACTION, root, "N·m"), TORQUE
         for joint in self._free:
@@ -155,8 +156,8 @@ class PinocchioExperiment:
             (MASS, [mass]),
             (_CENTRE, centre),
         ]
-        pairs.append((tuple(names.efforts(self._skeleton).values()), solved.efforts))
-        for link in (link.name for link in self._skeleton.links):
+        pairs.append((tuple(names.efforts(self._tree).values()), solved.efforts))
+        for link in (link.name for link in self._tree.links):
             frame = solved.frame(link)
             pairs += [(names.places[link], frame.place), (names.axes[link], frame.axes.T.ravel())]
         for link in (joint.child for joint in self._free):
@@ -166,7 +167,7 @@ class PinocchioExperiment:
 
     def _start(self, time: float) -> Configuration:
         """How the robot begins."""
-        free = {joint.name: self._reference.start(joint.name, motion.free_start(joint)) for joint in self._free}
+        free = {joint.name: self._reference.start(joint.name, free_start(joint)) for joint in self._free}
         return self._reference.state(time, self._courses, free)
 
 
@@ -197,9 +198,9 @@ def _robot(content: bytes, file: str) -> Robot:
     return reading.robot
 
 
-def _unchecked(skeleton: KinematicTree, options: Options) -> Iterator[str]:
+def _unchecked(tree: KinematicTree, options: Options) -> Iterator[str]:
     """What the comparison does not cover, as far as it matters for this robot: sentences without a full stop."""
-    joints, links = skeleton.joints, skeleton.links
+    joints, links = tree.joints, tree.links
     if all(joint.type == "fixed" for joint in joints):
         yield "no joint moves, so that only poses, masses and the forces on the root link are compared"
     if not any(link.inertial and link.inertial.mass > 0 for link in links):

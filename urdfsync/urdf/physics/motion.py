@@ -1,14 +1,13 @@
 """How a robot moves in the comparison: a function of names and limits alone, the same on every machine.
 
-The base and all driven axes follow polynomials of time. Planar and floating joints have no drives in generated
-packages: they begin with the positions and speeds of `Planar` and `Floating`, and move as the forces want.
+The base and all driven axes follow polynomials of time. What has no drive is in `free_joints`.
 """
 
 from __future__ import annotations
 
 import math
 import random
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -51,67 +50,27 @@ BALLAST_INERTIA: Vector = (0.03, 0.02, 0.04)
 """Diagonal of its tensor about the centre, in kg·m²."""
 
 
-class Planar(NamedTuple):
-    """Start of a planar joint: along its two directions (m, m/s), and about the normal (rad, rad/s)."""
-
-    s: tuple[float, float]
-    v: tuple[float, float]
-    phi: float
-    w: float
-
-
-class Floating(NamedTuple):
-    """Start of a floating joint, resolved in the joint frame: m, rad (roll, pitch, yaw), m/s and rad/s."""
-
-    r: Vector
-    rpy: Vector
-    v: Vector
-    w: Vector
-
-
-Start: TypeAlias = Planar | Floating
-
-
 def axis_course(joint: Joint) -> Course:
     """The course of a driven axis: it begins near the middle of its range, if that is finite and sensible."""
-    draw = _draw(joint)
+    draw = random_numbers(joint)
     lower, upper = own_range(joint)
     middle, reach = 0.0, 0.5
     if -_FARTHEST <= lower < upper <= _FARTHEST:
         middle, reach = (lower + upper) / 2, min((upper - lower) / 4, 0.5)
     position = middle + draw.uniform(-reach, reach)
-    return Course(position, _signed(draw, 0.25, 0.5), _signed(draw, 0.5, 1.0))
+    return Course(position, signed(draw, 0.25, 0.5), signed(draw, 0.5, 1.0))
 
 
-def free_start(joint: Joint) -> Start:
-    """Where a planar or floating joint begins, and how fast."""
-    draw = _draw(joint)
-    if joint.type == "planar":
-        x, y, v_x, v_y, phi, w = (_signed(draw, 0.1, 0.6) for _ in range(6))
-        return Planar((x, y), (v_x, v_y), phi, w)
-    return Floating(*((_signed(draw, 0.1, 0.6), _signed(draw, 0.1, 0.6), _signed(draw, 0.1, 0.6)) for _ in range(4)))
-
-
-def driven_axes(skeleton: KinematicTree) -> tuple[Joint, ...]:
+def driven_axes(tree: KinematicTree) -> tuple[Joint, ...]:
     """Joints with a drive, first those that turn, then those that slide."""
-    return (*skeleton.axes("rotational"), *skeleton.axes("translational"))
+    return (*tree.axes("rotational"), *tree.axes("translational"))
 
 
-def free_joints(skeleton: KinematicTree) -> tuple[Joint, ...]:
-    """Joints without a drive, each after those that carry it."""
-    return tuple(joint for joint in skeleton.joints if joint.type in ("planar", "floating"))
-
-
-def duration(skeleton: KinematicTree) -> float:
-    """End of the motion, in s."""
-    return INSTANT if any(joint.type == "floating" for joint in skeleton.joints) else DURATION
-
-
-def _draw(joint: Joint) -> random.Random:
+def random_numbers(joint: Joint) -> random.Random:
     """Random numbers of one joint: its name decides, so that a new joint leaves the motion of the others alone."""
     return random.Random(joint.name)  # noqa: S311 - nothing is kept secret
 
 
-def _signed(draw: random.Random, least: float, most: float) -> float:
+def signed(draw: random.Random, least: float, most: float) -> float:
     """A number of either sign, and not close to zero, where faults do not show."""
     return math.copysign(draw.uniform(least, most), draw.uniform(-1, 1))

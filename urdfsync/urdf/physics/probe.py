@@ -15,7 +15,7 @@ from urdfsync.modelica.literals import vector
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.physics import motion
+from urdfsync.urdf.physics import free_joints, motion
 from urdfsync.urdf.robot import MOTION_KINDS, Motion
 
 _GROUND_DEPTH = 1e9  # m: the contacts of a mobile robot are that far down, and nothing touches
@@ -73,11 +73,11 @@ class RobotVariables(msgspec.Struct, frozen=True):
     bodies: Mapping[str, str]
     """By link: its body, which tells velocities; empty where links have no components of their own."""
 
-    def efforts(self, skeleton: KinematicTree) -> dict[str, str]:
+    def efforts(self, tree: KinematicTree) -> dict[str, str]:
         """By driven joint: what drives it, in the order of `motion.driven_axes`."""
         return {
             joint.name: f"{self.flanges[joint.name]}.{'tau' if MOTION_KINDS[joint.type] == 'rotational' else 'f'}"
-            for joint in motion.driven_axes(skeleton)
+            for joint in motion.driven_axes(tree)
         }
 
     def of_body(self, link: str, part: str) -> tuple[str, ...]:
@@ -85,15 +85,15 @@ class RobotVariables(msgspec.Struct, frozen=True):
         return tuple(f"{self.bodies[link]}.{part}[{i}]" for i in (1, 2, 3))
 
 
-def robot_variables(skeleton: KinematicTree, target: Target, options: Options) -> RobotVariables:
+def robot_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:
     """The names for the approach that is compared: that of the package, if there is a choice."""
     compare = _package_variables if "package" in options.approach else _record_variables
-    return compare(skeleton, target, options)
+    return compare(tree, target, options)
 
 
-def _package_variables(skeleton: KinematicTree, target: Target, options: Options) -> RobotVariables:
-    connectors = connector_names(skeleton, options)
-    links = {link.name: f"robot.{skeleton.link(link.name).component}" for link in skeleton.links}
+def _package_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:
+    connectors = connector_names(tree, options)
+    links = {link.name: f"robot.{tree.link(link.name).component}" for link in tree.links}
     resolve = "Modelica.Mechanics.MultiBody.Frames.resolve1"
     moments = (
         f"{link}.body.m*({link}.frame_a.r_0 + {resolve}({link}.frame_a.R, {link}.body.r_CM))" for link in links.values()
@@ -110,9 +110,9 @@ def _package_variables(skeleton: KinematicTree, target: Target, options: Options
     )
 
 
-def _record_variables(skeleton: KinematicTree, target: Target, options: Options) -> RobotVariables:  # noqa: ARG001
+def _record_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:  # noqa: ARG001
     """The generic robot with a generated record: links are numbers there, and only their poses are told."""
-    numbers = {link.name: number for number, link in enumerate(skeleton.links, 1)}
+    numbers = {link.name: number for number, link in enumerate(tree.links, 1)}
     motions: tuple[Motion, ...] = ("rotational", "translational")
     moments = (
         f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :])"
@@ -128,21 +128,21 @@ def _record_variables(skeleton: KinematicTree, target: Target, options: Options)
         flanges={
             joint.name: f"robot.{motion}Axis[{number}]"
             for motion in motions
-            for number, joint in enumerate(skeleton.axes(motion), 1)
+            for number, joint in enumerate(tree.axes(motion), 1)
         },
-        frames={link.name: f"robot.frame_b[{number}]" for number, link in enumerate(skeleton.leaves(), 1)},
+        frames={link.name: f"robot.frame_b[{number}]" for number, link in enumerate(tree.leaves(), 1)},
         bodies={},
     )
 
 
-def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bool = False) -> Probe:
+def probe(tree: KinematicTree, target: Target, options: Options, ballast: bool = False) -> Probe:
     """A model in which every axis of the robot moves, and the values to compare.
 
     With `ballast`, a body hangs on each link without children.
     """
-    names = robot_variables(skeleton, target, options)
-    axes, free = motion.driven_axes(skeleton), motion.free_joints(skeleton)
-    libraries = ["Modelica", "UrdfSync", *(["Visualization2"] if options.visualizer == "visualization2" else [])]
+    names = robot_variables(tree, target, options)
+    axes, free = motion.driven_axes(tree), free_joints.free_joints(tree)
+    libraries = [name for name, _ in options.uses]
     imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
     declarations = [f"inner Modelica.Mechanics.MultiBody.World world({world})"]
@@ -150,9 +150,9 @@ def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bo
         declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})")
     modifiers = ["checkLimits = false", "fixedStart = false"]
     for joint in free:
-        start = motion.free_start(joint)._asdict().items()
+        start = free_joints.free_start(joint)._asdict().items()
         texts = (f"{k}_start = {vector(v) if isinstance(v, tuple) else repr(v)}" for k, v in start)
-        modifiers.append(f"{skeleton.joint(joint.name).component}(fixedStart = true, {', '.join(texts)})")
+        modifiers.append(f"{tree.joint(joint.name).component}(fixedStart = true, {', '.join(texts)})")
     declarations += ["MovingBase base", f"{names.declaration}{', '.join(modifiers)})"]
     connections = ["base.frame_b, robot.frame_a"]
     for k, joint in enumerate(axes, 1):
@@ -161,7 +161,7 @@ def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bo
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
     tensor = ", ".join(f"I_{i}{i} = {value!r}" for i, value in enumerate(motion.BALLAST_INERTIA, 1))
     body = f"animation = false, m = {motion.BALLAST_MASS!r}, r_CM = {vector(motion.BALLAST_CENTRE)}, {tensor}"
-    for k, leaf in enumerate(skeleton.leaves() if ballast else (), 1):
+    for k, leaf in enumerate(tree.leaves() if ballast else (), 1):
         declarations.append(f"Modelica.Mechanics.MultiBody.Parts.Body ballast{k}({body})")
         connections.append(f"ballast{k}.frame_a, {names.frames[leaf.name]}")
     declarations += ["Real mass = robot.m", f"Real moment[3] = {names.moment}"]
@@ -179,8 +179,8 @@ def probe(skeleton: KinematicTree, target: Target, options: Options, ballast: bo
         "end Probe_;",
         "",
     ]
-    stop = motion.duration(skeleton)
-    values = [name for link in skeleton.links for name in (*names.places[link.name], *names.axes[link.name])]
+    stop = free_joints.duration(tree)
+    values = [name for link in tree.links for name in (*names.places[link.name], *names.axes[link.name])]
     values += [name for one in free for part in _BODY for name in names.of_body(one.child, part)]
-    values += [*names.efforts(skeleton).values(), *FORCE, *TORQUE, *MASS, *MOMENT]
+    values += [*names.efforts(tree).values(), *FORCE, *TORQUE, *MASS, *MOMENT]
     return Probe("\n".join(lines), "Probe_.Probe", stop, stop / 4, tuple(values))

@@ -15,9 +15,10 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from urdfsync.urdf.physics import motion
-from urdfsync.urdf.physics.motion import Course, Planar, Start
-from urdfsync.urdf.physics.reading import Array, PinocchioRobot, pinocchio
+from urdfsync.urdf.physics import free_joints, motion
+from urdfsync.urdf.physics.free_joints import Array, FreeJointState, Start
+from urdfsync.urdf.physics.motion import Course
+from urdfsync.urdf.physics.reading import PinocchioRobot, pinocchio
 
 TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 """In s/rad and s/m: the dry friction of generated joints is f·tanh(s·v/2)."""
@@ -25,17 +26,6 @@ TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 _SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")  # Pinocchio's names
 
 _SINGULAR = 1e-12  # ratio of the least to the greatest eigenvalue of an inertia
-
-
-class FreeJointState(msgspec.Struct, frozen=True):
-    """State of a free joint: the child's frame in the joint frame, all resolved in the latter."""
-
-    place: Array
-    axes: Array
-    """The axes of the child's frame as columns."""
-    velocity: Array
-    turning: Array
-    """Angular velocity."""
 
 
 class FrameMotion(msgspec.Struct, frozen=True):
@@ -66,7 +56,7 @@ class Reference:
 
     def __init__(self, robot: PinocchioRobot, axes: Sequence[str], free: Sequence[str]) -> None:
         self.pin = pinocchio()
-        self.model, self.planes = robot.model, robot.planes
+        self.model, self._split_joints = robot.model, robot.split_joints
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes, self.free = tuple(axes), tuple(free)
         self.projection, self._offset = self._mimic(robot)
@@ -80,12 +70,7 @@ class Reference:
 
     def start(self, name: str, start: Start) -> FreeJointState:
         """The state of a free joint from its start values."""
-        if not isinstance(start, Planar):
-            axes = self.pin.rpy.rpyToMatrix(*start.rpy)
-            return FreeJointState(np.array(start.r), axes, np.array(start.v), np.array(start.w))
-        x, y, normal = self.planes[name].axes
-        place, velocity = (part[0] * x + part[1] * y for part in (start.s, start.v))
-        return FreeJointState(place, self.pin.exp3(start.phi * normal), velocity, start.w * normal)
+        return free_joints.start_state(self.pin, start, self._split_axes(name))
 
     def state(
         self, time: float, courses: Sequence[Course], free: Mapping[str, FreeJointState | FrameMotion]
@@ -168,8 +153,11 @@ class Reference:
 
     def _parts(self, name: str) -> list[Any]:
         """Those of Pinocchio's joints that stand for a joint of the robot."""
-        names = self.planes[name].parts if name in self.planes else (name,)
+        names = self._split_joints[name].parts if name in self._split_joints else (name,)
         return [self.model.joints[self.model.getJointId(part)] for part in names]
+
+    def _split_axes(self, name: str) -> Array:
+        return self._split_joints[name].axes if name in self._split_joints else free_joints.NOT_SPLIT
 
     def _relative(self, state: Configuration, name: str, frame: FrameMotion) -> FreeJointState:
         """State of a free joint from the frame of its child; all joints before it are in place."""
@@ -184,18 +172,9 @@ class Reference:
 
     def _place(self, state: Configuration, name: str, at: FreeJointState) -> None:
         """Put a free joint into the configuration and velocity."""
-        parts = self._parts(name)
-        if name not in self.planes:
-            attitude = self.pin.Quaternion(at.axes).normalized().coeffs()
-            state.q[_slice(parts[0])] = np.concatenate([at.place, attitude])
-            state.v[parts[0].idx_v :][:6] = np.concatenate([at.axes.T @ at.velocity, at.axes.T @ at.turning])
-            return
-        x, y, normal = self.planes[name].axes
-        cosine, sine = x @ at.axes @ x, y @ at.axes @ x
-        values = (x @ at.place, y @ at.place, np.array([cosine, sine]) / np.hypot(cosine, sine))
-        speeds = (x @ at.velocity, y @ at.velocity, normal @ at.turning)
-        for part, value, speed in zip(parts, values, speeds, strict=True):
-            state.q[_slice(part)], state.v[part.idx_v] = value, speed
+        found = free_joints.coordinates(self.pin, at, self._split_axes(name))
+        for part, (q, v) in zip(self._parts(name), found, strict=True):
+            state.q[_slice(part)], state.v[part.idx_v : part.idx_v + part.nv] = q, v
 
 
 class Instant(msgspec.Struct, frozen=True):
