@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from pathlib import Path
 
 import jinja2
 import pytest
+from jinja2.exceptions import SecurityError
 
+from urdfsync import render
 from urdfsync.render import Renderer
 
 
@@ -55,6 +59,17 @@ def test_a_template_in_an_earlier_folder_hides_its_namesake(tmp_path: Path) -> N
 
 def test_an_item_of_a_dict_goes_before_its_methods(tmp_path: Path) -> None:
     assert rendered(tmp_path, "<< d.items >> << d.keys() | list >>", d={"items": 1}) == "1 ['items']"
+
+
+def test_an_alarm_ends_with_its_text(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(render, "MAX_SECONDS", 0.2)
+    monkeypatch.setattr(render, "_PAUSE", 0.05)
+    attack = "<< ('a' * 500000000) | unique | list >>"
+    with pytest.raises(SecurityError, match=r"more than 0\.2 s"):
+        rendered(tmp_path, attack)
+    assert Renderer([folder(tmp_path / "others", t="<< 1 >>")]).render("t.jinja", {}) == "1"
+    time.sleep(0.5)  # nothing is raised here any more
+    assert not [thread for thread in threading.enumerate() if thread.name == "alarm"]
 
 
 def test_a_template_has_what_jinja_has_everywhere(tmp_path: Path) -> None:

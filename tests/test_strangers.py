@@ -332,6 +332,8 @@ def test_the_sandbox_holds_in_all_parts_of_a_template(marker: Path, capsys: Capt
         ("<% for n in range(1000) %><< 'a' * 1000000 >><% endfor %>", "characters"),
         ("<< 10 ** (10 ** 10) >>", "too large"),
         ("<% set n = namespace(x=3) %><% for i in range(60) %><% set n.x = n.x * n.x %><% endfor %>", "too large"),
+        ("<< ('f' * 4000000) | int(0, 16) // ('f' * 2000000) | int(0, 16) >>", "too large"),
+        ("<< (1).from_bytes(('f' * 4000000).encode()) % 7 >>", "too large"),
         ("<< 1 | round(10000000000, 'ceil') >>", "larger than"),
         ("<< [1] | slice(1000000000000) | max >>", "larger than"),
         ("<< lipsum(1000000000) >>", "lipsum"),
@@ -369,6 +371,8 @@ def test_a_template_takes_no_more_memory_than_it_may(marker: Path, capsys: Captu
     [
         "<% for a in range(99999) %><% for b in range(99999) %><% endfor %><% endfor %>",
         "<% macro m(n) %><< m(n - 1) ~ m(n - 1) if n else '' >><% endmacro %><< m(60) >>",
+        "<< ('a' * 60000000) | map('upper') | map('lower') | select('equalto', 'b') | list >>",
+        "<< ('a' * 500000000) | unique | list >>",
     ],
 )
 def test_a_template_takes_no_more_time_than_it_may(

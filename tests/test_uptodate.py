@@ -353,6 +353,17 @@ def test_neither_a_pipe_nor_a_link_in_its_place_is_read(folder: Path) -> None:
     assert saved(*BUILD) is None, "nobody waits for it"
 
 
+@pytest.mark.parametrize("size", [20_000_000, 20_000_000_000])
+def test_a_file_of_nothing_but_separators_is_no_answer_at_once(folder: Path, size: int) -> None:
+    save(*STATUS)
+    with Path(STAMP).open("r+b") as file:  # which git packs into some kilobytes
+        file.truncate(0)
+        file.truncate(size)
+    started = time.process_time()
+    assert uptodate.read_answers(str(folder / "urdfsync.toml")) is None
+    assert time.process_time() - started < 1
+
+
 @pytest.mark.parametrize("name", ["stamp", ".stamp.urdfsync-tmp", ".clock.urdfsync-tmp"])
 def test_no_link_is_followed_where_an_answer_is_saved(folder: Path, name: str) -> None:
     victim = folder.parent / "victim"

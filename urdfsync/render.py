@@ -11,6 +11,7 @@ import contextlib
 import functools
 import math
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -61,10 +62,72 @@ MAX_SECONDS = 60.0
 MAX_OUTPUT = 200_000_000
 """Characters of one text."""
 MAX_BITS = 10_000
-"""Bits of an integer that a template multiplies or raises to a power: one such step can't be interrupted."""
+"""Bits of an integer that a template makes: a step with larger ones can take hours, and can't be interrupted."""
+_PAUSE = 0.5
+"""Seconds between two looks at the clock while a text is made."""
 
 _NOT_FOR_MODELS = ("lipsum", "random")
 """Names that Jinja offers and whose text is another one each time."""
+
+
+class _TimeIsUpError(SecurityError):
+    """A text takes too long."""
+
+    def __init__(self) -> None:
+        super().__init__(f"it takes more than {MAX_SECONDS:g} s")
+
+
+class _Alarm:
+    """Raises _TimeIsUpError in the thread that makes a text, once its time is over.
+
+    Loops and calls look at the clock themselves, but filters that work through a long text do not.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._watcher: threading.Thread | None = None
+        self._ends: dict[int, float] = {}
+        """When the time of each thread is over that makes a text."""
+
+    @contextlib.contextmanager
+    def set_to(self, end: float) -> Iterator[None]:
+        """Let what is done in the context end at a moment of `time.monotonic`. Raises _TimeIsUpError there."""
+        thread = threading.get_ident()
+        with self._lock:
+            self._ends[thread] = end
+            if self._watcher is None or not self._watcher.is_alive():  # a process that was forked has none
+                self._watcher = threading.Thread(target=self._watch, name="alarm", daemon=True)
+                self._watcher.start()
+        try:
+            yield
+        finally:
+            with self._lock:
+                if self._ends.pop(thread, None) is None:
+                    _raise_in(thread, None)  # what has not arrived yet would do so elsewhere
+
+    def _watch(self) -> None:
+        """Look at the clock as long as there are texts in the making."""
+        while True:
+            time.sleep(_PAUSE)
+            with self._lock:
+                if not self._ends:
+                    self._watcher = None
+                    return
+                now = time.monotonic()
+                for thread in [thread for thread, end in self._ends.items() if end < now]:
+                    del self._ends[thread]
+                    _raise_in(thread, _TimeIsUpError)
+
+
+_alarm = _Alarm()
+
+
+def _raise_in(thread: int, error: type[Exception] | None) -> None:
+    """Raise an error in a thread as soon as it is at Python code again; with None, take back one that has not been."""
+    import ctypes  # 2 ms, for texts without end only
+
+    arguments = ctypes.c_ulong(thread), None if error is None else ctypes.py_object(error)
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(*arguments)
 
 
 class _CodeGenerator(CodeGenerator):
@@ -93,16 +156,17 @@ class _Environment(ImmutableSandboxedEnvironment):
             self.globals.pop(name, None)
             self.filters.pop(name, None)
         self.filters |= {name: _with_small_numbers(self.filters[name]) for name in ("round", "slice")}
+        self.filters["int"] = _with_small_result(self.filters["int"])
 
     def check_time(self) -> None:
         """Raise SecurityError if the text takes too long."""
         if time.monotonic() > self.deadline:
-            raise SecurityError(f"it takes more than {MAX_SECONDS:g} s")
+            raise _TimeIsUpError
 
     def call(self, context: Context, function: Any, /, *arguments: Any, **named: Any) -> Any:
         """See Jinja; recursion without a loop looks at the clock here."""
         self.check_time()
-        return super().call(context, function, *arguments, **named)
+        return _small(super().call(context, function, *arguments, **named))
 
     def call_binop(self, context: Context, operator: str, left: Any, right: Any) -> Any:
         """See Jinja. Raises OverflowError for a number that is too large."""
@@ -135,6 +199,23 @@ def _with_small_numbers(function: Callable[..., Any]) -> Callable[..., Any]:
         return function(*arguments, **named)
 
     return checked
+
+
+def _with_small_result(function: Callable[..., Any]) -> Callable[..., Any]:
+    """A filter of Jinja that raises OverflowError in the place of a number that is too large."""
+
+    @functools.wraps(function)
+    def checked(*arguments: Any, **named: Any) -> Any:
+        return _small(function(*arguments, **named))
+
+    return checked
+
+
+def _small(value: Any) -> Any:
+    """The value. Raises OverflowError if it is a number of more than `MAX_BITS`, such as a text's digits give."""
+    if isinstance(value, int) and value.bit_length() > MAX_BITS:
+        raise OverflowError("a number is too large")
+    return value
 
 
 @contextlib.contextmanager
@@ -187,7 +268,7 @@ class Renderer:
         MemoryError.
         """
         self._environment.deadline = time.monotonic() + MAX_SECONDS
-        with _limited_memory():
+        with _alarm.set_to(self._environment.deadline), _limited_memory():
             chunks, size = [], 0
             for chunk in self._environment.get_template(template).generate(data):
                 chunks.append(chunk)

@@ -140,6 +140,15 @@ def test_conflicts_of_a_robot_with_another_name_go(tmp_path: Path) -> None:
     assert files(tmp_path) == {"conflicts/leg/A.base.mo"}
 
 
+def test_conflicts_at_the_end_of_a_link_are_not_listed(tmp_path: Path) -> None:
+    folder, elsewhere = tmp_path / ".urdfsync/conflicts", tmp_path / "elsewhere"
+    folder.mkdir(parents=True)
+    (elsewhere / "locked").mkdir(parents=True)
+    (folder / "arm").symlink_to(elsewhere)
+    with pytest.raises(OutputError, match="symbolic link"):
+        Store(tmp_path).conflicts("arm", {}, None)
+
+
 def test_version_control_is_told_once_and_by_nobody_else(tmp_path: Path) -> None:
     (change,) = Store(tmp_path).ignoring()
     assert change.path == tmp_path / ".urdfsync" / ".gitignore"

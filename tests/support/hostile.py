@@ -210,6 +210,13 @@ def _link(place: str, target: str) -> Callable[[Path, Path], None]:
     return make
 
 
+def _journal_link(project: Path, outside: Path) -> None:
+    """A link in the place of the journals, to a folder of the user's whose files could be those of another urdfsync."""
+    for name in ("notes", "plans"):
+        (outside / "folder" / f"{name}.json").write_text(f'"{name}"')
+    _link(".urdfsync/journal", "folder")(project, outside)
+
+
 def _fifo(place: str) -> Callable[[Path, Path], None]:
     def make(project: Path, outside: Path) -> None:
         (project / place).parent.mkdir(parents=True, exist_ok=True)
@@ -333,6 +340,7 @@ ATTACKS: Mapping[str, Attack] = {
     "manifests that are a link": Attack(_link(".urdfsync/robots", "state")),
     "a manifest that is a link": Attack(_link(MANIFEST, "victim.mo")),
     "a journal that is a link": Attack(_link(".urdfsync/journal", "folder")),
+    "journals that are the user's files": Attack(_journal_link),
     "a temporary journal that is a link": Attack(_link(".urdfsync/journal/new.urdfsync-tmp", "victim.mo")),
     "bases that are a link": Attack(_link(".urdfsync/base/arm", "folder")),
     "an answer that is a link": Attack(_link(".urdfsync/stamp", "victim.mo")),
@@ -376,6 +384,7 @@ TOGETHER = tuple(
         "a manifest of the user's package",  # there can be one former package
         "a list of former folders",
         "a journal that is a link",
+        "journals that are the user's files",
         "a package that is a link",
         "an output folder that is a link",
         "a deep manifest",

@@ -120,10 +120,12 @@ class JournalFolder:
         """The journal of the transaction under way.
 
         Raises StateError, and changes nothing, for a journal that another urdfsync wrote or that was not written in
-        this checkout, OutputError for what is no regular file.
+        this checkout, OutputError for what is no regular file, and for a folder that is a link.
         """
+        tree = Tree(self._root, self._shown)
+        tree.check_folder(self.folder)  # whatever its files are called: they are not ours to set aside at a link's end
         file = self.file(self.phase())
-        content = Tree(self._root, self._shown).read(file) if file != self.folder else b'{"format": 0}'
+        content = tree.read(file) if file != self.folder else b'{"format": 0}'
         try:
             version = msgspec.json.decode(content or b"", type=_Formatted).format
             journal = msgspec.json.decode(content or b"", type=Journal) if version == FORMAT else None

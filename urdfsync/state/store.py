@@ -153,7 +153,8 @@ class Store:
         """How files get to the robot's folder of conflicts, by their path below it, and how all others go."""
         folder = self.folder / "conflicts" / robot
         folders = [folder, *([folder.with_name(former)] if former else [])]
-        there = sorted(path for one in folders for path in one.rglob("*") if not path.is_dir())
+        known = [one for one in folders if self._tree.check_folder(one)]  # a link may lead to all of the disk
+        there = sorted(path for one in known for path in one.rglob("*") if not path.is_dir())
         wanted = {folder / path: content for path, content in contents.items()}
         gone = [self._change(path, None) for path in there if path not in wanted and self._bytes(path) is not None]
         return gone + [self._change(path, text) for path, text in wanted.items() if self._bytes(path) != text]
