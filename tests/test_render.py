@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import signal
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -80,3 +83,17 @@ def test_once_joins_what_a_macro_makes_of_values(tmp_path: Path) -> None:
     text = "<% import 'parts.jinja' as parts %><< pieces | once(parts.one) >>"
     renderer = Renderer([folder(tmp_path / "own", t=text, parts="<% macro one(part) %><< part.n >>;<% endmacro %>")])
     assert renderer.render("t.jinja", {"pieces": [{"n": 1}, {"n": 2}]}) == "1;2;"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such timer")
+def test_a_step_that_cannot_be_interrupted_ends_with_the_process(tmp_path: Path) -> None:
+    """Two lists of lists that are compared for ever, within one step of Python's."""
+    double = "<% set n.a = [n.a, n.a] %><% set n.b = [n.b, n.b] %>"
+    text = "<% set n = namespace(a=[1], b=[1]) %>" + 60 * double + "<< n.a == n.b >>"
+    (tmp_path / "endless.jinja").write_text(text)
+    program = (
+        "import pathlib; from urdfsync import render; render.MAX_SECONDS, render.GRACE = 0.2, 0.2\n"
+        "render.Renderer([pathlib.Path()]).render('endless.jinja', {})"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, check=False, timeout=60)
+    assert ended.returncode == -signal.SIGVTALRM

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import math
+import signal
 import sys
 import threading
 import time
@@ -63,6 +64,9 @@ MAX_OUTPUT = 200_000_000
 """Characters of one text."""
 MAX_BITS = 10_000
 """Bits of an integer that a template makes: a step with larger ones can take hours, and can't be interrupted."""
+GRACE = 30.0
+"""Seconds of CPU time beyond that, after which the system ends the process: Python interrupts no single step of its
+own, such as the comparison of lists that hold each other many times."""
 _PAUSE = 0.5
 """Seconds between two looks at the clock while a text is made."""
 
@@ -80,7 +84,8 @@ class _TimeIsUpError(SecurityError):
 class _Alarm:
     """Raises _TimeIsUpError in the thread that makes a text, once its time is over.
 
-    Loops and calls look at the clock themselves, but filters that work through a long text do not.
+    Loops and calls look at the clock themselves, but filters that work through a long text do not. Where even the error
+    does not arrive, a timer of the system ends the process with SIGVTALRM; not on Windows.
     """
 
     def __init__(self) -> None:
@@ -95,6 +100,8 @@ class _Alarm:
         thread = threading.get_ident()
         with self._lock:
             self._ends[thread] = end
+            if sys.platform != "win32":
+                signal.setitimer(signal.ITIMER_VIRTUAL, max(end - time.monotonic(), 0) + GRACE)
             if self._watcher is None or not self._watcher.is_alive():  # a process that was forked has none
                 self._watcher = threading.Thread(target=self._watch, name="alarm", daemon=True)
                 self._watcher.start()
@@ -104,6 +111,8 @@ class _Alarm:
             with self._lock:
                 if self._ends.pop(thread, None) is None:
                     _raise_in(thread, None)  # what has not arrived yet would do so elsewhere
+                if not self._ends and sys.platform != "win32":
+                    signal.setitimer(signal.ITIMER_VIRTUAL, 0)
 
     def _watch(self) -> None:
         """Look at the clock as long as there are texts in the making."""

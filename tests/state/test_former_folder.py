@@ -99,7 +99,7 @@ def test_what_stays_is_told_once_with_the_command_that_removes_it(hostile: Path,
     said = " ".join(capsys.readouterr().err.split())
     assert (
         "the package moved from modelica/Mine to modelica/Ladder; the old folder was not built in this checkout, so it "
-        "stays as it is; take over what you need, then delete it: `rm -r modelica/Mine` [left-behind]"
+        "stays as it is; take over what you need, then delete it: `rm -r -- modelica/Mine` [left-behind]"
     ) in said
     assert run("build") == 0
     assert "left-behind" not in capsys.readouterr().err

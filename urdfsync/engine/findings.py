@@ -50,7 +50,7 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     rest = [path for path in below if path not in gone and new not in path.parents]
     if rest and inputs.old_folder not in inputs.own_folders:
         message += "; the old folder was not built in this checkout, so it stays as it is"
-        hint = f"take over what you need, then delete it: `rm -r {shlex.quote(shown(old))}`"
+        hint = f"take over what you need, then delete it: `rm -r -- {shlex.quote(shown(old))}`"
         yield Diagnostic(Severity.WARNING, "left-behind", message, *place, hint=hint)
     elif rest:
         named = [shown(path) for path in rest[:_FEW]] + ([f"{len(rest) - _FEW} more"] if len(rest) > _FEW else [])
