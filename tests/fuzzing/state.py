@@ -203,9 +203,10 @@ def _values(path: Path, work: Workplace, random: Random) -> None:
             _change(document, random)
         _put(path, tomli_w.dumps(document).encode(errors="replace"))
     elif path.suffix == ".json":
-        document = json.loads(
-            text or '{"robot":"bot","token":"12","steps":[{"path":"x"}],"made":[],"emptied":[],"format":3}'
-        )
+        try:
+            document = json.loads(text or _JOURNAL)
+        except RecursionError:  # an earlier damage made it deep
+            return
         for _ in range(random.choice((1, 1, 3))):
             _change(document, random)
         _put(path, json.dumps(document).encode())
