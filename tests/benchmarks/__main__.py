@@ -19,6 +19,7 @@ import sys
 import sysconfig
 import tempfile
 import venv
+import zipfile
 from pathlib import Path
 
 # not this folder: its names are those of other packages, too; and what is measured is the tree that it is part of
@@ -76,20 +77,37 @@ def _options() -> argparse.Namespace:
 
 
 def _install(folder: Path) -> Path:
-    """Make an environment with the console scripts, which sees the packages of this one; return the scripts' folder."""
+    """Make an environment with the console scripts, which sees the packages of this one; return the scripts' folder.
+
+    pip writes the scripts, so that they are those that users have.
+    """
     venv.create(folder, symlinks=True)
     scripts = folder / "bin"
     python = str(scripts / "python")
     asked = [python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]
     libraries = Path(subprocess.run(asked, check=True, capture_output=True, text=True).stdout.strip())
     (libraries / "benchmark.pth").write_text(f"{REPOSITORY}\n{sysconfig.get_path('purelib')}\n")
-    (libraries / "benchmark.py").write_text("def main():\n    return 0\n")
-    for name, entry in _SCRIPTS.items():  # as pip writes them
-        module, _, function = entry.partition(":")
-        start = f'if __name__ == "__main__":\n    sys.exit({function}())\n'
-        (scripts / name).write_text(f"#!{python}\nimport sys\nfrom {module} import {function}\n{start}")
-        (scripts / name).chmod(0o755)
+    wheel = folder / "benchmark-1-py3-none-any.whl"
+    _write_wheel(wheel)
+    command = [sys.executable, "-m", "pip", "-q", "--python", python, "install", "--no-deps", "--no-index", str(wheel)]
+    subprocess.run(command, check=True)
     return scripts
+
+
+def _write_wheel(file: Path) -> None:
+    """Write a wheel that has nothing but a module and the console scripts."""
+    about = "benchmark-1.dist-info"
+    scripts = "".join(f"{name} = {entry}\n" for name, entry in _SCRIPTS.items())
+    contents = {
+        "benchmark.py": "def main():\n    return 0\n",
+        f"{about}/METADATA": "Metadata-Version: 2.1\nName: benchmark\nVersion: 1\n",
+        f"{about}/WHEEL": "Wheel-Version: 1.0\nGenerator: by hand\nRoot-Is-Purelib: true\nTag: py3-none-any\n",
+        f"{about}/entry_points.txt": f"[console_scripts]\n{scripts}",
+    }
+    contents[f"{about}/RECORD"] = "".join(f"{name},,\n" for name in (*contents, f"{about}/RECORD"))
+    with zipfile.ZipFile(file, "w") as archive:
+        for name, text in contents.items():
+            archive.writestr(name, text)
 
 
 def _rows(title: str, result: Result) -> list[tuple[str, ...]]:
