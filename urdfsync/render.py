@@ -12,7 +12,6 @@ import functools
 import math
 import signal
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -67,8 +66,6 @@ MAX_BITS = 10_000
 GRACE = 30.0
 """Seconds of CPU time beyond that, after which the system ends the process: Python interrupts no single step of its
 own, such as the comparison of lists that hold each other many times."""
-_PAUSE = 0.5
-"""Seconds between two looks at the clock while a text is made."""
 
 _NOT_FOR_MODELS = ("lipsum", "random")
 """Names that Jinja offers and whose text is another one each time."""
@@ -81,62 +78,21 @@ class _TimeIsUpError(SecurityError):
         super().__init__(f"it takes more than {MAX_SECONDS:g} s")
 
 
-class _Alarm:
-    """Raises _TimeIsUpError in the thread that makes a text, once its time is over.
+@contextlib.contextmanager
+def _last_resort() -> Iterator[None]:
+    """End this process with SIGVTALRM if the context takes `GRACE` longer than a text may; not on Windows.
 
-    Loops and calls look at the clock themselves, but filters that work through a long text do not. Where even the error
-    does not arrive, a timer of the system ends the process with SIGVTALRM; not on Windows.
+    Loops and calls look at the clock themselves. A filter that works through a long text does not, and Python raises
+    nothing within a single step of its own.
     """
-
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._watcher: threading.Thread | None = None
-        self._ends: dict[int, float] = {}
-        """When the time of each thread is over that makes a text."""
-
-    @contextlib.contextmanager
-    def set_to(self, end: float) -> Iterator[None]:
-        """Let what is done in the context end at a moment of `time.monotonic`. Raises _TimeIsUpError there."""
-        thread = threading.get_ident()
-        with self._lock:
-            self._ends[thread] = end
-            if sys.platform != "win32":
-                signal.setitimer(signal.ITIMER_VIRTUAL, max(end - time.monotonic(), 0) + GRACE)
-            if self._watcher is None or not self._watcher.is_alive():  # a process that was forked has none
-                self._watcher = threading.Thread(target=self._watch, name="alarm", daemon=True)
-                self._watcher.start()
-        try:
-            yield
-        finally:
-            with self._lock:
-                if self._ends.pop(thread, None) is None:
-                    _raise_in(thread, None)  # what has not arrived yet would do so elsewhere
-                if not self._ends and sys.platform != "win32":
-                    signal.setitimer(signal.ITIMER_VIRTUAL, 0)
-
-    def _watch(self) -> None:
-        """Look at the clock as long as there are texts in the making."""
-        while True:
-            time.sleep(_PAUSE)
-            with self._lock:
-                if not self._ends:
-                    self._watcher = None
-                    return
-                now = time.monotonic()
-                for thread in [thread for thread, end in self._ends.items() if end < now]:
-                    del self._ends[thread]
-                    _raise_in(thread, _TimeIsUpError)
-
-
-_alarm = _Alarm()
-
-
-def _raise_in(thread: int, error: type[Exception] | None) -> None:
-    """Raise an error in a thread as soon as it is at Python code again; with None, take back one that has not been."""
-    import ctypes  # 2 ms, for texts without end only
-
-    arguments = ctypes.c_ulong(thread), None if error is None else ctypes.py_object(error)
-    ctypes.pythonapi.PyThreadState_SetAsyncExc(*arguments)
+    if sys.platform == "win32":
+        yield
+        return
+    signal.setitimer(signal.ITIMER_VIRTUAL, MAX_SECONDS + GRACE)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
 
 
 class _CodeGenerator(CodeGenerator):
@@ -277,7 +233,7 @@ class Renderer:
         MemoryError.
         """
         self._environment.deadline = time.monotonic() + MAX_SECONDS
-        with _alarm.set_to(self._environment.deadline), _limited_memory():
+        with _last_resort(), _limited_memory():
             chunks, size = [], 0
             for chunk in self._environment.get_template(template).generate(data):
                 chunks.append(chunk)
