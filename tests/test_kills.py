@@ -19,6 +19,7 @@ import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from random import Random
+from typing import TypeAlias
 
 import pytest
 from support import crashes, edits, replay
@@ -27,6 +28,8 @@ from support.urdfs import joint, limit, link, robot
 
 from urdfsync.outcome import Result
 from urdfsync.state.journal import JournalFolder
+
+Tally: TypeAlias = "collections.Counter[str]"
 
 KILLS = int(os.environ.get("URDFSYNC_KILLS", "40"))
 SAME = 10
@@ -141,6 +144,15 @@ def random() -> Random:
     return Random(20)
 
 
+@pytest.fixture
+def tally(capsys: pytest.CaptureFixture[str]) -> Iterator[Tally]:
+    """Counts of what a test did, which are printed after it."""
+    counts: Tally = collections.Counter()
+    yield counts
+    with capsys.disabled():
+        print(f"\n{dict(counts)}")  # noqa: T201
+
+
 @pytest.fixture(autouse=True)
 def _templates_compiled_once() -> Iterator[None]:
     with replay.in_haste():
@@ -157,10 +169,7 @@ def _scenes(folder: Path, random: Random, count: int) -> Iterator[tuple[int, Sce
         yield number, scene
 
 
-def test_a_build_that_is_killed_at_any_time_is_finished(
-    tmp_path: Path, random: Random, capsys: pytest.CaptureFixture[str]
-) -> None:
-    tally: collections.Counter[str] = collections.Counter()
+def test_a_build_that_is_killed_at_any_time_is_finished(tmp_path: Path, random: Random, tally: Tally) -> None:
     for number, scene in _scenes(tmp_path, random, KILLS):
         project = scene.copy()
         for _ in range(random.choice((1, 1, 1, 2))):  # what finishes a build may be killed, too
@@ -170,14 +179,9 @@ def test_a_build_that_is_killed_at_any_time_is_finished(
         scene.assert_healed(project, number)
         tally["healed"] += 1
         tally["with conflicts"] += bool(scene.conflicts)
-    with capsys.disabled():
-        print(f"\nkills: {dict(tally)}")  # noqa: T201
 
 
-def test_a_build_on_a_full_disk_is_finished_when_there_is_room(
-    tmp_path: Path, random: Random, capsys: pytest.CaptureFixture[str]
-) -> None:
-    tally: collections.Counter[str] = collections.Counter()
+def test_a_build_on_a_full_disk_is_finished_when_there_is_room(tmp_path: Path, random: Random, tally: Tally) -> None:
     for number, scene in _scenes(tmp_path, random, KILLS // 3):
         project, first = scene.copy(), random.randint(1, len(scene.operations))
         lasting = random.random() < 0.5
@@ -193,15 +197,10 @@ def test_a_build_on_a_full_disk_is_finished_when_there_is_room(
         tally["halfway"] += JournalFolder(project, project / ".urdfsync/journal").phase() is not None
         scene.assert_healed(project, (number, first))
         tally["healed"] += 1
-    with capsys.disabled():
-        print(f"\nfull disks: {dict(tally)}")  # noqa: T201
 
 
-def test_what_is_saved_during_a_build_survives(
-    tmp_path: Path, random: Random, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_is_saved_during_a_build_survives(tmp_path: Path, random: Random, tally: Tally) -> None:
     """A file is saved before a random operation of the build, and found again after two builds."""
-    tally: collections.Counter[str] = collections.Counter()
     for number, scene in _scenes(tmp_path, random, KILLS // 3):
         project = scene.copy()
         targets = [
@@ -229,5 +228,3 @@ def test_what_is_saved_during_a_build_survives(
             files = [path for path in project.rglob("*") if path.is_file() and path.read_bytes() == saved]
             assert [path for path in files if ".urdfsync" not in path.parts], (number, at, target)
             tally["conflicts"] += bool(run(project, dry=True).conflicts)
-    with capsys.disabled():
-        print(f"\nsaves: {dict(tally)}")  # noqa: T201

@@ -17,7 +17,7 @@ import tomli_w
 from support.workplace import WATCH, Fault, Workplace, changes, contents
 
 from fuzzing.cases import run_cases
-from fuzzing.state import EDITED, MINE, commit
+from fuzzing.state import commit, edit, require_edits
 from fuzzing.urdf import damaged, small_robot
 
 CONFIGURATION = '[defaults]\ncross_check = false\n[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n'
@@ -100,9 +100,7 @@ def _case(work: Workplace, template: Path, random: Random) -> str:
 
 def _check(before: dict[str, bytes | str], after: dict[str, bytes | str]) -> None:
     """No file that was there has changed, but outputs that nobody edited; no other than outputs are new."""
-    for name in EDITED:
-        if MINE.strip() not in (found if isinstance(found := after.get(name), bytes) else b""):
-            raise Fault(f"the edit in {name} is lost")
+    require_edits(after)
     for name in changes(before, after):
         is_output = name.endswith((".mo", "package.order")) or "/Resources/" in name or after.get(name) == "folder"
         if name.startswith(".git/") and not name.startswith(".git/index"):
@@ -122,10 +120,7 @@ def _template(folder: Path) -> Path:
     (template / "templates/joint/fixed.mo.jinja").write_text("<< cycler.__init__.__globals__.os.popen('touch x') >>")
     work.fill(template)
     work.run(["build"])
-    for name in EDITED:
-        path = work.project / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes((path.read_bytes() if path.exists() else b"within Bot;\nmodel Bench\nend Bench;\n") + MINE)
+    edit(work.project)
     commit(work.project)
     return work.project.rename(folder / "templates/project")
 

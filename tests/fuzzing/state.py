@@ -98,9 +98,7 @@ def _case(work: Workplace, templates: Sequence[Path], random: Random) -> str:
 
 def _check_edits(before: dict[str, bytes | str], after: dict[str, bytes | str]) -> None:
     """The user's lines are where they were, and all that is no output is as it was."""
-    for name in EDITED:
-        if MINE.strip() not in (found if isinstance(found := after.get(name), bytes) else b""):
-            raise Fault(f"the edit in {name} is lost")
+    require_edits(after)
     others = [
         name
         for name in changes(before, after)
@@ -120,9 +118,7 @@ def _templates(folder: Path) -> Sequence[Path]:
     (empty / "bot.stl").write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))
     work.fill(empty)
     work.run(["build"])
-    for name in EDITED:
-        path = work.project / name
-        path.write_bytes((path.read_bytes() if path.exists() else b"within Bot;\nmodel Bench\nend Bench;\n") + MINE)
+    edit(work.project)
     work.run(["build"])
     commit(work.project)
     found.append(shutil.copytree(work.project, folder / "templates/in-step"))
@@ -144,6 +140,21 @@ def _urdf(mass: float) -> str:
     arm = link("arm", mass).replace("</link>", f"{shape}</link>")
     turning = joint("turn", "revolute", "base", "arm", axis="0 0 1", inside=[limit()])
     return robot(link("base"), arm, turning, link("hand", mass), joint("hold", "fixed", "arm", "hand"))
+
+
+def edit(project: Path) -> None:
+    """Add a line of the user's to each of the files `EDITED`, some of which are new."""
+    for name in EDITED:
+        path = project / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes((path.read_bytes() if path.exists() else b"within Bot;\nmodel Bench\nend Bench;\n") + MINE)
+
+
+def require_edits(after: dict[str, bytes | str]) -> None:
+    """Raise Fault unless all lines of the user's are still where they were."""
+    for name in EDITED:
+        if MINE.strip() not in (found if isinstance(found := after.get(name), bytes) else b""):
+            raise Fault(f"the edit in {name} is lost")
 
 
 def commit(project: Path) -> None:
