@@ -71,13 +71,6 @@ _NOT_FOR_MODELS = ("lipsum", "random")
 """Names that Jinja offers and whose text is another one each time."""
 
 
-class _TimeIsUpError(SecurityError):
-    """A text takes too long."""
-
-    def __init__(self) -> None:
-        super().__init__(f"it takes more than {MAX_SECONDS:g} s")
-
-
 @contextlib.contextmanager
 def _last_resort() -> Iterator[None]:
     """End this process with SIGVTALRM if the context takes `GRACE` longer than a text may; not on Windows.
@@ -126,7 +119,7 @@ class _Environment(ImmutableSandboxedEnvironment):
     def check_time(self) -> None:
         """Raise SecurityError if the text takes too long."""
         if time.monotonic() > self.deadline:
-            raise _TimeIsUpError
+            raise SecurityError(f"it takes more than {MAX_SECONDS:g} s")
 
     def call(self, context: Context, function: Any, /, *arguments: Any, **named: Any) -> Any:
         """See Jinja; recursion without a loop looks at the clock here."""

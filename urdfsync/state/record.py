@@ -54,9 +54,3 @@ class FileRecord(msgspec.Struct, frozen=True, omit_defaults=True):
     def written_hash(self) -> str | None:
         """Text hash of what urdfsync wrote at this very path."""
         return self.replaced_hash if self.origin else self.base
-
-    @property
-    def is_clean(self) -> bool:
-        """Whether the file is as generated and nothing waits."""
-        waits = self.origin or self.replaced_hash or self.choice
-        return self.state is RecordState.GENERATED and self.base is not None and not waits
