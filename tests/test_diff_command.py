@@ -214,6 +214,19 @@ def test_two_files_without_a_configuration(arm: Path, capsys: Capture, snapshot_
     assert snapshot_of(arm) == before
 
 
+def test_a_value_is_folded_only_where_the_terminal_is_narrow(
+    arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "120")
+    places = [f'<inertial><origin xyz="{number}"/><mass' for number in ("-0.1234 -0.2345 -0.9876", "-0.2 -0.3 -0.4")]
+    for file, place in zip(("arm.urdf", "new.urdf"), places, strict=True):
+        (arm / file).write_text(ARM.replace("<inertial><mass", place))
+    _, lines = said(capsys, "new.urdf", "--against", "arm.urdf")
+    value = "(-0.1234, -0.2345, -0.9876) → (-0.2, -0.3, -0.4) m"
+    (effect,) = (line for line in lines if "centre of mass" in line)
+    assert value in effect
+
+
 def test_a_file_from_another_folder_finds_its_meshes_beside_the_source(arm: Path, capsys: Capture) -> None:
     (arm / "old").mkdir()
     shutil.copy(arm / "arm.urdf", arm / "old")

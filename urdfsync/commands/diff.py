@@ -205,11 +205,12 @@ def _grids(rows: Sequence[OutlineRow], console: RichConsole) -> Iterator[Table]:
     label = min(max((text((row.label, "")).cell_len for row in rows), default=0), _WIDEST, console.width // 2)
     values = [_value(row) for row in rows]
     related = [value.cell_len for value, row in zip(values, rows, strict=True) if row.relation]
-    width = min(max(related, default=0), _VALUES, max(console.width - label - 30, 12))
+    room = max(console.width - label - 30, 12)
+    width = min(max(related, default=0), _VALUES, room)
     for row, value in zip(rows, values, strict=True):
         grid = Table.grid(padding=(0, 2, 0, 0))
         grid.add_column(width=label, overflow="fold")
-        grid.add_column(width=width if row.relation else None, overflow="fold")
+        grid.add_column(width=max(width, min(value.cell_len, room)) if row.relation else None, overflow="fold")
         is_element = row.kind is not ChangeKind.CHANGED and " / " not in row.label
         cells = [text((row.label, "dim" if row.is_quiet else "bold" if is_element else "")), value]
         if row.relation:
