@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 
 import msgspec
 import pytest
@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Kind
+from urdfsync.engine.conflicts import find_conflict, resolve
 from urdfsync.engine.rules import (
     DesiredFile,
     OnDisk,
@@ -18,8 +19,6 @@ from urdfsync.engine.rules import (
     decide_file,
     hold,
     records_after,
-    remembered_choices,
-    sides_hash,
 )
 from urdfsync.state.record import Choice, FileRecord, RecordState
 
@@ -83,21 +82,6 @@ def test_after_an_action_the_next_build_has_nothing_to_do(
     assert second in (CONFLICTS if action.kind in CONFLICTS else quiet)
 
 
-def test_every_kind_has_a_reason_of_its_own() -> None:
-    assert len({Action("a", kind, Role.MODEL).reason for kind in Kind}) == len(Kind)
-
-
-def test_plan_covers_wanted_and_recorded_files() -> None:
-    recorded = {"gone": FileRecord("link a", Role.MODEL, "g"), "stays": FileRecord("link b", Role.RECORD, "s")}
-    wanted = {"stays": DesiredFile(Role.RECORD, "link b", "s2"), "new": DesiredFile(Role.MODEL, "link c", "n")}
-    actions = decide(recorded, wanted, {"gone": OnDisk("g"), "stays": OnDisk("s")})
-    assert [(action.path, action.kind, action.owner) for action in actions] == [
-        ("gone", Kind.DELETE, "link a"),
-        ("new", Kind.CREATE, "link c"),
-        ("stays", Kind.UPDATE, "link b"),
-    ]
-
-
 # Files whose element has another name
 
 
@@ -115,42 +99,17 @@ def texts(**hashes: str) -> dict[str, OnDisk]:
     return {name: OnDisk(hash_) for name, hash_ in hashes.items()}
 
 
-Row = tuple[Kind, str | None, str | None, str | None]
-
-
-def rows(actions: Collection[Action]) -> dict[str, Row]:
-    """Kind, base, origin and hash of the user's text of every action."""
-    return {action.path: (action.kind, action.base, action.origin, action.mine) for action in actions}
-
-
-def test_an_edited_file_goes_to_its_elements_new_name() -> None:
-    assert rows(decide(written("a"), targets("b"), texts(a="mine"), {"b": "a"})) == {
-        "a": (Kind.LEAVE, "a0", None, None),
-        "b": (Kind.MOVE, "a0", "a", "mine"),
-    }
-
-
-def test_a_chain_of_names_takes_every_edit_along() -> None:
-    moves = {"b": "a", "c": "b"}
-    assert rows(decide(written("a", "b"), targets("b", "c"), texts(a="mine a", b="mine b"), moves)) == {
-        "a": (Kind.LEAVE, "a0", None, None),
-        "b": (Kind.MOVE, "a0", "a", "mine a"),
-        "c": (Kind.MOVE, "b0", "b", "mine b"),
-    }
-
-
-def test_a_cycle_of_names_takes_every_edit_along() -> None:
-    moves = {"a": "c", "b": "a", "c": "b"}
-    names, mine = ("a", "b", "c"), texts(a="mine a", b="mine b", c="mine c")
-    assert rows(decide(written(*names), targets(*names), mine, moves)) == {
-        new: (Kind.MOVE, f"{old}0", old, f"mine {old}") for new, old in moves.items()
-    }
-
-
-@pytest.mark.parametrize("there", [OnDisk("foreign"), FOLDER], ids=["file", "folder"])
-def test_an_edited_file_stays_if_something_of_the_users_is_at_its_new_place(there: OnDisk) -> None:
-    actions = decide(written("a"), targets("b"), {"a": OnDisk("mine"), "b": there}, {"b": "a"})
-    assert {action.path: action.kind for action in actions} == {"a": Kind.ORPHAN, "b": Kind.UNOWNED}
+@pytest.mark.parametrize(
+    ("moves", "names"), [({"b": "a", "c": "b"}, "ab"), ({"a": "c", "b": "a", "c": "b"}, "abc")], ids=["chain", "cycle"]
+)
+def test_names_that_follow_each_other_take_every_edit_along(moves: dict[str, str], names: str) -> None:
+    found = {name: OnDisk(f"mine {name}") for name in names}
+    actions = decide(written(*names), targets(*moves), found, moves)
+    moved = {one.path: (one.origin, one.base, one.mine) for one in actions if one.kind is Kind.MOVE}
+    assert moved == {new: (old, f"{old}0", f"mine {old}") for new, old in moves.items()}
+    assert {one.path: one.kind for one in actions if one.kind is not Kind.MOVE} == (
+        {} if "a" in moves else {"a": Kind.LEAVE}
+    )
 
 
 def test_one_occupied_place_stops_the_whole_chain() -> None:
@@ -161,28 +120,6 @@ def test_one_occupied_place_stops_the_whole_chain() -> None:
         "a": Kind.ORPHAN,
         "b": Kind.CONFLICT,
         "c": Kind.UNOWNED,
-    }
-
-
-def test_a_file_that_the_user_has_moved_is_compared_with_what_was_written_at_its_old_place() -> None:
-    assert rows(decide(written("a"), targets("b"), texts(b="mine"), {"b": "a"})) == {
-        "a": (Kind.FORGET, "a0", None, None),
-        "b": (Kind.CONFLICT, "a0", None, "mine"),
-    }
-    assert rows(decide(written("a"), targets("b"), texts(b="a0"), {"b": "a"}))["b"][0] is Kind.UPDATE
-
-
-WAITING = {
-    "a": FileRecord("part a", Role.MODEL, "a0", RecordState.WAITING),
-    "b": FileRecord("part b", Role.MODEL, "a0", RecordState.CONFLICT, origin="a"),
-}
-"""`a` is edited, its element has the name `b` now, and that conflicts."""
-
-
-def test_a_file_that_waits_goes_to_a_third_name() -> None:
-    assert rows(decide(WAITING, targets("c"), texts(a="mine"), {"c": "a"})) == {
-        "a": (Kind.LEAVE, "a0", None, None),
-        "c": (Kind.MOVE, "a0", "a", "mine"),
     }
 
 
@@ -267,53 +204,13 @@ def test_a_conflict_holds_back_what_is_structural(action: Action, held: bool) ->
     assert [entry.held for entry in hold([action], set())] == [False], "without a conflict nothing waits"
 
 
-WITH_BOTH = sides_hash("mine", "new")
-
-
-def record(action: Action) -> FileRecord | None:
-    return records_after([action]).get(action.path)
-
-
-@pytest.mark.parametrize(
-    ("kind", "state", "base"),
-    [
-        (Kind.UNCHANGED, RecordState.GENERATED, "new"),
-        (Kind.CREATE, RecordState.GENERATED, "new"),
-        (Kind.RESTORE, RecordState.GENERATED, "new"),
-        (Kind.ADOPT, RecordState.GENERATED, "new"),
-        (Kind.UPDATE, RecordState.GENERATED, "new"),
-        (Kind.MOVE, RecordState.GENERATED, "new"),
-        (Kind.KEEP, RecordState.EDITED, "old"),
-        (Kind.INCLUDED, RecordState.EDITED, "new"),
-        (Kind.CONFLICT, RecordState.CONFLICT, "old"),
-        (Kind.UNOWNED, RecordState.CONFLICT, "old"),
-        (Kind.ORPHAN, RecordState.ORPHAN, "old"),
-        (Kind.NEEDED, RecordState.ORPHAN, "old"),
-    ],
-)
-def test_what_is_recorded_of_each_kind(kind: Kind, state: RecordState, base: str) -> None:
-    action = Action("a", kind, Role.MODEL, "link a", "old", "new", origin="b", choice=Choice.KEEP, mine="mine")
-    waits = {"origin": "b", "choice": Choice.KEEP, "chosen_for": WITH_BOTH} if state is RecordState.CONFLICT else {}
-    assert record(action) == FileRecord("link a", Role.MODEL, base, state, **waits)  # type: ignore[arg-type]
-
-
 @pytest.mark.parametrize("kind", [Kind.MERGE, Kind.MOVE])
 def test_a_merged_file_is_edited_unless_nothing_is_left_of_the_edits(kind: Kind) -> None:
     merged = Action("a", kind, Role.MODEL, "link a", "old", "new", mine="mine", result="both")
-    assert record(merged) == FileRecord("link a", Role.MODEL, "new", RecordState.EDITED)
-    assert record(msgspec.structs.replace(merged, result="new")) == FileRecord("link a", Role.MODEL, "new")
-
-
-@pytest.mark.parametrize(
-    ("mine", "generated", "holds"), [("mine", "new", True), ("edited", "new", False), ("mine", "newer", False)]
-)
-def test_a_choice_holds_until_one_side_changes(mine: str, generated: str, holds: bool) -> None:
-    recorded = {
-        "a": FileRecord("link a", Role.MODEL, "old", RecordState.WAITING, choice=Choice.TAKE, chosen_for=WITH_BOTH),
-        "b": FileRecord("link b", Role.MODEL, "old", RecordState.CONFLICT),
-    }
-    actions = [Action(path, Kind.CONFLICT, Role.MODEL, "", "old", generated, mine=mine) for path in ("a", "b", "c")]
-    assert remembered_choices(recorded, actions) == ({"a": Choice.TAKE} if holds else {})
+    assert records_after([merged])["a"] == FileRecord("link a", Role.MODEL, "new", RecordState.EDITED)
+    assert records_after([msgspec.structs.replace(merged, result="new")])["a"] == FileRecord(
+        "link a", Role.MODEL, "new"
+    )
 
 
 def test_places_that_are_handed_on() -> None:
@@ -361,3 +258,44 @@ def test_what_another_file_waits_for_is_not_renewed() -> None:
     waits = Action("b", Kind.CREATE, Role.RECORD, "", "old", "new", "numbers")
     renewed = Action("numbers", Kind.UPDATE, Role.RECORD, "", "old", "new")
     assert [action.held for action in hold([conflict, waits, renewed], {"numbers"})] == [False, True, True]
+
+
+LINES = st.lists(st.sampled_from(["a\n", "b\n", "c = 1\n", "c = 2\n"]), max_size=6).map("".join)
+
+
+@given(
+    base=st.none() | LINES,
+    mine=LINES,
+    generated=LINES,
+    kind=st.sampled_from([Kind.CONFLICT, Kind.UNOWNED, Kind.MOVE]),
+    choice=st.none() | st.sampled_from(Choice),
+    merging=st.booleans(),
+)
+def test_no_text_of_the_users_gives_way_unless_he_says_so(
+    base: str | None, mine: str, generated: str, kind: Kind, choice: Choice | None, merging: bool
+) -> None:
+    origin = "old.txt" if kind is Kind.MOVE else None
+    action = Action("a.txt", kind, Role.MODEL, "robot", base, generated, origin, mine=mine)
+    conflict = find_conflict(action, base, mine, generated)
+    choices = {action.path: choice} if choice else {}
+    (result,), texts = resolve([action], {action.path: conflict}, choices, merging)
+    text = texts.get(action.path)
+    merged = conflict.merge.text if conflict.merge else None
+    if result.kind is Kind.UPDATE or (result.kind is Kind.MOVE and text is None):
+        assert choice is Choice.TAKE
+    elif result.kind in (Kind.MERGE, Kind.MOVE):
+        assert text == (mine if choice is Choice.KEEP else merged)
+    else:
+        assert text is None
+        assert not result.writes
+
+
+@pytest.mark.parametrize("choice", [None, *Choice])
+@pytest.mark.parametrize("kind", sorted(set(Kind) - {Kind.CONFLICT, Kind.UNOWNED, Kind.MOVE, Kind.ORPHAN}))
+def test_a_choice_is_for_nothing_else(kind: Kind, choice: Choice | None) -> None:
+    action = Action("Arm.mo", kind, Role.MODEL, "link arm", "base", "new", mine="mine")
+    conflict = find_conflict(action, "a", "a\nb", "c\na")
+    assert resolve([action], {"Arm.mo": conflict}, {"Arm.mo": choice} if choice else {}, merging=True) == (
+        (action,),
+        {},
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -13,6 +14,7 @@ import tomli_w
 from support.git import NEEDS_GIT, Repository
 
 from urdfsync import cli
+from urdfsync.diagnostics import OutputError
 from urdfsync.files import digest
 from urdfsync.state.store import Store
 
@@ -195,3 +197,39 @@ def test_a_hook_deletes_nothing_either(hostile: Path, mode: str, monkeypatch: py
     Repository(hostile, monkeypatch).git("add", "-A")
     run("hook", mode)
     assert contents(hostile / "modelica/Mine") == OWN
+
+
+@pytest.mark.parametrize("change", ["copied", "touched", "cut short", "link", "folder"])
+def test_folders_that_were_not_noted_here_do_not_count(tmp_path: Path, change: str) -> None:
+    Store(tmp_path).note_folders("arm", ["m/Arm"])
+    file = tmp_path / ".urdfsync/folders.json"
+    copy = file.with_name("copy")
+    shutil.copy2(file, copy)
+    if change == "touched":
+        os.utime(file)
+    elif change == "cut short":
+        file.write_bytes(b"{")
+    else:
+        file.unlink()
+        if change == "copied":
+            copy.rename(file)
+        elif change == "link":
+            file.symlink_to(copy)
+        else:
+            file.mkdir()
+    assert Store(tmp_path).written_folders("arm") == frozenset()
+
+
+def test_folders_are_not_noted_through_a_link(tmp_path: Path) -> None:
+    outside, root = tmp_path / "outside", tmp_path / "root"
+    (root / ".urdfsync").mkdir(parents=True)
+    outside.mkdir()
+    for name in ("folders.json", ".folders.json.urdfsync-tmp"):
+        (root / ".urdfsync" / name).symlink_to(outside / "victim")
+    Store(root).note_folders("arm", ["m/Arm"])
+    assert Store(root).written_folders("arm") == {"m/Arm"}
+    shutil.rmtree(root / ".urdfsync")
+    (root / ".urdfsync").symlink_to(outside)
+    with pytest.raises(OutputError, match="symbolic link"):
+        Store(root).note_folders("arm", ["m/Arm"])
+    assert list(outside.iterdir()) == []

@@ -55,27 +55,6 @@ def path(tmp_path: Path) -> Path:
     return tmp_path / "state" / "lock"
 
 
-def test_one_at_a_time(path: Path) -> None:
-    first, second = Lock(path, 0), Lock(path, 0)
-    first.acquire()
-    first.acquire()
-    with pytest.raises(LockedError):
-        second.acquire()
-    first.release()
-    second.acquire()
-    assert second.held
-    second.release()
-
-
-def test_the_holder_is_named(path: Path) -> None:
-    with holder(path) as process, pytest.raises(LockedError) as caught:
-        Lock(path, 0.1, lambda path: path.name).acquire()
-    assert str(caught.value) == (
-        f"lock: error: process {process.pid} is building here, and did not finish within 0.1 s; "
-        "wait for it or end it, then build again [locked]"
-    )
-
-
 def test_waiting_ends_when_the_holder_does(path: Path) -> None:
     waited = 0
 
@@ -114,14 +93,6 @@ def test_readers_wait_for_writers_only(path: Path) -> None:
     with Lock(path, 0) as one, Lock(path, 0) as two:
         one.acquire(shared=True)
         two.acquire(shared=True)
-
-
-def test_without_a_lock_file_there_is_no_writer_to_wait_for(path: Path) -> None:
-    reader = Lock(path, 0)
-    reader.acquire(shared=True)
-    assert not reader.held
-    reader.release()
-    assert not path.exists(), "who only reads makes no file"
 
 
 def test_a_lock_file_that_cant_be_one(path: Path) -> None:

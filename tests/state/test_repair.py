@@ -83,16 +83,6 @@ def merged(ours: Manifest = OURS, theirs: Manifest = THEIRS, json: str | None = 
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        pytest.param("a\nb\n", ["a\nb\n"], id="no conflict"),
-        pytest.param("", [""], id="nothing"),
-        pytest.param(conflict("a\n", "b\n"), ["a\n", "b\n"], id="two sides"),
-        pytest.param(conflict("a\n", "b\n", "c\n"), ["a\n", "b\n"], id="without the ancestor"),
-        pytest.param(conflict("a\n", "a\n"), ["a\n"], id="alike"),
-        pytest.param(
-            "1\n" + conflict("a\n", "b\n") + "2\n" + conflict("", "c\n") + "3",
-            ["1\na\n2\n3", "1\nb\n2\nc\n3"],
-            id="several conflicts",
-        ),
         pytest.param(conflict("a\n", "b\n", "c\n").replace("\n", "\r\n"), ["a\r\n", "b\r\n"], id="CRLF"),
         pytest.param("1\n<<<<<<< HEAD\na\n=======\nb\n", ["1\na\n", "1\nb\n"], id="no end"),
         pytest.param("1\n<<<<<<< HEAD\na\n", ["1\na\n", "1\n"], id="no middle"),
@@ -100,7 +90,7 @@ def merged(ours: Manifest = OURS, theirs: Manifest = THEIRS, json: str | None = 
         pytest.param("\u2028<<<<<<< HEAD\n", ["\u2028<<<<<<< HEAD\n"], id="what only looks like a line"),
     ],
 )
-def test_sides(text: str, expected: list[str]) -> None:
+def test_sides_of_odd_texts(text: str, expected: list[str]) -> None:
     assert list(sides(text)) == expected
 
 
@@ -125,12 +115,6 @@ def test_no_marker_survives(parts: list[str]) -> None:
 
 
 # --- what is recovered --------------------------------------------------------------------------------------------
-
-
-def test_both_sides_are_found() -> None:
-    found = merged()
-    assert found.manifests == (OURS, THEIRS)
-    assert found.roles == dict.fromkeys(THEIRS.files, Role.MODEL) | {MESH: Role.IMPORT}
 
 
 def varied(rng: random.Random, side: str, ancestor: Hashes) -> Hashes:
@@ -193,12 +177,6 @@ def test_a_side_that_can_not_be_used_is_left_out(broken: str) -> None:
     assert merged_texts(broken, broken).manifests == ()
 
 
-def test_nothing_is_recovered_from_nothing() -> None:
-    found = recover(None, None, "arm.toml", "arm.json")
-    assert found == Recovered((), {}, frozenset())
-    assert rebuilt(found, {BASE: "b1"}, {BASE: "b1"}) is None
-
-
 @pytest.mark.parametrize(
     ("toml", "json", "place"),
     [
@@ -221,24 +199,6 @@ def test_a_newer_side_is_refused(toml: str, json: str | None, place: str) -> Non
 
 
 # --- bases --------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("candidates", "mine", "generated", "base"),
-    [
-        pytest.param(["a", "b"], "b", "c", "b", id="as a build wrote it"),
-        pytest.param(["a", "b"], "b", "b", "b", id="in step"),
-        pytest.param(["a", "b"], "mine", "a", "b", id="edited: not the one that would keep it in silence"),
-        pytest.param(["a", "b"], "mine", "b", "a", id="edited: the same, from the other side"),
-        pytest.param(["a", "b"], "mine", "c", "a", id="edited: the own one first"),
-        pytest.param(["a"], "mine", "a", "a", id="edited, and nothing is new"),
-        pytest.param(["a", "b"], None, "c", "a", id="deleted"),
-        pytest.param([], "mine", "c", None, id="nothing recorded"),
-        pytest.param([], None, None, None, id="nothing at all"),
-    ],
-)
-def test_choice_of_a_base(candidates: list[str], mine: str | None, generated: str | None, base: str | None) -> None:
-    assert chosen(candidates, mine, generated) == base
 
 
 def chosen(candidates: list[str], mine: str | None, generated: str | None) -> str | None:

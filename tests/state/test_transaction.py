@@ -57,12 +57,6 @@ def test_all_is_done(tmp_path: Path, transactions: Transactions, changes: list[C
     assert not transactions.pending()
 
 
-def test_folders_that_are_not_empty_stay(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
-    (tmp_path / "a/mine").write_bytes(b"mine")
-    transactions.apply("arm", changes, [tmp_path / "a"])
-    assert contents(tmp_path) == {**DONE, "a/mine": b"mine"}
-
-
 @pytest.mark.skipif(sys.platform != "linux" or os.geteuid() != 0, reason="only root may give files to any group")
 def test_a_file_gets_the_group_of_its_folder(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
     for folder in (tmp_path, tmp_path / "a"):
@@ -70,18 +64,6 @@ def test_a_file_gets_the_group_of_its_folder(tmp_path: Path, transactions: Trans
         folder.chmod(0o2775)
     transactions.apply("arm", changes)
     assert {(tmp_path / name).stat().st_gid for name in DONE} == {4321}
-
-
-@pytest.mark.parametrize("number", range(4))
-def test_a_file_that_is_not_as_planned_stays(
-    tmp_path: Path, transactions: Transactions, changes: list[Change], number: int
-) -> None:
-    mine = changes[number].path
-    mine.parent.mkdir(parents=True, exist_ok=True)
-    mine.write_bytes(b"mine")
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).overtaken == (mine,)
-    after = OVERTAKEN if number < 3 else DONE
-    assert contents(tmp_path) == {**after, mine.relative_to(tmp_path).as_posix(): b"mine"}
 
 
 def test_a_folder_in_the_way_stays(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:

@@ -1,17 +1,77 @@
-"""Changes of the RC network in the working folder, see the fixture `project`."""
+"""The RC network of the fixture `project`, which is the working folder: its changes, its builds, and what they did."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
+
+from urdfsync import config
+from urdfsync.engine.actions import Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.outcome import Exit, Result, exit_code
+
+Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
+"""The fixture `snapshot_of`."""
+
+LADDER = "modelica/Ladder"
+R1, R2, C1 = (f"{LADDER}/Elements/{name}.mo" for name in ("R1", "R2", "C1"))
+RECORD = f"{LADDER}/Elements/R1Parameters.mo"
+MANIFEST = ".urdfsync/robots/ladder.toml"
+ROBOT = '[robots.{0}]\nsource = "ladder.json"\npackage = "{1}"\ndomain = "rcnetwork"\n'
 
 
-def edit(path: str, old: str, new: str) -> None:
-    """Replace a text that a file has once."""
-    text = Path(path).read_text()
-    assert text.count(old) == 1
-    Path(path).write_text(text.replace(old, new))
+def edit(path: str | Path, old: str, new: str) -> None:
+    """Replace a text that a file has, wherever it does; line ends stay as they are."""
+    text = Path(path).read_bytes().decode()
+    assert old in text
+    Path(path).write_bytes(text.replace(old, new).encode())
+
+
+def source(old: str, new: str) -> None:
+    """Change the source."""
+    edit("ladder.json", old, new)
 
 
 def resistor(ohm: float, before: float = 100) -> None:
-    """Change the source: the resistance of R1."""
-    edit("ladder.json", f'"ohm": {before:g}}}', f'"ohm": {ohm:g}}}')
+    """Change the resistance of R1 in the source."""
+    source(f'"ohm": {before:g}}}', f'"ohm": {ohm:g}}}')
+
+
+def rename(old: str, new: str) -> None:
+    """Give an element of the source another name."""
+    source(f'"{old}"', f'"{new}"')
+
+
+def configure(text: str) -> None:
+    """Add lines to the table of the robot."""
+    with Path("urdfsync.toml").open("a") as file:
+        file.write(text)
+
+
+def run_all(**request: Any) -> list[Result]:
+    """Build all robots."""
+    loaded = config.load(Path("urdfsync.toml"))
+    return list(build(loaded, loaded.robots, BuildOptions(**request)))
+
+
+def run(**request: Any) -> Result:
+    """Build the robot; it must not fail."""
+    (result,) = run_all(**request)
+    assert not result.failed, result.diagnostics
+    return result
+
+
+def failure(**request: Any) -> str:
+    """Build the robot, which must fail; what is said."""
+    (result,) = run_all(**request)
+    assert result.failed
+    assert exit_code([result]) is Exit.ERROR
+    return "\n".join(map(str, result.diagnostics)).replace("\\", "/")
+
+
+def kinds(result: Result, folder: str = "") -> dict[str, Kind]:
+    """What happens to each file that does not just stay and does not wait, by its path below a folder."""
+    actions = (action for action in result.actions if action.kind is not Kind.UNCHANGED and not action.held)
+    return {action.path.removeprefix(folder): action.kind for action in actions}
