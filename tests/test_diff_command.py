@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 from support.git import NEEDS_GIT, Repository
@@ -140,13 +138,6 @@ def test_a_robot_that_was_never_built(project: Path, capsys: Capture) -> None:
     assert len(said(capsys, "ladder", "--verbose")[1]) == 3 + 14
 
 
-def test_an_option_that_changed(built: Path, capsys: Capture) -> None:
-    with (built / "urdfsync.toml").open("a") as file:
-        file.write('prefix = "n"\n')
-    code, lines = said(capsys, "ladder")
-    assert (code, lines[0]) == (1, "ladder: the option `prefix` changed since the last build")
-
-
 def test_every_robot_of_a_source(built: Path, capsys: Capture) -> None:
     with (built / "urdfsync.toml").open("a") as file:
         file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
@@ -168,24 +159,6 @@ def test_one_broken_source_does_not_hide_the_others(built: Path, capsys: Capture
     streams = capsys.readouterr()
     assert streams.out == "ladder: nothing changed since the last build\n"
     assert streams.err.splitlines()[-1] == "broken: 1 error, so nothing can be compared"
-
-
-def test_quiet(built: Path, capsys: Capture) -> None:
-    change(built)
-    assert said(capsys, "ladder", "--quiet") == (1, [])
-
-
-def test_json(built: Path, capsys: Capture) -> None:
-    change(built)
-    assert cli.main(["diff", "ladder", "--json"]) == 1
-    document: dict[str, Any] = json.loads(capsys.readouterr().out)
-    (robot,) = document["robots"]
-    assert (document["command"], document["exit"], robot["against"], robot["built"]) == ("diff", 1, None, True)
-    assert (robot["class"], robot["in_step"], robot["source"]) == ("parameter", False, "ladder.json")
-    assert [(c["change"], c["old"], c["new"], c["unit"]) for c in robot["changes"]] == [("R2 / ohm", 220.5, 330, "Ω")]
-    assert [a["path"] for a in robot["actions"] if a["action"] == "update"] == [
-        "modelica/Ladder/Elements/R2Parameters.mo"
-    ]
 
 
 # another file
@@ -301,17 +274,6 @@ def test_a_mesh_in_large_file_storage(arm: Path, capsys: Capture, monkeypatch: p
 
 
 @NEEDS_GIT
-def test_the_second_domain_against_a_revision(built: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    Repository(built, monkeypatch).commit()
-    change(built)
-    code, lines = said(capsys, "ladder", "--against", "HEAD")
-    assert (code, lines[:3]) == (
-        1,
-        ["ladder: 1 parameter change since HEAD", "└── R2", "    └── ohm  220.5 → 330 Ω  +49.7 %"],
-    )
-
-
-@NEEDS_GIT
 def test_mistakes_in_an_older_version_are_those_of_that_version(
     arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -358,13 +320,6 @@ def test_no_repository(arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPat
 )
 def test_mistakes_with_a_configuration(project: Path, capsys: Capture, arguments: list[str], complaint: str) -> None:
     assert complaint in refused(capsys, *arguments)
-
-
-def test_one_file_is_no_older_version_of_several_sources(project: Path, capsys: Capture) -> None:
-    shutil.copy(project / "ladder.json", project / "copy.json")
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write('[robots.copy]\nsource = "copy.json"\npackage = "Copy"\ndomain = "rcnetwork"\n')
-    assert "one file can't be the older version of 2 sources" in refused(capsys, "--against", "step.csv")
 
 
 def test_a_source_that_is_gone(built: Path, capsys: Capture) -> None:

@@ -15,7 +15,6 @@ import pytest
 from support.git import NEEDS_GIT, Repository
 from support.workplace import changes, contents
 
-import urdfsync
 from urdfsync import cli, config, extras
 from urdfsync.state.lock import Lock
 from urdfsync.urdf.domain import UrdfDomain
@@ -179,40 +178,6 @@ def test_a_signal_ends_a_build_with_130(
     assert build.returncode == 130
     assert errors == "error: interrupted; run the command again to finish the work [interrupted]\n"
     assert not (tmp_path / "modelica").exists()
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere file names are Unicode")
-def test_a_folder_whose_name_is_not_utf_8(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    folder = tmp_path / "caf\udce9"
-    folder.mkdir()
-    monkeypatch.chdir(folder)
-    (folder / "arm.urdf").write_text(URDF)
-    outside = ["--config", str(folder / "urdfsync.toml")]
-    commands = [
-        ["init", "arm.urdf"],
-        ["build", "--svg"],
-        ["build", "--full"],
-        ["build"],
-        ["status"],
-        ["diff"],
-        ["resolve", "--all", "--keep"],
-        ["record", "arm.urdf"],
-        ["library"],
-    ]
-    for command in commands:
-        if command[0] == "init":
-            assert cli.main(command) == 0
-        else:
-            assert cli.main([*command, *(outside if command[0] not in ("record", "library") else [])]) == 0
-            capsys.readouterr()
-            assert cli.main([*command, "--json"]) == 0
-            assert json.loads(capsys.readouterr().out)["exit"] == 0
-    environment = os.environ | {"PYTHONPATH": str(Path(urdfsync.__file__).parents[1])}
-    for _ in range(2):  # the second time from what the first saved
-        done = subprocess.run(
-            [sys.executable, "-m", "urdfsync", "build"], env=environment, capture_output=True, text=True, check=True
-        )
-        assert done.stdout == "arm: in step, 15 files\n"
 
 
 def test_what_is_to_be_installed_exists() -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from support.git import NEEDS_GIT, Repository
-from support.networks import edit, resistor
+from support.networks import MANIFEST, RECORD, ROBOT, Snapshot, edit, resistor
 
 from urdfsync import cli, hook
 from urdfsync.hooks import check
@@ -22,10 +22,6 @@ from urdfsync.state.lock import build_lock
 pytestmark = [pytest.mark.slow, NEEDS_GIT]
 
 Capture = pytest.CaptureFixture[str]
-Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
-
-R1 = "modelica/Ladder/Elements/R1Parameters.mo"
-STATE = ".urdfsync/robots/ladder.toml"
 
 
 _committed: list[Path] = []
@@ -84,14 +80,15 @@ def test_a_stale_output_is_built_and_has_to_be_added(repo: Repository, capsys: C
     assert lines == [
         "ladder: out of step: 1 file written",
         "add to the commit:",
-        f"  git add .urdfsync/robots/ladder.json {STATE} {R1}",
+        f"  git add .urdfsync/robots/ladder.json {MANIFEST} {RECORD}",
     ]
-    assert "120" in Path(R1).read_text()
+    assert "120" in Path(RECORD).read_text()
     run(lines[-1])
     assert said(capsys, "build", code=0) == []
     assert said(capsys, "check", code=0) == []
     assert (
-        git("status", "--porcelain") == "M  .urdfsync/robots/ladder.json\nM  " + f"{STATE}\nM  ladder.json\nM  {R1}\n"
+        git("status", "--porcelain")
+        == "M  .urdfsync/robots/ladder.json\nM  " + f"{MANIFEST}\nM  ladder.json\nM  {RECORD}\n"
     )
 
 
@@ -114,9 +111,9 @@ def test_changes_that_are_not_staged_do_not_count(repo: Repository, capsys: Capt
     passes("nothing has changed")
     resistor(120)
     passes("the source")
-    edit(R1, "100", "140")
+    edit(RECORD, "100", "140")
     Path("modelica/Ladder/Ladder.mo").unlink()
-    Path(STATE).write_text("nonsense")
+    Path(MANIFEST).write_text("nonsense")
     passes("outputs and state")
     Path("urdfsync.toml").write_text("nonsense")
     passes("the configuration")
@@ -133,24 +130,24 @@ def test_a_source_with_later_changes_keeps_a_build_from_writing(
     assert lines == [
         "ladder: out of step: 1 file to write; ladder.json has changes that are not staged",
         "stage the changes (git add ladder.json) or put them aside (git stash push --keep-index), then build:",
-        f"  urdfsync build ladder && git add .urdfsync/robots/ladder.json {STATE} {R1}",
+        f"  urdfsync build ladder && git add .urdfsync/robots/ladder.json {MANIFEST} {RECORD}",
     ]
     assert snapshot_of(repo.folder) == before
     run("git stash push --keep-index")
     run(lines[-1])
     assert said(capsys, "build", code=0) == []
     run("git commit -qm staged")
-    assert "120" in git("show", f"HEAD:{R1}")
+    assert "120" in git("show", f"HEAD:{RECORD}")
 
 
 def test_outputs_that_are_built_but_not_staged(repo: Repository, capsys: Capture) -> None:
     resistor(120)
     run("urdfsync build")
-    repo.git("add", "ladder.json", R1)
+    repo.git("add", "ladder.json", RECORD)
     add = [
         "ladder: in step on disk, but 2 files are not staged",
         "add to the commit:",
-        f"  git add .urdfsync/robots/ladder.json {STATE}",
+        f"  git add .urdfsync/robots/ladder.json {MANIFEST}",
     ]
     assert said(capsys, "check") == add
     assert said(capsys, "build") == add
@@ -171,25 +168,12 @@ def test_a_part_of_the_edits_is_staged(repo: Repository, capsys: Capture) -> Non
     assert git("status", "--porcelain", "modelica/Ladder/Ladder.mo") == "MM modelica/Ladder/Ladder.mo\n"
 
 
-def test_an_output_that_git_does_not_track(repo: Repository, capsys: Capture) -> None:
-    repo.git("rm", "-q", "--cached", R1, STATE)
-    for mode in ("check", "build"):
-        lines = said(capsys, mode)
-        assert lines == [
-            "ladder: in step on disk, but 2 files are not staged",
-            "add to the commit:",
-            f"  git add {STATE} {R1}",
-        ]
-    run(lines[-1])
-    assert said(capsys, "check", code=0) == []
-
-
 def test_an_output_that_git_is_told_to_ignore(repo: Repository, capsys: Capture) -> None:
-    repo.git("rm", "-q", "--cached", R1)
+    repo.git("rm", "-q", "--cached", RECORD)
     Path(".gitignore").write_text("*Parameters.mo\n")
     repo.git("add", ".gitignore")
     lines = said(capsys, "check")
-    assert lines[-1] == f"  git add -f {R1}"
+    assert lines[-1] == f"  git add -f {RECORD}"
     run(lines[-1])
     assert said(capsys, "check", code=0) == []
 
@@ -203,48 +187,41 @@ def test_a_source_that_git_does_not_track(repo: Repository, capsys: Capture) -> 
 
 
 def test_an_output_that_will_be_deleted_by_the_commit(repo: Repository, capsys: Capture) -> None:
-    repo.git("rm", "-q", R1)
+    repo.git("rm", "-q", RECORD)
     assert said(capsys, "check")[0] == "ladder: out of step: 1 to restore"
     lines = said(capsys, "build")
     assert lines == [
         "ladder: out of step: 1 restored because you deleted it",
         "add to the commit:",
-        f"  git add {R1}",
+        f"  git add {RECORD}",
     ]
     run(lines[-1])
     assert said(capsys, "check", code=0) == []
 
 
-def test_an_element_that_is_gone_takes_its_files_with_it(repo: Repository, capsys: Capture) -> None:
+@pytest.mark.parametrize("is_alone", [True, False])
+def test_an_element_that_is_gone_takes_its_files_with_it(repo: Repository, capsys: Capture, is_alone: bool) -> None:
+    """They are named by their folder, or one by one if there is more in it."""
     edit("ladder.json", '    {"name": "R2", "between": ["middle", "out"], "ohm": 220.5},\n', "")
     edit("ladder.json", '"between": ["out"', '"between": ["middle"')
     repo.git("add", "ladder.json")
-    lines = said(capsys, "build")
-    assert not Path("modelica/Ladder/Elements/R2.mo").exists()
-    assert lines[-1] == "  git add .urdfsync/robots modelica/Ladder"
-    run(lines[-1])
-    assert "D  modelica/Ladder/Elements/R2.mo\n" in git("status", "--porcelain")
-    assert said(capsys, "check", code=0) == []
-
-
-def test_many_files_are_named_one_by_one_if_there_is_more_in_their_folder(repo: Repository, capsys: Capture) -> None:
-    edit("ladder.json", '    {"name": "R2", "between": ["middle", "out"], "ohm": 220.5},\n', "")
-    edit("ladder.json", '"between": ["out"', '"between": ["middle"')
-    repo.git("add", "ladder.json")
-    Path("modelica/Ladder/notes.txt").write_text("mine")
+    if not is_alone:
+        Path("modelica/Ladder/notes.txt").write_text("mine")
     line = said(capsys, "build")[-1]
-    assert "modelica/Ladder/Elements/R2.mo" in line.split(" ")
-    assert "modelica/Ladder" not in line.split(" ")
+    assert not Path("modelica/Ladder/Elements/R2.mo").exists()
+    assert (line == "  git add .urdfsync/robots modelica/Ladder") is is_alone
+    assert ("modelica/Ladder/Elements/R2.mo" in line.split(" ")) is not is_alone
     run(line)
+    assert "D  modelica/Ladder/Elements/R2.mo\n" in git("status", "--porcelain")
+    assert ("?? modelica/Ladder/notes.txt" in git("status", "--porcelain")) is not is_alone
     assert said(capsys, "check", code=0) == []
-    assert "?? modelica/Ladder/notes.txt" in git("status", "--porcelain")
 
 
 def add_robot(repo: Repository) -> None:
     """Commit a second robot, in step."""
     Path("other.json").write_bytes(Path("ladder.json").read_bytes())
     with Path("urdfsync.toml").open("a") as file:
-        file.write('[robots.other]\nsource = "other.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+        file.write(ROBOT.format("other", "Other").replace("ladder.json", "other.json"))
     run("urdfsync build")
     repo.commit()
 
@@ -298,7 +275,7 @@ def test_a_change_that_concerns_the_state_only(repo: Repository, capsys: Capture
     lines = said(capsys, "check")
     assert lines[0] == "ladder: out of step: what urdfsync recorded of it is out of date"
     lines = said(capsys, "build")
-    assert lines[-1] == f"  git add {STATE}"
+    assert lines[-1] == f"  git add {MANIFEST}"
     run(lines[-1])
     assert said(capsys, "check", code=0) == []
 
@@ -316,52 +293,47 @@ def test_a_configuration_is_judged_as_it_is_staged(repo: Repository, capsys: Cap
     assert said(capsys, "build", code=0) == []
 
 
-def test_an_error_in_the_staged_configuration_has_its_file_and_line(repo: Repository, capsys: Capture) -> None:
-    text = Path("urdfsync.toml").read_text()
-    edit("urdfsync.toml", "domain", "sorce = 1\ndomain")
-    repo.git("add", "urdfsync.toml")
-    Path("urdfsync.toml").write_text(text)
+@pytest.mark.parametrize(
+    ("path", "change", "message"),
+    [
+        (
+            "urdfsync.toml",
+            lambda content: content.replace(b"domain", b"sorce = 1\ndomain"),
+            "urdfsync.toml:4: error: unknown key `sorce` in robot `ladder`",
+        ),
+        ("ladder.json", lambda content: content[:100], "ladder.json:6: error: "),
+    ],
+)
+def test_an_error_in_what_is_staged_has_its_file_and_line(
+    repo: Repository, capsys: Capture, path: str, change: Callable[[bytes], bytes], message: str
+) -> None:
+    content = Path(path).read_bytes()
+    Path(path).write_bytes(change(content))
+    repo.git("add", path)
+    Path(path).write_bytes(content)
     lines = said(capsys, "check", code=2)
-    assert lines[0].startswith("urdfsync.toml:4: error: unknown key `sorce` in robot `ladder`")
-
-
-def test_an_error_in_the_staged_source_names_the_real_file(repo: Repository, capsys: Capture) -> None:
-    content = Path("ladder.json").read_bytes()
-    Path("ladder.json").write_bytes(content[:100])
-    repo.git("add", "ladder.json")
-    Path("ladder.json").write_bytes(content)
-    lines = said(capsys, "check", code=2)
-    assert lines[0].startswith("ladder.json:6: error: ")
+    assert lines[0].startswith(message)
     assert "urdfsync-" not in "".join(lines), "the mirror is nobody's business"
 
 
 def test_a_conflict_of_what_is_staged_comes_with_the_command_that_settles_it(repo: Repository, capsys: Capture) -> None:
     resistor(120)
-    edit(R1, "100", "140")
+    edit(RECORD, "100", "140")
     repo.git("add", ".")
     for mode in ("check", "build"):
         lines = said(capsys, mode, code=3)
-        assert f"  urdfsync resolve {R1} --keep" in "\n".join(lines)
-    run(f"urdfsync resolve {R1} --keep --quiet")
+        assert f"  urdfsync resolve {RECORD} --keep" in "\n".join(lines)
+    run(f"urdfsync resolve {RECORD} --keep --quiet")
     lines = said(capsys, "check")
     assert lines[0] == "ladder: in step on disk, but 2 files are not staged"
     run(lines[-1])
     assert said(capsys, "check", code=0) == []
 
 
-def test_a_conflict_that_only_the_index_has(repo: Repository, capsys: Capture) -> None:
-    resistor(120)
-    edit(R1, "100", "140")
-    repo.git("add", ".")
-    resistor(100, before=120)
-    lines = said(capsys, "check", code=3)
-    assert any(line.startswith(f"  conflict   {R1}") for line in lines)
-
-
 def test_merge_markers_in_the_state(repo: Repository, capsys: Capture) -> None:
-    state = Path(STATE).read_text()
-    Path(STATE).write_text(f"<<<<<<< ours\n{state}=======\n{state}>>>>>>> theirs\n")
-    repo.git("add", STATE)
+    state = Path(MANIFEST).read_text()
+    Path(MANIFEST).write_text(f"<<<<<<< ours\n{state}=======\n{state}>>>>>>> theirs\n")
+    repo.git("add", MANIFEST)
     for mode in ("check", "build"):
         assert "urdfsync build --repair" in said(capsys, mode, code=2)[0]
     run("urdfsync build --repair")
@@ -431,16 +403,18 @@ def test_robots_of_two_configurations_are_told_apart(repo: Repository, capsys: C
 
 def test_a_commit_without_the_configuration_of_its_state(repo: Repository, capsys: Capture) -> None:
     repo.git("rm", "-q", "--cached", "urdfsync.toml")
-    assert said(capsys, "check", code=2)[0].startswith(f"{STATE}: error: its configuration urdfsync.toml is not part")
+    assert said(capsys, "check", code=2)[0].startswith(
+        f"{MANIFEST}: error: its configuration urdfsync.toml is not part"
+    )
     assert said(capsys, "check", "urdfsync.toml", code=2)[0].startswith("urdfsync.toml: error: git does not track")
     repo.git("rm", "-q", "-r", "--cached", ".urdfsync")
     assert said(capsys, "check", code=0) == [], "then there is nothing to judge"
 
 
 def test_files_that_will_be_added_one_day_are_no_part_of_the_commit(repo: Repository, capsys: Capture) -> None:
-    repo.git("rm", "-q", "--cached", R1)
-    repo.git("add", "--intent-to-add", R1)
-    assert said(capsys, "check")[-1] == f"  git add {R1}"
+    repo.git("rm", "-q", "--cached", RECORD)
+    repo.git("add", "--intent-to-add", RECORD)
+    assert said(capsys, "check")[-1] == f"  git add {RECORD}"
 
 
 def test_unmerged_files_are_an_error(repo: Repository, capsys: Capture) -> None:
@@ -474,7 +448,7 @@ def test_all_ways_in_which_index_and_working_tree_can_differ(
     repo: Repository, capsys: Capture, snapshot_of: Snapshot
 ) -> None:
     """Sources and outputs of two versions, in the index and on disk; which of the two is staged makes no difference."""
-    sources, outputs = ["ladder.json"], [R1, STATE, ".urdfsync/robots/ladder.json"]
+    sources, outputs = ["ladder.json"], [RECORD, MANIFEST, ".urdfsync/robots/ladder.json"]
     first = {path: Path(path).read_bytes() for path in (*sources, *outputs)}
     resistor(120)
     run("urdfsync build")
@@ -485,7 +459,7 @@ def test_all_ways_in_which_index_and_working_tree_can_differ(
         repo.git("add", "--all")
         put(versions[source], sources)
         put(versions[output], outputs)
-        os.utime(R1, (1, 1))  # git would like to note that in the index
+        os.utime(RECORD, (1, 1))  # git would like to note that in the index
         index, before = (repo.folder / ".git/index").read_bytes(), snapshot_of(repo.folder / "modelica")
         code = 0 if staged == built else 1
         assert bool(said(capsys, "check", code=code)) == bool(code)
@@ -493,7 +467,7 @@ def test_all_ways_in_which_index_and_working_tree_can_differ(
         assert bool(said(capsys, "build", code=code)) == bool(code)
         assert (repo.folder / ".git/index").read_bytes() == index
         written = versions[source] if code and staged == source else versions[output]
-        assert Path(R1).read_bytes() == written[R1]
+        assert Path(RECORD).read_bytes() == written[RECORD]
 
 
 def put(version: Mapping[str, bytes], paths: Sequence[str]) -> None:
@@ -510,7 +484,7 @@ def test_changes_that_pre_commit_will_bring_back_keep_a_build_from_writing(
     resistor(120)
     repo.git("add", ".")
     before = snapshot_of(repo.folder / "modelica")
-    for path in ("ladder.json", "step.csv", R1, STATE, "urdfsync.toml"):
+    for path in ("ladder.json", "step.csv", RECORD, MANIFEST, "urdfsync.toml"):
         stash(path)
         line = f"ladder: out of step: 1 file to write; {path} has changes that are not staged"
         assert said(capsys, "build")[0] == line

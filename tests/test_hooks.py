@@ -1,4 +1,7 @@
-"""The hooks with the real pre-commit, in throw-away repositories: real commits, real stashes, real roll-backs."""
+"""The hook that builds with the real pre-commit, in throw-away repositories: real commits, stashes and roll-backs.
+
+What differs in the hook that checks is shown by `test_hook_command.py` without commits.
+"""
 
 from __future__ import annotations
 
@@ -13,15 +16,13 @@ from pathlib import Path
 import pytest
 from support.daemon import Watch
 from support.git import NEEDS_GIT, Repository
-from support.networks import edit, resistor
+from support.networks import MANIFEST, RECORD, edit, resistor
 
 from urdfsync import cli
 
 REPOSITORY = Path(__file__).parents[1]
 RC_FOLDER = Path(__file__).parent / "rcnetwork"
 PRE_COMMIT = Path(sys.executable).parent / "pre-commit"
-R1 = "modelica/Ladder/Elements/R1Parameters.mo"
-STATE = ".urdfsync/robots/ladder.toml"
 
 pytestmark = [
     NEEDS_GIT,
@@ -29,18 +30,12 @@ pytestmark = [
     pytest.mark.skipif(not PRE_COMMIT.is_file(), reason="pre-commit is not installed"),
 ]
 
-MODES = pytest.mark.parametrize("mode", ["build", pytest.param("check", marks=pytest.mark.slow)])
-"""What differs between them is shown by `test_hook_command.py` without commits; also what tests marked long show."""
-
 
 @dataclasses.dataclass
 class Site:
     """A repository with pre-commit installed, whose hook is the one of this checkout."""
 
     repository: Repository
-
-    def git(self, *arguments: str) -> None:
-        self.repository.git(*arguments)
 
     def commit(self, *arguments: str, code: int = 0, folder: str = ".") -> str:
         """Commit what is staged; what the hooks print."""
@@ -50,14 +45,6 @@ class Site:
         said = done.stdout + done.stderr
         assert done.returncode == code, said
         return said
-
-    def run(self, *arguments: str, code: int = 0) -> str:
-        """Call pre-commit by hand."""
-        done = subprocess.run(
-            [PRE_COMMIT, "run", *arguments], check=False, capture_output=True, text=True, env=dict(os.environ)
-        )
-        assert done.returncode == code, done.stdout + done.stderr
-        return done.stdout
 
     def committed(self, path: str) -> str:
         """A file of the last commit."""
@@ -71,7 +58,7 @@ class Site:
 
 @pytest.fixture
 def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Site]:
-    """A function that makes a repository with a network in step, committed, and the hook of a mode installed."""
+    """A function that makes a repository with a network in step, committed, and the hook installed that builds."""
     path = os.pathsep.join(map(str, (REPOSITORY, rc_site, RC_FOLDER)))
     monkeypatch.setenv("PYTHONPATH", path)
     monkeypatch.setenv("PRE_COMMIT_HOME", str(project.parent / "store"))
@@ -81,9 +68,9 @@ def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Calla
     script.write_text(f"#!{sys.executable}\nimport sys\nfrom urdfsync.hook import main\nsys.exit(main())\n")
     script.chmod(0o755)
 
-    def make(mode: str, also: str = "") -> Site:
+    def make(also: str = "") -> Site:
         cli.main(["build", "--quiet"])
-        hook = f"id: urdfsync-{mode}, name: {mode}, entry: {script} {mode}, language: system"
+        hook = f"id: urdfsync-build, name: build, entry: {script} build, language: system"
         options = "pass_filenames: false, always_run: true, stages: [pre-commit, pre-merge-commit]"
         Path(".pre-commit-config.yaml").write_text(
             f"default_install_hook_types: [pre-commit, pre-merge-commit]\n"
@@ -102,43 +89,23 @@ def command(said: str) -> list[str]:
     return line.split()
 
 
-@MODES
-def test_a_commit_in_step_passes(make: Callable[..., Site], mode: str) -> None:
-    site = make(mode)
-    Path("README").write_text("nothing that matters")
-    site.git("add", ".")
-    assert "Passed" in site.commit()
-
-
 def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[..., Site]) -> None:
-    site = make("build")
+    site = make()
     resistor(120)
-    site.git("add", ".")
+    site.repository.git("add", ".")
     said = site.commit(code=1)
     assert "ladder: out of step: 1 file written\nadd to the commit:\n  git add " in said
-    site.git(*command(said)[1:])
+    site.repository.git(*command(said)[1:])
     site.commit()
-    assert "120" in site.committed(R1)
+    assert "120" in site.committed(RECORD)
     assert site.status() == []
 
 
-@pytest.mark.slow
-def test_paths_are_those_of_the_folder_in_which_git_was_called(make: Callable[..., Site]) -> None:
-    site = make("build")
-    resistor(120)
-    site.git("add", ".")
-    said = site.commit(code=1, folder="modelica")
-    assert "Ladder/Elements/R1Parameters.mo" in command(said)
-    subprocess.run(command(said), cwd="modelica", check=True)
-    site.commit(folder="modelica")
-
-
-@MODES
-def test_a_staged_source_with_later_changes(make: Callable[..., Site], mode: str) -> None:
+def test_a_staged_source_with_later_changes(make: Callable[..., Site]) -> None:
     """pre-commit stashes the later change: a build would write what does not fit when it is back."""
-    site = make(mode)
+    site = make()
     resistor(120)
-    site.git("add", ".")
+    site.repository.git("add", ".")
     resistor(130, before=120)
     said = site.commit(code=1)
     assert "ladder: out of step: 1 file to write" in said
@@ -147,48 +114,18 @@ def test_a_staged_source_with_later_changes(make: Callable[..., Site], mode: str
     assert site.status() == ["MM ladder.json"], "nothing was written, nothing is lost"
 
 
-@pytest.mark.slow
-@MODES
-def test_a_change_of_the_source_that_is_not_staged(make: Callable[..., Site], mode: str) -> None:
-    site = make(mode)
-    resistor(120)
-    cli.main(["build"])
-    Path("README").write_text("staged")
-    site.git("add", "README")
-    site.commit()
-    assert "120" in Path(R1).read_text()
-    assert site.status() == [
-        f" M {path}" for path in sorted((".urdfsync/robots/ladder.json", STATE, "ladder.json", R1))
-    ]
-
-
-@pytest.mark.slow
-def test_outputs_that_are_staged_in_part(make: Callable[..., Site]) -> None:
-    """The state and a record have changes that are stashed: what a build would write could not stay."""
-    site = make("build")
-    resistor(120)
-    cli.main(["build"])
-    site.git("add", "ladder.json")
-    before = {path: Path(path).read_bytes() for path in (R1, STATE)}
-    said = site.commit(code=1)
-    assert f"{STATE}, {R1} have changes that are not staged" in said.replace(".urdfsync/robots/ladder.json, ", "")
-    assert {path: Path(path).read_bytes() for path in before} == before
-    site.git("add", ".")
-    site.commit()
-
-
 def test_edits_of_other_files_are_brought_back_beside_what_was_written(make: Callable[..., Site]) -> None:
-    site = make("build")
+    site = make()
     Path("notes").write_text("one")
     site.repository.commit("notes")
     resistor(120)
-    site.git("add", ".")
+    site.repository.git("add", ".")
     Path("notes").write_text("two")
     said = site.commit(code=1)
     assert "1 file written" in said
     assert Path("notes").read_text() == "two"
-    assert "120" in Path(R1).read_text()
-    site.git(*command(said)[1:])
+    assert "120" in Path(RECORD).read_text()
+    site.repository.git(*command(said)[1:])
     site.commit()
     assert site.status() == [" M notes"]
 
@@ -197,97 +134,95 @@ def test_a_roll_back_because_of_another_hook_leaves_nothing_half_done(make: Call
     """A fixer changes a file that has stashed changes: pre-commit takes back all that hooks wrote to tracked files."""
     fixer = "id: fixer, name: fixer, entry: sh -c 'echo fixed > notes', language: system, always_run: true"
     Path("notes").write_text("one\n")
-    site = make("build", f"  - {{{fixer}}}\n")
+    site = make(f"  - {{{fixer}}}\n")
     edit(
         "ladder.json",
         '"ohm": 220.5},',
         '"ohm": 220.5},\n    {"name": "R3", "between": ["in", "out"], "ohm": 5},',
     )
-    site.git("add", "ladder.json")
+    site.repository.git("add", "ladder.json")
     Path("notes").write_text("two\n")
     said = site.commit(code=1)
     assert "Rolling back fixes" in said
     assert Path("notes").read_text() == "two\n"
     assert Path("modelica/Ladder/Elements/R3.mo").is_file(), "it was not tracked, so it stays"
     assert cli.main(["build", "--quiet"]) == 0, "and is no conflict"
-    site.git("add", ".")
+    site.repository.git("add", ".")
     site.commit("--no-verify")
     assert "R3" in site.committed("modelica/Ladder/Ladder.mo")
     assert cli.main(["build", "--check", "--quiet"]) == 0
 
 
-@MODES
-def test_a_merge_without_conflicts(make: Callable[..., Site], mode: str) -> None:
-    site = make(mode)
-    site.git("checkout", "-q", "-b", "other")
+def test_a_merge_without_conflicts(make: Callable[..., Site]) -> None:
+    site = make()
+    site.repository.git("checkout", "-q", "-b", "other")
     resistor(120)
     cli.main(["build"])
-    site.git("add", ".")
+    site.repository.git("add", ".")
     site.commit()
-    site.git("checkout", "-q", "main")
+    site.repository.git("checkout", "-q", "main")
     Path("README").write_text("main")
-    site.git("add", ".")
+    site.repository.git("add", ".")
     site.commit()
-    site.git("merge", "-q", "other", "-m", "merge")
-    assert "120" in site.committed(R1)
+    site.repository.git("merge", "-q", "other", "-m", "merge")
+    assert "120" in site.committed(RECORD)
 
 
-@MODES
-def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[..., Site], mode: str) -> None:
-    site = make(mode)
+def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[..., Site]) -> None:
+    site = make()
     for branch, old, new in (("other", "100", "120"), ("main", "220.5", "330.5")):
-        site.git("checkout", "-q", *(["-b"] if branch == "other" else []), branch)
+        site.repository.git("checkout", "-q", *(["-b"] if branch == "other" else []), branch)
         edit("ladder.json", f'"ohm": {old}}}', f'"ohm": {new}}}')
         cli.main(["build"])
-        site.git("add", ".")
+        site.repository.git("add", ".")
         site.commit()
     assert subprocess.run(["git", "merge", "-q", "other"], check=False, capture_output=True).returncode == 1
-    assert "<<<<<<<" in Path(STATE).read_text()
-    site.git("add", ".")
+    assert "<<<<<<<" in Path(MANIFEST).read_text()
+    site.repository.git("add", ".")
     said = site.commit(code=1)
-    assert f"{STATE}:" in said
+    assert f"{MANIFEST}:" in said
     assert "urdfsync build --repair" in said
     assert cli.main(["build", "--repair", "--quiet"]) == 0
-    site.git("add", ".")
+    site.repository.git("add", ".")
     site.commit()
-    assert {"120", "330.5"} <= {word for name in ("R1", "R2") for word in numbers(name)}
+    for path, number in ((RECORD, "120"), (RECORD.replace("R1", "R2"), "330.5")):
+        assert f"= {number}" in Path(path).read_text()
 
 
-def numbers(name: str) -> list[str]:
-    text = Path(f"modelica/Ladder/Elements/{name}Parameters.mo").read_text()
-    return text.replace("=", " ").replace(";", " ").replace(")", " ").split()
-
-
-@pytest.mark.slow
-@MODES
-def test_all_files(make: Callable[..., Site], mode: str) -> None:
+def test_all_files(make: Callable[..., Site]) -> None:
     """Then pre-commit does not stash anything."""
-    site = make(mode)
-    assert "Passed" in site.run("--all-files")
+    site = make()
+
+    def run(code: int) -> str:
+        done = subprocess.run([PRE_COMMIT, "run", "--all-files"], check=False, capture_output=True, text=True)
+        assert done.returncode == code, done.stdout + done.stderr
+        return done.stdout
+
+    run(0)
     resistor(120)
-    assert "Passed" in site.run("--all-files"), "not staged, so not of this commit"
-    site.git("add", ".")
+    run(0)  # not staged, so not of this commit
+    site.repository.git("add", ".")
     resistor(130, before=120)
-    assert "ladder.json has changes" in site.run("--all-files", code=1) or mode == "check"
-    assert "100" in Path(R1).read_text()
+    assert "ladder.json has changes" in run(1)
+    assert "100" in Path(RECORD).read_text()
     resistor(120, before=130)
-    assert "ladder: out of step: 1 file" in site.run("--all-files", code=1)
+    assert "ladder: out of step: 1 file" in run(1)
 
 
 def test_partial_and_implicit_commits_have_an_index_of_their_own(make: Callable[..., Site]) -> None:
-    site = make("build")
+    site = make()
     resistor(120)
     Path("README").write_text("one")
-    site.git("add", "README")
+    site.repository.git("add", "README")
     assert "1 file written" in site.commit("--", "ladder.json", code=1)
     site.commit("--all")
-    assert "120" in site.committed(R1)
+    assert "120" in site.committed(RECORD)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a daemon is ended by a signal")
 def test_the_daemon_beside_it(make: Callable[..., Site], project: Path, rc_site: Path) -> None:
     """The daemon builds the later change; commits of what was staged before neither lose it nor mix it in."""
-    site = make("build")
+    site = make()
     store = os.environ["PRE_COMMIT_HOME"]
     quick = ("--settle", "50", "--sample", "20")
     with Watch(project, *quick, path=[rc_site, RC_FOLDER], PRE_COMMIT_HOME=store) as watch:
@@ -297,12 +232,12 @@ def test_the_daemon_beside_it(make: Callable[..., Site], project: Path, rc_site:
             resistor(new, before=old)
             watch.wait("built", lambda event: bool(event["files"]), since)
             watch.rest(since)
-            site.git("add", ".")
+            site.repository.git("add", ".")
             since = watch.mark
             resistor(new + 5, before=new)
             watch.wait("built", lambda event: bool(event["files"]), since)
             site.commit()
-            assert str(new) in site.committed(R1), "the staged source has its own outputs"
+            assert str(new) in site.committed(RECORD), "the staged source has its own outputs"
             assert f'"ohm": {new + 5}}}' in Path("ladder.json").read_text(), "the later change is back"
             since = watch.mark
             resistor(new, before=new + 5)

@@ -28,28 +28,12 @@ from urdfsync.watch import events
 from urdfsync.watch.report import JsonReport, event_values
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
-BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, CHECK, CLEARED, RESOLVE, INIT, RECORD, LIBRARY = (
-    json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)
-)
+ONE = [json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)]
+BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, CHECK, CLEARED, RESOLVE, INIT, RECORD, LIBRARY = ONE
 SESSION, OTHERS = (
     [json.loads(line) for line in text.splitlines()] for text in re.findall(r"```jsonl\n(.*?)```", PAGE, re.DOTALL)
 )
-EXAMPLES = [
-    BUILD,
-    CHANGED,
-    MISTAKE,
-    DIFF,
-    STATUS,
-    BUILT,
-    CHECK,
-    CLEARED,
-    RESOLVE,
-    INIT,
-    RECORD,
-    LIBRARY,
-    *SESSION,
-    *OTHERS,
-]
+EXAMPLES = [*ONE, *SESSION, *OTHERS]
 
 LONG = {"text"}
 """A whole record: no example shows it."""

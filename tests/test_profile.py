@@ -3,38 +3,16 @@
 from __future__ import annotations
 
 import json
-import time
 from pathlib import Path
 
 import pytest
 from support import answers
+from support.networks import ROBOT
 
-from urdfsync import cli, profiling, uptodate
+from urdfsync import cli
 from urdfsync.profiling import OTHER, STAGES
 
 Capture = pytest.CaptureFixture[str]
-
-
-@pytest.fixture
-def many(project: Path) -> Path:
-    """The project with so many robots that several processes plan them."""
-    names = [f"n{number}" for number in range(6)]
-    tables = (f'[robots.{name}]\nsource = "ladder.json"\npackage = "{name.upper()}"\n' for name in names)
-    (project / "urdfsync.toml").write_text('[defaults]\ndomain = "rcnetwork"\n' + "".join(tables))
-    return project
-
-
-def test_each_moment_counts_for_the_innermost_stage(monkeypatch: pytest.MonkeyPatch) -> None:
-    clock = iter([0, 1, 11, 111, 1111, 1112])
-    monkeypatch.setattr(time, "perf_counter_ns", lambda: next(clock))
-
-    @profiling.stage("rendering")
-    def render() -> None:
-        profiling.count("rendered", 2)
-
-    with profiling.measured() as profile, profiling.stage("deciding"):
-        render()
-    assert profile.results() == ({OTHER: 2, "deciding": 10 + 1000, "rendering": 100}, {"rendered": 2})
 
 
 def test_a_build_says_where_the_time_went(project: Path, capsys: Capture) -> None:
@@ -56,22 +34,18 @@ def test_the_profile_of_programs_adds_up(project: Path, capsys: Capture) -> None
     assert found["counts"]["rendered"] == 11
 
 
-def test_it_says_that_a_stamp_would_have_answered(
-    project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+def test_what_was_measured_is_not_said_again_but_that_a_saved_answer_would_have_been(
+    project: Path, capsys: Capture
 ) -> None:
-    monkeypatch.setattr(uptodate, "has_answer", lambda arguments: arguments == ["build"])
-    cli.main(["build", "--profile"])
-    assert "without --profile, the stamp answers" in capsys.readouterr().err
-
-
-def test_what_was_measured_is_not_said_again(project: Path) -> None:
     cli.main(["build"])
     answers.save("build")
     cli.main(["build", "--profile"])
     assert answers.saved("build", "--profile") is None
+    assert "without --profile, the stamp answers" in capsys.readouterr().err
 
 
-def test_robots_that_other_processes_plan_count(many: Path, capsys: Capture) -> None:
+def test_robots_that_other_processes_plan_count(project: Path, capsys: Capture) -> None:
+    (project / "urdfsync.toml").write_text("".join(ROBOT.format(f"n{number}", f"N{number}") for number in range(6)))
     assert cli.main(["build", "--profile", "--json", "--jobs", "2"]) == 0
     document = json.loads(capsys.readouterr().out)
     elsewhere = {stage["stage"] for stage in document["profile"]["stages"] if stage["elsewhere_ms"] > 0}

@@ -20,7 +20,6 @@ from support import answers
 from support.answers import save, saved
 
 from urdfsync import cli, dependencies, streams, uptodate
-from urdfsync.__main__ import main as program
 from urdfsync.check import afterbuild
 from urdfsync.output import console
 
@@ -343,22 +342,11 @@ def test_a_copy_holds_no_answer(folder: Path) -> None:
     assert saved(*BUILD) is None, "such as one that somebody has committed"
 
 
-def test_neither_a_pipe_nor_a_link_in_its_place_is_read(folder: Path) -> None:
-    save(*BUILD)
-    Path(STAMP).rename(folder / "elsewhere")
-    Path(STAMP).symlink_to(folder / "elsewhere")
-    assert saved(*BUILD) is None
-    Path(STAMP).unlink()
-    os.mkfifo(STAMP)
-    assert saved(*BUILD) is None, "nobody waits for it"
-
-
-@pytest.mark.parametrize("size", [20_000_000, 20_000_000_000])
-def test_a_file_of_nothing_but_separators_is_no_answer_at_once(folder: Path, size: int) -> None:
+def test_a_file_of_nothing_but_separators_is_no_answer_at_once(folder: Path) -> None:
     save(*STATUS)
     with Path(STAMP).open("r+b") as file:  # which git packs into some kilobytes
         file.truncate(0)
-        file.truncate(size)
+        file.truncate(20_000_000_000)
     started = time.process_time()
     assert uptodate.read_answers(str(folder / "urdfsync.toml")) is None
     assert time.process_time() - started < 1
@@ -372,15 +360,6 @@ def test_no_link_is_followed_where_an_answer_is_saved(folder: Path, name: str) -
     save(*BUILD)
     assert victim.read_text() == "precious"
     assert not (folder / ".urdfsync" / name).is_symlink()
-
-
-def test_nothing_is_written_through_a_linked_state_folder(folder: Path) -> None:
-    (folder / ".urdfsync").rename(folder.parent / "elsewhere")
-    (folder / ".urdfsync").symlink_to(folder.parent / "elsewhere")
-    before = sorted(path.name for path in (folder.parent / "elsewhere").iterdir())
-    time.sleep(0.1)
-    cli.main(["status"])
-    assert sorted(path.name for path in (folder.parent / "elsewhere").iterdir()) == before
 
 
 @pytest.mark.parametrize("system", ["Windows", "FAT"])
@@ -513,14 +492,6 @@ def _full(command: list[str]) -> list[str] | None:
 
 
 # The whole program
-
-
-def test_an_interruption_is_an_exit_code(monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupted(arguments: list[str]) -> int:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(uptodate, "print_answer", interrupted)
-    assert program() == 130
 
 
 def imported(*arguments: str, code: int = 0) -> tuple[set[str], str]:
