@@ -137,7 +137,7 @@ def versions(history: str, frames: str = "leaves") -> Sequence[Built]:
     return found
 
 
-def excuse(name: str, thing: Declared, old: Built, new: Built, *, every_frame: bool = False) -> str:
+def excuse(name: str, thing: Declared, old: Built, new: Built, every_frame: bool = False) -> str:
     """Why a name of the old version may be gone in the new one; empty if it may not."""
     kind, element = thing.element
     if thing.element not in new.elements:
@@ -172,19 +172,13 @@ NAMES = tuple(replay.histories())
 HISTORIES = pytest.mark.parametrize("history", NAMES or ("no-corpus",), ids=lambda name: name[-40:])
 
 
+@pytest.mark.parametrize("frames", ["leaves", "all"])
 @HISTORIES
-def test_no_step_renames_what_somebody_connected_to(corpus: Path, history: str) -> None:
-    for old, new in itertools.pairwise(versions(history)):
+def test_no_step_renames_what_somebody_connected_to(corpus: Path, history: str, frames: str) -> None:
+    """With all frames each link keeps its own."""
+    for old, new in itertools.pairwise(versions(history, frames)):
         gone = {**lost(old.robot, new.robot), **lost(old.run, new.run)}
-        unexcused = [name for name, thing in gone.items() if not excuse(name, thing, old, new)]
-        assert not unexcused, f"version {new.number}"
-
-
-@HISTORIES
-def test_with_all_frames_each_link_keeps_its_own(corpus: Path, history: str) -> None:
-    for old, new in itertools.pairwise(versions(history, "all")):
-        gone = {name: thing for name, thing in lost(old.robot, new.robot).items() if thing.what == "frame"}
-        unexcused = [name for name, thing in gone.items() if not excuse(name, thing, old, new, every_frame=True)]
+        unexcused = [name for name, one in gone.items() if not excuse(name, one, old, new, frames == "all")]
         assert not unexcused, f"version {new.number}"
 
 

@@ -7,7 +7,6 @@ kind of operation is tried in all cases; `URDFSYNC_CRASHES=1` tries each single 
 from __future__ import annotations
 
 import errno
-import functools
 import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,20 +14,17 @@ from pathlib import Path
 from typing import IO
 
 import pytest
-from support import crashes
+from support import crashes, replay
 from support.crashes import Operation, before_each, contents, killed, recorded, run, sample
+from support.networks import LADDER, edit
 
-from urdfsync import render
 from urdfsync.state import file_operations
 from urdfsync.state.journal import FORMAT, JournalFolder, Phase
 from urdfsync.state.record import Choice
 
-LADDER = "modelica/Ladder"
 RECORD = f"{LADDER}/Elements/C2Parameters.mo"
 REMOVED = f"{LADDER}/Elements/R2.mo"
 ADDED = f"{LADDER}/Elements/R3.mo"
-MANIFEST = ".urdfsync/robots/ladder.toml"
-RENDERER = render.Renderer
 MINE = b"\n// mine\n"
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")]
@@ -40,31 +36,11 @@ def phase(project: Path) -> Phase | None:
     return JournalFolder(project, project / ".urdfsync/journal").phase()
 
 
-def edit(path: Path, old: str, new: str) -> None:
-    text = path.read_text()
-    assert old in text
-    path.write_text(text.replace(old, new))
-
-
 @pytest.fixture(autouse=True)
-def _templates_compiled_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Hundreds of builds, also in forked processes, share their compiled templates."""
-    monkeypatch.setattr(render, "Renderer", _renderer)
-
-
-@functools.cache
-def _compiled(folders: tuple[Path, ...]) -> render.Renderer:
-    return RENDERER(folders)
-
-
-def _renderer(folders: Sequence[Path]) -> render.Renderer:
-    return _compiled(tuple(folders))
-
-
-@pytest.fixture(autouse=True)
-def _no_waiting_for_the_disk(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Only a power failure makes a difference between what is on the disk and what the system says is there."""
-    monkeypatch.setattr(file_operations, "sync", lambda paths: None)
+def _in_haste() -> Iterator[None]:
+    """Hundreds of builds, also in forked processes; only a power failure shows what is on the disk already."""
+    with replay.in_haste():
+        yield
 
 
 @pytest.fixture
@@ -96,12 +72,6 @@ def renamed(project: Path) -> Path:
 
 
 @pytest.fixture
-def first(project: Path) -> Path:
-    """A network that was never built."""
-    return project
-
-
-@pytest.fixture
 def moved(project: Path) -> Path:
     """A network whose package has another name and another parent now."""
     run(project)
@@ -111,7 +81,7 @@ def moved(project: Path) -> Path:
     return project
 
 
-@pytest.fixture(params=["changed", "first", "moved", "renamed"])
+@pytest.fixture(params=["changed", "project", "moved", "renamed"])
 def scenario(request: pytest.FixtureRequest) -> Path:
     path: Path = request.getfixturevalue(request.param)
     return path
@@ -216,33 +186,6 @@ def test_a_source_that_changes_after_a_crash(changed: Path, tmp_path: Path) -> N
         killed(project, operation.number)
         change(project)
         assert_healed(project, wanted, operation)
-
-
-@pytest.mark.slow
-def test_a_robot_with_thirty_joints(tmp_path: Path) -> None:
-    project = tmp_path / "project"
-    project.mkdir()
-    (project / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n')
-    (project / "arm.urdf").write_text(chain(30))
-    run(project)
-    edited = project / "modelica/Arm/Joints/J7.mo"
-    edited.write_bytes(edited.read_bytes() + MINE)
-    (project / "arm.urdf").write_text(chain(31).replace('mass value="1.0"', 'mass value="1.5"'))
-    wanted = expected(project, tmp_path / "clean")
-    assert str(wanted["modelica/Arm/Joints/J7.mo"]).count("// mine") == 1
-    for operation, copied in every(project, tmp_path / "work"):
-        assert killed(copied, operation.number)
-        assert_healed(copied, wanted, operation)
-
-
-def chain(joints: int) -> str:
-    inertial = '<inertial><mass value="1.0"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
-    links = "".join(f'<link name="l{number}">{inertial}</link>' for number in range(joints + 1))
-    moving = "".join(
-        f'<joint name="j{number}" type="continuous"><parent link="l{number}"/><child link="l{number + 1}"/></joint>'
-        for number in range(joints)
-    )
-    return f'<robot name="chain">{links}{moving}</robot>'
 
 
 # Errors of the system

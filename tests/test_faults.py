@@ -11,14 +11,12 @@ from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import pytest
+from support.networks import LADDER, MANIFEST, RECORD, edit
+from support.networks import R1 as MODEL
 
 from urdfsync import cli
 from urdfsync.outcome import Exit
 
-LADDER = "modelica/Ladder"
-MODEL = f"{LADDER}/Elements/R1.mo"
-RECORD = f"{LADDER}/Elements/R1Parameters.mo"
-MANIFEST = ".urdfsync/robots/ladder.toml"
 MINE = "// mine\n"
 CAN_CHANGE_MODES = os.name == "posix"
 
@@ -48,8 +46,8 @@ def edited(project: Path, capsys: Capture) -> Path:
 @pytest.fixture
 def stale(edited: Path) -> Path:
     """The same after a change of its source that concerns the edited model and its record."""
-    source = edited / "ladder.json"
-    source.write_text(source.read_text().replace('"ohm": 100', '"ohm": 120').replace('"R2"', '"R3"'))
+    edit("ladder.json", '"ohm": 100', '"ohm": 120')
+    edit("ladder.json", '"R2"', '"R3"')
     return edited
 
 
@@ -85,17 +83,6 @@ def test_what_is_left_of_a_package_keeps_its_edits(edited: Path, capsys: Capture
     assert cli.main(["build"]) == Exit.IN_STEP
     assert "13 restored because you deleted them" in capsys.readouterr().out
     assert contents(edited) == before
-
-
-def test_a_removed_package_with_a_new_source_is_the_new_package(stale: Path, capsys: Capture) -> None:
-    shutil.rmtree(stale / "modelica")
-    assert cli.main(["build"]) == Exit.IN_STEP
-    assert "restored because you deleted them" in capsys.readouterr().out
-    built = contents(stale / LADDER)
-    shutil.rmtree(stale / "modelica")
-    shutil.rmtree(stale / ".urdfsync")
-    assert cli.main(["build"]) == Exit.IN_STEP
-    assert contents(stale / LADDER) == built
 
 
 def test_without_state_an_edited_file_is_a_conflict_and_can_be_kept(edited: Path, capsys: Capture) -> None:
@@ -253,8 +240,7 @@ def test_a_project_in_step_needs_no_rights(edited: Path, command: list[str]) -> 
 @denying
 def test_a_conflict_whose_texts_cant_be_put_aside(edited: Path, capsys: Capture) -> None:
     (edited / RECORD).write_text((edited / RECORD).read_text() + MINE)
-    source = edited / "ladder.json"
-    source.write_text(source.read_text().replace('"ohm": 100', '"ohm": 120'))
+    edit("ladder.json", '"ohm": 100', '"ohm": 120')
     before = contents(edited)
     with mode(edited / ".urdfsync", 0o500):
         assert_error(capsys, ["build"], ".urdfsync")

@@ -11,7 +11,6 @@ import pytest
 from urdfsync.check.package import read_package
 from urdfsync.config import load
 from urdfsync.domain import ChangeClass
-from urdfsync.engine.actions import Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
@@ -93,16 +92,6 @@ def test_both_approaches(project: Project) -> None:
     assert order == ["Twig", "TwigRun", "TwigTest", "TwigGeneric", "TwigParameters", "Links", "Joints"]
 
 
-def test_one_approach_becomes_the_other_and_back(project: Project) -> None:
-    project.build('["package"]')
-    before = project.files()
-    result = project.build('["record"]')
-    assert project.files() == RECORD
-    assert {action.kind for action in result.actions if "/Links/" in action.path} == {Kind.DELETE}
-    project.build('["package"]')
-    assert project.files() == before
-
-
 def test_no_edit_is_lost_on_the_way_to_the_other_approach_and_to_both(project: Project) -> None:
     edited: list[Path] = []
 
@@ -140,16 +129,6 @@ def test_numbers_rewrite_the_record_and_nothing_else(project: Project, change: t
     assert {found.change_class for found in result.changes.changes} == {ChangeClass.PARAMETER}
 
 
-@pytest.mark.parametrize("name", ["mass", "inertial"])
-def test_numbers_rewrite_records_and_nothing_else_in_both_approaches(project: Project, name: str) -> None:
-    project.build('["package", "record"]')
-    project.change(*CHANGES[name])
-    files = written(project.build('["package", "record"]'))
-    assert len(files) == 2, "that of the element and that of the robot"
-    assert "TwigParameters.mo" in files
-    assert all(file.endswith("Parameters.mo") for file in files)
-
-
 def test_an_axis_more_reaches_the_bench_as_well(project: Project) -> None:
     project.build('["record"]')
     project.change('<mimic joint="grow" multiplier="8"/>', "")
@@ -180,15 +159,6 @@ def test_where_the_generic_robot_can_not_read_the_record_there_is_no_bench(zoo: 
 def meshes(package: Project) -> list[str]:
     """The imported files, without what makes their names unique."""
     return sorted(Path(name).stem.partition("_")[0] for name in package.files() if "Resources/" in name)
-
-
-def test_meshes_of_visuals_are_imported(zoo: Project) -> None:
-    zoo.build('["record"]')
-    assert meshes(zoo) == ["wedge", "wedge"], "at two scales"
-    text = (zoo.package / "TwigParameters.mo").read_text()
-    assert set(re.findall(r'uri = "modelica://Twig/(.+?)"', text)) == {
-        name for name in zoo.files() if "Resources/" in name
-    }
 
 
 @pytest.mark.parametrize(

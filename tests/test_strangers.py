@@ -32,18 +32,6 @@ COUNT = 6
 TEMPLATE = "joint/revolute.mo.jinja"
 PATIENCE = 60.0
 
-BUILD, CHECK_BUILD, DRY, STATUS, DIFF, CHECK, RESOLVE = (
-    ["build", "--jobs", "2"],
-    ["build", "--check", "--jobs", "2"],
-    ["build", "--dry-run", "--jobs", "2"],
-    ["status"],
-    ["diff"],
-    ["check"],
-    ["resolve", "--all", "--take"],
-)
-RECORD = ["record", "r0.urdf"]
-HOOKS = (["build"], ["check"])
-
 pytestmark = [
     NEEDS_GIT,
     pytest.mark.skipif(sys.platform == "win32", reason="the console script is another program there"),
@@ -76,15 +64,6 @@ def _project(folder: Path, count: int, monkeypatch: pytest.MonkeyPatch) -> Repos
     assert cli.main(["build", "--quiet"]) == 0
     repository.commit()
     return repository
-
-
-def _run(program: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """Run a console script as a user would, with nothing said to Python."""
-    assert program.is_file(), "urdfsync is not installed"
-    environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONSAFEPATH", "PYTHONPATH")}
-    return subprocess.run(
-        [program, *arguments], capture_output=True, text=True, env=environment, timeout=PATIENCE, check=False
-    )
 
 
 def _watch(folder: Path, word: str) -> str:
@@ -191,36 +170,32 @@ def modules(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return marks
 
 
-def _assert_unmarked(marks: Path) -> None:
-    assert sorted(mark.name for mark in marks.iterdir()) == [], "modules of the working folder ran"
-
-
 @pytest.mark.parametrize(
-    ("command", "code"), [(BUILD, 0), (CHECK_BUILD, 1), (DRY, 0), (STATUS, 0), (DIFF, 1), (RESOLVE, 0), (RECORD, 0)]
+    ("program", "arguments", "code"),
+    [
+        *((PROGRAM, command, 0) for command in ("build", "build --dry-run", "status", "resolve --all --take")),
+        *((PROGRAM, command, 1) for command in ("build --check", "diff")),
+        *((HOOK, mode, 1) for mode in ("build", "check")),
+        (PROGRAM, "record r0.urdf", 0),
+        pytest.param(PROGRAM, "check r0", None, marks=pytest.mark.slow),
+        (PROGRAM, "watch", None),
+    ],
 )
-def test_no_module_of_the_working_folder_runs(modules: Path, command: list[str], code: int) -> None:
-    done = _run(PROGRAM, *command)
-    _assert_unmarked(modules)
-    assert (done.returncode, "Traceback" in done.stderr) == (code, False), done.stderr
-
-
-@pytest.mark.slow
-def test_no_module_of_the_working_folder_runs_in_a_check(modules: Path, modelica_library: Path) -> None:
-    done = _run(PROGRAM, "check", "r0")
-    _assert_unmarked(modules)
-    assert "Traceback" not in done.stderr
-
-
-@pytest.mark.parametrize("mode", HOOKS)
-def test_no_module_of_the_working_folder_runs_in_a_hook(modules: Path, mode: list[str]) -> None:
-    done = _run(HOOK, *mode)
-    _assert_unmarked(modules)
-    assert (done.returncode, "Traceback" in done.stderr) == (1, False), done.stderr
-
-
-def test_no_module_of_the_working_folder_runs_in_the_daemon(modules: Path) -> None:
-    said = _watch(Path.cwd(), f"r{COUNT - 1}")
-    _assert_unmarked(modules)
+def test_no_module_of_the_working_folder_runs(modules: Path, program: Path, arguments: str, code: int | None) -> None:
+    """Run a console script as a user would, with nothing said to Python."""
+    assert program.is_file(), "urdfsync is not installed"
+    if arguments == "watch":
+        said = _watch(Path.cwd(), f"r{COUNT - 1}")
+    else:
+        jobs = ["--jobs", "2"] if arguments.startswith("build") and program is PROGRAM else []
+        environment = {
+            name: value for name, value in os.environ.items() if name not in ("PYTHONSAFEPATH", "PYTHONPATH")
+        }
+        command = [program, *arguments.split(), *jobs]
+        done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=PATIENCE, check=False)
+        assert code in (None, done.returncode), done.stderr
+        said = done.stderr
+    assert sorted(mark.name for mark in modules.iterdir()) == [], "modules of the working folder ran"
     assert "Traceback" not in said
 
 
@@ -247,42 +222,6 @@ def _template(text: str, name: str = TEMPLATE) -> None:
 
 def _errors(text: str) -> list[str]:
     return [line for line in text.splitlines() if ": error:" in line]
-
-
-@pytest.mark.parametrize("command", [BUILD, CHECK_BUILD, DRY, STATUS, DIFF, CHECK, RESOLVE], ids=" ".join)
-def test_no_template_runs_code(marker: Path, command: list[str]) -> None:
-    done = _run(PROGRAM, *command)
-    assert not marker.exists()
-    assert "Traceback" not in done.stderr
-    (error,) = _errors(done.stdout + done.stderr)
-    assert f"templates/{TEMPLATE}:3: error" in error
-    assert "unsafe" in error
-    assert done.returncode == 2
-
-
-def test_no_template_runs_code_in_a_record(marker: Path) -> None:
-    _template(Path("templates", TEMPLATE).read_text(), "robot/record.mo.jinja")
-    done = _run(PROGRAM, *RECORD)
-    assert not marker.exists()
-    assert done.returncode == 0, "it has no configuration, and takes urdfsync's own templates"
-
-
-@pytest.mark.parametrize("mode", HOOKS, ids=" ".join)
-def test_no_template_runs_code_in_a_hook(marker: Path, mode: list[str]) -> None:
-    subprocess.run(["git", "add", "-A"], check=True)
-    done = _run(HOOK, *mode)
-    assert not marker.exists()
-    assert "Traceback" not in done.stderr
-    (error,) = _errors(done.stdout + done.stderr)
-    assert f"templates/{TEMPLATE}:3: error" in error
-    assert done.returncode == 2
-
-
-def test_no_template_runs_code_in_the_daemon(marker: Path) -> None:
-    said = _watch(Path.cwd(), "unsafe")
-    assert not marker.exists()
-    assert f"templates/{TEMPLATE}:3: error" in said
-    assert "Traceback" not in said
 
 
 def _status(capsys: Capture) -> str:

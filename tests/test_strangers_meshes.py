@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import psutil
@@ -126,28 +126,18 @@ def test_hooks_go_on_without_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 @pytest.mark.parametrize("make", [os.mkfifo, HOSTILE["sparse.stl"][0]], ids=["pipe", "sparse"])
 @pytest.mark.parametrize(
     "command",
-    [("init", "odd.urdf"), ("record", "odd.urdf"), ("diff",), ("build",), ("status",)],
+    [
+        *("init odd", "record odd", "diff", "build", "status"),
+        *(f"{command} --config odd" for command in ("build", "diff", "check", "resolve --all --take", "watch")),
+    ],
 )
-def test_a_source_is_a_file_of_a_size_that_can_be_read(
-    folder: Path, capsys: Capture, make: object, command: tuple[str, ...]
+def test_sources_and_configurations_are_files_of_a_size_that_can_be_read(
+    folder: Path, capsys: Capture, make: Callable[[Path], object], command: str
 ) -> None:
-    assert callable(make)
-    make(folder / "odd.urdf")
-    if command[0] != "init":
-        Path("urdfsync.toml").write_text('[robots.arm]\nsource = "odd.urdf"\npackage = "Arm"\n')
-    code, said = _run(capsys, *command)
-    assert code == 2
-    assert "no regular file" in said or "more than 100,000,000 bytes" in said
-
-
-@pytest.mark.parametrize("make", [os.mkfifo, HOSTILE["sparse.stl"][0]], ids=["pipe", "sparse"])
-@pytest.mark.parametrize("command", ["build", "status", "diff", "check", "resolve --all --take", "watch"])
-def test_a_configuration_is_a_file_of_a_size_that_can_be_read(
-    folder: Path, capsys: Capture, make: object, command: str
-) -> None:
-    assert callable(make)
-    make(folder / "odd.toml")
-    code, said = _run(capsys, *command.split(), "--config", "odd.toml")
+    make(folder / "odd")
+    if not command.startswith("init"):
+        Path("urdfsync.toml").write_text('[robots.arm]\nsource = "odd"\npackage = "Arm"\n')
+    code, said = _run(capsys, *command.split())
     assert code == 2
     assert "no regular file" in said or "more than 100,000,000 bytes" in said
 

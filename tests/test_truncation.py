@@ -11,7 +11,6 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from support import replay
 from support.replay import Project, in_haste
 
 from urdfsync import cli
@@ -172,11 +171,3 @@ def test_what_is_no_robot_is_one_line_and_exit_2(
     assert first.startswith(message)
     assert others == ["bot: 1 error, nothing was changed"]
     assert project.stamps() == before
-
-
-def test_another_encoding_is_no_other_robot(tmp_path: Path) -> None:
-    project = built(tmp_path / "project", FULL.encode())
-    before = project.stamps(replay.PACKAGE)
-    project.save(FULL.replace("utf-8", "utf-16").encode("utf-16"))
-    assert project.build().in_step
-    assert project.stamps(replay.PACKAGE) == before

@@ -44,29 +44,6 @@ def contents(folder: Path) -> Mapping[str, bytes]:
     return {p.relative_to(folder).as_posix(): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
-def times(folder: Path) -> Mapping[str, int]:
-    return {p.relative_to(folder).as_posix(): p.stat().st_mtime_ns for p in folder.rglob("*")}
-
-
-def test_a_second_build_writes_nothing(arm: Path) -> None:
-    run(arm)
-    before = times(arm)
-    for full in (False, True):
-        assert run(arm, full=full).in_step
-        assert times(arm) == before
-
-
-def test_a_build_on_another_path_gives_the_same_bytes(arm: Path, tmp_path: Path) -> None:
-    other = tmp_path / "quite" / "another place"
-    shutil.copytree(arm, other, ignore=shutil.ignore_patterns("quite"))
-    for project in (arm, other):
-        assert not run(project).diagnostics
-    assert contents(other / "modelica") == contents(arm / "modelica")
-    for project in (arm, other):  # it is of one checkout: bound to its inode and the time of writing
-        (project / ".urdfsync" / "folders.json").unlink()
-    assert contents(other / ".urdfsync") == contents(arm / ".urdfsync")
-
-
 def test_the_order_of_elements_in_the_file_makes_no_difference(arm: Path) -> None:
     run(arm)
     before = contents(arm / "modelica")
@@ -167,25 +144,6 @@ def test_a_package_of_the_name_goes_before_a_guess(arm: Path) -> None:
     assert copy.read_bytes() == (vendor / mesh).read_bytes()
 
 
-def test_an_edited_file_survives_every_build(arm: Path) -> None:
-    run(arm)
-    source = arm / "ws/src/six_axis_arm/six_axis_arm.urdf"
-    edited = arm / "modelica/Arm/Joints/Elbow.mo"
-    edited.write_text(edited.read_text() + "// mine\n")
-    mine = edited.read_bytes()
-    for change in (
-        ('name="elbow" type="revolute"', 'name="elbow" type="continuous"'),
-        ("<mass value=", "<mass  value="),
-    ):
-        source.write_text(source.read_text().replace(*change))
-        for full in (False, True):
-            run(arm, full=full)
-            assert edited.read_bytes() == mine
-    source.unlink()
-    run(arm)
-    assert edited.read_bytes() == mine
-
-
 def change(project: Path, old: str, new: str) -> None:
     source = project / "ws/src/six_axis_arm/six_axis_arm.urdf"
     text = source.read_text()
@@ -206,18 +164,6 @@ def test_a_build_says_what_changed_since_the_last_one(arm: Path) -> None:
     assert result.changes.change_class is ChangeClass.PARAMETER
     assert {action.role for action in result.actions if action.writes} == {Role.RECORD}
     assert run(arm).changes is None
-
-
-def test_a_rename_and_a_template_are_told_as_such(arm: Path) -> None:
-    run(arm)
-    change(arm, '<joint name="elbow"', '<joint name="knee"')
-    renamed = run(arm).changes
-    assert renamed is not None
-    assert change_lines(renamed) == ["joint elbow: renamed to knee"]
-    (arm / "urdfsync.toml").write_text(CONFIGURATION + "collisions = false\n")
-    other = run(arm).changes
-    assert other is not None
-    assert change_lines(other)[0] == "the option `collisions` changed"
 
 
 CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller">

@@ -9,8 +9,8 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from urdfsync import config, registry, tomlfile
-from urdfsync.config import CheckConfig, Config
+from urdfsync import config
+from urdfsync.config import Config
 from urdfsync.diagnostics import ConfigError
 from urdfsync.domain import Target
 
@@ -61,8 +61,12 @@ def test_everything_set() -> None:
         on_build = "check"
         ground = false
         prefix = "n"
+        [check]
+        library = "../modelica/./lib"
     """
-    (arm,) = parse(text).robots
+    loaded = parse(text)
+    (arm,) = loaded.robots
+    assert loaded.check.library == ROOT.parent / "modelica/lib"
     assert arm.source == ROOT.parent / "cad" / "arm.json"
     assert arm.source_text == "../cad/arm.json"
     assert arm.folder == ROOT / "lib" / "Plant" / "Robots" / "Arm"
@@ -72,19 +76,6 @@ def test_everything_set() -> None:
     assert arm.create_parents
     assert arm.checking
     assert msgspec.to_builtins(arm.options) == {"ground": False, "prefix": "n"}
-
-
-def test_a_library_is_named_from_the_configuration_on() -> None:
-    assert parse(robot()).check == CheckConfig(None, 0)
-    assert parse(robot("[check]\nlibrary = '../modelica/./lib'")).check == CheckConfig(ROOT.parent / "modelica/lib", 6)
-    absolute = (ROOT.parent / "lib").as_posix()
-    assert parse(robot(f"[check]\nlibrary = '{absolute}'")).check.library == Path(absolute)
-
-
-def test_an_absolute_source_is_recorded_by_its_name_only() -> None:
-    (arm,) = parse(robot().replace("arm.json", (ROOT / "cad" / "arm.json").as_posix())).robots
-    assert arm.source == ROOT / "cad" / "arm.json"
-    assert arm.source_text == "arm.json"
 
 
 def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> None:
@@ -268,15 +259,6 @@ def test_tables_nested_without_reason_are_refused(text: str) -> None:
     assert failures(text) == ["urdfsync.toml: error: tables and lists are nested more than 50 deep [toml-syntax]"]
 
 
-@pytest.mark.parametrize("depth", [1, tomlfile.DEEPEST - 1, tomlfile.DEEPEST])
-def test_tables_and_lists_may_be_nested_so_deep_and_no_deeper(depth: int) -> None:
-    for text in (f"a = {'[' * (depth - 1)}1{']' * (depth - 1)}", ".".join("a" * depth) + " = 1"):
-        assert tomlfile.parse(text, "f", ConfigError)
-        if depth == tomlfile.DEEPEST:
-            with pytest.raises(ConfigError, match="more than 50 deep"):
-                tomlfile.parse(f"b.{text}", "f", ConfigError)
-
-
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -359,18 +341,6 @@ def test_all_mistakes_are_told_at_once_in_the_order_of_lines() -> None:
     assert [message.split(":")[1] for message in found] == ["5", "8", "10"]
 
 
-def test_find_looks_upwards(tmp_path: Path) -> None:
-    (tmp_path / "urdfsync.toml").write_text(robot())
-    folder = tmp_path / "a" / "b"
-    folder.mkdir(parents=True)
-    assert config.find(folder) == tmp_path / "urdfsync.toml"
-
-
-def test_find_says_what_to_do(tmp_path: Path) -> None:
-    with pytest.raises(ConfigError, match="write one with `urdfsync init SOURCE`"):
-        config.find(tmp_path)
-
-
 def test_load_takes_a_byte_order_mark(tmp_path: Path) -> None:
     file = tmp_path / "urdfsync.toml"
     file.write_bytes(b"\xef\xbb\xbf" + robot().encode())
@@ -393,59 +363,9 @@ def test_load_names_a_file_that_it_cant_read(tmp_path: Path, content: bytes | No
         config.load(file)
 
 
-def test_a_working_folder_that_is_gone_is_said_clearly(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert config.working_folder() == Path.cwd()
-
-    def gone() -> str:
-        raise FileNotFoundError(2, "No such file or directory")
-
-    monkeypatch.setattr(os, "getcwd", gone)
-    with pytest.raises(ConfigError, match="the working folder does not exist any more; change to a folder"):
-        config.working_folder()
-    assert config.shown(tmp_path) == str(tmp_path)
-
-
 def test_paths_are_shown_as_they_are_seen_from_the_working_folder(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     inside, beside = tmp_path / "cad" / "arm.urdf", tmp_path.with_name(f"{tmp_path.name}-2") / "arm.urdf"
     assert [config.shown(path) for path in (tmp_path, inside, beside)] == [".", str(Path("cad/arm.urdf")), str(beside)]
-
-
-def test_select() -> None:
-    loaded = parse(robot() + robot("", "leg", "Leg"))
-    assert [arm.name for arm in loaded.select([])] == ["arm", "leg"]
-    assert [arm.name for arm in loaded.select(["leg"])] == ["leg"]
-    with pytest.raises(ConfigError, match="did you mean `leg`"):
-        loaded.select(["legg"])
-
-
-def test_ros_package_path() -> None:
-    value = os.pathsep.join(["/a", "", "/b/c"])
-    assert config.ros_package_path({"ROS_PACKAGE_PATH": value}) == (Path("/a").absolute(), Path("/b/c").absolute())
-    assert config.ros_package_path({}) == ()
-
-
-def test_packaged_data_is_there() -> None:
-    assert (config.library_folder() / "UrdfSync").is_dir()
-    assert config.templates_folder(registry.domain("urdf")).name == "urdf"
-    assert config.templates_folder(registry.domain("rcnetwork")) == registry.domain("rcnetwork").templates
-
-
-@pytest.mark.parametrize(
-    ("path", "line"),
-    [
-        (("defaults", "output"), 3),
-        (("robots", "my arm"), 5),
-        (("robots", "my arm", "package"), 7),
-        (("robots", "my arm", "missing"), 5),
-        (("robots", "leg", "source"), 9),
-        (("nothing",), 0),
-    ],
-)
-def test_lines_of_keys(path: tuple[str, ...], line: int) -> None:
-    text = "# first\n[defaults]\noutput = 'x'\n\n[robots.'my arm'] # the arm\nsource = 'a=b'\n\"package\" = 'P'\n"
-    text += "[robots]\nleg.source = 'x'\n"
-    assert tomlfile.nearest(tomlfile.lines(text), *path) == line

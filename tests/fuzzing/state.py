@@ -58,20 +58,7 @@ PATHS = (
 )
 VALUES: tuple[Any, ...] = (
     *(0, -1, 1, 2**31, 2**63 - 1, -(2**63), 1e308, 0.5, True, False, "", "x", [], {}, [[[[]]]], {"a": {}}, "0" * 64),
-    *(
-        "f" * 64,
-        "link arm",
-        "Bot",
-        "package",
-        "edited",
-        "conflict",
-        "orphan",
-        "waiting",
-        "model",
-        "record",
-        "import",
-        "order",
-    ),
+    *("f" * 64, "link arm", *"Bot package edited conflict orphan waiting model record import order".split()),
 )
 
 
@@ -214,9 +201,7 @@ def _values(path: Path, work: Workplace, random: Random) -> None:
             _change(document, random)
         _put(path, tomli_w.dumps(document).encode(errors="replace"))
     elif path.suffix == ".json":
-        document = json.loads(
-            text or '{"robot":"bot","token":"12","steps":[{"path":"x"}],"made":[],"emptied":[],"format":3}'
-        )
+        document = json.loads(text or _JOURNAL)
         for _ in range(random.choice((1, 1, 3))):
             _change(document, random)
         _put(path, json.dumps(document).encode())
