@@ -97,43 +97,6 @@ def test_overlapping_components_are_noticed() -> None:
     assert overlaps([three, two, one]) == [("two", "three")]
 
 
-def test_what_a_text_says_is_read() -> None:
-    text = """
-within A;
-
-model B "Example"
-  extends UrdfSync.Icons.Bench;
-
-  inner Modelica.Mechanics.MultiBody.World world(n = {0, 0, -1})
-    "Origin; and gravity"
-    annotation (Placement(transformation(extent={{-100, -60}, {-80, -40}})));
-
-  Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b[2]
-    annotation (Placement(
-      transformation(extent={{84, 14}, {116, -18}}),
-      iconTransformation(extent={{0, 90}, {20, 110}})));
-
-equation
-  connect(world.frame_b, frame_b[1])
-    annotation (Line(points={{-80, -50}, {0.5, -50}, {100, -2}}, color={95, 95, 95}));
-
-  annotation (Diagram(coordinateSystem(extent={{-120, -100}, {100, 80}})));
-end B;
-"""
-    drawn = diagram.read(text, lambda name: Diagram(STANDARD, STANDARD, (), (), {"frame_b": (100, 0)}))
-    assert drawn.extent == (-120, -100, 100, 80)
-    assert [(c.name, c.box) for c in drawn.components] == [
-        ("world", (-100, -60, -80, -40)),
-        ("frame_b", (84, -18, 116, 14)),
-    ]
-    assert drawn.ports["frame_b"] == (10, 100)
-    (line,) = drawn.lines
-    assert (line.start, line.end) == ("world.frame_b", "frame_b")
-    assert line.points == ((-80, -50), (0.5, -50), (100, -2))
-    assert port(drawn, line.start, diagram.library_diagram) == (-80, -50)
-    assert port(drawn, line.end, diagram.library_diagram) == (100, -2)
-
-
 ROBOT = """
 within A;
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from support.networks import configure, failure, run
 
-from urdfsync import cli, registry
-from urdfsync.diagnostics import ConfigError, OutputError
-from urdfsync.domain import Artifact, Role, Target, Templates
-from urdfsync.engine.generate import Package, check_paths, generate
-from urdfsync.files import templates_digest
+from urdfsync.diagnostics import OutputError
+from urdfsync.domain import Artifact, Role, Templates
+from urdfsync.engine.generate import Package, check_paths
 
 
 @pytest.mark.parametrize(
@@ -57,24 +56,6 @@ def test_paths_of_a_usual_package() -> None:
     check_paths(("package.mo", "Links/package.mo", "Links/A.mo", "Links/B.mo", "A.mo", "Resources/ä b.stl"))
 
 
-NETWORK = b'{"name": "n", "elements": [{"name": "R1", "between": ["in", "ground"], "ohm": 1}]}'
-
-
-def template_error(folder: Path) -> str:
-    """What is said of the templates in a folder."""
-    domain = registry.domain("rcnetwork")
-    options = domain.options()
-    snapshot = domain.read(NETWORK, "n.json", options).snapshot or {}
-    assert domain.templates is not None
-    folders = (folder, domain.templates)
-    templates = Templates(folders, templates_digest(folders))
-    package = generate(domain, snapshot, {}, Target("N", "N"), options, templates)
-    with pytest.raises(ConfigError) as caught:
-        dict(zip(package.artifacts, map(package.content, package.artifacts), strict=True))
-    (found,) = caught.value.diagnostics
-    return str(found).replace("\\", "/")
-
-
 @pytest.mark.parametrize(("old", "new"), [(1, 2), (0.0, -0.0), (1, 1.0)])
 def test_a_text_changes_with_its_data(tmp_path: Path, old: float, new: float) -> None:
     one, two, again = (
@@ -86,19 +67,16 @@ def test_a_text_changes_with_its_data(tmp_path: Path, old: float, new: float) ->
 
 
 @pytest.fixture
-def own(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty folder for templates, below the working folder."""
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "own" / "element").mkdir(parents=True)
-    return tmp_path / "own"
+def own(project: Path) -> Path:
+    """An empty folder for templates of the user's."""
+    configure('templates = "own"\n')
+    (project / "own" / "element").mkdir(parents=True)
+    return project / "own"
 
 
 @pytest.mark.parametrize(
     ("text", "line", "words"),
     [
-        ("<% include 'element/model.mo.jinja' %>", 1, "it includes or calls itself without end"),
-        ("<% macro a() %><< a() >><% endmacro %>\n<< a() >>", 1, "it includes or calls itself without end"),
-        ("one\n<< 'x' * 10**15 >>", 2, "it needs more memory than it may take"),
         ("one\n<< '\\ud800' >>", 0, "it gives '/ud800', which is no character"),
         ("\n\n<< element.nme >>", 3, "has no attribute 'nme'"),
         ("<< 1 | nofilter >>", 1, "No filter named 'nofilter'; correct"),
@@ -109,7 +87,7 @@ def own(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
 )
 def test_a_template_of_the_users_is_named_with_line_and_what_to_do(own: Path, text: str, line: int, words: str) -> None:
     (own / "element/model.mo.jinja").write_text(text)
-    message = template_error(own)
+    message = failure()
     place = f"own/element/model.mo.jinja:{line}" if line else "own/element/model.mo.jinja"
     assert message.startswith(f"{place}: error: ")
     assert words in message
@@ -119,13 +97,13 @@ def test_a_template_of_the_users_is_named_with_line_and_what_to_do(own: Path, te
 def test_a_template_that_is_not_utf8_is_named_even_if_another_includes_it(own: Path) -> None:
     (own / "element/model.mo.jinja").write_text("<% include 'element/part.jinja' %>")
     (own / "element/part.jinja").write_bytes(b"one\nB\xfccher")
-    assert template_error(own).startswith("own/element/part.jinja:2: error: the template is not UTF-8; correct")
+    assert failure().startswith("own/element/part.jinja:2: error: the template is not UTF-8; correct")
 
 
 def test_a_compiler_reads_the_second_domain(project: Path) -> None:
     """Every file of the RC network's package parses, by a parser that knows nothing of urdfsync."""
     parser = pytest.importorskip("pymoca.parser", reason="pymoca is not installed")
-    cli.main(["build", "--quiet"])
+    run()
     files = sorted((project / "modelica").rglob("*.mo"))
     assert len(files) == 11
     for file in files:

@@ -7,19 +7,10 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.networks import edit, failure, run
 
-from urdfsync import cli, config
-from urdfsync.diagnostics import OutputError
-from urdfsync.engine import parents
-from urdfsync.engine.parents import Parents, merge_order
-
-USES = (("Modelica", "4.0.0"),)
-
-
-@pytest.fixture
-def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
+from urdfsync import cli
+from urdfsync.engine.parents import merge_order
 
 
 def package(folder: Path, order: str | None = None) -> Path:
@@ -30,46 +21,22 @@ def package(folder: Path, order: str | None = None) -> Path:
     return folder
 
 
-def check(root: Path, name: str, create: bool = False) -> Parents:
-    text = f'[robots.arm]\nsource = "arm.urdf"\npackage = "{name}"\ncreate_parents = {str(create).lower()}\n'
-    loaded = config.parse(text, root / "urdfsync.toml", "urdfsync.toml")
-    return parents.check(loaded, loaded.robots[0], USES)
-
-
-def test_an_order_file_is_not_begun_in_a_package_that_has_other_classes(root: Path) -> None:
-    plant = package(root / "modelica/Plant")
-    assert not check(root, "Plant.Arm").listed
-    made = check(root, "Plant.Robots.Arm", create=True)
-    assert [one.path for one in made.shared] == [plant / "Robots/package.mo"]
-    assert made.listed, "the file of a package that urdfsync makes is complete"
-
-
-def test_packages_that_are_made_list_each_other(root: Path) -> None:
-    made = check(root, "Plant.Robots.Arm", create=True)
-    orders = {one.path: one.names for one in made.shared if one.content is None}
-    assert orders == {root / "modelica/Plant/package.order": ("Robots",)}
-    assert made.listed
-
-
-def test_the_library_is_hidden_by_nobody(root: Path) -> None:
-    with pytest.raises(OutputError) as caught:
-        check(root, "UrdfSync.Arm", create=True)
-    assert [str(found) for found in caught.value.diagnostics] == [
-        "urdfsync.toml:3: error: robot `arm`: `UrdfSync` is the library that models need; a package of that name "
+def test_the_library_is_hidden_by_nobody_but_builds_its_own_examples(project: Path) -> None:
+    edit("urdfsync.toml", '"Ladder"', '"UrdfSync.Ladder"\ncreate_parents = true')
+    assert failure() == (
+        "urdfsync.toml:3: error: robot `ladder`: `UrdfSync` is the library that models need; a package of that name "
         "would hide it; choose another top-level package than `UrdfSync` [modelica-name]"
-    ]
-
-
-def test_the_library_builds_its_own_examples(root: Path) -> None:
-    package(root / "modelica/UrdfSync", "Examples\n")
-    package(root / "modelica/UrdfSync/Examples", "")
-    assert check(root, "UrdfSync.Examples.Arm").listed
+    )
+    package(project / "modelica/UrdfSync", "Examples\n")
+    examples = package(project / "modelica/UrdfSync/Examples", "")
+    edit("urdfsync.toml", "UrdfSync.Ladder", "UrdfSync.Examples.Ladder")
+    run()
+    assert (examples / "package.order").read_text() == "Ladder\n"
 
 
 def test_a_build_begins_no_order_file_beside_classes_that_it_does_not_know(project: Path) -> None:
     plant = package(project / "modelica/Plant")
-    file = project / "urdfsync.toml"
-    file.write_text(file.read_text().replace('"Ladder"', '"Plant.Ladder"'))
+    edit("urdfsync.toml", '"Ladder"', '"Plant.Ladder"')
     assert cli.main(["build", "--quiet"]) == 0
     assert (plant / "Ladder/package.order").exists()
     assert not (plant / "package.order").exists()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
@@ -11,14 +12,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from support.networks import run_all
+from support.replay import contents
 
 from urdfsync import config
 from urdfsync.diagnostics import ConfigError
 from urdfsync.engine import pool
-from urdfsync.engine.build import build
 from urdfsync.engine.cache import Cache
-from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Result
 
 COUNT = 8
 
@@ -36,15 +36,9 @@ def robots(project: Path) -> Path:
     return project
 
 
-def run(jobs: int) -> list[Result]:
-    loaded = config.load(Path("urdfsync.toml"))
-    return list(build(loaded, loaded.robots, BuildOptions(jobs=jobs)))
-
-
 def files(folder: Path) -> dict[str, bytes]:
     """All files but the list of folders, which is bound to its inode and time."""
-    found = (path for path in folder.rglob("*") if path.is_file() and path.name != "folders.json")
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in found}
+    return {name: content for name, content in contents(folder).items() if not name.endswith("folders.json")}
 
 
 @pytest.fixture
@@ -62,13 +56,12 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 
 
 def test_many_robots_at_once_are_built_as_one_after_the_other(robots: Path, started: list[int]) -> None:
-    alone = run(1)
+    alone = run_all(jobs=1)
     assert started == []
     result = files(robots)
     for name in ("modelica", ".urdfsync"):
-        for path in sorted((robots / name).rglob("*"), reverse=True):
-            path.rmdir() if path.is_dir() else path.unlink()
-    together = run(2)
+        shutil.rmtree(robots / name)
+    together = run_all(jobs=2)
     assert started == [2]
     assert files(robots) == result
     assert [one.robot for one in together] == [one.robot for one in alone]
@@ -78,15 +71,15 @@ def test_many_robots_at_once_are_built_as_one_after_the_other(robots: Path, star
 
 
 def test_no_process_is_started_for_what_is_in_step(robots: Path, started: list[int]) -> None:
-    run(1)
+    run_all(jobs=1)
     (robots / "n2.json").unlink()
     (robots / "n2.json").write_text((robots / "n1.json").read_text())
-    assert [one.in_step for one in run(2)] == [number != 2 for number in range(COUNT)]
+    assert [one.in_step for one in run_all(jobs=2)] == [number != 2 for number in range(COUNT)]
     assert started == []
 
 
 def test_a_save_while_the_others_plan_is_seen(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    run(1)
+    run_all(jobs=1)
     for number in range(COUNT):
         path = robots / f"n{number}.json"
         path.write_text(path.read_text().replace("220.5", "330"))
@@ -100,31 +93,31 @@ def test_a_save_while_the_others_plan_is_seen(robots: Path, monkeypatch: pytest.
         return work
 
     monkeypatch.setattr(pool.Pool, "_result", edited)
-    results = run(2)
+    results = run_all(jobs=2)
     assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
     assert "221" in record.read_text()
 
 
 def test_the_daemon_sees_all_edits_after_workers_have_planned(robots: Path, started: list[int]) -> None:
     """What workers see does not get into its cache: the next builds look at all files again."""
-    loaded, cache = config.load(Path("urdfsync.toml")), Cache()
-    list(build(loaded, loaded.robots, BuildOptions(jobs=2, cache=cache)))
+    cache = Cache()
+    run_all(jobs=2, cache=cache)
     assert started == [2]
     record = robots / "modelica/Plant/Networks/N5/Elements/R2Parameters.mo"
     record.write_text(record.read_text().replace("220.5", "221"))
     for number in (0, 5):
         path = robots / f"n{number}.json"
         path.write_text(path.read_text().replace("220.5", "330"))
-    results = list(build(loaded, loaded.robots, BuildOptions(jobs=2, cache=cache)))
+    results = run_all(jobs=2, cache=cache)
     assert {one.robot for one in results if any(action.writes for action in one.actions)} == {"n0"}
     assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
-    again = list(build(loaded, loaded.robots, BuildOptions(jobs=1, cache=cache)))
+    again = run_all(jobs=1, cache=cache)
     assert [one.in_step for one in again] == [number not in (2, 5) for number in range(COUNT)]
 
 
 def test_a_process_that_dies_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pool, "_plan", _die)
-    results = run(2)
+    results = run_all(jobs=2)
     assert all(result.failed for result in results)
     (found,) = results[0].diagnostics
     assert "ended unexpectedly" in found.message
@@ -139,8 +132,7 @@ def test_the_work_is_told_of(robots: Path, monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(pool, "_PAUSE", 0.001)  # the others may be quick
     told: list[tuple[str, int, int]] = []
     tell: Callable[[str, int, int], None] = lambda what, done, total: told.append((what, done, total))  # noqa: E731
-    loaded = config.load(Path("urdfsync.toml"))
-    list(build(loaded, loaded.robots, BuildOptions(jobs=2, progress=tell)))
+    run_all(jobs=2, progress=tell)
     assert {total for what, _, total in told if what == "reading"} == {COUNT}
 
 
@@ -152,20 +144,17 @@ def test_a_cluster_plans_what_this_process_writes(robots: Path, tmp_path_factory
     with LocalCluster(
         n_workers=2, threads_per_worker=1, dashboard_address=None, local_directory=str(scratch)
     ) as cluster:
-        loaded = config.load(Path("urdfsync.toml"))
-        together = list(build(loaded, loaded.robots, BuildOptions(executor=cluster.scheduler_address)))
+        together = run_all(executor=cluster.scheduler_address)
     assert [one.failed for one in together] == [number == 2 for number in range(COUNT)]
-    assert together[2].diagnostics == run(1)[2].diagnostics
-    result = files(robots)
+    assert together[2].diagnostics == run_all(jobs=1)[2].diagnostics
+    result = files(robots / "modelica")
     for name in ("modelica", ".urdfsync"):
-        for path in sorted((robots / name).rglob("*"), reverse=True):
-            path.rmdir() if path.is_dir() else path.unlink()
-    run(1)
-    assert files(robots / "modelica").items() <= {(k.removeprefix("modelica/"), v) for k, v in result.items()}
+        shutil.rmtree(robots / name)
+    run_all(jobs=1)
+    assert files(robots / "modelica") == result
 
 
 def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pool, "_PATIENCE", 1)
-    loaded = config.load(Path("urdfsync.toml"))
     with pytest.raises(ConfigError, match="no Dask scheduler answers"):
-        list(build(loaded, loaded.robots, BuildOptions(executor="tcp://127.0.0.1:9")))
+        run_all(executor="tcp://127.0.0.1:9")
