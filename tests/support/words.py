@@ -27,9 +27,6 @@ _WORD = re.compile(
     re.VERBOSE | re.DOTALL | re.ASCII,
 )
 _VALUE = re.compile(r""""(?:\\.|[^"\\])*"|(?<![\w.])-?\d+(?:\.\d*)?(?:[eE][+-]?\d+)?""", re.ASCII)
-_SIGN = re.compile(r"(?<=[({,=] )- n\b")
-_SUM = re.compile(r"(n(?: \. n)*)(?: \+ \1)+")
-_BRACKETS = re.compile(r"[({\[] ([^(){}\[\]]+?) [)}\]]")
 _OPEN, _CLOSE = "({[", ")}]"
 
 
@@ -48,21 +45,6 @@ def words(text: str) -> list[Word]:
 def grammar_kinds(text: str) -> str:
     """What a parser's grammar sees of a text: kinds of strings, numbers and names, and all other words themselves."""
     return " ".join(word.text if word.kind in ("keyword", "mark") else word.kind[0] for word in words(text))
-
-
-def kinds_of_statements(kind: str) -> set[str]:
-    """The statements in what `grammar_kinds` gives; a list or sum stands for those with more of the same, or signs."""
-    kind = _SUM.sub(r"\1 + \1", _SIGN.sub("n", kind))
-    count = 1
-    while count:
-        kind, count = _BRACKETS.subn(_distinct, kind)
-    return set(kind.split(" ; "))
-
-
-def _distinct(brackets: re.Match[str]) -> str:
-    """Innermost brackets as one word, with each item once."""
-    items = dict.fromkeys(item.replace(" ", "_") for item in brackets[1].split(" , "))
-    return f"<{'|'.join(items)}>"
 
 
 def without_values(text: str) -> str:
