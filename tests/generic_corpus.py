@@ -1,38 +1,31 @@
-"""The generic robots and the corpus: motion and functions against Pinocchio, and times beside the package.
+"""The generic robots and the corpus: functions against Pinocchio, and times beside the package.
 
-- `python tests/generic_corpus.py moves [--only TEXT …] [--most N]`: poses and efforts of prescribed motion, for every
-  robot in scope that has at most N moving joints;
-- `… functions` likewise: mass matrix, forces, poses and the Jacobian of every link in random configurations;
-- `… falls FILE …`: 0.5 s of free motion of the generic robots and of the package;
-- `… floats FILE …`: likewise, with a base that falls and turns;
+- `python tests/generic_corpus.py functions [--only TEXT …] [--most N]`: mass matrix, forces, poses and the Jacobian of
+  every link in random configurations, for every robot in scope that has at most N moving joints;
 - `… times [FILE …] [--repeats N]`: compiles and simulates the same motion of package and generic robots, in turn, and
   prints rows for the User's Guide.
 
-Files without inertias get made-up ones, for all sides. Exits with 1 if anything differs or fails.
+`tests/check_corpus.py --approach record` compares prescribed motion. Files without inertias get made-up ones, for all
+sides. Exits with 1 if anything differs or fails.
 """
 
 from __future__ import annotations
 
 import argparse
-import functools
-import itertools
 import os
 import statistics
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-import numpy as np
 from support import corpus, generic, physics
 from support.corpus import REPOSITORY
 from support.functions import Functions
-from support.modelica import Array, Outcome, Run, Task, compile_task, execute
+from support.modelica import Outcome, Run, Task, compile_task, execute
 from support.packages import Package, generate
 
 from urdfsync.check.libraries import find_standard_library
-from urdfsync.check.results import EFFORTS, MASSES, POSES
-from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Target
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import has_tables
@@ -55,36 +48,21 @@ TIMED = tuple(
     )
 )
 """Robots with 6, 12, 16 and 30 moving joints; of the 12, 6 follow others."""
-STOP = 0.5
-STEPS = (500, 1000, 2000, 4000, 8000, 16000, 32000)
-"""Of the reference, more and more until it changes no more; friction around standstill is stiff."""
-TOLERANCES = (1e-9, 1e-10, 1e-11, 1e-12)
-"""Of the simulation, likewise: what is left then is a difference of the models, not of the integration."""
-CLOSE = 1e-6
-"""At the end of free motion, in rad or m."""
-CONVERGED = 1e-7
-"""The change that ends the refinement on either side."""
 
 
 def main(arguments: Sequence[str]) -> int:
     """Print a table with a row per robot, as soon as it is known."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("moves", "functions", "falls", "floats", "times"))
+    parser.add_argument("what", choices=("functions", "times"))
     parser.add_argument("files", nargs="*", type=Path)
     parser.add_argument("--only", nargs="*", default=[], metavar="TEXT")
     parser.add_argument("--most", type=int, default=1000, metavar="N")
     parser.add_argument("--repeats", type=int, default=1, metavar="N")
     options = parser.parse_args(arguments)
     folder = find_standard_library(os.environ).parts["Modelica"].parent
-    tables: Mapping[str, Callable[[Path, Iterable[Path]], bool]] = {
-        "moves": _moves,
-        "functions": _functions,
-        "falls": functools.partial(_falls, base=None),
-        "floats": functools.partial(_falls, base=generic.Base()),
-        "times": functools.partial(_times, repeats=options.repeats),
-    }
-    files = options.files or (TIMED if options.what == "times" else _all(options))
-    return int(not tables[options.what](folder, files))
+    if options.what == "times":
+        return int(not _times(folder, options.files or TIMED, options.repeats))
+    return int(not _functions(folder, options.files or _all(options)))
 
 
 def _all(options: argparse.Namespace) -> list[Path]:
@@ -99,44 +77,6 @@ def _in_scope(file: Path) -> bool:
     return robot is not None and has_tables(robot.joints)
 
 
-def _moves(standard: Path, files: Iterable[Path]) -> bool:
-    _row(*COUNTED, "pose error", "effort error", "mass error", "CPU s", "MB", "result")
-    _row(*["---"] * 10)
-    good = [_moved(standard, file) for file in files]
-    return _all_good(good)
-
-
-def _moved(standard: Path, file: Path) -> bool | None:
-    """One row of `moves`; None for a robot that could not be compared."""
-    try:
-        case = physics.prepare(file.read_bytes(), approach=("record",))
-    except SourceError as error:
-        _row(_name(file), *[""] * 8, f"no reference: {error.diagnostics[0].code}")
-        return None
-    probe = case.experiment.probe
-    with tempfile.TemporaryDirectory() as folder:
-        package = case.package.write(Path(folder))
-        task = Task(probe.source, probe.model, [Run(probe.stop, probe.step)], probe.values)
-        (outcome,) = execute(standard, [package], [task])
-    problem = outcome.error or outcome.runs[0].error
-    sizes = (f"{outcome.seconds:.1f}", f"{outcome.megabytes:.0f}")
-    if problem:
-        _row(_name(file), *_counts(case.package.skeleton), "", "", "", *sizes, problem.splitlines()[0])
-        return False
-    comparison = _compared(case, outcome)
-    worst = [comparison.worst(quantities) for quantities in (POSES, EFFORTS, MASSES)]
-    errors = [f"{one.relative:.0e}" if one else "" for one in worst]
-    notes = ["agrees" if comparison.agrees else "DIFFERS", *case.experiment.notes]
-    _row(_name(file), *_counts(case.package.skeleton), *errors, *sizes, "; ".join(notes))
-    return comparison.agrees
-
-
-def _compared(case: physics.Case, outcome: Outcome) -> physics.Deviations:
-    (run,) = outcome.runs
-    series = {"time": run.times.tolist()} | {name: values.tolist() for name, values in run.values.items()}
-    return physics.Deviations(tuple(case.experiment.compare(series)))
-
-
 def _functions(standard: Path, files: Iterable[Path]) -> bool:
     _row("file", "moving joints", "axes", "links", *(f"{part} error" for part in FUNCTIONS))
     _row(*["---"] * (4 + len(FUNCTIONS)))
@@ -145,7 +85,7 @@ def _functions(standard: Path, files: Iterable[Path]) -> bool:
 
 
 def _computed(standard: Path, file: Path) -> bool | None:
-    """One row of `functions`; None likewise."""
+    """One row of `functions`; None for a robot that could not be compared."""
     functions = Functions(_complete(file))
     if not any(joint.type in MOTION_KINDS for joint in functions.robot.skeleton.joints):
         _row(_name(file), *_counts(functions.robot.skeleton), "nothing moves", *[""] * (len(FUNCTIONS) - 1))
@@ -154,62 +94,6 @@ def _computed(standard: Path, file: Path) -> bool | None:
         worst = functions.worst(standard, Path(folder))
     _row(_name(file), *_counts(functions.robot.skeleton), *(f"{worst[part]:.0e}" for part in FUNCTIONS))
     return max(worst.values()) < EXACT
-
-
-def _falls(standard: Path, files: Iterable[Path], base: generic.Base | None) -> bool:
-    forms = APPROACHES
-    _row(
-        "file",
-        "moving joints",
-        "axes",
-        "links",
-        *(f"{form}, rad or m" for form in forms),
-        "change of the reference, half the steps",
-    )
-    _row(*["---"] * 8)
-    good = [_fallen(standard, file, forms, base) for file in files]
-    return _all_good(good)
-
-
-def _fallen(standard: Path, file: Path, forms: Sequence[str], base: generic.Base | None) -> bool | None:
-    """One row of `falls`: the greatest difference at the end, of an axis or of a free base; None likewise."""
-    robot = generic.prepare(_complete(file), approach=("package", "record"))
-    start = [motion.axis_course(joint)._replace(acceleration=0) for joint in motion.driven_axes(robot.skeleton)]
-    with tempfile.TemporaryDirectory() as folder:
-        package = robot.package.write(Path(folder))
-        tasks = [generic.free_task(robot, form, start, STOP, TOLERANCES, base) for form in forms]
-        outcomes = execute(standard, [package], tasks)
-    try:
-        expected, change = _reference(robot, start, base)
-    except np.linalg.LinAlgError:
-        _row(_name(file), *_counts(robot.skeleton), "no reference: a joint moves no mass", *[""] * len(forms))
-        return None
-    found = [_difference(outcome, tasks[0].values, expected) for outcome in outcomes]
-    cells = [one if isinstance(one, str) else f"{one:.0e}" for one in found]
-    _row(_name(file), *_counts(robot.skeleton), *cells, f"{change:.0e}")
-    return all(not isinstance(one, str) and one < CLOSE for one in found)
-
-
-def _difference(outcome: Outcome, names: Sequence[str], expected: Array) -> float | str:
-    """Of a simulation that is refined until it changes no more; or what went wrong."""
-    problem = next(filter(None, (outcome.error, *(run.error for run in outcome.runs))), "")
-    if problem:
-        return problem.splitlines()[0]
-    ends = [np.array([run.values[name][-1] for name in names]) for run in outcome.runs]
-    settled = (fine for coarse, fine in itertools.pairwise(ends) if np.abs(fine - coarse).max() < CONVERGED)
-    last = next(settled, None)
-    return "does not converge" if last is None else float(np.abs(last - expected).max())
-
-
-def _reference(robot: generic.Robot, start: Sequence[motion.Course], base: generic.Base | None) -> tuple[Array, float]:
-    """Where the axes and a free base are at the end, and how much that changed with the last refinement of steps."""
-    last, change = generic.free_motion(robot, start, STOP, STEPS[0], base), np.inf
-    for steps in STEPS[1:]:
-        before, last = last, generic.free_motion(robot, start, STOP, steps, base)
-        change = float(np.abs(last - before).max())
-        if change < CONVERGED:
-            break
-    return last, change
 
 
 def _times(standard: Path, files: Iterable[Path], repeats: int) -> bool:

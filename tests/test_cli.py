@@ -206,12 +206,6 @@ def test_bad_usage(arguments: list[str], capsys: Capture) -> None:
     assert capsys.readouterr().err.startswith("usage: urdfsync")
 
 
-@pytest.mark.parametrize("command", ["init", "build", "resolve", "library"])
-def test_help_has_an_example(command: str, capsys: Capture) -> None:
-    assert cli.main([command, "--help"]) == 0
-    assert "example: " in capsys.readouterr().out
-
-
 def test_library(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     assert cli.main(["library", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)

@@ -17,19 +17,13 @@ import pytest
 from lxml import etree
 from support import replay
 from support.packages import RENDERER, read
-from support.replay import Project
 
-from urdfsync import cli
 from urdfsync.domain import Effect, Order, Snapshot, Target, Version
-from urdfsync.modelica.files import StoredClasses
-from urdfsync.modelica.scopes import Node, Scopes
-from urdfsync.modelica.unresolved import unresolved
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 
-REPOSITORY = Path(__file__).resolve().parents[1]
 TARGET = Target("Bot", "Bot")
-FILES = ("package.mo", "Bot.mo", "BotRun.mo")
+FILES = ("Bot.mo", "BotRun.mo")
 
 pytestmark = pytest.mark.slow
 
@@ -107,11 +101,6 @@ class Built(NamedTuple):
     robot: Mapping[str, Declared]
     run: Mapping[str, Declared]
     elements: Elements
-
-    @property
-    def connectors(self) -> Mapping[str, Declared]:
-        """What somebody can connect to from outside: connectors of the robot, inputs and outputs of Run."""
-        return {name: one for name, one in {**self.robot, **self.run}.items() if one.what != "part"}
 
 
 @functools.cache
@@ -208,117 +197,3 @@ def effects(old: Built, new: Built) -> Sequence[Effect]:
     renames = DOMAIN.renames(old.snapshot, new.snapshot)
     options = Options(meshes="skip", cross_check=False)
     return DOMAIN.interface(Version(old.snapshot), Version(new.snapshot), renames, TARGET, options)
-
-
-# --- a bench by hand ----------------------------------------------------------------------------------------------
-
-_BENCH = """\
-model Bench "Everything that version 1 lets one connect to"
-  inner Modelica.Mechanics.MultiBody.World world;
-  Bot.Bot robot;
-  Bot.BotRun run;
-  {parts}
-equation
-  connect(world.frame_b, robot.frame_a);
-  {connects}
-end Bench;
-"""
-_ENDS = {
-    "frame": ("Modelica.Mechanics.MultiBody.Parts.Body of_{0}(m = 1);", "connect(robot.{0}, of_{0}.frame_a);"),
-    "axis": ("Modelica.Mechanics.Rotational.Components.Inertia of_{0}(J = 1);", "connect(of_{0}.flange_b, robot.{0});"),
-    "support": ("Modelica.Mechanics.Rotational.Components.Fixed of_{0};", "connect(of_{0}.flange, robot.{0});"),
-    "input": ("Modelica.Blocks.Sources.Constant of_{0}(k = 0);", "connect(of_{0}.y, run.{0});"),
-    "output": ("Real of_{0} = run.{0};", ""),
-}
-
-
-def bench(first: Built) -> str:
-    """A model that uses every connector of the robot and every variable of Run."""
-    ends = [[text.format(name) for text in _ENDS[what]] for name, (what, _) in first.connectors.items()]
-    parts, connects = ("\n  ".join(filter(None, texts)) for texts in zip(*ends, strict=True))
-    return _BENCH.format(parts=parts, connects=connects)
-
-
-def meaningless(text: str, built: Built, library: Path, folder: Path) -> set[str]:
-    """The names in a bench that mean nothing beside a version, as `check` finds them."""
-
-    def find(name: str) -> Path | None:
-        if name == "UrdfSync":
-            return REPOSITORY / "modelica" / name
-        return next((path for path in (library / name, *library.glob(f"{name} *")) if path.is_dir()), None)
-
-    texts = {path: text.encode() for path, text in built.texts.items()}
-    scopes = Scopes(StoredClasses("Bot", folder / "Bot", texts, {folder / "Bench.mo": text.encode()}, find))
-    node = scopes.node(("Bench",))
-    assert isinstance(node, Node)
-    return {one.part for one in unresolved(node, scopes)}
-
-
-@HISTORIES
-def test_a_bench_of_version_1_fits_every_later_version(
-    corpus: Path, modelica_library: Path, tmp_path: Path, history: str
-) -> None:
-    first, *later = versions(history)
-    text, known = bench(first), [first.texts]
-    assert meaningless(text, first, modelica_library, tmp_path) == set()
-    for new in later:
-        if new.texts in known:
-            continue  # other numbers make no other models
-        known.append(new.texts)
-        gone = lost(first.connectors, new.connectors)
-        assert meaningless(text, new, modelica_library, tmp_path) == set(gone), f"version {new.number}"
-        unexcused = [name for name, thing in gone.items() if not excuse(name, thing, first, new)]
-        assert not unexcused, f"version {new.number}"
-
-
-# --- the command line ---------------------------------------------------------------------------------------------
-
-STEPS = ("upkie_camera", "stompymicro_robot_fixed", "so101_new_calib")
-"""Histories with leaves that get children, joints that stop, and names that come back."""
-
-
-@pytest.mark.parametrize("ending", [STEPS[0], *(pytest.param(step, marks=pytest.mark.slow) for step in STEPS[1:])])
-def test_build_and_diff_name_each_case(
-    corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], ending: str
-) -> None:
-    history = next(name for name in NAMES if name.endswith(ending))
-    project = Project(tmp_path / "project", replay.base_of(replay.histories()[history]))
-    monkeypatch.chdir(project.root)
-
-    def said(*command: str) -> str:
-        capsys.readouterr()
-        cli.main([*command, "--verbose"])
-        streams = capsys.readouterr()
-        return " ".join((streams.out + streams.err).split())
-
-    cases = 0
-    first, *later = versions(history)
-    project.save(replay.histories()[history][first.number])
-    assert not project.build().failed
-    for old, new in itertools.pairwise((first, *later)):
-        gone = {name: one for name, one in lost(old.robot, new.robot).items() if one.what != "part"}
-        expected = {name: one for name, one in gone.items() if one.element in new.elements}
-        if not gone:
-            continue
-        if old.number != first.number:
-            project.save(replay.histories()[history][old.number])
-            project.build()
-        project.save(replay.histories()[history][new.number])
-        for command in (("diff", "bot.urdf"), ("build",)):
-            text = said(*command)
-            for name, (what, (kind, element)) in expected.items():
-                cases += 1
-                if command[0] == "diff":
-                    assert re.search(rf"{kind} {re.escape(element)} {what} (was )?{name}\b", text), name
-                else:
-                    assert f"{kind} {element}: its {what} `{name}` " in text
-                if what == "frame" and Declared(what, (kind, element)) not in new.robot.values():
-                    assert f'list "{element}" in `frames` to keep it' in text
-            if command[0] == "build":
-                assert ("[connector-changed]" in text) == bool(expected or renamed(old, new))
-    assert cases
-
-
-def renamed(old: Built, new: Built) -> bool:
-    """Whether a step gives elements other names."""
-    return bool(DOMAIN.renames(old.snapshot, new.snapshot))

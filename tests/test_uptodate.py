@@ -8,7 +8,6 @@ import subprocess
 import sys
 import tempfile
 import time
-import types
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -236,18 +235,6 @@ def test_so_does_another_program(folder: Path, tmp_path: Path, monkeypatch: pyte
     with monkeypatch.context() as patch:
         patch.setattr(os, "getgroups", lambda: [12345], raising=False)
         assert saved(*BUILD) is None, "nor one of other groups"
-
-
-def test_so_does_a_module_that_somebody_is_working_on(
-    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    module = types.ModuleType("urdfsync.addition")
-    module.__file__ = str(tmp_path / "addition.py")
-    Path(module.__file__).write_text("VERSION = 1\n")
-    monkeypatch.setitem(sys.modules, module.__name__, module)
-    save(*BUILD)
-    _rewrite("addition.py")(tmp_path)
-    assert saved(*BUILD) is None
 
 
 def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
