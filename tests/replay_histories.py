@@ -7,11 +7,10 @@ anything is not as it should be. `tests/test_replay.py` runs a part of it.
 
 from __future__ import annotations
 
-import collections
 import itertools
 import sys
 import tempfile
-import time
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -22,77 +21,53 @@ from urdfsync.domain import ChangeClass
 from urdfsync.outcome import Result
 from urdfsync.urdf.domain import DOMAIN
 
-REFUSED = "refused"
-CLASSES = [str(change_class) for change_class in ChangeClass]
-COLUMNS = ("versions", REFUSED, *CLASSES, "written", "unwritten", "deleted", "renames", "failures")
+COLUMNS = ("versions", "refused", *map(str, ChangeClass), "unwritten", "renames")
 MINE = "  // mine: has to follow its element"
 LONG = "all of them, one after the other"
-WORST = {ChangeClass.NONE: set(), ChangeClass.UNMODELLED: set(), ChangeClass.PARAMETER: {"record", "import"}}
+REACH = {ChangeClass.NONE: set(), ChangeClass.UNMODELLED: set(), ChangeClass.PARAMETER: {"record", "import"}}
 """Roles of the files that a step of a class may write."""
+BELOW = f"{replay.PACKAGE}/"
+
+Replayed = tuple[Counter[str], list[str]]
+"""What was counted, and what was wrong."""
 
 
-class Tally(collections.Counter[str]):
-    """What was counted in one history, and what was wrong."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.failures: list[str] = []
-
-    def check(self, holds: bool, message: str) -> None:
-        """Note a failure if something does not hold."""
-        if not holds:
-            self["failures"] += 1
-            self.failures.append(message)
-
-
-def replayed(versions: Sequence[bytes], work: Path, *, base: str, meshes: bool) -> Tally:
+def replayed(versions: Sequence[bytes], work: Path, *, base: str, meshes: bool) -> Replayed:
     """Build the versions one over the other."""
-    tally = Tally()
-    project = Project(work / "project", base, meshes=meshes)
-    fresh = Fresh(work / "fresh", base, meshes=meshes)
-    built = Built({}, {})
+    tally, faults, built = Counter[str](), list[str](), Built({}, {})
+    project, fresh = Project(work / "project", base, meshes=meshes), Fresh(work / "fresh", base, meshes=meshes)
     for number, content in enumerate(versions):
         before = project.stamps()
         project.save(content)
         result = project.build()
+        after = project.stamps()
+        faults += [f"version {number}: {one}" for one in _faults(project, before, result, built, fresh(content))]
         tally["versions"] += 1
-        found = list(_wrong(project, before, result, built, fresh(content)))
-        tally.check(not found, f"version {number}: {'; '.join(found)}")
-        if result.failed:
-            tally[REFUSED] += 1
-            continue
-        after = project.stamps(replay.PACKAGE)
-        was = _below_package(before)
-        if built.files:
+        tally["refused"] += result.failed
+        if not result.failed and built.files:
             tally[str(_class_of(result))] += 1
-            tally["written"] += sum(was.get(path) != stamp for path, stamp in after.items())
-            tally["unwritten"] += sum(was.get(path) == stamp for path, stamp in after.items())
-            tally["deleted"] += len(was.keys() - after.keys())
-        built = fresh(content)
-    return tally
+            tally["unwritten"] += sum(before.get(path) == stamp for path, stamp in after.items() if BELOW in path)
+        built = built if result.failed else fresh(content)
+    return tally, faults
 
 
-def _wrong(project: Project, before: Stamps, result: Result, old: Built, new: Built) -> Iterator[str]:
+def _faults(project: Project, before: Stamps, result: Result, old: Built, new: Built) -> Iterator[str]:
     """What is not as it should be after a build of the version whose fresh build is `new`, over that of `old`."""
     after = project.stamps()
     touched = {path for path in before.keys() | after.keys() if before.get(path) != after.get(path)}
-    touched = {path for path in touched if path.startswith((".urdfsync/", f"{replay.PACKAGE}/"))}
+    touched = {path for path in touched if path.startswith((".urdfsync/", BELOW))}
     if result.failed or not new.files:
-        yield from ["what a fresh build refuses is built"] if not result.failed else []
-        yield from ["what a fresh build makes is refused"] if new.files else []
+        yield from ["a version is built here or fresh, and refused there"] if new.files or not result.failed else []
         yield from (f"{path} changed in spite of an error" for path in touched - {".urdfsync/.gitignore"})
         return
     files, state = project.files(), project.state()
-    yield from (
-        f"{p} differs from a fresh build" for p in files.keys() | new.files.keys() if files.get(p) != new.files.get(p)
-    )
-    yield from (f"{p} differs from that of a fresh build" for p in state if state[p] != new.state.get(p))
-    written = {path.removeprefix(f"{replay.PACKAGE}/") for path in touched if path.startswith(replay.PACKAGE)}
-    yield from (
-        f"{path} is written with the bytes it had" for path in written if old.files.get(path) == files.get(path)
-    )
-    if old.files and (allowed := WORST.get(_class_of(result))) is not None:
-        roles = {a.path.removeprefix(f"{replay.PACKAGE}/"): str(a.role) for a in result.actions}
+    both = files.keys() | new.files.keys()
+    yield from (f"{path} differs from a fresh build" for path in both if files.get(path) != new.files.get(path))
+    yield from (f"{path} differs from that of a fresh build" for path in state if state[path] != new.state.get(path))
+    written = {path.removeprefix(BELOW) for path in touched if path.startswith(BELOW)}
+    yield from (f"{path} is written with its own bytes" for path in written if old.files.get(path) == files.get(path))
+    if old.files and (allowed := REACH.get(_class_of(result))) is not None:
+        roles = {action.path.removeprefix(BELOW): str(action.role) for action in result.actions}
         yield from (f"a {_class_of(result)} step writes {path}" for path in written if roles[path] not in allowed)
     project.build()
     yield from ["a second build writes"] if project.stamps() != after else []
@@ -102,25 +77,17 @@ def _class_of(result: Result) -> ChangeClass:
     return result.changes.change_class if result.changes else ChangeClass.NONE
 
 
-def _below_package(stamps: Stamps) -> Stamps:
-    prefix = f"{replay.PACKAGE}/"
-    return {path.removeprefix(prefix): stamp for path, stamp in stamps.items() if path.startswith(prefix)}
-
-
-def renames(versions: Sequence[bytes], work: Path, *, base: str) -> Tally:
+def renames(versions: Sequence[bytes], work: Path, *, base: str) -> Replayed:
     """Edit each element that a step only renames, and see whether the edit is in the renamed element's model then."""
-    tally = Tally()
-    readable = [content for content in versions if replay.snapshot_of(content) is not None]
-    for number, (old, new) in enumerate(itertools.pairwise(readable)):
-        before, after = replay.snapshot_of(old), replay.snapshot_of(new)
-        assert before is not None
-        assert after is not None
+    tally, faults = Counter[str](), []
+    readable = [(content, found) for content in versions if (found := replay.snapshot_of(content)) is not None]
+    for (old, before), (new, after) in itertools.pairwise(readable):
         for (kind, name), renamed in DOMAIN.renames(before, after).items():
             tally["renames"] += 1
-            place = work / f"rename-{number}-{tally['renames']}"
-            wrong = _lost(Project(place, base), old, new, f"{kind} {name}", f"{kind} {renamed}")
-            tally.check(not wrong, f"readable version {number + 1}: {kind} {name} → {renamed}: {wrong}")
-    return tally
+            project = Project(work / f"rename-{tally['renames']}", base)
+            if fault := _lost(project, old, new, f"{kind} {name}", f"{kind} {renamed}"):
+                faults.append(f"{kind} {name} → {renamed}: {fault}")
+    return tally, faults
 
 
 def _lost(project: Project, old: bytes, new: bytes, owner: str, renamed: str) -> str:
@@ -141,43 +108,28 @@ def _lost(project: Project, old: bytes, new: bytes, owner: str, renamed: str) ->
     return ", ".join(sorted(kinds)) or "nothing was done"
 
 
-def run(names: Sequence[str], work: Path) -> Tally:
-    """Replay, and print a row for each history; gives the sums."""
-    total = Tally()
-    chosen = {name: all_of for name, all_of in replay.histories().items() if not names or any(n in name for n in names)}
-    everything = list(itertools.chain.from_iterable(chosen.values()))
-    print("".join(f"{column:>11}" for column in COLUMNS), " history")  # noqa: T201
-    for meshes in (False, True):
-        for number, (name, versions) in enumerate([*chosen.items(), (LONG, everything)]):
-            place = work / f"{number}-{meshes}"
-            base = "fixed" if name == LONG else replay.base_of(versions)
-            tally = replayed(versions, place, base=base, meshes=meshes)
-            if not meshes and name != LONG:
-                followed = renames(versions, place, base=base)
-                tally.update(followed)
-                tally.failures += followed.failures
-            _print(tally, f"{name[-50:]}{' + meshes' if meshes else ''}")
-            total.update(tally)
-    _print(total, "in all")
-    return total
-
-
-def _print(tally: Tally, name: str) -> None:
-    print("".join(f"{tally[column]:>11}" for column in COLUMNS), f" {name}", flush=True)  # noqa: T201
-    for failure in tally.failures:
-        print(f"    {failure[:400]}", flush=True)  # noqa: T201
-
-
 def main(names: Sequence[str]) -> int:
-    """Replay what was asked for; 1 if anything failed."""
-    if not replay.histories():
+    """Replay what was asked for, and print a row for each history; 1 if anything failed."""
+    chosen = {name: all_of for name, all_of in replay.histories().items() if not names or any(n in name for n in names)}
+    if not chosen:
         print("needs the corpus: set URDFSYNC_CORPUS")  # noqa: T201
         return 2
-    begin = time.monotonic()
-    with tempfile.TemporaryDirectory() as work, replay.in_haste():
-        total = run(names, Path(work))
-    print(f"{time.monotonic() - begin:.0f} s, 0 exceptions")  # noqa: T201 - one would have ended it
-    return int(bool(total["failures"]))
+    everything = [*chosen.items(), (LONG, list(itertools.chain.from_iterable(chosen.values())))]
+    wrong = 0
+    print("".join(f"{column:>11}" for column in (*COLUMNS, "faults")), " history")  # noqa: T201
+    for (name, versions), meshes in itertools.product(everything, (False, True)):
+        with tempfile.TemporaryDirectory() as work, replay.in_haste():
+            base = "fixed" if name == LONG else replay.base_of(versions)
+            tally, faults = replayed(versions, Path(work), base=base, meshes=meshes)
+            if not meshes and name != LONG:
+                followed, lost = renames(versions, Path(work), base=base)
+                tally, faults = tally + followed, faults + lost
+        cells = "".join(f"{number:>11}" for number in (*(tally[column] for column in COLUMNS), len(faults)))
+        print(cells, f" {name[-50:]}{' + meshes' if meshes else ''}", flush=True)  # noqa: T201
+        for fault in faults:
+            print(f"    {fault[:400]}", flush=True)  # noqa: T201
+        wrong += len(faults)
+    return int(bool(wrong))
 
 
 if __name__ == "__main__":

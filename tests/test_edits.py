@@ -8,7 +8,6 @@ import json
 import os
 import shutil
 import tomllib
-import zlib
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -388,17 +387,6 @@ def test_without_its_base_a_conflict_has_no_merge(project: Path) -> None:
     assert [path.name for path in ASIDE.iterdir()] == ["R1Parameters.generated.mo"]
 
 
-def test_a_damaged_base_counts_as_lost(project: Path) -> None:
-    run()
-    for kept in (project / ".urdfsync/base/ladder").iterdir():
-        kept.write_bytes(zlib.compress(zlib.decompress(kept.read_bytes()).replace(b"R1", b"XX")))
-    edit(RECORD, "end R1", MAY)
-    resistor(150)
-    (standoff,) = run().standoffs
-    assert standoff.base is not None, "rendered again from what is recorded"
-    assert "XX" not in standoff.base
-
-
 # Choices that wait for others
 
 
@@ -452,18 +440,6 @@ def test_what_is_put_aside_goes_with_the_robots_name(two_conflicts: tuple[str, s
     edit("urdfsync.toml", "robots.ladder", "robots.leiter")
     assert len(run().conflicts) == 2
     assert [path.name for path in (project / ".urdfsync/conflicts").iterdir()] == ["leiter"]
-
-
-def test_an_edit_made_while_a_rename_waits_follows_it(project: Path) -> None:
-    run()
-    edit(RECORD.replace("R1", "R2"), "220.5", "221")
-    resistor(300, before=220.5)
-    rename("R1", "Shunt")
-    run()
-    edit(R1, "equation", SENSOR)
-    run(choices={RECORD.replace("R1", "R2"): Choice.KEEP})
-    assert "// a sensor here" in Path(SHUNT).read_text()
-    assert not Path(R1).exists()
 
 
 # Names that the package has no more
@@ -569,31 +545,6 @@ def test_uses_of_what_has_another_name_get_the_new_one(
     edit(path, old, new)
     (found,) = [line for line in warnings(run()) if line.startswith("MyLadder")]
     assert found.endswith(f"but the package has {words}")
-
-
-def test_a_record_stays_while_a_file_of_the_users_needs_it(project: Path) -> None:
-    run()
-    mine, record = project / "modelica/Mine.mo", f"{LADDER}/Elements/C1Parameters.mo"
-    mine.write_text("model Mine\n  parameter Ladder.Elements.C1Parameters p;\nend Mine;\n")
-    drop("C1")
-    result = run()
-    assert kinds(result)[record] is Kind.NEEDED
-    assert not result.diagnostics
-    assert Path(record).exists()
-    assert kinds(run()) == {record: Kind.NEEDED}
-    assert "C1Parameters" in Path(f"{LADDER}/Elements/package.order").read_text().split()
-    mine.write_text("model Mine\n  // Ladder.Elements.C1Parameters\nend Mine;\n")
-    assert kinds(run())[record] is Kind.DELETE
-    assert not Path(record).exists()
-
-
-def test_a_record_of_a_renamed_element_does_not_stay(project: Path) -> None:
-    run()
-    (project / "modelica/Mine.mo").write_text("model Mine\n  Ladder.Elements.C1Parameters p;\nend Mine;\n")
-    rename("C1", "Tank")
-    (line,) = warnings(run())
-    assert line.endswith("no `C1Parameters` any more; it is `TankParameters` now")
-    assert not Path(f"{LADDER}/Elements/C1Parameters.mo").exists()
 
 
 @pytest.mark.parametrize(

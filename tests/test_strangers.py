@@ -191,7 +191,7 @@ def test_no_module_of_the_working_folder_runs(modules: Path, program: Path, argu
         environment = {
             name: value for name, value in os.environ.items() if name not in ("PYTHONSAFEPATH", "PYTHONPATH")
         }
-        command = [program, *arguments.split(), *jobs]
+        command = [str(program), *arguments.split(), *jobs]
         done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=PATIENCE, check=False)
         assert code in (None, done.returncode), done.stderr
         said = done.stderr

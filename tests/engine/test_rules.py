@@ -112,17 +112,6 @@ def test_names_that_follow_each_other_take_every_edit_along(moves: dict[str, str
     )
 
 
-def test_one_occupied_place_stops_the_whole_chain() -> None:
-    """`c` is the user's: so `b` can't leave, and then `a` can't go there."""
-    found = texts(a="mine a", b="mine b", c="foreign")
-    actions = decide(written("a", "b"), targets("b", "c"), found, {"b": "a", "c": "b"})
-    assert {action.path: action.kind for action in actions} == {
-        "a": Kind.ORPHAN,
-        "b": Kind.CONFLICT,
-        "c": Kind.UNOWNED,
-    }
-
-
 bases = st.none() | st.sampled_from("uvw")
 hands = st.one_of(st.just(ABSENT), st.just(FOLDER), st.sampled_from("uvwxy").map(on_disk))
 paths = st.sampled_from("abcde")

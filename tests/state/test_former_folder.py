@@ -156,17 +156,6 @@ def test_renamed_robots_and_moved_packages_take_their_files_along(
     assert package.relative_to(project).as_posix() in Store(project).written_folders(robot)
 
 
-@pytest.mark.parametrize(
-    "path", ["../x/Pump.mo", ".git/Pump.mo", "a/.ssh/Pump.mo", "Pump.txt", "package.order", "a/Resources/b.csv"]
-)
-@pytest.mark.parametrize("role", ["model", "import"])
-def test_a_recorded_file_is_judged_by_its_role(project: Path, capsys: Capture, path: str, role: str) -> None:
-    assert run("build") == 0
-    rewrite(project / MANIFEST, files={path: {"owner": "", "role": role, "base": "0" * 64}})
-    assert run("build") == 2
-    assert "[broken-state]" in capsys.readouterr().err
-
-
 def test_a_recorded_line_of_the_parents_order_is_the_packages_own(project: Path, capsys: Capture) -> None:
     with (project / "urdfsync.toml").open("a") as file:
         file.write("create_parents = true\n")

@@ -244,30 +244,6 @@ def test_a_manifest_is_rebuilt() -> None:
     assert found.dependencies["base.stl"].target_hash == "m2", "what is known of the copy that is there"
 
 
-def test_a_record_goes_with_its_base() -> None:
-    ours = msgspec.structs.replace(OURS, files={BASE: FileRecord("link base", Role.MODEL, None)})
-    theirs = msgspec.structs.replace(OURS, files={BASE: FileRecord("link root", Role.RECORD, "b1")})
-    found = rebuilt(merged(ours, theirs), {}, {})
-    assert found is not None
-    assert found.files == theirs.files
-    waiting = rebuilt(merged(ours, ours), {}, {})
-    assert waiting is not None
-    assert waiting.files == ours.files, "a file that was never written has no base"
-
-
-def test_a_mesh_that_a_person_replaced_by_another_one_is_edited() -> None:
-    other, lost = "Arm/Resources/other.stl", "Arm/Resources/lost.stl"
-    ours = msgspec.structs.replace(
-        OURS,
-        files={**OURS.files, other: FileRecord("other.stl", Role.IMPORT, "o1")},
-        dependencies={**OURS.dependencies, "o": DependencyRecord("other.stl", "Resources/other.stl", "s", "o1", 1)},
-    )
-    found = rebuilt(merged(ours, ours), {MESH: "o1", other: "o1", lost: "o1"}, {lost: "l1"})
-    assert found is not None
-    assert found.files[MESH].base == "m1"
-    assert lost not in found.files
-
-
 def test_the_newest_generator_heads_the_state() -> None:
     newer = msgspec.structs.replace(THEIRS, generator=Generator("urdf", 4, "9d"))
     foreign = msgspec.structs.replace(THEIRS, generator=Generator("rcnetwork", 9, "9d"))

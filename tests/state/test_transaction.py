@@ -103,19 +103,6 @@ def test_only_files_of_packages_and_of_the_state_are_written(
     assert contents(tmp_path) == before
 
 
-@pytest.mark.parametrize("link", ["a", "state"])
-def test_no_link_is_followed(tmp_path: Path, transactions: Transactions, changes: list[Change], link: str) -> None:
-    outside = tmp_path / "outside"
-    outside.mkdir()
-    if link == "a":
-        (tmp_path / "a").rename(outside / "a")
-    (tmp_path / link).symlink_to(outside)
-    before = contents(tmp_path)
-    with pytest.raises(OutputError, match="a symbolic link"):
-        transactions.apply("arm", changes)
-    assert contents(tmp_path) == before
-
-
 def test_what_cant_be_finished_is_finished_later(
     tmp_path: Path, transactions: Transactions, changes: list[Change], monkeypatch: pytest.MonkeyPatch
 ) -> None:
