@@ -1,24 +1,25 @@
 """Mutated meshes of every format, read as a build reads them.
 
-Each case has a seed of its own, which its finding names. Limits of
-time and memory that hold are no fault; an exception other than the finding, a file that appears, more memory than the
-limits allow, or a result that is no sound STL file with bounded facts, is one.
+Limits of time and memory that hold are no fault. An exception other than the finding, a file that appears, more memory
+than the limits allow, or a result that is no sound STL file with bounded facts, is one.
 """
 
 from __future__ import annotations
 
+import contextlib
+import functools
 import math
-import os
-import random
 import resource
 import struct
 import tempfile
-import time
 import warnings
 from pathlib import Path
+from random import Random
 
 from support.meshes import VERTICES, dae, gltf, ply, tenfold
+from support.workplace import Fault
 
+from fuzzing.cases import run_cases
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Conversion, Dependency
 from urdfsync.urdf.meshes import process
@@ -28,8 +29,6 @@ from urdfsync.urdf.robot import Mesh
 
 SECONDS = 0.5
 """CPU time that one mesh may take here; each that takes longer costs a process, too."""
-LONGEST = 10.0
-"""Seconds of CPU time of this process for one mesh: more is a hang."""
 MEMORY = 500_000
 """Kilobytes of this process."""
 
@@ -66,94 +65,72 @@ _WORDS = (
 )
 
 
-def mutate(random_: random.Random, content: bytes) -> bytes:
+def mutate(random: Random, content: bytes) -> bytes:
     """Change a file in one to six places."""
     data = bytearray(content)
-    for _ in range(random_.randint(1, 6)):
-        begin = random_.randrange(len(data) + 1)
-        end = min(len(data), begin + int(random_.expovariate(0.1)))
-        kind = random_.randrange(7)
+    for _ in range(random.randint(1, 6)):
+        begin = random.randrange(len(data) + 1)
+        end = min(len(data), begin + int(random.expovariate(0.1)))
+        kind = random.randrange(7)
         if kind == 0:
-            data[begin:end] = random_.randbytes(end - begin)
+            data[begin:end] = random.randbytes(end - begin)
         elif kind == 1:
-            data[begin:begin] = random_.choice(_WORDS)
+            data[begin:begin] = random.choice(_WORDS)
         elif kind == 2:
-            data[begin:end] = random_.choice(_WORDS)
+            data[begin:end] = random.choice(_WORDS)
         elif kind == 3:
             del data[begin:end]
         elif kind == 4:
-            data[begin:begin] = data[begin:end] * random_.choice((1, 2, 10, 1000))
+            data[begin:begin] = data[begin:end] * random.choice((1, 2, 10, 1000))
         elif kind == 5 and begin + 4 <= len(data):
-            data[begin : begin + 4] = struct.pack("<I", random_.choice((0, 1, 0xFFFF, 0x7FFFFFFF, 0xFFFFFFFF)))
+            data[begin : begin + 4] = struct.pack("<I", random.choice((0, 1, 0xFFFF, 0x7FFFFFFF, 0xFFFFFFFF)))
         else:
-            del data[begin + random_.randrange(100) :]
+            del data[begin + random.randrange(100) :]
     return bytes(data)
 
 
-def _case(seed: int) -> tuple[Mesh, bytes]:
-    random_ = random.Random(seed)
-    suffix, content = random_.choice(SEEDS)
-    if random_.random() < 0.02:  # what one format is made of, under the name of another
-        suffix, _ = random_.choice(SEEDS)
-    scale = random_.choice(((1.0, 1.0, 1.0), (0.001, 0.001, 0.001), (-1.0, 2.0, 1e30)))
-    return Mesh(f"mesh{suffix}", scale), mutate(random_, content)
+def _case(folder: Path, random: Random) -> str:
+    suffix, content = random.choice(SEEDS)
+    if random.random() < 0.02:  # what one format is made of, under the name of another
+        suffix, _ = random.choice(SEEDS)
+    mesh = Mesh(f"mesh{suffix}", random.choice(((1.0, 1.0, 1.0), (0.001, 0.001, 0.001), (-1.0, 2.0, 1e30))))
+    dependency = Dependency(key(mesh), mesh.filename, (), target(mesh), "mesh")
+    outcome = "read"
+    with contextlib.chdir(folder):
+        try:
+            _check(mesh, convert(dependency, folder / mesh.filename, mutate(random, content)))
+        except SourceError as error:
+            (finding,) = error.diagnostics
+            outcome, message = "refused", finding.message
+            if not message.isprintable() or len(message) >= 500 or "ended the process" in message:
+                raise Fault(repr(message)) from None
+    files = sorted(path.name for path in folder.iterdir())
+    for name in files:
+        (folder / name).unlink()
+    if files:
+        raise Fault(f"files appeared: {files}")
+    return outcome
 
 
-def _fault(mesh: Mesh, found: Conversion) -> str:
-    """What is wrong with a result; empty if nothing is."""
+def _check(mesh: Mesh, found: Conversion) -> None:
+    """A result is a whole STL file with bounded facts."""
     content = found.content
     is_stl = target(mesh).endswith(".stl") and not mesh.filename.endswith(".stl")
     if is_stl and len(content) != 84 + 50 * int.from_bytes(content[80:84], "little"):
-        return "it is no binary STL file"
+        raise Fault("it is no binary STL file")
     least, greatest = found.facts["bounds"]
     numbers = [*least, *greatest, *(number for point in found.facts["hull"] for number in point)]
     if not all(map(math.isfinite, numbers)) or any(a > b for a, b in zip(least, greatest, strict=True)):
-        return f"its facts are {found.facts}"
-    return ""
-
-
-def _run(seed: int, folder: Path) -> str:
-    """Run one case; what is wrong, or an empty string."""
-    mesh, content = _case(seed)
-    began = time.process_time()
-    try:
-        found = convert(Dependency(key(mesh), mesh.filename, (), target(mesh), "mesh"), folder / mesh.filename, content)
-        fault = _fault(mesh, found)
-    except SourceError as error:
-        (finding,) = error.diagnostics
-        fault = "" if finding.message.isprintable() and len(finding.message) < 500 else repr(finding.message)
-        if "ended the process" in finding.message:
-            fault = finding.message
-    except Exception as error:  # noqa: BLE001 - any other is what is looked for
-        fault = f"{type(error).__name__}: {error}"
-    if time.process_time() - began > LONGEST:
-        fault = fault or "it takes too long"
-    return fault
+        raise Fault(f"its facts are {found.facts}")
 
 
 def run(count: int, seed: int) -> int:
-    """Run so many cases from a seed on, and print what they find; the number of faults."""
+    """Run cases; returns the number of faults."""
     process.CPU_SECONDS = SECONDS
-    faults, began = 0, time.monotonic()
     with tempfile.TemporaryDirectory() as name, warnings.catch_warnings():
         warnings.simplefilter("error")  # they would be printed
-        folder, before = Path(name), Path.cwd()
-        os.chdir(folder)
-        try:
-            for number in range(seed, seed + count):
-                fault = _run(number, folder)
-                if files := sorted(path.name for path in folder.iterdir()):
-                    fault = f"{fault}; files appeared: {files}".lstrip("; ")
-                    for path in folder.iterdir():
-                        path.unlink()
-                if fault:
-                    faults += 1
-                    print(f"mesh --seed {number}: {fault}", flush=True)  # noqa: T201
-        finally:
-            os.chdir(before)
+        faults = run_cases("mesh", functools.partial(_case, Path(name)), count, seed)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     if peak > MEMORY:
-        faults += 1
         print(f"mesh: the memory grew to {peak:,} kB")  # noqa: T201
-    print(f"mesh: {count:,} cases, {count / (time.monotonic() - began):,.0f} a second, {faults} faults")  # noqa: T201
-    return faults
+    return faults + (peak > MEMORY)
