@@ -122,79 +122,56 @@ def test_builds_with_checks_are_not_said_again(folder: Path, monkeypatch: pytest
 # What an answer depends on
 
 
-def _rewrite(path: str) -> Edit:
-    """Another content of the same size, with the same time of change."""
+def _edit(how: str, path: str, text: str = "") -> Edit:
+    """A change of a file; `rewrite` keeps its size and times, `replace` its content and times."""
 
     def edit(folder: Path) -> None:
         file = folder / path
-        content, status = file.read_bytes(), file.stat()
-        file.write_bytes(content[:-2] + b"x" + content[-1:])
-        os.utime(file, ns=(status.st_atime_ns, status.st_mtime_ns))
-        assert file.stat().st_mtime_ns == status.st_mtime_ns
-        assert file.stat().st_size == status.st_size
-
-    return edit
-
-
-def _replace(path: str) -> Edit:
-    """The same content and times, in another file."""
-
-    def edit(folder: Path) -> None:
-        shutil.copy2(folder / path, folder / "other")
-        (folder / "other").replace(folder / path)
-
-    return edit
-
-
-def _write(path: str, text: str = "") -> Edit:
-    def edit(folder: Path) -> None:
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / path).write_text(text)
-
-    return edit
-
-
-def _delete(path: str) -> Edit:
-    return lambda folder: (folder / path).unlink()
-
-
-def _link(path: str) -> Edit:
-    def edit(folder: Path) -> None:
-        (folder / path).rename(folder / "moved")
-        (folder / path).symlink_to(folder / "moved")
+        if how == "rewrite":
+            content, status = file.read_bytes(), file.stat()
+            file.write_bytes(content[:-2] + b"x" + content[-1:])
+            os.utime(file, ns=(status.st_atime_ns, status.st_mtime_ns))
+            assert (file.stat().st_mtime_ns, file.stat().st_size) == (status.st_mtime_ns, status.st_size)
+        elif how == "replace":
+            shutil.copy2(file, folder / "other")
+            (folder / "other").replace(file)
+        elif how == "delete":
+            file.unlink()
+        elif how == "link":
+            file.rename(folder / "moved")
+            file.symlink_to(folder / "moved")
+        else:
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text)
 
     return edit
 
 
 EDITS: dict[str, Edit] = {
+    **{f"{how} {path}": _edit(how, path) for path in (URDF, LEG) for how in ("rewrite", "replace", "delete", "link")},
     **{
-        f"{name} {path}": edit(path)
-        for path in (URDF, LEG)
-        for name, edit in (("rewrite", _rewrite), ("replace", _replace), ("delete", _delete), ("link", _link))
-    },
-    **{
-        f"rewrite {path}": _rewrite(path)
+        f"rewrite {path}": _edit("rewrite", path)
         for path in (
             *("urdfsync.toml", "robots/leg_meshes/base.stl", ".urdfsync/robots/leg.json"),
             *(".urdfsync/robots/gone.toml", "modelica/Leg/package.order"),
         )
     },
-    "a mesh that is better placed": _write("robots/arm_meshes/base.stl", answers.TETRAHEDRON),
-    "a package that hides another": _write("ros/a/package.xml", "<name>arm_meshes</name>"),
-    "a folder to be ignored": _write("ros/group/COLCON_IGNORE"),
-    "a template": _write("own/link.mo.jinja", "<< this >>"),
-    "a folder of templates": _write("own/notes/deep/readme.txt"),
-    "a parent that is gone": _delete("modelica/Lab/package.mo"),
-    "a parent's single file": _write("modelica/Lab.mo"),
-    "a package above all": _write("modelica/package.mo"),
+    "a mesh that is better placed": _edit("write", "robots/arm_meshes/base.stl", answers.TETRAHEDRON),
+    "a package that hides another": _edit("write", "ros/a/package.xml", "<name>arm_meshes</name>"),
+    "a folder to be ignored": _edit("write", "ros/group/COLCON_IGNORE"),
+    "a template": _edit("write", "own/link.mo.jinja", "<< this >>"),
+    "a folder of templates": _edit("write", "own/notes/deep/readme.txt"),
+    "a parent that is gone": _edit("delete", "modelica/Lab/package.mo"),
+    "a parent's single file": _edit("write", "modelica/Lab.mo"),
+    "a package above all": _edit("write", "modelica/package.mo"),
     "a class that is a folder": lambda folder: (folder / LEG).rename(folder / "modelica/Leg/Links/package2.mo"),
-    "a folder that is a class": _delete("modelica/Lab/Arm/Links/Base/package.mo"),
-    "another stray state": _write(".urdfsync/robots/other.toml"),
+    "a folder that is a class": _edit("delete", "modelica/Lab/Arm/Links/Base/package.mo"),
+    "another stray state": _edit("write", ".urdfsync/robots/other.toml"),
     "bases that are lost": lambda folder: shutil.rmtree(folder / ".urdfsync/base/leg"),
-    "an interrupted build": _write(".urdfsync/journal/apply.json"),
+    "an interrupted build": _edit("write", ".urdfsync/journal/apply.json"),
     "a file that may not be read": lambda folder: (folder / URDF).chmod(0),
-    "a linked folder": _link("modelica/Leg"),
-    "a search path that comes": _write("later/src/leg_meshes/package.xml", "<name>leg_meshes</name>"),
+    "a linked folder": _edit("link", "modelica/Leg"),
+    "a search path that comes": _edit("write", "later/src/leg_meshes/package.xml", "<name>leg_meshes</name>"),
     "a folder that may be read at last": lambda folder: (folder / "ros/closed").chmod(0o700),
     "a mark of a package, by a link": lambda folder: (folder / "target").rmdir(),
 }
@@ -220,7 +197,7 @@ def test_so_does_a_library_that_comes_to_modelicapath(folder: Path, monkeypatch:
     Path(URDF).write_text(source.replace("package://leg_meshes/", "modelica://LegMeshes/"))
     save(*BUILD)
     assert saved(*BUILD) is not None
-    _write("libraries/LegMeshes 2.0/package.mo")(folder)
+    _edit("write", "libraries/LegMeshes 2.0/package.mo")(folder)
     assert saved(*BUILD) is None
 
 
@@ -240,7 +217,7 @@ def test_so_does_another_program(folder: Path, tmp_path: Path, monkeypatch: pyte
 def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
     save(*BUILD)
     for path in ("notes.txt", "modelica/notes.txt", "modelica/Leg/Own.mo", "robots/other.urdf", ".urdfsync/own.txt"):
-        _write(path)(folder)
+        _edit("write", path)(folder)
     assert saved(*BUILD) is not None
 
 
