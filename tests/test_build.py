@@ -146,6 +146,8 @@ def test_a_changed_option_or_template_renders_again(project: Path) -> None:
     )
     configure(prefix='"pin"', templates='"own"')
     assert set(kinds(run())) == {f"Elements/{name}Parameters.mo" for name in ("C1", "C2", "R1", "R2")}
+    template.with_name(".parameters.mo.jinja.swp").write_text("of an editor")
+    assert run().in_step
     edit(template, "record", "record  ")
     assert set(kinds(run()).values()) == {Kind.UPDATE}
     assert run().in_step
@@ -210,15 +212,16 @@ def test_a_robot_with_another_name_takes_its_state_along(project: Path) -> None:
 def test_state_of_robots_that_are_gone_is_mentioned_once_and_kept(project: Path) -> None:
     run()
     Path("urdfsync.toml").write_text(ROBOT.format("filter", "Filter") + ROBOT.format("third", "Third"))
-    for _ in range(2):
+    for _ in range(3):
         first, second = run_all()
         assert said(first) == [
             "urdfsync.toml: note: the state of `ladder` is still there, but the configuration has no such robot; "
             "bring the robot back, or delete .urdfsync/robots/ladder.* and what is left of its package [stray-state]"
         ]
         assert second.diagnostics == ()
-        assert Path(MANIFEST).exists()
         assert (project / LADDER / "package.mo").exists()
+        assert Path(MANIFEST).exists()
+        Path(MANIFEST).write_text("it need not be readable")
 
 
 def test_the_manifest_says_what_was_built(project: Path) -> None:
@@ -414,6 +417,11 @@ def test_the_parent_lists_the_package(project: Path) -> None:
     run()
     assert (plant / "package.order").read_text() == "Other\n"
     assert not (plant / "Ladder").exists()
+    configure(package='"Plant.Filters.Ladder"', create_parents="true")
+    run()
+    orders = [(plant / folder / "package.order").read_text() for folder in ("", "Filters")]
+    assert orders == ["Other\nFilters\n", "Ladder\n"]
+    assert run().in_step
 
 
 def test_missing_parents_are_made_if_the_configuration_says_so(project: Path, snapshot_of: Snapshot) -> None:

@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from urdfsync import cli, config
+from urdfsync.__main__ import main as program
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Exit
 from urdfsync.output.console import Console
@@ -234,11 +235,20 @@ def test_the_line_of_library_is_for_eval(
     assert done.stdout == f"{tmp_path / name}{after}"
 
 
+def test_an_interruption(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(arguments: list[str]) -> int:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("urdfsync.uptodate.print_answer", interrupted)
+    assert program() == 130
+
+
 def test_a_working_folder_that_is_gone(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    def gone() -> Path:
+    def gone() -> str:
         raise FileNotFoundError(2, "No such file or directory")
 
-    monkeypatch.setattr(Path, "cwd", gone)
+    monkeypatch.setattr(os, "getcwd", gone)
+    assert config.shown(project) == str(project)
     for command in ("build", "init"):
         assert cli.main([command]) == 2
         message = "error: the working folder does not exist any more; change to a folder that exists [no-folder]\n"

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from support.git import NEEDS_GIT, Repository
+from support.networks import ROBOT, Snapshot
 
 from urdfsync import cli
 
 Capture = pytest.CaptureFixture[str]
-Snapshot = Callable[[Path], object]
 
 ARM = """<robot name="arm">
   <link name="base"/>
@@ -96,6 +95,7 @@ def test_nothing_changed(built: Path, capsys: Capture, snapshot_of: Snapshot) ->
 def test_what_changed_and_what_a_build_would_do(built: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
     change(built)
     before = snapshot_of(built)
+    assert said(capsys, "ladder", "--quiet") == (1, [])
     assert said(capsys, "ladder.json") == (
         1,
         [
@@ -140,7 +140,7 @@ def test_a_robot_that_was_never_built(project: Path, capsys: Capture) -> None:
 
 def test_every_robot_of_a_source(built: Path, capsys: Capture) -> None:
     with (built / "urdfsync.toml").open("a") as file:
-        file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+        file.write(ROBOT.format("other", "Other"))
     change(built)
     for arguments in ([], ["ladder.json"], [str(built / "ladder.json")]):
         _, lines = said(capsys, *arguments)
@@ -320,6 +320,13 @@ def test_no_repository(arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPat
 )
 def test_mistakes_with_a_configuration(project: Path, capsys: Capture, arguments: list[str], complaint: str) -> None:
     assert complaint in refused(capsys, *arguments)
+
+
+def test_one_file_is_no_older_version_of_several_sources(project: Path, capsys: Capture) -> None:
+    shutil.copy(project / "ladder.json", project / "copy.json")
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write(ROBOT.format("copy", "Copy").replace("ladder.json", "copy.json"))
+    assert "one file can't be the older version of 2 sources" in refused(capsys, "--against", "step.csv")
 
 
 def test_a_source_that_is_gone(built: Path, capsys: Capture) -> None:

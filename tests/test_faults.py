@@ -15,6 +15,8 @@ from support.networks import LADDER, MANIFEST, RECORD, edit
 from support.networks import R1 as MODEL
 
 from urdfsync import cli
+from urdfsync.diagnostics import OutputError
+from urdfsync.files import Tree
 from urdfsync.outcome import Exit
 
 MINE = "// mine\n"
@@ -142,6 +144,12 @@ def test_a_folder_that_is_a_link(
     before = contents(tmp_path)
     assert_error(capsys, ["build"], f"{place}: error: a symbolic link is where ")
     assert contents(tmp_path) == before
+
+
+def test_nothing_outside_of_its_root_is_read(tmp_path: Path) -> None:
+    (tmp_path / "secret").write_text("secret")
+    with pytest.raises(OutputError, match="leaves"):
+        Tree(tmp_path / "root").read(tmp_path / "secret")
 
 
 def test_when_the_obstacle_is_gone_the_build_goes_on(stale: Path, capsys: Capture) -> None:

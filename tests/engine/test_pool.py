@@ -72,9 +72,11 @@ def test_many_robots_at_once_are_built_as_one_after_the_other(robots: Path, star
 
 def test_no_process_is_started_for_what_is_in_step(robots: Path, started: list[int]) -> None:
     run_all(jobs=1)
-    (robots / "n2.json").unlink()
     (robots / "n2.json").write_text((robots / "n1.json").read_text())
-    assert [one.in_step for one in run_all(jobs=2)] == [number != 2 for number in range(COUNT)]
+    (robots / "n5.json").unlink()
+    results = run_all(jobs=2)
+    assert [one.in_step for one in results] == [number not in (2, 5) for number in range(COUNT)]
+    assert results[5].failed
     assert started == []
 
 

@@ -95,6 +95,13 @@ def test_readers_wait_for_writers_only(path: Path) -> None:
         two.acquire(shared=True)
 
 
+def test_without_a_lock_file_there_is_no_writer_to_wait_for(path: Path) -> None:
+    with Lock(path, 0) as reader:
+        reader.acquire(shared=True)
+        assert not reader.held
+    assert not path.exists(), "who only reads makes no file"
+
+
 def test_a_lock_file_that_cant_be_one(path: Path) -> None:
     path.mkdir(parents=True)
     with pytest.raises(OutputError, match="it can't be written"):

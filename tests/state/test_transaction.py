@@ -66,6 +66,26 @@ def test_a_file_gets_the_group_of_its_folder(tmp_path: Path, transactions: Trans
     assert {(tmp_path / name).stat().st_gid for name in DONE} == {4321}
 
 
+@pytest.mark.parametrize("number", range(4))
+def test_a_file_that_is_not_as_planned_stays(
+    tmp_path: Path, transactions: Transactions, changes: list[Change], number: int
+) -> None:
+    mine = changes[number].path
+    mine.parent.mkdir(parents=True, exist_ok=True)
+    mine.write_bytes(b"mine")
+    assert transactions.apply("arm", changes, [tmp_path / "a"]).overtaken == (mine,)
+    after = OVERTAKEN if number < 3 else DONE
+    assert contents(tmp_path) == {**after, mine.relative_to(tmp_path).as_posix(): b"mine"}
+
+
+def test_a_file_to_delete_that_is_gone_is_no_hindrance(
+    tmp_path: Path, transactions: Transactions, changes: list[Change]
+) -> None:
+    changes[1].path.unlink()
+    assert transactions.apply("arm", changes, [tmp_path / "a"]).overtaken == ()
+    assert contents(tmp_path) == DONE
+
+
 def test_a_folder_in_the_way_stays(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
     (tmp_path / "renewed.mo").unlink()
     (tmp_path / "renewed.mo").mkdir()
