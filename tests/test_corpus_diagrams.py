@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 from support import corpus, diagram
-from support.diagram import STANDARD, Component, Diagram, Find, corners, is_inside, of_package, overlaps, port
+from support.diagram import Diagram, Find, corners, is_inside, of_package, overlaps, port
 from support.packages import Package, generate, proposed_base, read
 from support.urdfs import dynamics, joint, limit, link, robot
 
@@ -88,58 +90,19 @@ def test_diagrams_of_all_joints_are_well_drawn(visualizer: str) -> None:
     assert_well_drawn(generate(OWN.encode(), BOT, visualizer=visualizer), "own")
 
 
-def component(name: str, *box: float) -> Component:
-    return Component(name, "Some.Type", box, box)  # type: ignore[arg-type]
-
-
-def test_overlapping_components_are_noticed() -> None:
-    one, two, three = component("one", 0, 0, 10, 10), component("two", 10, 0, 20, 10), component("three", 19, 9, 30, 30)
-    assert overlaps([three, two, one]) == [("two", "three")]
-
-
-ROBOT = """
-within A;
-
-model Robot "Example with an icon that grows with its connectors"
-  Modelica.Mechanics.Rotational.Interfaces.Flange_a elbowAxis
-    "Axis"
-    annotation (Placement(
-      transformation(extent={{-10, 0}, {0, 10}}),
-      iconTransformation(extent={{-105, 235}, {-95, 245}})));
-
-  replaceable Joints.Elbow elbow constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
-    phi_start = 0.5,
-    checkLimits = checkLimits)
-    "Joint"
-    annotation (choicesAllMatching=true, Placement(transformation(extent={{40, -10}, {60, 10}})));
-
-equation
-  connect(elbow.axis, elbowAxis)
-    annotation (Line(points={{50, 10}, {-5, 5}}));
-
-  annotation (Icon(coordinateSystem(extent={{-100, -100}, {100, 250}}), graphics={Line(points={{0, 0}, {1, 1}})}));
-end Robot;
-"""
-BENCH = """
-within A;
-
-model Bench "Example with a robot at one and a half times its size"
-  extends Robot;
-
-  replaceable Robot robot constrainedby Robot(fixedStart = false)
-    annotation (Placement(transformation(extent={{20, -200}, {320, 325}})));
-
-  annotation (Icon(graphics={Line(points={{0, 0}, {1, 1}})}));
-end Bench;
-"""
-
-
-def test_an_icon_that_grows_is_scaled_to_its_place() -> None:
-    joint = Diagram(STANDARD, STANDARD, (), (), {"axis": (0, 100)})
-    robot = diagram.read(ROBOT, lambda name: {"Joints.Elbow": joint}[name])
-    assert (robot.extent, robot.icon) == (STANDARD, (-100, -100, 100, 250))
-    assert [(c.name, c.type) for c in robot.components][1] == ("elbow", "Joints.Elbow")
-    assert astray(robot, lambda name: joint) == []
-    bench = diagram.read(BENCH, lambda name: robot)
-    assert bench.icon == robot.icon, "inherited, since its own icon says nothing of it"
-    assert port(bench, "robot.elbowAxis", lambda name: robot) == (20, 310)
+@pytest.mark.parametrize(
+    ("old", "new", "what"),
+    [
+        ("{{2, -130}, {2, -120}}", "{{2, -130}, {3, -120}}", "slideAxis"),
+        ("{{2, -130}, {2, -120}}", "{{2, -129}, {2, -120}}", "slide.axis"),
+        ("extent={{-116, -262}, {132, 18}}", "extent={{-116, -262}, {120, 18}}", "part1Frame"),
+        ("extent={{-8, -150}, {12, -130}}", "extent={{8, -150}, {32, -130}}", "slide"),
+    ],
+)
+def test_what_is_badly_drawn_is_noticed(old: str, new: str, what: str) -> None:
+    package = generate(OWN.encode(), BOT)
+    text = package.texts["Bot.mo"]
+    assert old in text
+    texts = {**package.texts, "Bot.mo": text.replace(old, new, 1)}
+    with pytest.raises(AssertionError, match=re.escape(what)):
+        assert_well_drawn(dataclasses.replace(package, texts=texts), "own")

@@ -127,22 +127,6 @@ def assert_pymoca_parses(text: str, place: str) -> None:
     assert tree is not None
 
 
-MISTAKES = {
-    "a semicolon is missing": "within A;\nmodel B\n  Real x\nend B;\n",
-    "a keyword is misspelled": "within A;\nmodel B\n  Real x;\nequaton\n  x = 1;\nend B;\n",
-    "a bracket is missing": "within A;\nrecord B\n  extends C(x = {1, 2);\nend B;\n",
-    "a string ends early": 'within A;\nrecord B\n  extends C(name = "a"b");\nend B;\n',
-    "a keyword is a name": "within A;\nmodel B\n  Real end;\nend B;\n",
-}
-
-
-@pytest.mark.parametrize("text", MISTAKES.values(), ids=MISTAKES)
-def test_both_parsers_notice_mistakes(text: str) -> None:
-    assert syntax_errors(text)
-    with pytest.raises(pymoca.parser.ModelicaSyntaxError):
-        pymoca.parser.parse(text, bypass_cache=True)
-
-
 @each_source
 def test_texts_are_tidy_belong_where_they_are_and_are_full_copies(files: Sequence[str], corpus: Path) -> None:
     """LF at every end of a line, no tabs, brackets in pairs, all words known."""

@@ -112,18 +112,12 @@ def test_truncations_of_another_encoding(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_truncations_of_a_real_robot(corpus: Path, tmp_path: Path) -> None:
-    content = (corpus / SMALL).read_bytes()
-    project = built(tmp_path / "project", content)
-    assert_refused(project, (content[:end] for end in some(range(end_of(content)), 400)))
-
-
-@pytest.mark.slow
-def test_truncations_of_a_large_robot(corpus: Path, tmp_path: Path) -> None:
-    content = (corpus / LARGE).read_bytes()
-    project = built(tmp_path / "project", content)
-    cuts = Random(3).sample(range(end_of(content)), 500)
-    assert_refused(project, (content[:end] for end in some(cuts, 30)))
+@pytest.mark.parametrize(("file", "most", "count"), [(SMALL, None, 400), (LARGE, 500, 30)])
+def test_truncations_of_a_real_robot(corpus: Path, tmp_path: Path, file: str, most: int | None, count: int) -> None:
+    content = (corpus / file).read_bytes()
+    project, cuts = built(tmp_path / "project", content), range(end_of(content))
+    chosen = Random(3).sample(cuts, most) if most else cuts
+    assert_refused(project, (content[:end] for end in some(chosen, count)))
 
 
 def test_what_is_cut_off_is_built_when_it_is_whole(tmp_path: Path) -> None:

@@ -90,101 +90,46 @@ def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> Non
     assert (arm.options.prefix, other.options.prefix) == ("d", "b")
 
 
+MISTAKES = {
+    "sorce = 'x'": "unknown key `sorce` in robot `arm`; did you mean `source`? [unknown-key]",
+    "grund = true": "unknown key `grund` in robot `arm`; did you mean `ground`? [unknown-key]",
+    "create_parents = 'yes'": "`create_parents` must be true or false, not a string [wrong-value]",
+    "package_paths = ['a', 1]": "`package_paths`[1] must be a string, not an integer [wrong-value]",
+    "on_build = true": '`on_build` must be "nothing" or "check", not true [wrong-value]',
+    "ground = 1": "`ground` must be true or false, not an integer [wrong-value]",
+    "x = ": "invalid value; strings stand in quotes [toml-syntax]",
+    'class = "2nd"': "`class`: '2nd' is no Modelica identifier; use letters, digits and `_`, a letter first "
+    "[modelica-name]",
+}
+"""By a line of a robot's table."""
+OTHER_MISTAKES = {
+    robot("[check]\nlibary = 'x'"): "6 unknown key `libary` in `[check]`; did you mean `library`? [unknown-key]",
+    robot("[check]\nlibrary = 4"): "6 `library` must be a string, not an integer [wrong-value]",
+    robot("[check]\nlibrary = ''"): "6 `library` must name a folder; give the path of the folder that holds "
+    "the Modelica Standard Library, or take the line out [wrong-value]",
+    robot().replace("work", "wok"): '4 there is no domain `rcnetwok`; did you mean "rcnetwork"? [unknown-domain]',
+    robot().replace('package = "Arm"', ""): "1 robot `arm` has no `package`; add a line `package = …` [missing-key]",
+    "[default]\n" + robot(): "1 unknown key `default` in the configuration; did you mean `defaults`? [unknown-key]",
+    "[defaults]\nsource = 'a'\n" + robot(): "2 `source` can't have a default: every robot has its own [unknown-key]",
+    "[defaults]\nprefx = 'a'\n" + robot(): "2 unknown key `prefx` in `[defaults]`; did you mean `prefix`? "
+    "[unknown-key]",
+    "[defaults]\noutput = 1\n" + robot(): "2 `output` must be a string, not an integer [wrong-value]",
+    "check = true\n" + robot(): "1 `check` must be a table [wrong-value]",
+    "robots = 3": "1 `robots` must be a table [wrong-value]",
+    "[robots]\narm = 3": "2 `robots.arm` must be a table [wrong-value]",
+    "[robots\n": "1:8 expected ']' at the end of a table declaration [toml-syntax]",
+    "": " the configuration has no robot; add a table `[robots.NAME]` with `source` and `package` [no-robots]",
+}
+"""By the whole text, with the place in it."""
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
-    [
-        (
-            robot("sorce = 'x'"),
-            "urdfsync.toml:5: error: unknown key `sorce` in robot `arm`; did you mean `source`? [unknown-key]",
-        ),
-        (
-            robot("grund = true"),
-            "urdfsync.toml:5: error: unknown key `grund` in robot `arm`; did you mean `ground`? [unknown-key]",
-        ),
-        (
-            "[default]\n" + robot(),
-            "urdfsync.toml:1: error: unknown key `default` in the configuration; "
-            "did you mean `defaults`? [unknown-key]",
-        ),
-        (
-            "[defaults]\nsource = 'a'\n" + robot(),
-            "urdfsync.toml:2: error: `source` can't have a default: every robot has its own [unknown-key]",
-        ),
-        (
-            "[defaults]\nprefx = 'a'\n" + robot(),
-            "urdfsync.toml:2: error: unknown key `prefx` in `[defaults]`; did you mean `prefix`? [unknown-key]",
-        ),
-        (
-            "[robots.arm]\ndomain = 'rcnetwork'\nsource = 'a'",
-            "urdfsync.toml:1: error: robot `arm` has no `package`; add a line `package = …` [missing-key]",
-        ),
-        (
-            robot("create_parents = 'yes'"),
-            "urdfsync.toml:5: error: `create_parents` must be true or false, not a string [wrong-value]",
-        ),
-        (
-            robot("package_paths = ['a', 1]"),
-            "urdfsync.toml:5: error: `package_paths`[1] must be a string, not an integer [wrong-value]",
-        ),
-        (
-            robot("on_build = true"),
-            'urdfsync.toml:5: error: `on_build` must be "nothing" or "check", not true [wrong-value]',
-        ),
-        (
-            robot("[check]\nlibary = 'x'"),
-            "urdfsync.toml:6: error: unknown key `libary` in `[check]`; did you mean `library`? [unknown-key]",
-        ),
-        (
-            robot("[check]\nlibrary = 4"),
-            "urdfsync.toml:6: error: `library` must be a string, not an integer [wrong-value]",
-        ),
-        (
-            robot("[check]\nlibrary = ''"),
-            "urdfsync.toml:6: error: `library` must name a folder; "
-            "give the path of the folder that holds the Modelica Standard Library, or take the line out [wrong-value]",
-        ),
-        ("check = true\n" + robot(), "urdfsync.toml:1: error: `check` must be a table [wrong-value]"),
-        (
-            "[defaults]\noutput = 1\n" + robot(),
-            "urdfsync.toml:2: error: `output` must be a string, not an integer [wrong-value]",
-        ),
-        (robot("ground = 1"), "urdfsync.toml:5: error: `ground` must be true or false, not an integer [wrong-value]"),
-        (
-            "[robots.arm]\nsource = 'a'\npackage = 'Arm'\nbase = 'floatin'",
-            'urdfsync.toml:4: error: `base` must be "fixed" or "floating", not "floatin" [wrong-value]',
-        ),
-        (
-            robot().replace("rcnetwork", "rcnetwok"),
-            'urdfsync.toml:4: error: there is no domain `rcnetwok`; did you mean "rcnetwork"? [unknown-domain]',
-        ),
-        ("robots = 3", "urdfsync.toml:1: error: `robots` must be a table [wrong-value]"),
-        ("[robots]\narm = 3", "urdfsync.toml:2: error: `robots.arm` must be a table [wrong-value]"),
-        (
-            "",
-            "urdfsync.toml: error: the configuration has no robot; "
-            "add a table `[robots.NAME]` with `source` and `package` [no-robots]",
-        ),
-        (robot() + "x = ", "urdfsync.toml:5: error: invalid value; strings stand in quotes [toml-syntax]"),
-        ("[robots\n", "urdfsync.toml:1:8: error: expected ']' at the end of a table declaration [toml-syntax]"),
-        (
-            robot('class = "2nd"'),
-            "urdfsync.toml:5: error: `class`: '2nd' is no Modelica identifier; "
-            "use letters, digits and `_`, a letter first [modelica-name]",
-        ),
-        (
-            robot('class = "robot"'),
-            "urdfsync.toml:5: error: `robot` can't be the class of a robot model; set `class` to a name with a "
-            "capital first that neither Modelica nor urdfsync has a use for [modelica-name]",
-        ),
-        (
-            robot('class = "Links"'),
-            "urdfsync.toml:5: error: `Links` can't be the class of a robot model; set `class` to a name with a "
-            "capital first that neither Modelica nor urdfsync has a use for [modelica-name]",
-        ),
-    ],
+    [*((robot(line), f"5 {message}") for line, message in MISTAKES.items()), *OTHER_MISTAKES.items()],
 )
 def test_mistakes_are_one_line_each(text: str, message: str) -> None:
-    assert failures(text) == [message]
+    place, _, words = message.partition(" ")
+    assert failures(text) == [f"urdfsync.toml:{place}: error: {words}".replace("::", ":")]
 
 
 @pytest.mark.parametrize(
@@ -204,7 +149,7 @@ def test_packages_that_hide_nothing(package: str) -> None:
     assert parse(robot(package=package)).robots[0].target.package == package
 
 
-@pytest.mark.parametrize("name", ["Package", "Aux", "Complex", "Joints", "Visualization2"])
+@pytest.mark.parametrize("name", ["Package", "Aux", "Complex", "Joints", "Visualization2", "robot", "Links"])
 def test_classes_that_clash_with_files_or_other_classes_are_told_at_their_line(name: str) -> None:
     (message,) = failures(robot(f'class = "{name}"'))
     assert message.startswith(f"urdfsync.toml:5: error: `{name}` can't be the class of a robot model; set `class`")
