@@ -89,22 +89,6 @@ def test_options_are_named_only_if_nothing_else_changed(project: Path, capsys: C
     assert "a template, an option or urdfsync itself changed" in said(capsys, "build", "--dry-run")
 
 
-def test_a_state_without_options_counts_as_built_with_those_of_now(project: Path, capsys: Capture) -> None:
-    """As it was recorded before; the next build records them."""
-    configure(project, 'frames = "all"\n')
-    assert cli.main(["build", "-q"]) == 0
-    recorded = project / ".urdfsync/robots/arm.toml"
-    with_options = recorded.read_text()
-    head, options, tail = with_options.partition("[options]\n")
-    assert options
-    recorded.write_text(head + tail[tail.index("[names") :])
-    before = {path: path.read_bytes() for path in (project / "modelica").rglob("*.*")}
-    assert cli.main(["build", "--check", "-q"]) == 0
-    assert "connector-changed" not in said(capsys, "build")
-    assert recorded.read_text() == with_options
-    assert {path: path.read_bytes() for path in (project / "modelica").rglob("*.*")} == before
-
-
 @pytest.mark.parametrize("line", ['frames = "none"', "frames = 3", 'roof = "red"'])
 def test_recorded_options_that_this_program_does_not_have_are_no_obstacle(
     project: Path, capsys: Capture, line: str

@@ -11,11 +11,9 @@ from lxml import etree
 
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
-from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
-from urdfsync.output.phrases import change_lines
 
 SAMPLES = Path(__file__).parents[1] / "modelica" / "UrdfSync" / "Resources" / "robots"
 CONFIGURATION = """
@@ -89,15 +87,6 @@ def test_meshes_of_a_modelica_library_are_imported(arm: Path, monkeypatch: pytes
     assert {found.code for found in run(arm).diagnostics} == {"mesh-unreadable-kept"}
 
 
-def test_a_robot_whose_meshes_are_gone_keeps_its_imported_copies(arm: Path) -> None:
-    run(arm)
-    before = contents(arm / "modelica")
-    shutil.rmtree(arm / "ws/src/six_axis_arm/meshes")
-    result = run(arm, full=True)
-    assert {found.code for found in result.diagnostics} == {"mesh-not-found-kept"}
-    assert contents(arm / "modelica") == before
-
-
 def test_a_robot_whose_meshes_were_never_there_has_no_broken_path(arm: Path) -> None:
     shutil.rmtree(arm / "ws/src/six_axis_arm/meshes")
     result = run(arm)
@@ -142,28 +131,6 @@ def test_a_package_of_the_name_goes_before_a_guess(arm: Path) -> None:
     assert not run(arm).diagnostics
     (copy,) = (arm / "modelica/Arm/Resources").glob("carousel_*.obj")
     assert copy.read_bytes() == (vendor / mesh).read_bytes()
-
-
-def change(project: Path, old: str, new: str) -> None:
-    source = project / "ws/src/six_axis_arm/six_axis_arm.urdf"
-    text = source.read_text()
-    assert old in text
-    source.write_text(text.replace(old, new, 1))
-
-
-def test_a_build_says_what_changed_since_the_last_one(arm: Path) -> None:
-    assert run(arm).changes is None
-    change(arm, 'upper="1.222" effort="130" velocity="5"', 'upper="1.3" effort="143" velocity="5.0000001"')
-    result = run(arm)
-    assert result.changes is not None
-    assert change_lines(result.changes) == [
-        "joint elbow / limit / effort: 130 → 143 N·m (+10 %)",
-        "joint elbow / limit / upper: 1.222 → 1.3 rad (70.02° → 74.48°)",
-        "joint elbow / limit / velocity: 5 → 5.0000001 rad/s (rounding)",
-    ]
-    assert result.changes.change_class is ChangeClass.PARAMETER
-    assert {action.role for action in result.actions if action.writes} == {Role.RECORD}
-    assert run(arm).changes is None
 
 
 CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller">
