@@ -14,18 +14,7 @@ from typing import Any
 
 import pytest
 from support.crashes import Operation, before_each
-from support.networks import (
-    LADDER,
-    MANIFEST,
-    ROBOT,
-    Snapshot,
-    edit,
-    failure,
-    resistor,
-    run,
-    run_all,
-    source,
-)
+from support.networks import LADDER, MANIFEST, ROBOT, Snapshot, edit, failure, resistor, run, run_all, source
 from support.networks import kinds as all_kinds
 
 from urdfsync import files

@@ -19,15 +19,7 @@ from support.corpus import FOLDER
 from support.modelica import URDFSYNC
 from support.packages import Package, generate, proposed_base, read, scaled
 from support.urdfs import link, robot
-from support.words import (
-    Word,
-    grammar_kinds,
-    qualified_names,
-    unbalanced,
-    without_annotations,
-    without_values,
-    words,
-)
+from support.words import Word, grammar_kinds, qualified_names, unbalanced, without_annotations, without_values, words
 
 from urdfsync.domain import Role, Target
 from urdfsync.modelica.names import is_identifier

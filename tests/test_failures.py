@@ -28,14 +28,7 @@ URDF = """<robot name="arm">
   <joint name="hold" type="fixed"><parent link="base"/><child link="tip"/></joint>
 </robot>
 """
-COMMANDS = [
-    ["build"],
-    ["status"],
-    ["diff"],
-    ["check"],
-    ["resolve", "--all", "--keep"],
-    ["watch"],
-]
+COMMANDS = [["build"], ["status"], ["diff"], ["check"], ["resolve", "--all", "--keep"], ["watch"]]
 
 
 @pytest.fixture
@@ -90,12 +83,7 @@ def test_what_nobody_foresaw_ends_in_2_with_its_traceback_in_a_file(
 )
 @pytest.mark.parametrize("error", [MemoryError(), RecursionError("too deep")], ids=repr)
 def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
-    tmp_path: Path,
-    traces: Path,
-    capsys: Capture,
-    monkeypatch: pytest.MonkeyPatch,
-    command: list[str],
-    error: Exception,
+    tmp_path: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch, command: list[str], error: Exception
 ) -> None:
     def fail(*_: object, **__: object) -> None:
         raise error

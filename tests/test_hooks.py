@@ -135,11 +135,7 @@ def test_a_roll_back_because_of_another_hook_leaves_nothing_half_done(make: Call
     fixer = "id: fixer, name: fixer, entry: sh -c 'echo fixed > notes', language: system, always_run: true"
     Path("notes").write_text("one\n")
     site = make(f"  - {{{fixer}}}\n")
-    edit(
-        "ladder.json",
-        '"ohm": 220.5},',
-        '"ohm": 220.5},\n    {"name": "R3", "between": ["in", "out"], "ohm": 5},',
-    )
+    edit("ladder.json", '"ohm": 220.5},', '"ohm": 220.5},\n    {"name": "R3", "between": ["in", "out"], "ohm": 5},')
     site.repository.git("add", "ladder.json")
     Path("notes").write_text("two\n")
     said = site.commit(code=1)

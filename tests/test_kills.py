@@ -38,10 +38,7 @@ PACKAGE = "modelica/Bot"
 MINE = b"\n// saved\n"
 CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\ncross_check = false\n'
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system"),
-]
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")]
 
 
 class Scene:

@@ -25,10 +25,7 @@ from urdfsync.urdf.meshes.process import MeshProcess
 
 Capture = pytest.CaptureFixture[str]
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(sys.platform != "linux", reason="elsewhere not all limits hold"),
-]
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform != "linux", reason="elsewhere not all limits hold")]
 UNIT = (1.0, 1.0, 1.0)
 SOUND = dae().encode()
 ENDLESS = tenfold(11, "").encode()

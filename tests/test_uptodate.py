@@ -372,11 +372,7 @@ def test_an_answer_that_can_not_be_saved_is_no_error(folder: Path, capsys: Captu
 PATHS = (
     *(URDF, LEG, "urdfsync.toml", "robots/leg_meshes/base.stl", "robots/arm_meshes/base.stl", "own/link.mo.jinja"),
     *("modelica/Leg/package.order", "modelica/Leg/Links/Tip/package.mo", "modelica/Lab/package.mo"),
-    *(
-        ".urdfsync/robots/leg.json",
-        ".urdfsync/robots/leg.toml",
-        ".urdfsync/robots/gone.toml",
-    ),
+    *(".urdfsync/robots/leg.json", ".urdfsync/robots/leg.toml", ".urdfsync/robots/gone.toml"),
     *("ros/a/package.xml", "ros/group/arm_meshes/package.xml", ".urdfsync/journal/prepare.json"),
 )
 CHANGES = st.tuples(

@@ -182,8 +182,7 @@ def test_an_empty_output_is_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    "line",
-    ['output = "a\\u0000b"', 'templates = "a\\nb"', 'package_paths = ["a", "\\u001b"]', '"a\\u007f" = 1'],
+    "line", ['output = "a\\u0000b"', 'templates = "a\\nb"', 'package_paths = ["a", "\\u001b"]', '"a\\u007f" = 1']
 )
 def test_control_characters_are_refused_wherever_they_are(line: str) -> None:
     (message,) = failures(robot(line))

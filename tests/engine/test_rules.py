@@ -12,14 +12,7 @@ from hypothesis import strategies as st
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Kind
 from urdfsync.engine.conflicts import find_conflict, resolve
-from urdfsync.engine.rules import (
-    DesiredFile,
-    OnDisk,
-    decide,
-    decide_file,
-    hold,
-    records_after,
-)
+from urdfsync.engine.rules import DesiredFile, OnDisk, decide, decide_file, hold, records_after
 from urdfsync.state.record import Choice, FileRecord, RecordState
 
 ABSENT = OnDisk()

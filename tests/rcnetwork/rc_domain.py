@@ -126,11 +126,7 @@ class RcNetwork:
             yield "ground", Diagnostic(Severity.NOTE, "no-ground", "no node is called `ground`")
 
     def artifacts(
-        self,
-        snapshot: Snapshot,
-        imports: Mapping[str, Import],
-        target: Target,
-        options: Options,
+        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
     ) -> Sequence[Artifact | Order]:
         elements = [snapshot["elements"][name] for name in sorted(snapshot["elements"])]
         nodes = sorted({node for element in elements for node in element["between"]} - {GROUND})

@@ -9,14 +9,7 @@ from hypothesis import strategies as st
 
 from urdfsync.diagnostics import StateError
 from urdfsync.domain import Role
-from urdfsync.state.manifest import (
-    DependencyRecord,
-    Generator,
-    Manifest,
-    Source,
-    dumps,
-    loads,
-)
+from urdfsync.state.manifest import DependencyRecord, Generator, Manifest, Source, dumps, loads
 from urdfsync.state.record import Choice, FileRecord
 from urdfsync.state.record import RecordState as State
 

@@ -17,14 +17,7 @@ from urdfsync.domain import Import, Role
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.rules import OnDisk, decide_file
 from urdfsync.state import modelfile
-from urdfsync.state.manifest import (
-    DependencyRecord,
-    Generator,
-    Manifest,
-    Source,
-    dumps,
-    text_hash,
-)
+from urdfsync.state.manifest import DependencyRecord, Generator, Manifest, Source, dumps, text_hash
 from urdfsync.state.modelfile import ConversionFacts
 from urdfsync.state.record import FileRecord
 from urdfsync.state.repair import Recovered, rebuilt, recover, sides

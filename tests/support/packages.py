@@ -94,11 +94,7 @@ def scaled(package: Package, factor: float) -> Package:
 
 
 def _render(
-    snapshot: Snapshot,
-    imports: Mapping[str, Import],
-    contents: Mapping[str, bytes],
-    target: Target,
-    options: Options,
+    snapshot: Snapshot, imports: Mapping[str, Import], contents: Mapping[str, bytes], target: Target, options: Options
 ) -> Package:
     texts, roles = {}, {}
     for artifact in DOMAIN.artifacts(snapshot, imports, target, options):
