@@ -23,6 +23,7 @@ from support.networks import (
     configure,
     edit,
     kinds,
+    portable,
     rename,
     resistor,
     run,
@@ -55,12 +56,6 @@ def drop(*names: str) -> None:
     Path("ladder.json").write_text(json.dumps(network))
 
 
-def contents(folder: Path) -> dict[str, bytes]:
-    """All files but the list of folders, which is bound to its inode and time."""
-    found = (path for path in folder.rglob("*") if path.is_file() and path.name != "folders.json")
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in found}
-
-
 def conflicts(**request: Any) -> list[str]:
     return [action.path for action in run(**request).conflicts]
 
@@ -87,10 +82,10 @@ def test_base_generated_and_merge_are_put_aside_and_come_back_if_somebody_delete
     merge = (ASIDE / "R1.merge.mo").read_text()
     assert "annotation (Documentation);" in merge
     assert "parameters.C*der(v)" in merge
-    aside = contents(conflict)
+    aside = portable(conflict)
     shutil.rmtree(".urdfsync/conflicts")
     assert run().standoffs[0].base == base
-    assert contents(conflict) == aside
+    assert portable(conflict) == aside
 
 
 def test_keep_is_remembered_until_something_new_would_be_written(conflict: Path) -> None:
@@ -355,7 +350,7 @@ def test_a_clone_reaches_the_same_result(
     monkeypatch.chdir(other)
     assert run().standoffs == first.standoffs
     run(choices={RECORD: Choice.MERGE})
-    assert contents(other) == contents(project)
+    assert portable(other) == portable(project)
     assert "150" in (other / RECORD).read_text()
 
 

@@ -10,6 +10,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from support.replay import contents
 
 from urdfsync import cli
 from urdfsync.state.manifest import text_hash
@@ -36,8 +37,7 @@ end Bench;
 
 
 def files(root: Path) -> Files:
-    folder = root / "modelica"
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    return contents(root / "modelica")
 
 
 @pytest.fixture

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 from lxml import etree
+from support.replay import contents
 
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
@@ -36,10 +36,6 @@ def run(project: Path, *, full: bool = False) -> Result:
     config = load(project / "urdfsync.toml")
     (result,) = build(config, config.robots, BuildOptions(full=full))
     return result
-
-
-def contents(folder: Path) -> Mapping[str, bytes]:
-    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
 def test_the_order_of_elements_in_the_file_makes_no_difference(arm: Path) -> None:

@@ -12,8 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.networks import run_all
-from support.replay import contents
+from support.networks import portable, run_all
 
 from urdfsync import config
 from urdfsync.diagnostics import ConfigError
@@ -36,11 +35,6 @@ def robots(project: Path) -> Path:
     return project
 
 
-def files(folder: Path) -> dict[str, bytes]:
-    """All files but the list of folders, which is bound to its inode and time."""
-    return {name: content for name, content in contents(folder).items() if not name.endswith("folders.json")}
-
-
 @pytest.fixture
 def started(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """How many processes were asked for, each time that a pool started."""
@@ -58,12 +52,12 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 def test_many_robots_at_once_are_built_as_one_after_the_other(robots: Path, started: list[int]) -> None:
     alone = run_all(jobs=1)
     assert started == []
-    result = files(robots)
+    result = portable(robots)
     for name in ("modelica", ".urdfsync"):
         shutil.rmtree(robots / name)
     together = run_all(jobs=2)
     assert started == [2]
-    assert files(robots) == result
+    assert portable(robots) == result
     assert [one.robot for one in together] == [one.robot for one in alone]
     assert [one.actions for one in together if one.robot == "n0"] == [one.actions for one in alone if one.robot == "n0"]
     assert [one.failed for one in together] == [number == 2 for number in range(COUNT)]
@@ -149,11 +143,11 @@ def test_a_cluster_plans_what_this_process_writes(robots: Path, tmp_path_factory
         together = run_all(executor=cluster.scheduler_address)
     assert [one.failed for one in together] == [number == 2 for number in range(COUNT)]
     assert together[2].diagnostics == run_all(jobs=1)[2].diagnostics
-    result = files(robots / "modelica")
+    result = portable(robots / "modelica")
     for name in ("modelica", ".urdfsync"):
         shutil.rmtree(robots / name)
     run_all(jobs=1)
-    assert files(robots / "modelica") == result
+    assert portable(robots / "modelica") == result
 
 
 def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,6 +12,8 @@ import pytest
 import tomli
 import tomli_w
 from support.git import NEEDS_GIT, Repository
+from support.networks import MANIFEST, edit
+from support.replay import contents
 
 from urdfsync import cli
 from urdfsync.diagnostics import OutputError
@@ -19,7 +21,6 @@ from urdfsync.files import digest
 from urdfsync.state.store import Store
 
 Capture = pytest.CaptureFixture[str]
-MANIFEST = ".urdfsync/robots/ladder.toml"
 OWN = {"Pump.mo": b"within Mine;\nmodel Pump\nend Pump;\n", "Resources/table.csv": b"1,2\n", "package.order": b"Pump\n"}
 """A package of the user's own."""
 
@@ -28,18 +29,13 @@ def run(*arguments: str) -> int:
     return cli.main(arguments)
 
 
-def contents(folder: Path) -> dict[str, bytes]:
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-
-
 def rewrite(manifest: Path, **changes: Any) -> None:
     document = tomli.loads(manifest.read_text())
     manifest.write_text(tomli_w.dumps({**document, **changes}))
 
 
 def move(project: Path, package: str = "Filter") -> None:
-    file = project / "urdfsync.toml"
-    file.write_text(file.read_text().replace('"Ladder"', f'"{package}"'))
+    edit(project / "urdfsync.toml", '"Ladder"', f'"{package}"')
 
 
 @pytest.fixture
@@ -133,8 +129,7 @@ def test_a_clone_that_has_built_moves_its_package(project: Path, tmp_path: Path,
 
 
 def _rename_robot(project: Path) -> None:
-    file = project / "urdfsync.toml"
-    file.write_text(file.read_text().replace("[robots.ladder]", "[robots.filter]"))
+    edit(project / "urdfsync.toml", "[robots.ladder]", "[robots.filter]")
 
 
 def _move_output(project: Path) -> None:
