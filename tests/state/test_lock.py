@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from support.networks import ROBOT, Snapshot, configure, rename, run_all
 
 import urdfsync
 from urdfsync import cli, config
@@ -112,14 +113,11 @@ def test_a_lock_file_that_cant_be_one(path: Path) -> None:
 
 
 def run(project: Path, **request: object) -> Result:
-    loaded = config.load(project / "urdfsync.toml")
-    (result,) = build(loaded, loaded.robots, BuildOptions(wait=0.1, **request))  # type: ignore[arg-type]
+    (result,) = run_all(wait=0.1, **request)
     return result
 
 
-def test_a_build_with_something_to_write_waits_and_then_gives_up(
-    project: Path, snapshot_of: Callable[[Path], dict[str, tuple[int, bytes]]]
-) -> None:
+def test_a_build_with_something_to_write_waits_and_then_gives_up(project: Path, snapshot_of: Snapshot) -> None:
     with holder(project) as process:
         before = snapshot_of(project)
         result = run(project)
@@ -149,13 +147,11 @@ def test_a_dry_run_waits_for_a_build_that_is_writing(
 
 
 def test_the_lock_belongs_to_the_whole_command(project: Path) -> None:
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
-    loaded = config.load(project / "urdfsync.toml")
+    configure(ROBOT.format("other", "Other"))
     with holder(project):
-        results = list(build(loaded, loaded.robots, BuildOptions(wait=0)))
+        results = run_all(wait=0)
     assert [result.locked for result in results] == [True, True]
-    results = []
+    results, loaded = [], config.load(project / "urdfsync.toml")
     for result in build(loaded, loaded.robots, BuildOptions()):
         results.append(result)
         with pytest.raises(LockedError):
@@ -220,8 +216,7 @@ def test_three_builds_at_once_equal_one(project: Path, rc_site: Path) -> None:
     rc_folder = Path(sys.modules["rc_domain"].__file__ or "").parent
     folders = (Path(urdfsync.__file__).parents[1], rc_site, rc_folder)
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, folders))}
-    source = project / "ladder.json"
-    source.write_text(source.read_text().replace('"R2"', '"R3"'))
+    rename("R2", "R3")
     command = [sys.executable, "-m", "urdfsync", "build", "--json"]
     pipe = subprocess.PIPE
     processes = [subprocess.Popen(command, cwd=project, env=environment, stdout=pipe, stderr=pipe) for _ in range(3)]
