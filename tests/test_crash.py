@@ -194,7 +194,7 @@ def test_a_source_that_changes_after_a_crash(changed: Path, tmp_path: Path) -> N
 FALLIBLE = [name for name in crashes.NAMES if name != "remove_folder"]  # which passes over every error
 
 
-@pytest.mark.parametrize("number", [errno.ENOSPC, pytest.param(errno.EACCES, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES])
 @pytest.mark.parametrize("lasting", [False, True])
 def test_a_system_that_refuses_leaves_all_as_it_was(changed: Path, tmp_path: Path, number: int, lasting: bool) -> None:
     before, wanted = contents(changed), expected(changed, tmp_path / "clean")

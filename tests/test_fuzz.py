@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from random import Random
 
 import pytest
-from fuzzing import cases, config, state, urdf
+from fuzzing import cases, urdf
 from support.workplace import Fault
 
 FUZZ = Path(__file__).with_name("fuzz.py")
@@ -18,15 +17,6 @@ PATIENCE = 300.0
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform == "win32", reason="no such signals and FIFOs")]
 
 
-@pytest.mark.parametrize(("run", "count"), [(urdf.run, 60), (config.run, 10), (state.run, 10)])
-def test_no_case_shows_a_fault(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Callable[[int, int], int], count: int
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert run(count, 20) == 0
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "count"), [("URDF", 2000), ("mesh", 2000), ("config", 100), ("state", 100)])
 def test_no_case_of_many_shows_a_fault(kind: str, count: int) -> None:
     command = [sys.executable, str(FUZZ), kind, str(count), "--seed", "5000"]

@@ -443,7 +443,6 @@ def test_another_build_is_running(repo: Repository, capsys: Capture) -> None:
         assert "is building here" in said(capsys, "build", "--wait", "0", code=4)[0]
 
 
-@pytest.mark.slow
 def test_all_ways_in_which_index_and_working_tree_can_differ(
     repo: Repository, capsys: Capture, snapshot_of: Snapshot
 ) -> None:

@@ -157,7 +157,6 @@ def test_a_command_that_reads_is_safe_in_a_repository_with_all_attacks(clone: Cl
 
 
 @pytest.mark.parametrize("name", [name for name, attack in hostile.ATTACKS.items() if attack.is_committed])
-@pytest.mark.slow
 def test_commands_that_read_are_safe_from_each_attack_alone(clone: Clone, name: str) -> None:
     before, number = clone.contents(), list(hostile.ATTACKS).index(name)
     _assert_harmless(clone, before, clone.run_all(clone.root / ALONE / str(number), READING))

@@ -47,7 +47,6 @@ def test_sdist_carries_all_that_the_tests_need(distributions: Path) -> None:
     assert names >= tracked("urdfsync", "templates", "modelica", "tests", "tools", "docs", "urdfsync.toml", "LICENSE")
 
 
-@pytest.mark.slow
 def test_installed_wheel_builds_a_robot(distributions: Path, tmp_path: Path) -> None:
     (wheel,) = distributions.glob("*.whl")
     environment = tmp_path / "environment"

@@ -234,7 +234,6 @@ def test_small_stl_and_obj_files_need_neither_the_process_nor_libraries(folder: 
     assert len(list(Path("modelica/Arm/Resources").iterdir())) == 2
 
 
-@pytest.mark.slow
 def test_the_daemon_builds_the_others_and_ends_at_once(folder: Path) -> None:
     for name in ("tenfold.dae", "many.gltf", "pipe.obj"):
         write_hostile(folder, name)

@@ -189,7 +189,7 @@ def test_a_file_that_was_changed_back_in_time_is_seen(project: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seed", [1, 2])
 def test_any_row_of_edits_is_seen(project: Path, seed: int) -> None:
     random = Random(seed)
     _follow(project, random, (random.choice(EDITS) for _ in range(30)))
