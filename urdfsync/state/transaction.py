@@ -8,7 +8,7 @@ A transaction only goes forward:
    whether it is the one that was planned with. If it is not, somebody has saved the target in between: the two are
    exchanged back, and the target is *overtaken*.
 4. The recorded state takes its place, the manifest last, unless a target was overtaken: then it stays as it was, and
-   the next plan finds new files as they would be written, and a conflict in the one that was saved.
+   the build records what was done.
 5. What is left under temporary names is removed.
 
 Whoever finds a journal finishes the transaction by the same steps: what stands in a target and under its temporary
@@ -52,13 +52,15 @@ class Change(msgspec.Struct, frozen=True):
     """None to delete the file."""
     old: str | None
     """SHA-256 (hex) of the bytes that were there when this was decided; None if there was no file."""
+    is_moved: bool = False
+    """Whether this is a text of the user's that leaves its old place; it is kept if it can't come here."""
 
 
 class Applied(msgspec.Struct, frozen=True):
     """What became of a transaction."""
 
-    overtaken: tuple[Path, ...] = ()
-    """Targets that somebody saved in between; they are as they were saved."""
+    not_done: tuple[Path, ...] = ()
+    """Targets that somebody saved in between, and the recorded state that stays because of it."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
@@ -83,7 +85,10 @@ class Transactions:
         Raises OutputError if a file can't be written: nothing has changed then. Raises UnfinishedError if that shows
         only when files have changed already; `recover` goes on.
         """
-        steps = (Step(self._key(c.path), c.old, None if c.content is None else digest(c.content)) for c in changes)
+        steps = (
+            Step(self._key(c.path), c.old, None if c.content is None else digest(c.content), c.is_moved)
+            for c in changes
+        )
         made = self._missing_folders(change.path.parent for change in changes if change.content is not None)
         journal = Journal(robot, os.urandom(8).hex(), tuple(steps), tuple(made), tuple(map(self._key, emptied)))
         self._check(journal)
@@ -101,7 +106,7 @@ class Transactions:
             else:
                 self._discard(journal, known)
             raise
-        profiling.count("written", len(changes) - len(applied.overtaken))
+        profiling.count("written", len(changes) - len(applied.not_done))
         return applied
 
     def recover(self, repair: bool = False) -> tuple[Diagnostic, ...]:
@@ -163,10 +168,10 @@ class Transactions:
     def _finish(self, journal: Journal) -> Applied:
         """Change all targets that have not changed yet, and remove all traces. Raises UnfinishedError."""
         files = self._files(journal)
-        overtaken: list[Path] = []
+        not_done: list[Path] = []
         try:
             if self._journals.phase() is not Phase.DONE:
-                overtaken = self._change(files)
+                not_done = self._change(files)
                 file_operations.sync(sorted({file.path.parent for file in files if file.path.parent.is_dir()}))
                 self._journals.enter(Phase.DONE)
             left = {str(path) for folder in {file.path.parent for file in files} for path in _files_in(folder)}
@@ -176,9 +181,9 @@ class Transactions:
             self._journals.remove()
         except OSError as error:
             self._refuse_to_finish(error)
-        message = "it was saved in the instant in which a build replaced it; that save is kept as"
+        message = "it was saved in the instant in which a build wrote it; the other text is kept as"
         return Applied(
-            tuple(overtaken),
+            tuple(not_done),
             tuple(
                 Diagnostic(Severity.WARNING, "kept-save", f"{message} {self._shown(name)}", self._shown(file.path))
                 for file, name in saved
@@ -186,17 +191,17 @@ class Transactions:
         )
 
     def _change(self, files: Sequence[_File]) -> list[Path]:
-        """Change all targets, the recorded state last. Returns those that somebody saved in between."""
+        """Change all targets, the recorded state last. Returns those that are not as planned."""
         state = [file for file in files if file.path.parent == self._folder / "robots"]
         others = [file for file in files if file not in state]
         changed = [file.change() for file in others]
         # again, since somebody may have written to an old file through a handle that was opened before
         again = [done if file.old is None else file.change() for file, done in zip(others, changed, strict=True)]
-        overtaken = [file.path for file, done in zip(others, again, strict=True) if not done]
+        not_done = [file.path for file, done in zip(others, again, strict=True) if not done]
         for file in state:
-            if not overtaken and not file.change():
-                overtaken.append(file.path)
-        return overtaken
+            if not_done or not file.change():
+                not_done.append(file.path)
+        return not_done
 
     def _check(self, journal: Journal, source: Path | None = None) -> None:
         """Refuse files and folders that no build writes, and links on the way. Raises StateError or OutputError.
@@ -248,7 +253,7 @@ class Transactions:
     def _files(self, journal: Journal) -> list[_File]:
         paths = [self._path(step.path) for step in journal.steps]
         return [
-            _File(path, path.with_name(f".{journal.token}-{number}{TEMPORARY}"), step.old, step.new)
+            _File(path, path.with_name(f".{journal.token}-{number}{TEMPORARY}"), step.old, step.new, step.is_moved)
             for number, (path, step) in enumerate(zip(paths, journal.steps, strict=True))
         ]
 
@@ -280,6 +285,7 @@ class _File(msgspec.Struct, frozen=True):
     """Holds the new file before the change, and the old one after it."""
     old: str | None
     new: str | None
+    is_moved: bool
 
     def change(self) -> bool:
         """Change the target, unless that is done. Returns False if somebody saved it in between: then it is theirs.
@@ -296,11 +302,13 @@ class _File(msgspec.Struct, frozen=True):
     def clear(self, left: Collection[str]) -> Iterator[Path]:
         """Remove what is left under temporary names. What nobody planned with is kept; yields under which name.
 
-        `left` are all paths that exist: nearly all temporary files are gone.
+        So is a text of the user's that was to move here. `left` are all paths that exist: nearly all temporary files
+        are gone.
         """
         for path in (self.temporary, file_operations.spare(self.temporary)):
             found = hash_of(path) if str(path) in left else None
-            if found in (self.old, self.new):
+            is_homeless = self.is_moved and found == self.new != hash_of(self.path)
+            if found in (self.old, self.new) and not is_homeless:
                 file_operations.remove(path)
             elif found is not None:
                 yield self._keep(path)
