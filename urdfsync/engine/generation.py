@@ -178,6 +178,8 @@ class Generation:
             for old_path, path in changes.moved_files(written, today, {}).items():
                 before[old_path] = (last[path].owner, last[path].template)
         now = {path: (a.owner, a.template) for path, a in self.package.artifacts.items()}
+        if before == now and inputs.folder == inputs.old_folder and not any(r.origin for r in texts.values()):
+            return {}
         renamed = changes.moved_files(before, now, self.changes.renames if self.changes else {})
         targets = {inputs.old_key(path): inputs.key(renamed.get(path, path)) for path in texts}
         return renamed_files(recorded.files, targets, {inputs.key(path) for path in now})

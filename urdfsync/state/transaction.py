@@ -29,7 +29,7 @@ import msgspec
 
 from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
-from urdfsync.files import TEMPORARY, Tree, digest, failure
+from urdfsync.files import TEMPORARY, Tree, digest, failure, placed
 from urdfsync.state import file_operations
 from urdfsync.state.journal import Journal, JournalFolder, Phase, Step
 
@@ -72,6 +72,7 @@ class Transactions:
     ) -> None:
         """`root` is the configuration's folder, `folder` the state folder; `outputs` may be written to as well."""
         self._root, self._folder, self._shown, self._outputs = root, folder, shown, outputs
+        self._prefix = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
         self._journals = JournalFolder(root, folder / "journal", shown)
 
     def pending(self) -> bool:
@@ -174,7 +175,7 @@ class Transactions:
                 not_done = self._change(files)
                 file_operations.sync(sorted({file.path.parent for file in files if file.path.parent.is_dir()}))
                 self._journals.enter(Phase.DONE)
-            left = {str(path) for folder in {file.path.parent for file in files} for path in _files_in(folder)}
+            left = {path for folder in {str(file.path.parent) for file in files} for path in _files_in(folder)}
             saved = [(file, name) for file in files for name in file.clear(left)]
             for path in journal.emptied:
                 file_operations.remove_folder(self._path(path))
@@ -209,30 +210,32 @@ class Transactions:
         `source` is the file of a journal that was found; None for a build that is about to write.
         """
         trees = [Tree(self._root, self._shown), *(Tree(output, self._shown) for output in self._outputs)]
-        paths = [(self._path(step.path), False) for step in journal.steps]
-        paths += [(self._path(path), True) for path in (*journal.made, *journal.emptied)]
+        paths = [(placed(self._prefix, step.path), False) for step in journal.steps]
+        paths += [(placed(self._prefix, path), True) for path in (*journal.made, *journal.emptied)]
         for path, is_folder in paths:
             tree = next((tree for tree in trees if tree.covers(path)), None)
             if tree is None or not self._is_written(path, tree.root, is_folder):
                 code, hint = ("broken-journal", _REPAIR) if source else ("outside", "")
                 if source and tree is None:
                     hint = f"bring back the `output` that the robot had, and build; {_REPAIR}"
-                message, file = f"{self._shown(path)} is no file that a build writes", self._shown(source or path)
+                message = f"{self._shown(Path(path))} is no file that a build writes"
+                file = self._shown(source or Path(path))
                 raise StateError(Diagnostic(Severity.ERROR, code, message, file, hint=hint))
-            tree.check_folder(path.parent)
+            tree.check_folder(os.path.dirname(path))  # noqa: PTH120 - strings: there are thousands of files
 
-    def _is_written(self, path: Path, root: Path, is_folder: bool) -> bool:
+    def _is_written(self, path: str, root: Path, is_folder: bool) -> bool:
         """Whether a path below a root is of a package, around one, or of the state."""
-        if path.is_relative_to(self._folder):
-            parts = path.relative_to(self._folder).parts
-            if is_folder or parts == (".gitignore",):
+        state = str(self._folder)
+        if path == state or path.startswith(state + os.sep):
+            parts = path[len(state) + 1 :].replace(os.sep, "/").split("/")
+            if is_folder or parts == [".gitignore"]:
                 return True
-            is_state = len(parts) == 2 and path.suffix in _STATE_FILES.get(parts[0], ())
+            is_state = len(parts) == 2 and parts[1].endswith(_STATE_FILES.get(parts[0], ()))
             return is_state or (len(parts) > 1 and parts[0] == "conflicts")
-        parts = path.relative_to(root).parts
+        parts = path[len(str(root)) :].strip(os.sep).replace(os.sep, "/").split("/")
         if any(part.startswith(".") for part in parts):  # `.git` among them
             return False
-        return is_folder or parts[-1] == "package.order" or path.suffix == ".mo" or "Resources" in parts[1:-1]
+        return is_folder or parts[-1] == "package.order" or parts[-1].endswith(".mo") or "Resources" in parts[1:-1]
 
     def _set_aside(self) -> Diagnostic:
         try:
@@ -251,11 +254,12 @@ class Transactions:
         raise UnfinishedError(*known, found) from error
 
     def _files(self, journal: Journal) -> list[_File]:
-        paths = [self._path(step.path) for step in journal.steps]
-        return [
-            _File(path, path.with_name(f".{journal.token}-{number}{TEMPORARY}"), step.old, step.new, step.is_moved)
-            for number, (path, step) in enumerate(zip(paths, journal.steps, strict=True))
-        ]
+        found = []
+        for number, step in enumerate(journal.steps):
+            folder, name = os.path.split(placed(self._prefix, step.path))
+            temporary = f"{folder}{os.sep}.{journal.token}-{number}{TEMPORARY}"
+            found.append(_File(Path(folder, name), Path(temporary), step.old, step.new, step.is_moved))
+        return found
 
     def _missing_folders(self, folders: Iterable[Path]) -> list[str]:
         """The folders that files need and that do not exist, outermost first."""
@@ -269,12 +273,12 @@ class Transactions:
 
     def _key(self, path: Path) -> str:
         """A path as journals name it: from the configuration's folder, POSIX."""
-        if path.is_relative_to(self._root):
-            return path.relative_to(self._root).as_posix()
-        return Path(os.path.relpath(path, self._root)).as_posix()
+        text = str(path)
+        key = text[len(self._prefix) :] if text.startswith(self._prefix) else os.path.relpath(path, self._root)
+        return key.replace(os.sep, "/")
 
     def _path(self, key: str) -> Path:
-        return Path(os.path.normpath(self._root / key))
+        return Path(placed(self._prefix, key))
 
 
 class _File(msgspec.Struct, frozen=True):
@@ -367,8 +371,8 @@ def hash_of(path: Path) -> str | None:
     return None if content is None else digest(content)
 
 
-def _files_in(folder: Path) -> list[Path]:
+def _files_in(folder: str) -> list[str]:
     try:
-        return list(folder.iterdir())
+        return [f"{folder}{os.sep}{name}" for name in os.listdir(folder)]  # noqa: PTH208
     except (FileNotFoundError, NotADirectoryError):
         return []
