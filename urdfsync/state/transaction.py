@@ -310,7 +310,9 @@ class _File(msgspec.Struct, frozen=True):
         are gone.
         """
         for path in (self.temporary, file_operations.spare(self.temporary)):
-            found = hash_of(path) if str(path) in left else None
+            if str(path) not in left:
+                continue
+            found = hash_of(path)
             is_homeless = self.is_moved and found == self.new != hash_of(self.path)
             if found in (self.old, self.new) and not is_homeless:
                 file_operations.remove(path)
