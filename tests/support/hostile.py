@@ -31,7 +31,7 @@ MINE = "modelica/Other/Mine.mo"
 class Attack:
     """One attack: what it does to a project, and whether git can carry it to somebody else."""
 
-    make: Callable[[Path, Path], None]
+    make: Callable[[Path, Path], object]
     is_committed: bool = True
 
 
@@ -73,6 +73,16 @@ def _path(project: Path, outside: Path, path: str) -> str:
 
 def _digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
+
+
+def _text(place: str, text: str) -> Callable[[Path, Path], object]:
+    """A text in the place of a file."""
+    return lambda project, outside: (project / place).write_text(text)
+
+
+def _edited(place: str, old: str, new: str) -> Callable[[Path, Path], None]:
+    """A file with other words in one place."""
+    return lambda project, outside: _edit(project / place, old, new)
 
 
 # 1. Code of the working folder
@@ -187,10 +197,6 @@ def _former_folder(project: Path, outside: Path) -> None:
     file.write_text(json.dumps({"folders": entry, "inode": status.st_ino, "written": status.st_mtime_ns}))
 
 
-def _deep_folders(project: Path, outside: Path) -> None:
-    (project / ".urdfsync/folders.json").write_text('{"x":' + "[" * 200_000)
-
-
 # 5. Links, and outputs elsewhere
 
 
@@ -234,11 +240,8 @@ def _output_outside(project: Path, outside: Path) -> None:
 
 
 def _base_not_text(project: Path, outside: Path) -> None:
-    _base(project, b"\xff\xfe", zlib.compress(b"\xff\xfe"))
-
-
-def _base(project: Path, text: bytes, stored: bytes) -> None:
-    """A kept text under the hash that the manifest has for a file."""
+    """What is no text, kept under the hash that the manifest has for a file."""
+    text = b"\xff\xfe"
     lines = (project / MANIFEST).read_text().splitlines(keepends=True)
     entry = f'[files."{Path(RECORD).relative_to("modelica/Arm").as_posix()}"]\n'
     at = lines.index(entry)
@@ -246,15 +249,7 @@ def _base(project: Path, text: bytes, stored: bytes) -> None:
     lines[changed] = f'base = "{_digest(text)}"\n'
     (project / MANIFEST).write_text("".join(lines))
     (project / ".urdfsync/base/arm").mkdir(parents=True, exist_ok=True)
-    (project / ".urdfsync/base/arm" / _digest(text)).write_bytes(stored)
-
-
-def _deep_state(project: Path, outside: Path) -> None:
-    (project / MODEL).write_text('{"snapshot":' + "[" * 200_000)
-
-
-def _deep_manifest(project: Path, outside: Path) -> None:
-    (project / MANIFEST).write_text("a = " + "[" * 200_000)
+    (project / ".urdfsync/base/arm" / _digest(text)).write_bytes(zlib.compress(text))
 
 
 def _entities(project: Path, outside: Path) -> None:
@@ -262,10 +257,6 @@ def _entities(project: Path, outside: Path) -> None:
     head = f'<!DOCTYPE robot [<!ENTITY e0 "ha"><!ENTITY x SYSTEM "file://{outside}/victim.mo">{declared}]>'
     text = (project / "arm.urdf").read_text().replace('name="base"', 'name="&e12;&x;"')
     (project / "arm.urdf").write_text(head + text.partition("?>")[2])
-
-
-def _deep_urdf(project: Path, outside: Path) -> None:
-    (project / "arm.urdf").write_text("<robot>" + "<link>" * 100_000 + "</link>" * 100_000 + "</robot>")
 
 
 def _deep_chain(project: Path, outside: Path) -> None:
@@ -278,7 +269,6 @@ def _deep_chain(project: Path, outside: Path) -> None:
 def _terminal_names(project: Path, outside: Path) -> None:
     """Names that a terminal would obey: as an 8-bit control sequence, and as text that runs backwards."""
     text = urdf().replace('"tip"', '"\x9b31m\u202etip"').replace('"turn"', '"&#x9b;2J\u2028turn"')
-    (project / "arm.urdf").write_text(text + "<!-- \x9b2J -->")
     (project / "arm.urdf").write_text(text)
 
 
@@ -288,15 +278,6 @@ def _terminal_files(project: Path, outside: Path) -> None:
     (project / "\x1b[2J.xml").write_text("no robot")
     shutil.copy(project / MANIFEST, project / ".urdfsync/robots/\x1b[31m.toml")
     _edit(project / "urdfsync.toml", '"arm.urdf"', '"\\u001b]0;evil\\u0007.urdf"')
-
-
-def _terminal_manifest(project: Path, outside: Path) -> None:
-    """A manifest with names and paths that a terminal would obey."""
-    _edit(project / MANIFEST, 'tip = "tip"', '"\\u001b[31mtip" = "\\u009b2J"')
-
-
-def _huge_numbers(project: Path, outside: Path) -> None:
-    _edit(project / "arm.urdf", 'mass value="1.5"', f'mass value="{"9" * 100_000}"')
 
 
 # Git
@@ -335,7 +316,7 @@ ATTACKS: Mapping[str, Attack] = {
     "a manifest of a package outside": Attack(_manifest_folder(OUTSIDE)),
     "a manifest of the user's package": Attack(_manifest_folder("modelica/Other")),
     "a list of former folders": Attack(_former_folder),
-    "a deep list of former folders": Attack(_deep_folders),
+    "a deep list of former folders": Attack(_text(".urdfsync/folders.json", '{"x":' + "[" * 200_000)),
     "state that is a link": Attack(_link(".urdfsync", "state")),
     "manifests that are a link": Attack(_link(".urdfsync/robots", "state")),
     "a manifest that is a link": Attack(_link(MANIFEST, "victim.mo")),
@@ -358,15 +339,15 @@ ATTACKS: Mapping[str, Attack] = {
     "a lock that is a FIFO": Attack(_fifo(".urdfsync/lock"), is_committed=False),
     "an output that is a FIFO": Attack(_fifo(RECORD), is_committed=False),
     "a base that is no text": Attack(_base_not_text),
-    "a deep model": Attack(_deep_state),
-    "a deep manifest": Attack(_deep_manifest),
+    "a deep model": Attack(_text(MODEL, '{"snapshot":' + "[" * 200_000)),
+    "a deep manifest": Attack(_text(MANIFEST, "a = " + "[" * 200_000)),
     "entities": Attack(_entities),
-    "a deep source": Attack(_deep_urdf),
+    "a deep source": Attack(_text("arm.urdf", "<robot>" + "<link>" * 100_000 + "</link>" * 100_000 + "</robot>")),
     "a long chain": Attack(_deep_chain),
-    "huge numbers": Attack(_huge_numbers),
+    "huge numbers": Attack(_edited("arm.urdf", 'mass value="1.5"', f'mass value="{"9" * 100_000}"')),
     "names for the terminal": Attack(_terminal_names),
     "files for the terminal": Attack(_terminal_files),
-    "a manifest for the terminal": Attack(_terminal_manifest),
+    "a manifest for the terminal": Attack(_edited(MANIFEST, 'tip = "tip"', '"\\u001b[31mtip" = "\\u009b2J"')),
     "a repository in the repository": Attack(_bare_repository),
     "attributes of git": Attack(_git_files),
 }
