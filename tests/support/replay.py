@@ -62,7 +62,7 @@ def in_haste() -> Iterator[None]:
     """Builds share their compiled templates, and leave it to the system when the disk gets to know."""
     compiled = functools.cache(render.Renderer)
     with (
-        mock.patch.object(render, "Renderer", lambda folders: compiled(tuple(folders))),
+        mock.patch.object(render, "Renderer", lambda folders, **options: compiled(tuple(folders), **options)),
         mock.patch.object(file_operations, "sync"),
     ):
         yield
