@@ -38,7 +38,7 @@ def phase(project: Path) -> Phase | None:
 
 @pytest.fixture(autouse=True)
 def _in_haste() -> Iterator[None]:
-    """Hundreds of builds, also in forked processes; only a power failure shows what is on the disk already."""
+    """Only a power failure makes a difference between what is on the disk and what the system says is there."""
     with replay.in_haste():
         yield
 
