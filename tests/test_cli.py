@@ -72,7 +72,7 @@ def test_build_of_what_was_edited(edited: Path, capsys: Capture) -> None:
     assert cli.main(["build"]) == 0
     assert capsys.readouterr().out.splitlines() == [
         "ladder: 1 file written, 1 kept because you edited it",
-        "  R2 / ohm: 220.5 → 330 Ω (+49.7 %)",
+        "  R2: ohm 220.5 → 330 Ω (+49.7 %)",
     ]
 
 

@@ -61,7 +61,7 @@ class Result(msgspec.Struct, frozen=True):
     drawing: Path | None = None
     changes: Changes | None = None
     """What changed in the model since the last build; None if nothing did, or there is none to compare with."""
-    standoffs: tuple[Conflict, ...] = ()
+    conflict_texts: tuple[Conflict, ...] = ()
     """The texts of the files that conflict, in the order of their paths."""
     checked: Checked | None = None
     """What a check of the package said; None if there was none. What it found is among the diagnostics."""

@@ -17,10 +17,11 @@ from urdfsync.diagnostics import Severity
 from urdfsync.engine.actions import DELETES, Action, Kind
 from urdfsync.engine.build import build
 from urdfsync.outcome import Exit, Result, exit_code
-from urdfsync.output.console import Console, StyledLine, headline, is_terminal, line, more
+from urdfsync.output.conflicts import shown_path
+from urdfsync.output.console import Console, StyledLine, first_lines, headline, line
 from urdfsync.output.json_values import action_values, result_values
 from urdfsync.output.phrases import RESOLVE_HINT, change_classes, counted, error_count, generator_change
-from urdfsync.output.results import FileLine, file_lines
+from urdfsync.output.results import file_line
 
 _STALE = 20
 """So many stale files of a robot are listed at most, without --verbose."""
@@ -69,7 +70,6 @@ _STYLES = {
     FileStatus.ORPHAN: "magenta",
     FileStatus.IN_STEP: "green",
 }
-_COLUMN = max(map(len, FileStatus))
 
 
 class StatusEntry(msgspec.Struct, frozen=True):
@@ -99,12 +99,6 @@ class PackageStatus(msgspec.Struct, frozen=True):
         """Whether a build would write nothing, and no file is in conflict; edits and orphans are in order."""
         off = {FileStatus.CONFLICT, FileStatus.MISSING, FileStatus.STALE}
         return not self.result.failed and all(file.status not in off for file in self.files)
-
-    @property
-    def counts(self) -> Mapping[FileStatus, int]:
-        """The number of files of each status that there is, in the order of `FileStatus`."""
-        found = Counter(file.status for file in self.files)
-        return {status: found[status] for status in FileStatus if found[status]}
 
 
 def add(commands: arguments.Commands) -> None:
@@ -140,7 +134,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 
 def package_status(result: Result) -> PackageStatus:
     """How a robot's package stands, from the result of a dry build."""
-    mergeable = {found.path for found in result.standoffs if found.merge and found.merge.text is not None}
+    mergeable = {found.path for found in result.conflict_texts if found.merge and found.merge.text is not None}
     files = []
     for action in result.actions:
         if action.kind not in _STATUSES:
@@ -188,24 +182,20 @@ def _values(found: PackageStatus) -> dict[str, Any]:
 def _lines(found: PackageStatus, verbose: bool) -> Iterator[StyledLine]:
     """Everything that there is to say about one robot: with `verbose` all files, else those that are not in step.
 
-    New files of a robot that was never built are not named.
+    Stale files come last. New files of a robot that was never built are not named.
     """
     result = found.result
-    stream = sys.stderr if result.failed else sys.stdout
     mark, style = ("✓", "green") if found.in_step else ("!", "bold red" if result.conflicts else "yellow")
     mark, style = ("✗", "bold red") if result.failed else (mark, style)
-    yield headline(stream, result.robot, summary(found), mark, style)
+    yield headline(sys.stderr if result.failed else sys.stdout, result.robot, summary(found), mark, style)
     yield from (line((f"  {words}", "")) for words in next_build(found))
-    files = sorted(found.files, key=lambda file: file.path.rpartition("/"))
-    stale = [file.path for file in files if file.status is FileStatus.STALE]
-    few = len(stale) if verbose or len(stale) <= _STALE else _STALE - 1
-    few = few if found.is_built or verbose else 0
-    if not verbose:
-        files = [file for file in files if file.status is not FileStatus.IN_STEP and file.path not in stale[few:]]
-    lines = [FileLine(file.path, f"{file.status:<{_COLUMN}}", _STYLES[file.status], file.reason) for file in files]
-    yield from file_lines(lines, result.root, by_folder=is_terminal(stream))
-    if few < len(stale) and found.is_built:
-        yield more(len(stale) - few, "stale file")
+    lines: dict[bool, list[StyledLine]] = {False: [], True: []}
+    for file in sorted(found.files, key=lambda file: file.path.rpartition("/")):
+        is_stale = file.status is FileStatus.STALE
+        if verbose or (file.status is not FileStatus.IN_STEP and (found.is_built or not is_stale)):
+            path = shown_path(result, file.path)
+            lines[is_stale].append(file_line(path, file.status, _STYLES[file.status], file.reason))
+    yield from (*lines[False], *first_lines(lines[True], _STALE, "stale file", verbose=verbose))
     if result.conflicts:
         yield line((RESOLVE_HINT, "dim"))
 
@@ -214,14 +204,14 @@ def summary(found: PackageStatus) -> str:
     """How a package stands, as the rest of a line that names the robot."""
     if found.result.failed:
         return f"{error_count(found.result.diagnostics)}, so nothing can be said of its files"
-    counts = {status: number for status, number in found.counts.items() if status is not FileStatus.IN_STEP}
-    if found.is_built or found.in_step:
-        head = f"{'in' if found.in_step else 'out of'} step, {counted(len(found.files), 'file')}"
-    else:
+    counts = Counter(file.status for file in found.files)
+    told = {status: counts[status] for status in FileStatus if counts[status] and status is not FileStatus.IN_STEP}
+    head = f"{'in' if found.in_step else 'out of'} step, {counted(len(found.files), 'file')}"
+    if not (found.is_built or found.in_step):
         head = "not built yet"
-        counts.pop(FileStatus.STALE, None)
+        told.pop(FileStatus.STALE, None)
     nouns = (FileStatus.CONFLICT, FileStatus.ORPHAN)
-    tally = [counted(number, one) if one in nouns else f"{number} {one}" for one, number in counts.items()]
+    tally = [counted(number, one) if one in nouns else f"{number} {one}" for one, number in told.items()]
     return f"{head}{': ' if tally else ''}{', '.join(tally)}"
 
 

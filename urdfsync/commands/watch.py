@@ -70,8 +70,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         if console.json:
             listener: Listener = JsonReport()
         else:
-            people = TextReport(quiet=console.quiet, verbose=console.verbose, config=console.config)
-            listener = stack.enter_context(people)
+            listener = stack.enter_context(TextReport(console))
         daemon = Daemon(_options(args, console), listener)
         with _signals(daemon) as received:
             daemon.run()

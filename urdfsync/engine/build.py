@@ -87,7 +87,7 @@ class _Builder:
             actions=plan.actions,
             diagnostics=(*warnings, *plan.diagnostics),
             changes=plan.changes,
-            standoffs=plan.conflicts,
+            conflict_texts=plan.conflicts,
             drawing=plan.drawing,
             renews_state=any(change.path.parent == self._state_folder / "robots" for change in plan.writes),
         )

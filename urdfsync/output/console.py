@@ -63,9 +63,12 @@ def headline(stream: IO[str], robot: str, words: str, mark: str, style: str) -> 
     return line(*([(f"{mark} ", style)] if has_marks(stream) else []), (robot, "bold"), (f": {words}", ""))
 
 
-def more(count: int, noun: str) -> StyledLine:
-    """What stands for lines that are left out."""
-    return line((f"  … and {count} more {noun}{'s' if count > 1 else ''}; --verbose shows them", "dim"))
+def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: bool) -> Sequence[StyledLine]:
+    """So many lines, the last of which stands for those that are left out; with `verbose` all of them."""
+    rest = len(lines) - most + 1
+    if verbose or rest < 2:
+        return lines
+    return [*lines[: most - 1], line((f"  … and {rest} more {noun}s; --verbose shows them", "dim"))]
 
 
 def text(*parts: tuple[str, str]) -> Text:
