@@ -138,12 +138,12 @@ def _terminated_as_interrupted() -> Iterator[None]:
 
 @contextlib.contextmanager
 def _measured(given: Sequence[str]) -> Iterator[None]:
-    """Measure a command; also how long a stamp takes that would have answered."""
+    """Measure a command; also how long it takes to find a saved answer."""
     mark_incomplete()  # times can't be said again
     with profiling.measured(since=uptodate.PROGRAM_START[0]) as profile:
-        with profiling.stage("stamp"):
+        with profiling.stage("saved answer"):
             plain = [argument for argument in given if argument != "--profile"]
-            profile.stamp = uptodate.has_answer(plain) if plain[0] in uptodate.COMMANDS else None
+            profile.has_answer = uptodate.has_answer(plain) if plain[0] in uptodate.COMMANDS else None
         yield
 
 

@@ -135,7 +135,7 @@ class _Builder:
                 store.bases(plan.former_name).prune(())
         return applied.overtaken
 
-    @profiling.stage("looking")
+    @profiling.stage("looking at files")
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build wrote, or began to, since the plan was made.
 

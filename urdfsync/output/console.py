@@ -183,9 +183,7 @@ class Console:
             measured = {"profile": profiles.to_json(profile)} if profile else {}
             self.write_json(command, code, {"robots": self._robots, **measured})
         elif profile:
-            screen = rich_console(sys.stderr)
-            for part in profiles.parts(profile):
-                screen.print(part)
+            self.print(profiles.profile_lines(profile), error=True)
 
     def fail(self, command: str, diagnostics: Sequence[Diagnostic], code: int) -> None:
         """Say what stopped the command."""
