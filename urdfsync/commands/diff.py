@@ -39,8 +39,11 @@ _SILENT = frozenset({Kind.UNCHANGED, Kind.KEEP, Kind.FORGET})
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    parser = arguments.add_command(
+        commands,
         "diff",
+        run,
+        "--robot --wait --profile",
         help="show what changed in the sources since the last build",
         description="Show what changed in a source since the last build, or since another version of it: by element, "
         "with what follows for the whole model and for the files of the package. Nothing is written.",
@@ -51,11 +54,6 @@ def add(commands: arguments.Commands) -> None:
     )
     parser.add_argument("source", nargs="?", default="", metavar="SOURCE", help="a source or a robot (default: all)")
     parser.add_argument("--against", metavar="VERSION", help="the older version: a file or a git revision")
-    arguments.add_robot_option(parser)
-    arguments.add_wait(parser)
-    arguments.add_profile(parser)
-    parser.set_defaults(run=run)
-    arguments.add_common(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:

@@ -30,22 +30,19 @@ _FEW = 5
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    parser = arguments.add_command(
+        commands,
         "hook",
+        run,
+        "--wait --jobs",
         help="judge what is being committed; for hooks of git",
         description="Judge staged sources against staged outputs, for all configurations that git tracks. The index is "
         "never touched.",
         epilog=f"example: urdfsync hook check\n\n{arguments.CODES}",
     )
-    modes = "build brings packages in step, check writes nothing"
+    modes, configs = "build brings packages in step, check writes nothing", f"only these, instead of all {FILE_NAME}"
     parser.add_argument("mode", choices=("build", "check"), help=modes)
-    parser.add_argument(
-        "configs", nargs="*", type=Path, metavar="CONFIG", help=f"only these, instead of all {FILE_NAME}"
-    )
-    arguments.add_wait(parser)
-    arguments.add_jobs(parser)
-    parser.set_defaults(run=run)
-    arguments.add_common(parser)
+    parser.add_argument("configs", nargs="*", type=Path, metavar="CONFIG", help=configs)
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:

@@ -24,8 +24,10 @@ _SUFFIX = "Parameters"
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    parser = arguments.add_command(
+        commands,
         "record",
+        run,
         help="write the whole robot as one record",
         description="Write the record of a source alone: all numbers of the robot, and the tables by which "
         "UrdfSync.Robots.GenericRobot reads them. It needs no urdfsync.toml and leaves nothing else behind; meshes "
@@ -43,8 +45,6 @@ def add(commands: arguments.Commands) -> None:
     )
     parser.add_argument("--within", default="", metavar="PACKAGE", help="the package that FILE is in (default: none)")
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="what the source is (default: %(default)s)")
-    parser.set_defaults(run=run)
-    arguments.add_common(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:

@@ -103,19 +103,17 @@ class PackageStatus(msgspec.Struct, frozen=True):
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    arguments.add_command(
+        commands,
         "status",
+        run,
+        "robots --robot --wait --profile",
         help="say which files are stale, edited, missing or in conflict",
         description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
         "Nothing is written.",
         epilog="example: urdfsync status arm --verbose\n\n"
         "exit codes: 0 it is told, in step or not; 2 error, 3 conflict, 4 locked, 130 interrupted",
     )
-    arguments.add_robots(parser)
-    arguments.add_wait(parser)
-    arguments.add_profile(parser)
-    parser.set_defaults(run=run)
-    arguments.add_common(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:

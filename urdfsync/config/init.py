@@ -12,9 +12,9 @@ import msgspec
 import tomli_w
 
 from urdfsync import registry
-from urdfsync.config import values
 from urdfsync.config.names import is_robot_name
 from urdfsync.config.paths import shown
+from urdfsync.config.values import in_words
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
@@ -158,17 +158,12 @@ def _table(guess: Guess, domain: Domain) -> str:
         lines.append(_line("domain", domain.name))
     proposed = {proposal.option: proposal for proposal in guess.options}
     for field in msgspec.structs.fields(domain.options):
-        choices = " or ".join(f'"{choice}"' for choice in values.choices(field.type))
-        if choices and values.is_list(field.type):
-            choices += ", or several"
-        elif choices and values.may_be_list(field.type):
-            choices += ", or a list of names"
+        words = in_words(field.type)
         if proposal := proposed.get(field.encode_name):
             reason = " ".join("".join(char if char.isprintable() else " " for char in proposal.reason).split())
-            comment = f"{choices}; guessed: {reason}" if choices else f"guessed: {reason}"
-            lines.append(f"{_line(proposal.option, proposal.value)}  # {comment}")
+            lines.append(f"{_line(proposal.option, proposal.value)}  # {words}; guessed: {reason}")
         elif field.default not in (msgspec.NODEFAULT, None):  # TOML has no null
-            lines.append(f"# {_line(field.encode_name, field.default)}{f'  # {choices}' if choices else ''}")
+            lines.append(f"# {_line(field.encode_name, field.default)}  # {words}")
     return "\n".join(lines) + "\n"
 
 
