@@ -19,8 +19,8 @@ from urdfsync.outcome import Exit
 from urdfsync.output.console import Console, line, rich_console
 from urdfsync.output.phrases import byte_size
 
-_CHECK_OPTIONS = ("robot", "physics", "strict", "tool", "jobs", "timeout", "memory", "wait", "executor")
-"""What only a check has a use for."""
+_CHECK_OPTIONS = ("physics", "strict", "compiler", "jobs", "timeout", "memory", "wait", "executor")
+"""Fields of `CheckOptions` that the user may set."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -41,8 +41,8 @@ def add(commands: arguments.Commands) -> None:
     option, default = parser.add_argument, CheckOptions()
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")
     option("--strict", action="store_true", help="what comes from an edit, or was not checked, counts as a difference")
-    tools = tuple(COMPILERS)
-    option("--tool", choices=tools, default=default.compiler, help="what compiles (rumoca); omc: OpenModelica")
+    tools, compiler = tuple(COMPILERS), "what compiles (rumoca); omc: OpenModelica"
+    option("--tool", dest="compiler", choices=tools, default=default.compiler, help=compiler)
     jobs = "robots at the same time (default: as cores and memory allow)"
     option("--jobs", type=arguments.count, metavar="N", help=jobs)
     seconds = f"seconds for a robot ({default.timeout:g})"
@@ -67,21 +67,10 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         return _clear_cache(args, console)
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
-    options = CheckOptions(
-        physics=args.physics,
-        strict=args.strict,
-        compiler=args.tool,
-        jobs=args.jobs,
-        timeout=args.timeout,
-        memory=args.memory,
-        wait=args.wait,
-        executor=args.executor,
-        package_paths=config.ros_package_path(os.environ),
-    )
-    names = [robot.name for robot in robots]
-    results = show_results(
-        console, run_checks.check_robots(configuration, robots, options, console.progress), names, args.strict
-    )
+    chosen = {name: getattr(args, name) for name in _CHECK_OPTIONS}
+    options = CheckOptions(package_paths=config.ros_package_path(os.environ), **chosen)
+    found = run_checks.check_robots(configuration, robots, options, console.progress)
+    results = show_results(console, found, [robot.name for robot in robots], args.strict)
     code = exit_code(results, args.strict)
     console.end("check", code)
     return code
@@ -109,7 +98,7 @@ def show_results(
 
 def _clear_cache(args: argparse.Namespace, console: Console) -> Exit:
     """Empty the cache. Nothing else may be asked for: a check fills it again."""
-    if args.robots or any(getattr(args, name) != args.parser.get_default(name) for name in _CHECK_OPTIONS):
+    if args.robots or any(getattr(args, name) != args.parser.get_default(name) for name in ("robot", *_CHECK_OPTIONS)):
         message = "--clear-cache goes without robots and without options of a check"
         raise arguments.UsageError(args.parser, message, "it empties the cache of all robots, and checks none")
     console.waiting("emptying the cache")

@@ -12,7 +12,7 @@ from urdfsync import config, registry
 from urdfsync.commands import arguments
 from urdfsync.config import shown
 from urdfsync.dependencies import read_unrecorded
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Target, Templates
 from urdfsync.files import kind_of, normalised, put, templates_digest
 from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
@@ -77,12 +77,7 @@ def _render(source: Path, domain_name: str, target: Target) -> tuple[str, tuple[
     from urdfsync.engine.generate import Package
 
     domain, file = registry.domain(domain_name), shown(source)
-    try:
-        content = read_unrecorded(source)
-    except OSError as error:
-        message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
-        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, file, hint=hint)) from None
-    snapshot, reading = sources.read(domain, domain.options(), content, file)
+    snapshot, reading = sources.read(domain, domain.options(), config.read_source(source), file)
     reading = msgspec.structs.replace(reading, snapshot=snapshot)
     found = domain.record(reading, file, target, domain.options())
     if found is None:

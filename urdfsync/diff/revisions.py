@@ -13,7 +13,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.config import shown
+from urdfsync.config import read_source, shown
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Dependency
@@ -124,12 +124,7 @@ class VersionedSource(msgspec.Struct, frozen=True):
 
 def from_file(path: Path, *others: Path) -> VersionedSource:
     """Read the version in a file; references are looked for beside it, then beside `others`. Raises SourceError."""
-    try:
-        content = read_unrecorded(path)
-    except OSError as error:
-        message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
-        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(path), hint=hint)) from None
-    return VersionedSource(content, shown(path), (path, *others))
+    return VersionedSource(read_source(path), shown(path), (path, *others))
 
 
 def from_revision(name: str, path: Path, scratch: Path) -> VersionedSource:
