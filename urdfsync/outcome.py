@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.engine.actions import CONFLICTS, Action, Actions, Kind
+from urdfsync.engine.actions import CONFLICTS, IN_STEP, Action, Actions, Kind
 
 if TYPE_CHECKING:
     from urdfsync.diff.changes import Changes
@@ -74,8 +74,7 @@ class Result(msgspec.Struct, frozen=True):
     @property
     def in_step(self) -> bool:
         """Whether every file was what it should be before the build, edits apart."""
-        fine = {Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
-        return not self.failed and all(action.kind in fine for action in self.actions.decided)
+        return not self.failed and all(action.kind in IN_STEP for action in self.actions.decided)
 
     @property
     def is_in_step_now(self) -> bool:

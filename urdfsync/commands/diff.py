@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,12 +18,12 @@ from urdfsync.domain import ChangeKind
 from urdfsync.engine.actions import CONFLICTS, Kind
 from urdfsync.outcome import Exit
 from urdfsync.output.conflicts import shown_path
-from urdfsync.output.console import Console, StyledLine, first_lines, headline, line
-from urdfsync.output.json_values import action_values, change_values, finding_values
+from urdfsync.output.console import Console, StyledLine, first_lines, line
+from urdfsync.output.json_values import result_values
 from urdfsync.output.outline import OutlineRow, effect_rows, outline
 from urdfsync.output.phrases import RESOLVE_HINT, change_classes, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
-from urdfsync.output.results import action_word, file_line
+from urdfsync.output.results import action_word, file_line, headline
 
 if TYPE_CHECKING:
     from urdfsync.diff.comparison import Comparison
@@ -90,26 +89,19 @@ def _configuration(options: argparse.Namespace, folder: Path) -> Config | None:
 
 def _to_json(found: Comparison) -> dict[str, Any]:
     """Return a comparison as docs/json.md describes it."""
-    result = found.result
+    values = result_values(found.result)
     return {
-        "name": result.robot,
+        **{key: values[key] for key in ("name", "failed", "locked", "class", "changes", "diagnostics")},
         "source": found.source,
         "against": found.against,
         "built": not found.missing,
-        "failed": result.failed,
-        "locked": result.locked,
         "in_step": found.in_step,
         "summary": _summary(found),
-        "class": found.change_class,
-        "changes": [change_values(one) for one in found.result.changes.changes] if found.result.changes else [],
         "effects": [
             {"effect": " / ".join(one.path), "old": one.old, "new": one.new, "unit": one.unit, "hint": one.hint}
             for one in found.effects
         ],
-        "actions": [
-            {**action_values(one, result.changes), "edited": one.path in found.edited} for one in result.actions
-        ],
-        "diagnostics": [finding_values(diagnostic) for diagnostic in result.diagnostics],
+        "actions": [{**one, "edited": one["path"] in found.edited} for one in values["actions"]],
     }
 
 
@@ -136,8 +128,7 @@ def _show(found: Comparison, console: Console) -> None:
     console.findings(result.diagnostics)
     if console.quiet and not result.conflicts:
         return
-    mark = ("✓", "green") if found.in_step else ("~", "yellow")
-    head = headline(sys.stderr if result.failed else sys.stdout, result.robot, _summary(found), *mark)
+    head = headline(result, _summary(found), is_fine=found.in_step)
     console.print([head, *_lines(found, console.verbose)], error=result.failed)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import enum
-import sys
 from collections import Counter
 from collections.abc import Iterator
 from typing import Any
@@ -16,11 +15,11 @@ from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.output.conflicts import shown_path
-from urdfsync.output.console import Console, StyledLine, first_lines, headline, line
+from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.json_values import action_values, result_values
 from urdfsync.output.phrases import RESOLVE_HINT, action_counts, change_classes, counted, error_count, generator_change
 from urdfsync.output.phrases import reason as reason_of
-from urdfsync.output.results import file_line
+from urdfsync.output.results import file_line, headline
 
 _STALE = 20
 """So many stale files of a robot are listed at most, without --verbose."""
@@ -156,9 +155,7 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
 
     Stale files come last. New files of a robot that was never built are not named.
     """
-    mark, style = ("✓", "green") if is_in_step(result) else ("!", "bold red" if result.conflicts else "yellow")
-    mark, style = ("✗", "bold red") if result.failed else (mark, style)
-    yield headline(sys.stderr if result.failed else sys.stdout, result.robot, summary(result), mark, style)
+    yield headline(result, summary(result), is_fine=is_in_step(result))
     changes = result.changes
     if changes and changes.generator:
         yield line((f"  {generator_change(changes)}", ""))

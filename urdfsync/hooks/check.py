@@ -16,7 +16,7 @@ from urdfsync import uptodate
 from urdfsync.config import FILE_NAME, Config, RobotConfig, shown
 from urdfsync.dependencies import Dependencies, record_dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.actions import IN_STEP, Action
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.hook import STATES, answer_key, find_configurations
@@ -25,9 +25,6 @@ from urdfsync.hooks.index import Index
 from urdfsync.hooks.robot_files import RobotFiles
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.watch import precommit
-
-_IN_STEP = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET)
-"""Actions on files that are as they should be."""
 
 
 class CommitFault(msgspec.Struct, frozen=True):
@@ -179,7 +176,7 @@ def _needs_build(result: Result) -> bool:
 
 def _work(result: Result) -> list[Action]:
     """Return the actions on files that are not as they should be."""
-    return [action for action in result.actions if action.kind not in _IN_STEP]
+    return [action for action in result.actions if action.kind not in IN_STEP]
 
 
 def _find_blocking(

@@ -58,11 +58,6 @@ def line(*parts: tuple[str, str]) -> StyledLine:
     return StyledLine(tuple((visible(text), style) for text, style in parts))
 
 
-def headline(stream: IO[str], robot: str, words: str, mark: str, style: str) -> StyledLine:
-    """The first line about a robot, with a mark where it can be shown: `✓ arm: in step`."""
-    return line(*([(f"{mark} ", style)] if has_marks(stream) else []), (robot, "bold"), (f": {words}", ""))
-
-
 def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: bool) -> Sequence[StyledLine]:
     """So many lines, the last of which stands for those that are left out; with `verbose` all of them."""
     rest = len(lines) - most + 1

@@ -9,7 +9,7 @@ from urdfsync.config import shown
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.outcome import Checked, Result
 from urdfsync.output.conflicts import conflict_lines, shown_path
-from urdfsync.output.console import Console, StyledLine, first_lines, headline, line, rich_console
+from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line, rich_console
 from urdfsync.output.json_values import result_values
 from urdfsync.output.phrases import change_lines, counted, reason, summary
 
@@ -31,6 +31,14 @@ def action_word(action: Action) -> tuple[str, str]:
     if action.held:
         return "waiting", "yellow"
     return action.kind.value.removeprefix("unowned-"), _STYLES.get(action.kind, "dim")
+
+
+def headline(result: Result, words: str, *, is_fine: bool) -> StyledLine:
+    """The first line about a robot, with a mark where it can be shown: `✓ arm: in step`."""
+    is_wrong = result.failed or result.checked is Checked.WRONG
+    mark = ("✗ ", "bold red") if is_wrong else ("✓ ", "green") if is_fine else ("! ", "yellow")
+    marks = [mark] if has_marks(sys.stderr if result.failed else sys.stdout) else []
+    return line(*marks, (result.robot, "bold"), (f": {words}", ""))
 
 
 def file_line(path: str, word: str, style: str, why: str = "") -> StyledLine:
@@ -57,15 +65,13 @@ def show_result(console: Console, result: Result, *, explain: bool = False, conf
     if console.quiet and not result.conflicts:
         console.stop_progress()
         return
-    stream = sys.stderr if result.failed else sys.stdout
-    is_wrong = result.failed or result.checked is Checked.WRONG
-    mark, style = ("✗", "bold red") if is_wrong else ("!", "yellow") if result.conflicts else ("✓", "green")
-    lines = [headline(stream, result.robot, summary(result), mark, style)]
+    lines = [headline(result, summary(result), is_fine=not result.conflicts)]
     if not console.quiet:
         lines += result_lines(result, verbose=console.verbose, explain=explain)
     console.print(lines, error=result.failed)
     if result.conflicts:
-        console.print(conflict_lines(result, console, rich_console(stream), conflicts_shown), error=result.failed)
+        screen = rich_console(sys.stderr if result.failed else sys.stdout)
+        console.print(conflict_lines(result, console, screen, conflicts_shown), error=result.failed)
 
 
 def result_lines(result: Result, *, verbose: bool, explain: bool = False) -> Iterator[StyledLine]:

@@ -82,12 +82,11 @@ class StatusTable:
                 self._results = {name: self._results.get(name, starting) for name in robots}
                 self._builds = {name: status for name, status in self._builds.items() if name in robots}
                 self._checks = {}
-            case events.Settling(robot):
-                self._builds[robot] = RobotStatus(Activity.SETTLING, Activity.SETTLING)
+            case events.Settling(robot) | events.Building(robot):
+                activity = Activity(str(event.__struct_config__.tag))
+                self._builds[robot] = RobotStatus(activity, activity)
             case events.Waiting(robot, reason, diagnostics):
                 self._builds[robot] = RobotStatus(Activity.WAITING, _with_error(reason, diagnostics))
-            case events.Building(robot):
-                self._builds[robot] = RobotStatus(Activity.BUILDING, Activity.BUILDING)
             case events.Unchanged(robot):
                 self._builds.pop(robot, None)
             case events.Built(result) | events.Failed(result):
