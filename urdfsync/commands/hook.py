@@ -80,21 +80,21 @@ def _typing_folder(top: Path, folder: Path) -> Path:
 
 def _lines(faults: Sequence[CommitFault], advice: _Advice) -> Iterator[str]:
     """Return a line for each robot, then commands to copy."""
-    several = len({fault.config for fault in faults}) > 1
+    several = len({fault.files.config.file for fault in faults}) > 1
     for fault in faults:
-        place = f" ({advice.shown(fault.config)})" if several else ""
+        place = f" ({advice.shown(fault.files.config.file)})" if several else ""
         if several or not fault.needs_user:  # else its result has been shown
-            yield f"{fault.robot}{place}: {advice.message(fault)}"
+            yield f"{fault.files.robot.name}{place}: {advice.message(fault)}"
     for step, command in advice.steps(faults).items():
         yield from (step, f"  {command}")
 
 
 def _finding(fault: CommitFault, advice: _Advice) -> Diagnostic:
     """Return the same of one robot, for programs."""
-    message = f"robot `{fault.robot}`: {advice.message(fault)}"
+    message = f"robot `{fault.files.robot.name}`: {advice.message(fault)}"
     hint = "; ".join(f"`{command}`" for command in advice.steps([fault]).values())
     code = "out-of-step" if fault.result else "not-staged"
-    return Diagnostic(Severity.ERROR, code, message, advice.shown(fault.config), hint=hint)
+    return Diagnostic(Severity.ERROR, code, message, advice.shown(fault.files.config.file), hint=hint)
 
 
 class _Advice:
@@ -137,8 +137,8 @@ class _Advice:
         """Return a command for each configuration."""
         commands = []
         near = next((f for f in (self._folder, *self._folder.parents) if (f / FILE_NAME).is_file()), None)
-        for file in dict.fromkeys(fault.config for fault in faults):
-            robots = [fault.robot for fault in faults if fault.config == file]
+        for file in dict.fromkeys(fault.files.config.file for fault in faults):
+            robots = [fault.files.robot.name for fault in faults if fault.files.config.file == file]
             option = [] if near is not None and near / FILE_NAME == file else ["--config", self.shown(file)]
             commands.append(shlex.join(["urdfsync", "build", *robots, *option]))
         return " && ".join(commands)
@@ -149,7 +149,7 @@ class _Advice:
         if self._index.ignored(path for path in paths if not self._index.tracks(path)):
             force = ["-f"]
         elif len(paths) > _FEW:
-            for folder in sorted({folder for fault in faults for folder in fault.folders}):
+            for folder in sorted({folder for fault in faults for folder in fault.files.folders}):
                 inside = {path for path in paths if path.startswith(f"{folder}/")}
                 if len(inside) > 1 and inside.issuperset(self._index.pending(folder)):
                     paths = sorted({folder, *paths} - inside)
