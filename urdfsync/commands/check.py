@@ -8,6 +8,8 @@ import os
 import sys
 from collections.abc import Iterable, Sequence
 
+from rich.filesize import decimal
+
 from urdfsync import config
 from urdfsync.check import run as run_checks
 from urdfsync.check.cache import UserCache
@@ -17,7 +19,6 @@ from urdfsync.check.results import CheckOptions, CheckResult, exit_code
 from urdfsync.commands import arguments
 from urdfsync.outcome import Exit
 from urdfsync.output.console import Console, line, rich_console
-from urdfsync.output.phrases import byte_size
 
 _CHECK_OPTIONS = ("physics", "strict", "compiler", "jobs", "timeout", "memory", "wait", "executor")
 """Fields of `CheckOptions` that the user may set."""
@@ -107,5 +108,5 @@ def _clear_cache(args: argparse.Namespace, console: Console) -> Exit:
     if console.json:
         console.write_json("check", Exit.IN_STEP, {"freed": freed})
     elif not console.quiet:
-        console.print([line((f"cache emptied, {byte_size(freed)} freed" if freed else "the cache was empty", ""))])
+        console.print([line((f"cache emptied, {decimal(freed)} freed" if freed else "the cache was empty", ""))])
     return Exit.IN_STEP

@@ -36,15 +36,6 @@ def error_count(diagnostics: Sequence[Diagnostic]) -> str:
     return counted(sum(found.severity is Severity.ERROR for found in diagnostics), "error")
 
 
-def byte_size(number: int) -> str:
-    """So many bytes, in the largest unit of which there is at least one: `812 kB`, `1.2 GB`."""
-    for power, unit in ((3, "GB"), (2, "MB"), (1, "kB")):
-        if number >= 1000**power:
-            value = number / 1000**power
-            return f"{value:.0f} {unit}" if value >= 10 else f"{value:.1f} {unit}"
-    return counted(number, "byte")
-
-
 def summary(result: Result) -> str:
     """What happened to a robot's package (in a dry run: what would), as the rest of a line that names the robot."""
     if result.failed:
