@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 FULL = 3
-"""So many conflicts are shown in full without --verbose."""
+"""So many conflicts of a robot are shown in full without --verbose."""
 NOT_HERE = "the file it is made from is not here"
 
 
@@ -103,15 +103,13 @@ def shown_path(result: Result, path: str) -> str:
     return shown(Path(os.path.normpath(result.root / path)))
 
 
-def conflict_lines(
-    result: Result, console: Console, screen: rich.console.Console, already_shown: int = 0
-) -> Iterator[Text]:
+def conflict_lines(result: Result, console: Console, screen: rich.console.Console) -> Iterator[Text]:
     """All conflicts of one robot: the first ones in full, the others on a line each, and the command for all.
 
-    `already_shown` are those of other robots. What differs is laid out for the width of `screen`.
+    What differs is laid out for the width of `screen`.
     """
     found = find_conflicts([result])
-    full = len(found) if console.verbose else 0 if console.quiet else max(0, FULL - already_shown)
+    full = len(found) if console.verbose else 0 if console.quiet else FULL
     for target in found[:full]:
         yield text(("", ""))
         yield from _full_lines(target, console, screen)

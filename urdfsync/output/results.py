@@ -48,16 +48,15 @@ def file_line(path: str, word: str, style: str, why: str = "") -> StyledLine:
 
 def show_results(console: Console, results: Iterator[Result], *, explain: bool = False) -> list[Result]:
     """Show what was done with each robot as soon as it is done, and return it all."""
-    shown_results: list[Result] = []
+    shown_results = []
     for result in results:
-        conflicts = sum(len(other.conflicts) for other in shown_results)
-        show_result(console, result, explain=explain, conflicts_shown=conflicts)
+        show_result(console, result, explain=explain)
         shown_results.append(result)
     return shown_results
 
 
-def show_result(console: Console, result: Result, *, explain: bool = False, conflicts_shown: int = 0) -> None:
-    """Show what was done with one robot; `conflicts_shown` are those of other robots before it."""
+def show_result(console: Console, result: Result, *, explain: bool = False) -> None:
+    """Show what was done with one robot."""
     if console.json:
         console.add_robot(result_values(result))
         return
@@ -71,7 +70,7 @@ def show_result(console: Console, result: Result, *, explain: bool = False, conf
     console.print(lines, error=result.failed)
     if result.conflicts:
         screen = rich_console(sys.stderr if result.failed else sys.stdout)
-        console.print(conflict_lines(result, console, screen, conflicts_shown), error=result.failed)
+        console.print(conflict_lines(result, console, screen), error=result.failed)
 
 
 def result_lines(result: Result, *, verbose: bool, explain: bool = False) -> Iterator[StyledLine]:

@@ -92,7 +92,7 @@ class Daemon:
         """
         loaded = config.load(self._options.file)
         try:
-            with SingleInstance(loaded) as instance, self._observer, self._checks:
+            with SingleInstance(loaded) as instance, contextlib.closing(self._observer), self._checks:
                 self._use(loaded)
                 self._next_rescan = time.monotonic() + self._options.rescan
                 while not self._stop_signal:

@@ -7,8 +7,7 @@ import logging
 import os
 from pathlib import Path
 from queue import SimpleQueue
-from types import TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING
 
 from watchdog import events, observers
 
@@ -43,21 +42,13 @@ logging.getLogger("watchdog").addHandler(logging.NullHandler())
 
 
 class Observer(events.FileSystemEventHandler):
-    """Puts paths that may have changed into a queue, within its context; paths that matter to nobody are left out."""
+    """Puts paths that may have changed into a queue, until it is closed; paths that matter to nobody are left out."""
 
     def __init__(self, queue: SimpleQueue[object]) -> None:
         self._queue = queue
         self._paths = WatchedPaths()
         self._backend: BaseObserver | None = None
         self._watches: dict[tuple[str, bool], tuple[ObservedWatch, tuple[int, int]]] = {}
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self._close()
 
     def dispatch(self, event: events.FileSystemEvent) -> None:
         """Pass on both paths of an event."""
@@ -96,7 +87,7 @@ class Observer(events.FileSystemEventHandler):
     def _start(self) -> BaseObserver:
         """Return the running backend. Raises OSError or RuntimeError if the system gives none."""
         if self._backend is not None and not self._backend.is_alive():
-            self._close()
+            self.close()
         if self._backend is None:
             backend = observers.Observer()
             backend.start()
@@ -108,7 +99,8 @@ class Observer(events.FileSystemEventHandler):
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
         return backend.schedule(self, folder, recursive=deep, event_filter=_EVENTS)
 
-    def _close(self) -> None:
+    def close(self) -> None:
+        """Watch nothing any more."""
         self._watches.clear()
         if self._backend is not None:
             self._backend.stop()
