@@ -44,7 +44,7 @@ def main(given: Sequence[str] | None = None) -> int:
             answer = [text for entry in transcript if entry[1] for text in entry]
             uptodate.save_answer(config_file, key, answer, dependencies, started)
     except Exception as error:  # noqa: BLE001 - of what looks for answers and saves them
-        Console().fail("", [unforeseen(error)], Exit.ERROR)
+        Console().end("", Exit.ERROR, [unforeseen(error)])
         return Exit.ERROR
     return code
 
@@ -58,7 +58,7 @@ def _run(given: list[str], transcript: streams.Transcript | None = None) -> int:
 def tell_unwritten(output: streams.Stream) -> int:
     """Say that not all of the output could be written; returns the exit code."""
     found = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {output.trouble}")
-    Console().fail("", [found], Exit.ERROR)
+    Console().end("", Exit.ERROR, [found])
     return Exit.ERROR
 
 
@@ -87,7 +87,7 @@ def _main(given: list[str]) -> int:
         found, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED
     except Exception as error:  # noqa: BLE001 - Python would exit with 1, which says that a package is out of step
         found, code = (unforeseen(error, show=console.verbose and not console.json),), Exit.ERROR
-    console.fail(command, found, code)
+    console.end(command, code, found)
     return code
 
 

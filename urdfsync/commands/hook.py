@@ -66,7 +66,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             diagnostics += [_finding(fault, advice) for fault in faults]
         else:
             console.print(line((text, "")) for text in _lines(faults, advice))
-    console.fail("hook", diagnostics, code)
+    console.end("hook", code, diagnostics)
     return code
 
 

@@ -77,7 +77,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             hint = f"these are: {listed}" if listed else "nothing is"
             code = exit_code(failed) if failed else Exit.ERROR
             no_conflict = Diagnostic(Severity.ERROR, "no-conflict", f"{message} not in conflict", hint=hint)
-            console.fail("resolve", [no_conflict], code)
+            console.end("resolve", code, [no_conflict])
             return code
         if problems := [problem for target in targets for problem in _problems(target, args.choice)]:
             raise UrdfsyncError(*problems)

@@ -11,15 +11,16 @@ import os
 import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import msgspec
 
 from urdfsync import registry
-from urdfsync.config import Config, RobotConfig, shown, templates_folder
+from urdfsync.config import Config, RobotConfig, read_source, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.diff import changes
 from urdfsync.diff.changes import Changes
-from urdfsync.diff.revisions import VersionedSource, from_file, from_revision
+from urdfsync.diff.revisions import Revision
 from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Templates, Version
 from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
@@ -186,17 +187,34 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
     return Comparison(result, shown(robot.source), None, missing, effects, edited)
 
 
+class _VersionedSource(NamedTuple):
+    """The content of a source in one version."""
+
+    content: bytes
+    name: str
+    """Its name in diagnostics."""
+    places: tuple[Path, ...]
+    """The files from which references count, best first; absolute."""
+    revision: Revision | None = None
+    scratch: Path = Path()
+    """With a revision: a folder for other files of it."""
+
+
 def _with_version(
     robot: RobotConfig, against: str, config: Config | None, options: BuildOptions, folder: Path
 ) -> Comparison:
     """Compare a source with another version of it; the actions are those of a package that nobody edited."""
     domain, result = registry.domain(robot.domain), _result(robot, config)
     with tempfile.TemporaryDirectory(prefix="urdfsync-") as scratch:
-        if (folder / against).is_file():
-            other = from_file(folder / against, robot.source)
+        source, file = robot.source, folder / against
+        if file.is_file():
+            other = _VersionedSource(read_source(file), shown(file), (file, source))
         else:
-            other = from_revision(against, robot.source, Path(scratch))
-        new, imported, told = _read(domain, robot, from_file(robot.source), imports.Imported(), options)
+            revision = Revision(source.parent, against)
+            content = revision.read(source)
+            other = _VersionedSource(content, revision.label(source), (source,), revision, Path(scratch))
+        current = _VersionedSource(read_source(source), shown(source), (source,))
+        new, imported, told = _read(domain, robot, current, imports.Imported(), options)
         old, _, told_before = _read(domain, robot, other, imported, options)
     before = {(one.code, one.message) for one in told_before}
     new_findings = tuple(one for one in told if (one.code, one.message) not in before)
@@ -245,7 +263,7 @@ def _effects(domain: Domain, old: Version, new: Version, found: Changes, robot: 
 
 
 def _read(
-    domain: Domain, robot: RobotConfig, version: VersionedSource, known: imports.Imported, options: BuildOptions
+    domain: Domain, robot: RobotConfig, version: _VersionedSource, known: imports.Imported, options: BuildOptions
 ) -> tuple[Version, imports.Imported, tuple[Diagnostic, ...]]:
     """Read a version and the files that it refers to; imports that are `known` are not converted again.
 
@@ -260,6 +278,7 @@ def _read(
     for same in zip(*found, strict=True):  # one file, looked for from several places
         candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
         joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
+    dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined
     recorded = imports.Recorded(
         {key: record for key, record in known.records.items() if key in known.imports},
         {key: ConversionFacts(one.source_hash, one.converter, dict(one.facts)) for key, one in known.imports.items()},
@@ -270,7 +289,7 @@ def _read(
     def progress(done: int, total: int) -> None:
         options.progress(f"{robot.name}: imports", done, total)
 
-    imported = imports.bring_in(domain, version.locate(joined), recorded, version.name, again=False, progress=progress)
+    imported = imports.bring_in(domain, dependencies, recorded, version.name, again=False, progress=progress)
     return Version(snapshot, imported.imports), imported, (*reading.diagnostics, *imported.diagnostics)
 
 

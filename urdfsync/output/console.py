@@ -168,25 +168,19 @@ class Console:
         self.stop_progress()
         self._robots.append(values)
 
-    def end(self, command: str, code: int) -> None:
-        """The end of a command on robots: its JSON document, and where the time went."""
+    def end(self, command: str, code: int, diagnostics: Sequence[Diagnostic] = ()) -> None:
+        """The end of a command: what stopped it, or the JSON document of its robots, and where the time went."""
         self.stop_progress()
-        from urdfsync.output import profiles
-
         profile = profiling.current()
+        if profile:
+            from urdfsync.output import profiles  # hardly anybody asks
         if self.json:
             measured = {"profile": profiles.to_json(profile)} if profile else {}
-            self.write_json(command, code, {"robots": self._robots, **measured})
-        elif profile:
+            self.write_json(command, code, {"robots": self._robots, **measured}, diagnostics)
+            return
+        self.findings(diagnostics)
+        if profile:
             self.print(profiles.profile_lines(profile), error=True)
-
-    def fail(self, command: str, diagnostics: Sequence[Diagnostic], code: int) -> None:
-        """Say what stopped the command."""
-        self.stop_progress()
-        if self.json:
-            self.write_json(command, code, {"robots": self._robots}, diagnostics)
-        else:
-            self.findings(diagnostics)
 
     def write_json(
         self, command: str, code: int, values: Mapping[str, Any], diagnostics: Sequence[Diagnostic] = ()
