@@ -80,12 +80,8 @@ def visible(text: str) -> str:
 
 def finding(found: Diagnostic) -> StyledLine:
     """A diagnostic as one line: `file:line: severity: message; hint [code]`."""
-    numbers = [str(number) for number in (found.line, found.column) if number]
-    place = ":".join([found.file, *numbers]) + ": " if found.file else ""
-    hint = f"; {found.hint}" if found.hint else ""
-    message = " ".join(f"{found.message}{hint}".split())
-    style = _SEVERITIES[found.severity]
-    return line((place, "bold"), (found.severity.value, style), (f": {message} ", ""), (f"[{found.code}]", "dim"))
+    place, severity, rest = str(found).partition(f"{found.severity}: ")
+    return line((place, "bold"), (severity, _SEVERITIES[found.severity]), (rest, ""))
 
 
 def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool, verbose: bool) -> list[StyledLine]:
