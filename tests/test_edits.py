@@ -84,7 +84,7 @@ def test_base_generated_and_merge_are_put_aside_and_come_back_if_somebody_delete
     assert "parameters.C*der(v)" in merge
     aside = portable(conflict)
     shutil.rmtree(".urdfsync/conflicts")
-    assert run().standoffs[0].base == base
+    assert run().conflict_texts[0].base == base
     assert portable(conflict) == aside
 
 
@@ -195,7 +195,7 @@ def test_a_merge_that_is_no_model_is_rejected_with_the_reason(project: Path) -> 
     whole = f"{LADDER}/Ladder.mo"
     edit(whole, "equation", "  Elements.R1 elementR9;\n\nequation")
     rename("R2", "R9")
-    (standoff,) = run().standoffs
+    (standoff,) = run().conflict_texts
     assert (standoff.path, standoff.merge is not None) == (whole, True)
     assert standoff.merge is None or standoff.merge.text is None
     assert "elementR9" in standoff.rejected
@@ -288,17 +288,17 @@ def test_edits_that_contradict_the_new_name_wait_where_they_are(project: Path) -
     rename("R1", "Shunt")
     result = run()
     assert kinds(result) == {SHUNT: Kind.CONFLICT}
-    assert result.standoffs[0].origin == R1
+    assert result.conflict_texts[0].origin == R1
     assert Path(R1).read_bytes() == mine
     assert not Path(SHUNT).exists()
     again = run()
     assert kinds(again) == {SHUNT: Kind.CONFLICT}
-    assert again.standoffs == result.standoffs, "the base is recorded, although the model knows R1 no more"
+    assert again.conflict_texts == result.conflict_texts, "the base is recorded, although the model knows R1 no more"
     assert tomllib.loads(Path(MANIFEST).read_text())["files"]["Elements/Shunt.mo"]["origin"] == "Elements/R1.mo"
     rename("Shunt", "Branch")
     result = run()
     assert kinds(result) == {SHUNT.replace("Shunt", "Branch"): Kind.CONFLICT}, "a second name finds the file, too"
-    assert result.standoffs[0].origin == R1
+    assert result.conflict_texts[0].origin == R1
     rename("Branch", "R1")
     assert kinds(run()) == {R1: Kind.KEEP}, "the old name is back, and nothing is new for it"
 
@@ -348,7 +348,7 @@ def test_a_clone_reaches_the_same_result(
     first = run()
     run(choices={RECORD: Choice.MERGE})
     monkeypatch.chdir(other)
-    assert run().standoffs == first.standoffs
+    assert run().conflict_texts == first.conflict_texts
     run(choices={RECORD: Choice.MERGE})
     assert portable(other) == portable(project)
     assert "150" in (other / RECORD).read_text()
@@ -365,7 +365,7 @@ def test_a_clone_keeps_bases_before_they_can_be_rendered_no_more(project: Path) 
     own.mkdir(parents=True)
     text = (Path(__file__).parent / "rcnetwork/templates/element/model.mo.jinja").read_text()
     (own / "model.mo.jinja").write_text(text.replace("end <<", "  annotation (Icon);\nend <<"))
-    (standoff,) = [s for s in run().standoffs if s.path == R1]
+    (standoff,) = [s for s in run().conflict_texts if s.path == R1]
     assert standoff.merge is not None
     assert standoff.merge.text is not None
 
@@ -376,7 +376,7 @@ def test_without_its_base_a_conflict_has_no_merge(project: Path) -> None:
     resistor(150)
     shutil.rmtree(project / ".urdfsync/base")
     (project / ".urdfsync/robots/ladder.json").unlink()
-    (standoff,) = run().standoffs
+    (standoff,) = run().conflict_texts
     assert standoff.base is None
     assert standoff.merge is None
     assert [path.name for path in ASIDE.iterdir()] == ["R1Parameters.generated.mo"]
@@ -482,7 +482,7 @@ def test_a_merge_that_mentions_what_is_gone_is_a_conflict(project: Path) -> None
     edit(whole, "equation", "  Real power = C1.v*C1.i;\n\nequation")
     rename("C1", "Tank")
     for _ in range(2):  # the second time, the state knows the new name already
-        (standoff,) = run().standoffs
+        (standoff,) = run().conflict_texts
         assert standoff.path == whole
         assert standoff.merge is not None
         assert standoff.merge.text is None

@@ -129,6 +129,17 @@ def test_a_package_of_the_name_goes_before_a_guess(arm: Path) -> None:
     assert copy.read_bytes() == (vendor / mesh).read_bytes()
 
 
+def test_meshes_from_a_folder_of_another_name_are_one_warning_for_each_package(arm: Path) -> None:
+    (arm / "ws/src/six_axis_arm").rename(arm / "ws/src/arm-main")
+    (arm / "urdfsync.toml").write_text(CONFIGURATION.replace("ws/src/six_axis_arm/", "ws/src/arm-main/"))
+    (found,) = run(arm).diagnostics
+    assert (found.severity, found.code) == (Severity.WARNING, "mesh-guessed")
+    assert found.message == (
+        "7 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) are taken from a folder that is not "
+        "called like the package `six_axis_arm`"
+    )
+
+
 CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller">
   <inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
   <joint name="wheel" type="continuous"><parent link="base"/><child link="tyre"/></joint>
