@@ -7,10 +7,12 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
+from support.networks import edit
 from support.replay import contents
 
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
+from urdfsync.domain import ChangeKind
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
@@ -127,6 +129,14 @@ def test_a_package_of_the_name_goes_before_a_guess(arm: Path) -> None:
     assert not run(arm).diagnostics
     (copy,) = (arm / "modelica/Arm/Resources").glob("carousel_*.obj")
     assert copy.read_bytes() == (vendor / mesh).read_bytes()
+
+
+def test_another_name_of_a_joint_that_others_follow_is_told_as_such(arm: Path) -> None:
+    run(arm)
+    edit(arm / "ws/src/six_axis_arm/six_axis_arm.urdf", '"gripper_stroke"', '"stroke"')
+    changes = run(arm).changes
+    assert changes is not None
+    assert [(one.kind, one.element) for one in changes.changes] == [(ChangeKind.RENAMED, "joint gripper_stroke")]
 
 
 CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller">
