@@ -7,6 +7,7 @@ import stat
 from pathlib import Path
 
 import jinja2
+import platformdirs
 import pytest
 
 from urdfsync import template_cache
@@ -162,6 +163,13 @@ def test_code_for_another_sandbox_is_not_run(home: Path, templates: Path, compil
     with pytest.raises(jinja2.exceptions.SecurityError):
         render(templates)
     assert compiled == ["t.jinja"] * 2
+
+
+def test_a_relative_folder_is_not_used(tmp_path: Path, templates: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(platformdirs, "user_cache_path", lambda name, appauthor: Path("relative", name))
+    assert render(templates) == "a 1\n"
+    assert not Path("relative").exists()
 
 
 def test_it_is_a_part_of_the_cache_of_checks(home: Path, templates: Path) -> None:

@@ -7,10 +7,12 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
+from support.networks import edit
 from support.replay import contents
 
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
+from urdfsync.domain import ChangeKind
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
@@ -138,6 +140,14 @@ def test_meshes_from_a_folder_of_another_name_are_one_warning_for_each_package(a
         "7 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) are taken from a folder that is not "
         "called like the package `six_axis_arm`"
     )
+
+
+def test_another_name_of_a_joint_that_others_follow_is_told_as_such(arm: Path) -> None:
+    run(arm)
+    edit(arm / "ws/src/six_axis_arm/six_axis_arm.urdf", '"gripper_stroke"', '"stroke"')
+    changes = run(arm).changes
+    assert changes is not None
+    assert [(one.kind, one.element) for one in changes.changes] == [(ChangeKind.RENAMED, "joint gripper_stroke")]
 
 
 CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller">

@@ -88,10 +88,6 @@ def targets(*names: str) -> dict[str, DesiredFile]:
     return {name: DesiredFile(Role.MODEL, f"part {name}", f"{name}1") for name in names}
 
 
-def texts(**hashes: str) -> dict[str, OnDisk]:
-    return {name: OnDisk(hash_) for name, hash_ in hashes.items()}
-
-
 @pytest.mark.parametrize(
     ("moves", "names"), [({"b": "a", "c": "b"}, "ab"), ({"a": "c", "b": "a", "c": "b"}, "abc")], ids=["chain", "cycle"]
 )
