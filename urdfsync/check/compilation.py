@@ -178,10 +178,8 @@ class Compilation:
                     what = task.title.removeprefix(f"{robot.target.package}.")
                     self._progress.begin(f"{'' if number else 'loading libraries, then '}compiling {what}")
                     outcome.results.append(next(results))
-        except UrdfsyncError as error:
-            outcome.diagnostics = error.diagnostics
-        except OSError as error:
-            outcome.diagnostics = (system_error(error),)
+        except (UrdfsyncError, OSError) as error:
+            outcome.diagnostics = findings_of(error)
         return outcome
 
     def _with_imports(self, task: CompileTask) -> CompileTask:
@@ -222,10 +220,12 @@ class Compilation:
         )
 
 
-def system_error(error: OSError) -> Diagnostic:
-    """What the system says of a file, as a finding."""
+def findings_of(error: UrdfsyncError | OSError) -> tuple[Diagnostic, ...]:
+    """What an error says, that of the system included, as findings."""
+    if isinstance(error, UrdfsyncError):
+        return error.diagnostics
     place = os.fsdecode(error.filename or "")
-    return Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place)
+    return (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place),)
 
 
 def _readable(path: Path, folder: Path) -> str:

@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.check.cache import UserCache, cache_errors
+from urdfsync.check.cache import UserCache, cache_errors, fingerprint
 from urdfsync.check.package import package_texts
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
@@ -182,8 +182,7 @@ def standard_library_copy(library: StandardLibrary, texts: Iterable[bytes], cach
         message = f"the Modelica Standard Library in {modelica} is broken: there is no {names}"
         raise LibraryError("broken-standard-library", message, f"install it anew, or take another one: {_HINT}")
     whole = not all(map(_is_in_copy, texts))
-    state = repr((_COPY_REVISION, sorted(library_state(path) for path in library.parts.values())))
-    key = hashlib.sha256(state.encode(errors="surrogateescape")).hexdigest()[:16]
+    key = fingerprint(_COPY_REVISION, sorted(map(library_state, library.parts.values())))[:16]
     target = cache.libraries / f"{'whole' if whole else 'part'}-{key}"
 
     def ignored(folder: str, names: list[str]) -> set[str]:

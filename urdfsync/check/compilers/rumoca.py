@@ -58,7 +58,7 @@ _MISSING = re.compile(
 )
 
 
-def missing_program() -> str:
+def program() -> str:
     """See `Compiler`: all of it is in the module."""
     return ""
 
