@@ -180,7 +180,7 @@ EXTRA = arm.changed("\nequation", "\n  Real z;\nequation")
 
 def test_an_unbalanced_model_is_named_and_looked_for_in_the_edited_file() -> None:
     """The joint need not be what lacks an equation."""
-    message = "`SixAxisArm` has 6,354 equations for 6,353 unknowns"
+    message = "`SixAxisArm` has 6354 equations for 6353 unknowns"
     assert explained(unbalanced(6354, 6353), EXTRA, model="SixAxisArm") == [
         f"{ELBOW}: error: {message}; look here first: {EDITED} [unbalanced]"
     ]

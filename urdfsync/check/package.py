@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import codecs
 import contextlib
-import itertools
 import os
 import re
 from collections.abc import Collection, Iterator, Mapping
@@ -23,12 +22,11 @@ from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
 from urdfsync.files import normalised
-from urdfsync.merge.tokens import is_trivia, tokens
 from urdfsync.modelica.files import files_that_use, has_word
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within
+from urdfsync.modelica.parser import parse
 
-_PREFIXES = frozenset({"final", "encapsulated", "partial"})
 _URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
 
 
@@ -52,16 +50,13 @@ class PackageFiles(msgspec.Struct, frozen=True):
 
     def models_not_in(self, generated: Collection[str]) -> list[str]:
         """The user's models and blocks that are files and not partial, by their full names below the package."""
-        found = []
-        for path in (PurePosixPath(path) for path in sorted(self.texts) if path not in generated):
-            if not holds_class(path) or path.name == "package.mo":
-                continue
-            words = [token.text for token in lex(self.text(str(path)))[0]]
-            rest = words[words.index(";") + 1 if words[0] == "within" and ";" in words else 0 :]
-            head = list(itertools.takewhile(lambda word: word in _PREFIXES or word in ("model", "block"), rest))
-            if {"model", "block"} & {*head} and "partial" not in head and rest[len(head)] == path.stem:
-                found.append(".".join(path.with_suffix("").parts))
-        return found
+        return [
+            ".".join(path.with_suffix("").parts)
+            for path in map(PurePosixPath, sorted(self.texts.keys() - {*generated}))
+            if holds_class(path) and path.name != "package.mo"
+            for one in parse(self.text(str(path))).classes
+            if one.kind in ("model", "block") and "partial" not in one.prefixes and str(one.name) == path.stem
+        ]
 
     def diagnostic(
         self, severity: Severity, code: str, message: str, path: str, line: int = 0, column: int = 0, hint: str = ""
@@ -70,6 +65,10 @@ class PackageFiles(msgspec.Struct, frozen=True):
         owner = self.owners.get(path, "")
         message = f"{owner}: {message}" if owner else message
         return Diagnostic(severity, code, message, shown(self.folder / path), line, column, hint)
+
+    def by_hand(self, path: str) -> str:
+        """A hint for a file that was edited; empty for others."""
+        return "the file was edited by hand" if path in self.edited else ""
 
 
 class CheckedPackage(msgspec.Struct):
@@ -148,7 +147,7 @@ def edited_files(generated: Mapping[str, bytes], on_disk: Mapping[str, bytes]) -
 
 def _words(text: bytes) -> list[str]:
     """What a text says but for comments, blanks and ends of line."""
-    return [token for token in tokens(text.decode(errors="replace")) if not is_trivia(token)]
+    return [token.text for token in lex(text.decode(errors="replace"))[0]]
 
 
 def missing_resources(package: CheckedPackage) -> Iterator[Diagnostic]:

@@ -133,7 +133,7 @@ def find_flaw(text: str, sides: Sequence[str]) -> str:
     for side in sides if faults else ():
         known |= Counter(fault.reason for fault in (*find_markers(side), *parse(side).faults))
     seen: Counter[str] = Counter()
-    for reason, line in faults:
+    for reason, line, _ in faults:
         seen[reason] += 1
         if seen[reason] > known[reason]:
             return f"{reason} (line {line})"

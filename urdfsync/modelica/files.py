@@ -50,7 +50,7 @@ class StoredClasses:
             found = _parsed(content)
             within = tuple(found.within.split(".")) if found.within else ()
             expected = _package_around(path, others)
-            if _is_broken(found) or (expected and within != expected):
+            if found.is_broken or (expected and within != expected):
                 self.unread.append(path)
                 continue
             for one in found.classes:
@@ -160,12 +160,7 @@ def _parsed(content: bytes) -> StoredText:
 
 def _class_in(found: StoredText, name: str, file: Path) -> Stored | Unknown:
     definition = next((one for one in found.classes if one.name.parts[0] == name), None)
-    return UNKNOWN if definition is None or _is_broken(found) else Stored(definition, str(file))
-
-
-def _is_broken(found: StoredText) -> bool:
-    """Whether parts of a text could not be read."""
-    return any(not fault.reason.endswith(" twice") for fault in found.faults)
+    return UNKNOWN if definition is None or found.is_broken else Stored(definition, str(file))
 
 
 def _package_around(path: Path, files: Mapping[Path, bytes]) -> tuple[str, ...]:

@@ -28,6 +28,8 @@ class Fault(NamedTuple):
 
     reason: str
     line: int
+    is_repetition: bool = False
+    """Whether something is only there twice: the text could be read."""
 
 
 class Token(NamedTuple):

@@ -126,7 +126,7 @@ class _Parser:
     def _once(self, seen: set[str], key: str, reason: str) -> None:
         """Note a fault if the key is in `seen`; else put it there."""
         if key in seen:
-            self.faults.append(Fault(reason, self.tokens[self.at - 1].line))
+            self.faults.append(Fault(reason, self.tokens[self.at - 1].line, is_repetition=True))
         seen.add(key)
 
     def _since(self, start: int) -> str:
