@@ -148,7 +148,7 @@ LOAD = '\n  // load.tau\n  Real load(start = 0) "load.tau";\nequation\n  load[1]
         pytest.param(
             f"Failed to load source root '{COPY}': parse source-root files under {COPY}",
             None,
-            ": error: the compiler can't read one of the files, and does not say which [syntax]",
+            f": error: parse source-root files under {arm.DISK} [does-not-compile]",
             id="a folder",
         ),
         pytest.param(

@@ -41,7 +41,10 @@ _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d
 _NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 _STANDARD_NAME = re.compile(rb"\bModelica((?:\s*\.\s*[\w*{]+)+)")
 _STANDARD_ALIAS = re.compile(rb"=\s*Modelica\s*;")
-_HINT = "name the folder that holds it with `library` in the table `[check]`, or put it on MODELICAPATH"
+_HINT = (
+    "name the folder that holds `Modelica`, `ModelicaServices` and `Complex`, 4.1.0 or newer, with `library` in the "
+    "table `[check]`, or put it on MODELICAPATH"
+)
 
 
 class LibraryError(UrdfsyncError):
@@ -79,20 +82,16 @@ def find_standard_library(environment: Mapping[str, str], configured: Path | Non
     suitable = [library for library in found if library.version >= OLDEST]
     if suitable:
         return next((library for library in suitable if library.version < NEXT), suitable[0])
-    oldest = ".".join(map(str, OLDEST))
+    code, message = "no-standard-library", "there is no Modelica Standard Library"
     if found:
         place, number = found[0].parts["Modelica"].parent, ".".join(map(str, found[0].version)) or "of unknown version"
+        code, oldest = "standard-library-too-old", ".".join(map(str, OLDEST))
         message = f"the Modelica Standard Library in {place} is {number}; the compiler takes {oldest} and newer"
-        if not configured:
-            raise LibraryError("standard-library-too-old", message, f"install {oldest}; {_HINT}")
-        hint = f"install {oldest} or newer, or name another folder"
-        raise LibraryError("wrong-library-folder", f"{message}, which the configuration names", hint)
     if configured:
-        hint = "name the folder that holds `Modelica`, `ModelicaServices` and `Complex`"
+        code, message = "wrong-library-folder", f"{message}: `library` in the table `[check]` names {configured}"
         if (configured / "package.mo").is_file():
-            hint = f"name the folder around it: {configured.parent}"
-        raise LibraryError("wrong-library-folder", f"there is no Modelica Standard Library in {configured}", hint)
-    raise LibraryError("no-standard-library", "there is no Modelica Standard Library", _HINT)
+            raise LibraryError(code, message, f"name the folder around it: {configured.parent}")
+    raise LibraryError(code, message, _HINT)
 
 
 def library_folders(environment: Mapping[str, str]) -> list[Path]:

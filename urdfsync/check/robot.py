@@ -13,7 +13,7 @@ from urdfsync import __version__
 from urdfsync.check import compilers, layout, libraries, names
 from urdfsync.check.cache import UserCache, fingerprint
 from urdfsync.check.compilation import CheckProgress, Compilation, findings_of
-from urdfsync.check.package import CheckedPackage, irregular_files, missing_resources, read_package
+from urdfsync.check.package import CheckedPackage, missing_resources, read_package
 from urdfsync.check.report import listed
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStep
 from urdfsync.config import Config, RobotConfig, library_folder, shown
@@ -53,11 +53,9 @@ def _check_texts(package: CheckedPackage, result: CheckResult) -> str:
     robot = package.robot
     found = layout.check_layout(package.files)
     found += layout.check_around({robot.output / path: content for path, content in package.around.items()})
-    if package.on_disk:
-        message, hint = "this is no regular file, so it was not looked at", "put the file itself here, or take it away"
-        for path in irregular_files(robot.folder):
-            found.append(Diagnostic(Severity.WARNING, "no-file", message, shown(path), hint=hint))
-        found += missing_resources(package)
+    message, hint = "this is no regular file, so it was not looked at", "put the file itself here, or take it away"
+    found += [Diagnostic(Severity.WARNING, "no-file", message, shown(path), hint=hint) for path in package.irregular]
+    found += missing_resources(package)
     result.add(found)
     if package.users_files:
         files = listed([shown(path) for path in sorted(package.users_files)])
