@@ -214,10 +214,8 @@ class Compilation:
         return run.values, []
 
     def _explain(self, problem: str, outcome: _Outcome, model: str) -> list[Diagnostic]:
-        said = () if model == "the comparison" else self._result.diagnostics
-        return errors.explain(
-            problem, self.compiler.complaints(problem), self._package.files, outcome.folders, said, model
-        )
+        complaints = self.compiler.complaints(problem)
+        return errors.explain(problem, complaints, self._package.files, outcome.folders, model)
 
 
 def findings_of(error: UrdfsyncError | OSError) -> tuple[Diagnostic, ...]:

@@ -29,16 +29,22 @@ def explain(
     complaints: Sequence[Complaint],
     package: PackageFiles,
     folders: Mapping[Path, Path],
-    said: Sequence[Diagnostic] = (),
     model: str = "",
 ) -> list[Diagnostic]:
-    """Diagnostics for a compiler's text about `model`, a name below the package; at least one, unless it was `said`.
+    """Diagnostics for a compiler's text about `model`, a name below the package; at least one.
 
     `complaints` are what the text says; `folders` are those that the compiler reads, with those that people know.
     """
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
         equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
-        return _unbalanced(equations, unknowns, package, said, model)
+        lacking = abs(equations - unknowns)
+        # without the name of the model, since the models around it lack as many, which need not be said again
+        message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
+        message += "many" if equations > unknowns else "few"
+        path = f"{model.replace('.', '/')}.mo"
+        if path in package.texts and path not in package.owners:  # a model of the user's
+            return [package.diagnostic(Severity.ERROR, "unbalanced", message, path, hint=_look_at_edits(package))]
+        return [_somewhere("unbalanced", message, package)]
     missing = {one.missing: one.kind for one in complaints if one.missing}
     classes = {name: kind for name, kind in missing.items() if kind != "component"}
     if missing:  # if a class is missing, all components of that class are, too
@@ -75,22 +81,6 @@ def _placed(complaint: Complaint, package: PackageFiles) -> Diagnostic:
         path = file.relative_to(package.folder).as_posix().removeprefix(".")
         return package.diagnostic(*facts, path, *place, package.by_hand(path))
     return Diagnostic(*facts, shown(file), *place, _look_at_edits(package))
-
-
-def _unbalanced(
-    equations: int, unknowns: int, package: PackageFiles, said: Sequence[Diagnostic], model: str
-) -> list[Diagnostic]:
-    """Whether equations lack or abound, unless as many do in a model of which that is said already."""
-    for one in said:
-        known = _BALANCE.search(one.message) if (one.code, one.severity) == ("unbalanced", Severity.ERROR) else None
-        if known and int(known[1].replace(",", "")) - int(known[2].replace(",", "")) == equations - unknowns:
-            return []
-    balance = f"{counted(equations, 'equation')} for {counted(unknowns, 'unknown')}"
-    message = f"`{model}` has {balance}" if model else f"there are {balance}"
-    own = f"{model.replace('.', '/')}.mo"
-    if own in package.texts and own not in package.owners:
-        return [package.diagnostic(Severity.ERROR, "unbalanced", message, own, hint=_look_at_edits(package))]
-    return [_somewhere("unbalanced", message, package)]
 
 
 def _missing_name(name: str, kind: str, package: PackageFiles) -> Diagnostic:
