@@ -8,9 +8,7 @@ import importlib
 import os
 import signal
 import sys
-import tempfile
 import threading
-import traceback
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import FrameType
@@ -98,6 +96,9 @@ def unforeseen(error: Exception, *, show: bool = False) -> Diagnostic:
 
     Its traceback goes to a file in the folder for temporary files, or to the error stream if `show` asks for it.
     """
+    import tempfile
+    import traceback
+
     if isinstance(error, MemoryError):
         message = "there is not enough memory"
     else:

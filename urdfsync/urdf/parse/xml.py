@@ -9,11 +9,9 @@ The parser is expat, since it tells where a start tag begins; lxml tells where i
 from __future__ import annotations
 
 import codecs
-import html
 import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
-from xml.etree import ElementTree
 from xml.parsers import expat
 
 import msgspec
@@ -110,6 +108,9 @@ class XmlNode(msgspec.Struct, eq=False, gc=False):
 
     def canonical(self) -> str:
         """Return the element as canonical XML 2.0, without comments, indentation and invented namespaces."""
+        import html
+        from xml.etree import ElementTree
+
         content, known = self.document.content, self.document.namespaces
         tag = _START_TAG.match(content, self.start)
         end = tag.end() if tag and tag[0].endswith(b"/>") else content.index(b">", self.end) + 1
