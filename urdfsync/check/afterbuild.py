@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from pathlib import Path
 
 import msgspec
 
@@ -50,15 +49,18 @@ class BuildChecker:
             top = robot.target.package.partition(".")[0]
             every = [*texts.values(), *around.values(), *users.values()]
             used = libraries.needed_libraries(every, top, libraries.search_path(robot), ())
+            absent = ""
             try:
                 used |= libraries.find_standard_library(os.environ, self._config.check.library).parts
             except libraries.LibraryError as error:
-                used[str(error)] = Path()
+                absent = str(error)
             states = [(name, str(path), libraries.library_state(path)) for name, path in used.items()]
         except (UrdfsyncError, OSError):
             return None
-        facts = __version__, compilers.installed_version("rumoca"), robot.domain, robot.folder, robot.target, states
-        return fingerprint(*facts, sorted(texts.items()), sorted(around.items()), sorted(users.items()))
+        return fingerprint(
+            *(__version__, compilers.installed_version("rumoca"), robot.domain, robot.folder, robot.target),
+            *(states, absent, sorted(texts.items()), sorted(around.items()), sorted(users.items())),
+        )
 
     def known(self, key: str | None) -> BuildCheck | None:
         """An earlier check with this key; None if it has to be made."""
@@ -97,26 +99,23 @@ def with_checks(config: Config, request: BuildOptions, results: Iterable[Result]
     told = 0
     try:
         built.extend(results)
-        known: dict[str, BuildCheck] = {}
-        due = []
+        known: dict[str, BuildCheck | None] = {}  # None: it has to be checked
         for result in built:
             robot = robots[result.robot]
             if robot.checking and not result.failed and not result.dry and result.checked is None:
-                if found := checker.known(checker.key(robot)):
-                    known[robot.name] = found
-                else:
-                    due.append(robot)
+                known[robot.name] = checker.known(checker.key(robot))
+        due = [robots[name] for name, found in known.items() if found is None]
         checks = checker.check(due, request.progress) if due else iter(())
         for result in built:
-            found = known.get(result.robot) or (next(checks) if robots[result.robot] in due else None)
-            if found:
+            if result.robot in known:
+                found = known[result.robot] or next(checks)
                 new = tuple(one for one in found.diagnostics if one not in said)
                 said.update(filter(is_general, new))  # what is about the machine is said once for all robots
                 diagnostics = (*result.diagnostics, *new)
                 result = msgspec.structs.replace(result, diagnostics=diagnostics, checked=found.checked)
             told += 1
             yield result
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, Exception):
         yield from built[told:]  # they are built, whatever becomes of their checks
         raise
 

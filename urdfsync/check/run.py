@@ -165,7 +165,9 @@ def _check(
                     hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
                     fault = _failure(order, "check-out-of-memory", message, hint)
         finally:
-            for one in _family(process):
+            family = _family(process)
+            process.kill()
+            for one in family:
                 with contextlib.suppress(psutil.Error):
                     one.kill()
             process.wait()
