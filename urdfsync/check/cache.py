@@ -78,13 +78,12 @@ class UserCache:
     def workspace(self) -> Iterator[Path]:
         """A folder to work in, deleted in the end. Its name tells which process uses it. Raises CacheError."""
         self.prepare()
-        with contextlib.ExitStack() as stack:
-            with cache_errors(self.folder):
-                self.workspaces.mkdir(exist_ok=True)
-                folder = tempfile.TemporaryDirectory(
-                    prefix=f"{os.getpid()}-", dir=self.workspaces, ignore_cleanup_errors=True
-                )
-            yield Path(stack.enter_context(folder))
+        with cache_errors(self.folder):
+            self.workspaces.mkdir(exist_ok=True)
+            prefix = f"{os.getpid()}-"
+            folder = tempfile.TemporaryDirectory(prefix=prefix, dir=self.workspaces, ignore_cleanup_errors=True)
+        with folder as name:
+            yield Path(name)
 
     def load(self, key: str, kind: type[T]) -> T | None:
         """What was saved with this key; None if nothing was, or if it can't be read."""

@@ -47,7 +47,8 @@ class CheckProgress:
     """Tells the steps of a check, also from several threads; `total` is how many there will be, as far as is known."""
 
     def __init__(self, result: CheckResult, tell: Callable[[CheckStep], None]) -> None:
-        self._result, self._tell, self._lock = result, tell, threading.Lock()
+        self._result, self._tell = result, tell
+        self._lock = threading.Lock()  # steps of several compilers must not mix
         self._begun, self.total = 0, 6
 
     def begin(self, what: str) -> None:

@@ -67,6 +67,6 @@ def find_markers(text: str) -> list[Fault]:
     ]
 
 
-def is_identifier(token: str) -> bool:
+def is_name(token: str) -> bool:
     """Whether a token can be the name of something, quoted names included."""
     return (token[:1].isalpha() or token[:1] == "_" or (token[:1] == "'" and len(token) > 1)) and token not in KEYWORDS

@@ -14,7 +14,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.modelica.lexer import Fault, is_identifier, lex
+from urdfsync.modelica.lexer import Fault, is_name, lex
 from urdfsync.modelica.syntax import Class, Component, Connection, Extends, Import, Modifier, Name, StoredText
 
 _DEEPEST = 50
@@ -106,7 +106,7 @@ class _Parser:
             raise self._lack(f"`{word}`")
 
     def _identifier(self) -> str:
-        if not is_identifier(self.word):
+        if not is_name(self.word):
             raise self._lack("a name")
         return self._step()
 
@@ -171,7 +171,7 @@ class _Parser:
     def _name(self, *, has_subscripts: bool = False) -> Name:
         line, is_global = self.line, bool(self._accept("."))
         parts: list[str] = []
-        while not parts or (self.word == "." and is_identifier(self.following) and self._step()):
+        while not parts or (self.word == "." and is_name(self.following) and self._step()):
             parts.append(self._identifier())
             if has_subscripts:
                 self._subscripts()
@@ -230,7 +230,7 @@ class _Parser:
                 self._item()
         elif self._accept(*_CALLED):
             self._call()
-        elif is_identifier(word) or word == ".":
+        elif is_name(word) or word == ".":
             self._reference()
             if self.word == "(":
                 self._call()
@@ -255,7 +255,7 @@ class _Parser:
         """The arguments of a function."""
         names: set[str] = set()
         for _ in self._list():
-            if is_identifier(self.word) and self.following == "=":
+            if is_name(self.word) and self.following == "=":
                 name = self._identifier()
                 self._once(names, name, f"sets `{name}` twice")
                 self._step()
@@ -329,7 +329,7 @@ class _Parser:
         around, self._open = self._open, (*self._open, text)
         outer, self.body = self.body, defaultdict[str, list[Any]](list)
         self._composition()
-        is_other_end = is_identifier(self.following) and self.following not in self._open
+        is_other_end = is_name(self.following) and self.following not in self._open
         if self.word != "end" or not (is_other_end or self.following == text):
             raise self._lack(f"`end {text}`")
         self._step()
@@ -552,7 +552,7 @@ class _Parser:
             self._expression()
             if self._accept(sign):
                 self._expression()
-            elif not (is_identifier(word) or word in _CALLED or word == ".") or self.tokens[self.at - 1].text != ")":
+            elif not (is_name(word) or word in _CALLED or word == ".") or self.tokens[self.at - 1].text != ")":
                 raise self._lack(f"`{sign}`")
             if seen is not None:
                 text = self._since(start)
