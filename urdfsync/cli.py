@@ -24,7 +24,7 @@ _COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "re
 """In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
 
 
-_GARBAGE_THRESHOLD = 100_000
+_GARBAGE_THRESHOLD = 1_000_000
 """New objects after which Python looks for cycles; its own 700 cost the daemon a quarter of a changed mass."""
 
 

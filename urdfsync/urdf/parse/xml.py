@@ -176,7 +176,6 @@ def parse(content: bytes) -> XmlNode:
         if text.split("\n")[error.lineno - 1].startswith("<" * 7):
             raise _merge_conflict(error.lineno) from None
         before = document.content[: parser.ErrorByteIndex + 1]
-        before = document.content[: parser.ErrorByteIndex + 1]
         what, hint = _explain(expat.errors.messages[error.code], above[-1], before)
         message, hint = f"this is not well-formed XML: {what}", f"{hint}, or {_WAIT}"
         raise ParseError("xml-syntax", message, hint, error.lineno, error.offset + 1) from None
