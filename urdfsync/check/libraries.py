@@ -133,16 +133,15 @@ def needed_libraries(
         use = rb"\bimport\s+(?:\w+\s*=\s*)?\.?" + word + rb"\s*[.;]|(?<![\w.\])'])\.?\b" + word + rb"\s*\."
         patterns[name] = re.compile(use)
     found: dict[str, Path] = {}
-    waiting = [_NOISE.sub(b"", text) for text in (b"", *texts)]
-    new = patterns.keys() & {*wanted}
-    while waiting or new:
-        code = waiting.pop() if waiting else b""
-        for name in sorted(new | {name for name, pattern in patterns.items() if pattern.search(code)}):
+    named, waiting = patterns.keys() & {*wanted}, [_NOISE.sub(b"", text) for text in texts]
+    while named or waiting:
+        for name in sorted(named):
             del patterns[name]
             if path := find_library(name, places):
                 found[name] = path
                 waiting += [_NOISE.sub(b"", text) for text in library_texts(path).values()]
-        new = set()
+        code = waiting.pop() if waiting else b""
+        named = {name for name, pattern in patterns.items() if pattern.search(code)}
     return dict(sorted(found.items()))
 
 
