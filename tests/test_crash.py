@@ -7,7 +7,6 @@ kind of operation is tried in all cases; `URDFSYNC_CRASHES=1` tries each single 
 from __future__ import annotations
 
 import errno
-import functools
 import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -18,7 +17,6 @@ import pytest
 from support import crashes
 from support.crashes import Operation, before_each, contents, killed, recorded, run, sample
 
-from urdfsync import render
 from urdfsync.state import file_operations
 from urdfsync.state.journal import FORMAT, JournalFolder, Phase
 from urdfsync.state.record import Choice
@@ -28,7 +26,6 @@ RECORD = f"{LADDER}/Elements/C2Parameters.mo"
 REMOVED = f"{LADDER}/Elements/R2.mo"
 ADDED = f"{LADDER}/Elements/R3.mo"
 MANIFEST = ".urdfsync/robots/ladder.toml"
-RENDERER = render.Renderer
 MINE = b"\n// mine\n"
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")]
@@ -44,21 +41,6 @@ def edit(path: Path, old: str, new: str) -> None:
     text = path.read_text()
     assert old in text
     path.write_text(text.replace(old, new))
-
-
-@pytest.fixture(autouse=True)
-def _templates_compiled_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Hundreds of builds, also in forked processes, share their compiled templates."""
-    monkeypatch.setattr(render, "Renderer", _renderer)
-
-
-@functools.cache
-def _compiled(folders: tuple[Path, ...]) -> render.Renderer:
-    return RENDERER(folders)
-
-
-def _renderer(folders: Sequence[Path]) -> render.Renderer:
-    return _compiled(tuple(folders))
 
 
 @pytest.fixture(autouse=True)
