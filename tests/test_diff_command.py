@@ -102,11 +102,11 @@ def test_what_changed_and_what_a_build_would_do(built: Path, capsys: Capture, sn
         1,
         [
             "ladder: 1 parameter change since the last build",
-            "└── R2",
-            "    └── ohm  220.5 → 330 Ω  +49.7 %",
+            "  R2",
+            "    ohm  220.5 → 330 Ω  +49.7 %",
             "",
             "A build: 1 file to write",
-            f"  update    {Path('modelica/Ladder/Elements/R2Parameters.mo')}",
+            f"  update     {Path('modelica/Ladder/Elements/R2Parameters.mo')}",
         ],
     )
     assert snapshot_of(built) == before
@@ -121,7 +121,7 @@ def test_edited_files_come_first_and_conflicts_are_named(built: Path, capsys: Ca
     assert code == 1
     begin = lines.index("A build: 1 conflict, 5 changes waiting for that")
     name = Path("modelica/Ladder/Ladder.mo")
-    assert lines[begin + 1] == f"  conflict  {name}  you edited it, and what it is made from changed too"
+    assert lines[begin + 1] == f"  conflict   {name}  you edited it, and what it is made from changed too"
     assert all(line.startswith("  waiting ") for line in lines[begin + 2 : -1])
     assert "urdfsync resolve" in lines[-1]
 
@@ -130,7 +130,7 @@ def test_a_file_that_is_gone_is_out_of_step(built: Path, capsys: Capture) -> Non
     (built / "modelica/Ladder/Ladder.mo").unlink()
     code, lines = said(capsys, "ladder")
     assert (code, lines[0]) == (1, "ladder: nothing changed since the last build, but files are not as they should be")
-    assert lines[2:] == ["A build: 1 to restore", f"  restore   {Path('modelica/Ladder/Ladder.mo')}"]
+    assert lines[2:] == ["A build: 1 to restore", f"  restore    {Path('modelica/Ladder/Ladder.mo')}"]
 
 
 def test_a_robot_that_was_never_built(project: Path, capsys: Capture) -> None:
@@ -197,34 +197,21 @@ def test_two_files_without_a_configuration(arm: Path, capsys: Capture, snapshot_
         1,
         [
             "new.urdf: 2 parameter changes since arm.urdf",
-            "├── link tip",
-            "│   └── inertial / mass  2 → 3 kg     +50 %",
-            "└── joint elbow",
-            "    └── limit / effort   54 → 60 N·m  +11.1 %",
+            "  link tip",
+            "    inertial / mass  2 → 3 kg  +50 %",
+            "  joint elbow",
+            "    limit / effort   54 → 60 N·m  +11.1 %",
             "",
             "Effects",
-            "  robot mass  2 → 3 kg  +50 %",
+            "    robot mass  2 → 3 kg  +50 %",
             "",
             "2 files of the package differ",
-            f"  update    {Path('Joints/ElbowParameters.mo')}",
-            f"  update    {Path('Links/TipParameters.mo')}",
+            f"  update     {Path('Joints/ElbowParameters.mo')}",
+            f"  update     {Path('Links/TipParameters.mo')}",
         ],
     )
     assert said(capsys, "arm.urdf", "--against", str(arm / "arm.urdf"))[0] == 0
     assert snapshot_of(arm) == before
-
-
-def test_a_value_is_folded_only_where_the_terminal_is_narrow(
-    arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("COLUMNS", "120")
-    places = [f'<inertial><origin xyz="{number}"/><mass' for number in ("-0.1234 -0.2345 -0.9876", "-0.2 -0.3 -0.4")]
-    for file, place in zip(("arm.urdf", "new.urdf"), places, strict=True):
-        (arm / file).write_text(ARM.replace("<inertial><mass", place))
-    _, lines = said(capsys, "new.urdf", "--against", "arm.urdf")
-    value = "(-0.1234, -0.2345, -0.9876) → (-0.2, -0.3, -0.4) m"
-    (effect,) = (line for line in lines if "centre of mass" in line)
-    assert value in effect
 
 
 def test_a_file_from_another_folder_finds_its_meshes_beside_the_source(arm: Path, capsys: Capture) -> None:
@@ -237,9 +224,9 @@ def test_a_file_from_another_folder_finds_its_meshes_beside_the_source(arm: Path
     (arm / "old/tip.stl").write_text(MESH.format(size=2))
     code, lines = said(capsys, "arm.urdf", "--against", "old/arm.urdf")
     assert code == 1
-    assert lines[1:3] == ["└── mesh tip.stl", lines[2]]
-    assert lines[2].startswith("    └── content  ")
-    assert any(line.startswith("  update    Resources") for line in lines)
+    assert lines[1] == "  mesh tip.stl"
+    assert lines[2].startswith("    content  ")
+    assert any(line.startswith("  update     Resources") for line in lines)
 
 
 def test_what_is_not_modelled_gives_the_same_package(arm: Path, capsys: Capture) -> None:
@@ -248,7 +235,7 @@ def test_what_is_not_modelled_gives_the_same_package(arm: Path, capsys: Capture)
     change(arm, 'mass value="3"', 'mass value="2"', "new.urdf")
     code, lines = said(capsys, "arm.urdf", "--against", "new.urdf")
     assert (code, lines[0]) == (0, "arm.urdf: 1 unmodelled change since new.urdf")
-    assert lines[-1].endswith("not modelled")
+    assert lines[-1] == "    not modelled  1 change"
 
 
 def test_edited_files_that_changes_concern(built: Path, capsys: Capture) -> None:
@@ -258,7 +245,7 @@ def test_edited_files_that_changes_concern(built: Path, capsys: Capture) -> None
     change(built)
     code, lines = said(capsys, "ladder", "--against", "old.json")
     assert (code, lines[0]) == (1, "ladder: 1 parameter change since old.json")
-    assert f"  update    {Path('modelica/Ladder/Elements/R2Parameters.mo')}  you edited it" in lines
+    assert f"  update     {Path('modelica/Ladder/Elements/R2Parameters.mo')}  you edited it" in lines
 
 
 def test_new_warnings_only(arm: Path, capsys: Capture) -> None:
@@ -281,7 +268,7 @@ def test_a_revision_with_the_mesh_as_it_was(arm: Path, capsys: Capture, monkeypa
     change(arm, 'effort="54"', 'effort="60"', "arm.urdf")
     code, lines = said(capsys, "arm.urdf", "--against", "HEAD")
     assert code == 1
-    assert [line for line in lines if line.startswith(("├", "└"))] == ["├── joint elbow", "└── mesh tip.stl"]
+    assert [lines[1], lines[3]] == ["  joint elbow", "  mesh tip.stl"]
     repository.commit()
     assert said(capsys, "arm.urdf", "--against", "HEAD")[0] == 0
     (arm / "main~1").write_text(ARM)
@@ -307,7 +294,7 @@ def test_the_second_domain_against_a_revision(built: Path, capsys: Capture, monk
     code, lines = said(capsys, "ladder", "--against", "HEAD")
     assert (code, lines[:3]) == (
         1,
-        ["ladder: 1 parameter change since HEAD", "└── R2", "    └── ohm  220.5 → 330 Ω  +49.7 %"],
+        ["ladder: 1 parameter change since HEAD", "  R2", "    ohm  220.5 → 330 Ω  +49.7 %"],
     )
 
 

@@ -85,7 +85,7 @@ def test_base_generated_and_merge_are_put_aside(conflict: Path) -> None:
     merge = (conflict / ASIDE / "R1.merge.mo").read_text()
     assert "annotation (Documentation);" in merge
     assert "parameters.C*der(v)" in merge
-    assert run().standoffs[0].base == base
+    assert run().conflict_texts[0].base == base
 
 
 def test_a_merge_with_markers_is_not_put_aside_as_modelica(project: Path) -> None:
@@ -247,12 +247,12 @@ def test_edits_that_contradict_the_new_name_wait_where_they_are(project: Path) -
     new = f"{LADDER}/Elements/Shunt.mo"
     result = run()
     assert kinds(result) == {new: Kind.CONFLICT}
-    assert result.standoffs[0].origin == R1
+    assert result.conflict_texts[0].origin == R1
     assert Path(R1).read_bytes() == mine
     assert not Path(new).exists()
     again = run()
     assert kinds(again) == {new: Kind.CONFLICT}
-    assert again.standoffs == result.standoffs, "the base is recorded, although the model knows R1 no more"
+    assert again.conflict_texts == result.conflict_texts, "the base is recorded, although the model knows R1 no more"
     recorded = tomllib.loads((project / ".urdfsync/robots/ladder.toml").read_text())
     assert recorded["files"]["Elements/Shunt.mo"]["origin"] == "Elements/R1.mo"
 
@@ -281,7 +281,7 @@ def test_a_second_rename_finds_the_file_that_still_waits(project: Path) -> None:
     result = run()
     new = f"{LADDER}/Elements/Branch.mo"
     assert kinds(result) == {new: Kind.CONFLICT}
-    assert result.standoffs[0].origin == R1
+    assert result.conflict_texts[0].origin == R1
     rename("Branch", "R1")
     assert kinds(run()) == {R1: Kind.KEEP}, "the old name is back, and nothing is new for it"
 
@@ -327,7 +327,7 @@ def test_a_clone_reaches_the_same_result(
     first = run()
     run(choices={RECORD: Choice.MERGE})
     monkeypatch.chdir(other)
-    assert run().standoffs == first.standoffs
+    assert run().conflict_texts == first.conflict_texts
     run(choices={RECORD: Choice.MERGE})
 
     def files(folder: Path) -> dict[str, bytes]:
@@ -350,7 +350,7 @@ def test_a_clone_keeps_bases_before_they_can_be_rendered_no_more(project: Path) 
     own.mkdir(parents=True)
     text = (Path(__file__).parent / "rcnetwork/templates/element/model.mo.jinja").read_text()
     (own / "model.mo.jinja").write_text(text.replace("end <<", "  annotation (Icon);\nend <<"))
-    (standoff,) = [s for s in run().standoffs if s.path == R1]
+    (standoff,) = [s for s in run().conflict_texts if s.path == R1]
     assert standoff.merge is not None
     assert standoff.merge.text is not None
 
@@ -361,7 +361,7 @@ def test_without_its_base_a_conflict_has_no_merge(project: Path) -> None:
     source('"ohm": 100', '"ohm": 150')
     shutil.rmtree(project / ".urdfsync/base")
     (project / ".urdfsync/robots/ladder.json").unlink()
-    (standoff,) = run().standoffs
+    (standoff,) = run().conflict_texts
     assert standoff.base is None
     assert standoff.merge is None
     assert sorted(path.name for path in (project / ASIDE).iterdir()) == ["R1Parameters.generated.mo"]
@@ -373,7 +373,7 @@ def test_a_damaged_base_counts_as_lost(project: Path) -> None:
         kept.write_bytes(zlib.compress(zlib.decompress(kept.read_bytes()).replace(b"R1", b"XX")))
     edit(RECORD, "end R1", "  // measured in May\nend R1")
     source('"ohm": 100', '"ohm": 150')
-    (standoff,) = run().standoffs
+    (standoff,) = run().conflict_texts
     assert standoff.base is not None, "rendered again from what is recorded"
     assert "XX" not in standoff.base
 
@@ -526,7 +526,7 @@ def test_a_merge_that_mentions_what_is_gone_is_a_conflict(project: Path) -> None
     edit(whole, "equation", "  Real power = C1.v*C1.i;\n\nequation")
     rename("C1", "Tank")
     for _ in range(2):  # the second time, the state knows the new name already
-        (standoff,) = run().standoffs
+        (standoff,) = run().conflict_texts
         assert standoff.path == whole
         assert standoff.merge is not None
         assert standoff.merge.text is None

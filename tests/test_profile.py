@@ -41,27 +41,36 @@ def test_a_build_says_where_the_time_went(project: Path, capsys: Capture) -> Non
     assert cli.main(["build", "--profile"]) == 0
     said = capsys.readouterr()
     assert said.out.startswith("ladder: 14 files written\n")
-    for words in ("looking at files", "rendering", "writing", "total", "11 texts rendered"):
+    for words in ("looking at files", "rendering", "writing", "total", "11 rendered"):
         assert words in said.err
-    assert "the stamp" not in said.err.partition("total")[2], "there was none that could have answered"
+    assert "saved answer is printed" not in said.err.partition("total")[2], "there was none that could have answered"
 
 
 def test_the_profile_of_programs_adds_up(project: Path, capsys: Capture) -> None:
     cli.main(["build", "--profile", "--json"])
     found = json.loads(capsys.readouterr().out)["profile"]
     names = [stage["stage"] for stage in found["stages"]]
-    assert {"imports", "looking", "reading", "artifacts", "rendering", "deciding", "recording", "writing"} <= set(names)
+    assert {
+        "imports",
+        "looking at files",
+        "reading",
+        "artifacts",
+        "rendering",
+        "deciding",
+        "recording",
+        "writing",
+    } <= set(names)
     assert names == [name for name in (*STAGES, OTHER) if name in names], "in the order of the flow"
     assert found["ms"] == pytest.approx(sum(stage["ms"] for stage in found["stages"]), abs=0.01)
     assert found["counts"]["rendered"] == 11
 
 
-def test_it_says_that_a_stamp_would_have_answered(
+def test_it_says_that_a_saved_answer_would_have_answered(
     project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(uptodate, "has_answer", lambda arguments: arguments == ["build"])
     cli.main(["build", "--profile"])
-    assert "without --profile, the stamp answers" in capsys.readouterr().err
+    assert "without --profile, the saved answer is printed" in capsys.readouterr().err
 
 
 def test_what_was_measured_is_not_said_again(project: Path) -> None:

@@ -44,7 +44,7 @@ def main(given: Sequence[str] | None = None) -> int:
             answer = [text for entry in transcript if entry[1] for text in entry]
             uptodate.save_answer(config_file, key, answer, dependencies, started)
     except Exception as error:  # noqa: BLE001 - of what looks for answers and saves them
-        Console().fail("", [unforeseen(error)], Exit.ERROR)
+        Console().end("", Exit.ERROR, [unforeseen(error)])
         return Exit.ERROR
     return code
 
@@ -58,7 +58,7 @@ def _run(given: list[str], transcript: streams.Transcript | None = None) -> int:
 def tell_unwritten(output: streams.Stream) -> int:
     """Say that not all of the output could be written; returns the exit code."""
     found = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {output.trouble}")
-    Console().fail("", [found], Exit.ERROR)
+    Console().end("", Exit.ERROR, [found])
     return Exit.ERROR
 
 
@@ -87,7 +87,7 @@ def _main(given: list[str]) -> int:
         found, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED
     except Exception as error:  # noqa: BLE001 - Python would exit with 1, which says that a package is out of step
         found, code = (unforeseen(error, show=console.verbose and not console.json),), Exit.ERROR
-    console.fail(command, found, code)
+    console.end(command, code, found)
     return code
 
 
@@ -139,12 +139,12 @@ def _terminated_as_interrupted() -> Iterator[None]:
 
 @contextlib.contextmanager
 def _measured(given: Sequence[str]) -> Iterator[None]:
-    """Measure a command; also how long a stamp takes that would have answered."""
+    """Measure a command; also how long it takes to find a saved answer."""
     mark_incomplete()  # times can't be said again
     with profiling.measured(since=uptodate.PROGRAM_START[0]) as profile:
-        with profiling.stage("stamp"):
+        with profiling.stage("saved answer"):
             plain = [argument for argument in given if argument != "--profile"]
-            profile.stamp = uptodate.has_answer(plain) if plain[0] in uptodate.COMMANDS else None
+            profile.has_answer = uptodate.has_answer(plain) if plain[0] in uptodate.COMMANDS else None
         yield
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.engine.actions import CONFLICTS, Action, Actions, Kind
+from urdfsync.engine.actions import CONFLICTS, IN_STEP, Action, Actions, Kind
 
 if TYPE_CHECKING:
     from urdfsync.diff.changes import Changes
@@ -61,7 +61,7 @@ class Result(msgspec.Struct, frozen=True):
     drawing: Path | None = None
     changes: Changes | None = None
     """What changed in the model since the last build; None if nothing did, or there is none to compare with."""
-    standoffs: tuple[Conflict, ...] = ()
+    conflict_texts: tuple[Conflict, ...] = ()
     """The texts of the files that conflict, in the order of their paths."""
     checked: Checked | None = None
     """What a check of the package said; None if there was none. What it found is among the diagnostics."""
@@ -74,8 +74,7 @@ class Result(msgspec.Struct, frozen=True):
     @property
     def in_step(self) -> bool:
         """Whether every file was what it should be before the build, edits apart."""
-        fine = {Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
-        return not self.failed and all(action.kind in fine for action in self.actions.decided)
+        return not self.failed and all(action.kind in IN_STEP for action in self.actions.decided)
 
     @property
     def is_in_step_now(self) -> bool:

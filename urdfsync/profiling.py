@@ -17,10 +17,20 @@ Measured: TypeAlias = tuple[dict[str, int], dict[str, int]]
 """What one process measured: ns of each stage, and counts."""
 
 STAGES = (
-    *("start", "imports", "stamp", "configuration", "looking", "reading", "cross-check", "meshes", "artifacts"),
+    *(
+        "start",
+        "imports",
+        "saved answer",
+        "configuration",
+        "looking at files",
+        "reading",
+        "cross-check",
+        "meshes",
+        "artifacts",
+    ),
     *("rendering", "comparing", "deciding", "recording", "waiting", "writing", "syncing", "presentation"),
 )
-"""In the order in which they are shown; `other` is what is in none of them."""
+"""In the order in which they are shown, to people and to programs; `other` is what is in none of them."""
 OTHER = "other"
 
 
@@ -34,7 +44,7 @@ class Profile:
         """The same of other processes."""
         self.counts: Counter[str] = Counter()
         """Files that were `read` or `written`, texts that were `rendered`."""
-        self.stamp: bool | None = None
+        self.has_answer: bool | None = None
         """Whether a saved answer would have done; None for a command that has none."""
         self._stages = [OTHER]
         self._since = time.perf_counter_ns()

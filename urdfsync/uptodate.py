@@ -30,8 +30,8 @@ _VARIABLES = (
 )
 """Environment variables that decide which files a command finds, and how its output looks."""
 _MAX_ANSWERS = 16
-_MAX_CHARACTERS = 100_000
-"""Longer answers are not saved."""
+_MAX_CHARACTERS = 2_000_000
+"""Longer answers are not saved. That of the hook names all that has to be tracked: 300,000 for 8,000 outputs."""
 _TICK, _COARSE_TICK, _SKEW = 50_000_000, 2_000_000_000, 60_000_000_000
 """Nanoseconds: the coarsest clock of a file system that counts fractions of seconds, the coarsest one of all (FAT), and
 the largest difference allowed between the clocks of two file systems, one of which may be on another machine."""

@@ -44,7 +44,7 @@ def test_the_file_explains_itself(bare: Path) -> None:
     init("ladder.json")
     text = (bare / "urdfsync.toml").read_text()
     assert 'package = "Ladder"  # full name, for example Plant.Robots.Arm' in text
-    assert "ground = true  # guessed: a node is named ground" in text
+    assert "ground = true  # true or false; guessed: a node is named ground" in text
     assert '# prefix = "node"' in text
 
 
@@ -64,8 +64,8 @@ def test_choices_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     text = (tmp_path / "urdfsync.toml").read_text()
     assert 'base = "fixed"  # "fixed" or "floating"; guessed: ' in text
     assert '# visualizer = "standard"  # "standard" or "visualization2"' in text
-    assert '# approach = ["package"]  # "package" or "record", or several' in text
-    assert '# frames = "leaves"  # "leaves" or "all", or a list of names' in text
+    assert '# approach = ["package"]  # a list of "package" or "record"' in text
+    assert '# frames = "leaves"  # "leaves" or "all" or a list of strings' in text
     assert "driven" not in text, "it has no value that leaves the choice to urdfsync"
     config.load(tmp_path / "urdfsync.toml")
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.commands.status import FileStatus, PackageStatus, next_build, package_status, summary
+from urdfsync.commands.status import FileStatus, file_status, is_in_step, lines, summary
 from urdfsync.diff.changes import Change, Changes
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.domain import ChangeKind as Happening
@@ -18,10 +18,12 @@ def action(kind: Kind, held: bool = False, path: str = "") -> Action:
     return Action(path or f"Arm/{kind}.mo", kind, Role.MODEL, "link tip", base="b", held=held)
 
 
-def status_of(*actions: Action, changes: Changes | None = None) -> PackageStatus:
-    return package_status(
-        Result("arm", "Arm", Path("/project/Arm"), Path("/project"), Actions(actions), changes=changes)
-    )
+def result_of(*actions: Action, changes: Changes | None = None) -> Result:
+    return Result("arm", "Arm", Path("/project/Arm"), Path("/project"), Actions(actions), changes=changes, dry=True)
+
+
+def said(result: Result, *, verbose: bool = False) -> list[str]:
+    return list(map(str, lines(result, verbose)))
 
 
 def changed(*classes: ChangeClass, noise: bool = False) -> Changes:
@@ -31,17 +33,21 @@ def changed(*classes: ChangeClass, noise: bool = False) -> Changes:
 
 @pytest.mark.parametrize("kind", [kind for kind in Kind if kind is not Kind.FORGET])
 def test_every_action_says_how_its_file_stands(kind: Kind) -> None:
-    (file,) = status_of(action(kind)).files
-    assert (file.status is FileStatus.CONFLICT) == (kind in CONFLICTS)
-    assert (file.status in (FileStatus.STALE, FileStatus.MISSING)) == (kind in WRITES)
-    assert file.reason or kind in (Kind.UNCHANGED, Kind.KEEP)
-    assert status_of(action(Kind.FORGET)).files == ()
+    status = file_status(action(kind))
+    assert (status is FileStatus.CONFLICT) == (kind in CONFLICTS)
+    assert (status in (FileStatus.STALE, FileStatus.MISSING)) == (kind in WRITES)
+    (shown,) = (line for line in said(result_of(action(kind)), verbose=True) if f"Arm/{kind}.mo" in line)
+    assert shown.startswith(f"  {status}")
+    assert not shown.endswith(".mo") or kind in (Kind.UNCHANGED, Kind.KEEP)
+    assert file_status(action(Kind.FORGET)) is None
 
 
 def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:
     conflict = Action("Arm/New.mo", Kind.CONFLICT, Role.MODEL, base="b", origin="Arm/Old.mo")
     move = Action("Arm/Other.mo", Kind.MOVE, Role.MODEL, base="b", origin="Arm/Same.mo")
-    assert [file.path for file in status_of(conflict, move).files] == ["Arm/Old.mo", "Arm/Other.mo"]
+    shown = "\n".join(said(result_of(conflict, move)))
+    assert "conflict   /project/Arm/Old.mo" in shown
+    assert "stale      /project/Arm/Other.mo" in shown
 
 
 @pytest.mark.parametrize(
@@ -54,44 +60,43 @@ def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:
     ],
 )
 def test_a_robot_in_one_line(kinds: list[Kind], words: str) -> None:
-    found = status_of(*map(action, kinds))
+    found = result_of(*map(action, kinds))
     assert summary(found) == words
-    assert found.in_step == words.startswith("in step")
+    assert is_in_step(found) == words.startswith("in step")
 
 
 def test_a_robot_that_was_never_built_says_so() -> None:
     new = [Action(f"Arm/{name}.mo", Kind.CREATE, Role.MODEL) for name in "ab"]
-    assert summary(status_of(*new, Action("Arm/c.mo", Kind.UNOWNED, Role.MODEL))) == "not built yet: 1 conflict"
+    assert summary(result_of(*new, Action("Arm/c.mo", Kind.UNOWNED, Role.MODEL))) == "not built yet: 1 conflict"
 
 
 @pytest.mark.parametrize(
-    ("kinds", "changes", "lines"),
+    ("kinds", "changes", "words"),
     [
         ([Kind.UNCHANGED, Kind.KEEP], None, []),
-        ([Kind.DELETE, Kind.DELETE], None, ["`urdfsync build` deletes 2 files"]),
+        ([Kind.DELETE, Kind.DELETE], None, ["a build: 2 to delete"]),
         (
             [Kind.UPDATE, Kind.CREATE, Kind.DELETE],
             changed(ChangeClass.PARAMETER, ChangeClass.STRUCTURAL, ChangeClass.PARAMETER),
-            ["1 structural and 2 parameter changes in the source; `urdfsync build` writes 2 files and deletes 1"],
+            ["1 structural and 2 parameter changes in the source", "a build: 2 files to write, 1 to delete"],
         ),
         ([Kind.UNCHANGED], changed(ChangeClass.UNMODELLED), ["1 unmodelled change in the source"]),
         ([Kind.UNCHANGED], changed(ChangeClass.PARAMETER, noise=True), ["1 parameter change in the source (rounding)"]),
         (
             [Kind.UPDATE],
             Changes(generator=True),
-            ["a template, an option or urdfsync itself changed; `urdfsync build` writes 1 file"],
+            ["a template, an option or urdfsync itself changed", "a build: 1 file to write"],
         ),
     ],
 )
-def test_what_the_next_build_does(kinds: list[Kind], changes: Changes | None, lines: list[str]) -> None:
-    assert next_build(status_of(*map(action, kinds), changes=changes)) == lines
+def test_what_the_next_build_does(kinds: list[Kind], changes: Changes | None, words: list[str]) -> None:
+    shown = said(result_of(*map(action, kinds), changes=changes))
+    assert [line.strip() for line in shown[1:] if ".mo" not in line] == words
 
 
 def test_what_waits_for_a_conflict_is_counted_and_says_so() -> None:
     held = [action(Kind.UPDATE, held=True, path=path) for path in ("a.mo", "b.mo")]
-    found = status_of(action(Kind.CONFLICT), *held, action(Kind.CREATE), changes=changed(ChangeClass.STRUCTURAL))
-    assert next_build(found) == [
-        "1 structural change in the source",
-        "`urdfsync build` writes 1 file; 2 files wait for the conflict",
-    ]
-    assert found.files[-1].reason == "to be updated, waits"
+    found = result_of(action(Kind.CONFLICT), *held, action(Kind.CREATE), changes=changed(ChangeClass.STRUCTURAL))
+    shown = said(found)
+    assert shown[2] == "  a build: 1 file to write, 1 conflict, 2 changes waiting for that"
+    assert sum("waits until the conflict is settled" in line for line in shown) == 2

@@ -46,22 +46,6 @@ def test_a_plan_and_two_files_give_the_same_answer(
         assert planned == document(capsys, "--against", str(old))
 
 
-@pytest.mark.parametrize("width", [40, 80, 140])
-def test_lines_fit_a_terminal(
-    corpus: Path, robot: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, width: int
-) -> None:
-    monkeypatch.setenv("FORCE_COLOR", "1")
-    monkeypatch.setenv("NO_COLOR", "1")
-    monkeypatch.setenv("COLUMNS", str(width))
-    versions = sorted((corpus / "histories" / SPIRIT).glob("*.urdf"))
-    shutil.copy(versions[3], robot)
-    for options in ([], ["--verbose"]):
-        assert cli.main(["diff", "r.urdf", "--against", str(versions[1]), *options]) == 1
-        lines = capsys.readouterr().out.splitlines()
-        assert len(lines) > 10
-        assert max(map(len, lines)) <= width
-
-
 def test_names_can_not_move_the_cursor(
     robot: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

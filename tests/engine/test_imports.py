@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from urdfsync import registry
@@ -25,8 +26,8 @@ def dependency(file: Path, uri: str = "step.csv") -> Dependency:
     return Dependency(uri, uri, (file,), "Resources/step.txt", "table", line=3)
 
 
-def bring_in(wanted: Dependency, before: Imported | None = None) -> Imported:
-    """Import one file, after a build that did `before`."""
+def bring_in(*wanted: Dependency, before: Imported | None = None) -> Imported:
+    """Import files, after a build that did `before`."""
     imported = before.imports.items() if before else ()
     copies = before.contents if before else {}
     recorded = Recorded(
@@ -36,7 +37,7 @@ def bring_in(wanted: Dependency, before: Imported | None = None) -> Imported:
         base=lambda target: digest(copies[target]) if target in copies else None,
     )
     domain = registry.domain("rcnetwork")
-    return imports.bring_in(domain, [wanted], recorded, "ladder.json", again=False, progress=lambda _done, _total: None)
+    return imports.bring_in(domain, wanted, recorded, "ladder.json", again=False, progress=lambda _done, _total: None)
 
 
 def unchanged(wanted: Dependency, records: Mapping[str, DependencyRecord], converter: int = 1) -> bool:
@@ -58,7 +59,7 @@ def test_a_file_that_cant_be_read_is_told_once(tmp_path: Path) -> None:
     assert not unchanged(wanted, result.records, converter=2), "a newer converter may be able to read it"
     file.write_bytes(GOOD)
     assert not unchanged(wanted, result.records)
-    assert bring_in(wanted, result).diagnostics == []
+    assert bring_in(wanted, before=result).diagnostics == []
 
 
 def test_a_file_that_cant_be_read_any_more_is_told_once(tmp_path: Path) -> None:
@@ -68,7 +69,7 @@ def test_a_file_that_cant_be_read_any_more_is_told_once(tmp_path: Path) -> None:
     first = bring_in(wanted)
     file.write_text("no numbers\n")
     assert not unchanged(wanted, first.records)
-    second = bring_in(wanted, first)
+    second = bring_in(wanted, before=first)
     assert [found.code for found in second.diagnostics] == ["table-unreadable-kept"]
     assert second.imports == first.imports
     assert unchanged(wanted, second.records)
@@ -107,6 +108,19 @@ def test_files_on_the_network_are_for_the_user_to_fetch(tmp_path: Path, uri: str
 def test_what_to_do_about_a_file_that_is_not_found_goes_by_its_reference(tmp_path: Path, uri: str, hint: str) -> None:
     (found,) = bring_in(dependency(tmp_path / "gone", uri)).diagnostics
     assert (found.message, found.hint) == (f"table `{uri}` not found; left out", hint)
+
+
+def test_what_is_found_in_a_folder_of_another_name_is_one_warning_for_each_package(tmp_path: Path) -> None:
+    file = tmp_path / "step.csv"
+    file.write_bytes(GOOD)
+    uris = ["package://ladder_data/a.csv", "package://ladder_data/b.csv", "package://other/a.csv"]
+    wanted = [msgspec.structs.replace(dependency(file, uri), guessed=True) for uri in uris]
+    hint = "rename the folder, or add that of the right package to `package_paths`"
+    folder = "taken from a folder that is not called like the package"
+    assert list(map(str, bring_in(*wanted).diagnostics)) == [
+        f"ladder.json:3: warning: 2 tables (such as `{uris[0]}`) are {folder} `ladder_data`; {hint} [table-guessed]",
+        f"ladder.json:3: warning: table `{uris[2]}` is {folder} `other`; {hint} [table-guessed]",
+    ]
 
 
 def test_a_pointer_of_git_lfs_is_told_as_such(tmp_path: Path) -> None:

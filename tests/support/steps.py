@@ -88,7 +88,7 @@ class Step:
     def conflicts(self) -> Mapping[str, Sequence[Choice]]:
         """The paths of files that conflict, and what can be done about them: a folder can only be kept."""
         found = {}
-        for standoff in self.result.standoffs:
+        for standoff in self.result.conflict_texts:
             mergeable = standoff.merge is not None and standoff.merge.text is not None
             possible = list(Choice) if mergeable else [Choice.KEEP, Choice.TAKE]
             path = inside(standoff.path)
@@ -178,7 +178,7 @@ class Step:
     def _conflicts(self) -> Iterator[str]:
         """The file is as it was, and the texts of both sides are put aside; nothing of older conflicts is left."""
         wanted = set()
-        for standoff in self.result.standoffs:
+        for standoff in self.result.conflict_texts:
             path, place = inside(standoff.path), inside(standoff.place)
             if self._project.files().get(place) != self._raw.get(place):
                 yield f"{place} conflicts, and is changed"
@@ -189,7 +189,7 @@ class Step:
         stray = {name for name in folder if name.removesuffix(".txt").removesuffix(".mo") not in wanted}
         yield from (f"{name} is left over" for name in stray)
         files = {inside(a.path) for a in self.result.conflicts if a.role is not Role.IMPORT}
-        missing = files - {inside(standoff.path) for standoff in self.result.standoffs}
+        missing = files - {inside(standoff.path) for standoff in self.result.conflict_texts}
         yield from (f"{path} conflicts, but there are no texts of it" for path in missing)
 
     def _is_folder(self, path: str) -> bool:

@@ -180,7 +180,7 @@ def test_one_daemon_at_a_time_and_one_that_was_killed_leaves_no_lock(start: Star
 @pytest.mark.skipif(not QUEUE.is_file(), reason="no inotify")
 def test_an_overflow_of_events_is_made_good(project: Path, start: Start) -> None:
     """While the daemon is stopped, more happens than the system remembers: also where it looks for changes."""
-    watch = start("--rescan", "100000")
+    watch = start("--rescan", "1")
     since = watch.mark
     with stopped(watch.process):
         one, two = project / "one", project / "two"

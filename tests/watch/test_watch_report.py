@@ -21,6 +21,7 @@ from urdfsync.domain import ChangeClass, Role
 from urdfsync.domain import ChangeKind as Event
 from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Result
+from urdfsync.output.console import Console
 from urdfsync.watch import events, report
 from urdfsync.watch.report import JsonReport, TextReport
 
@@ -78,7 +79,7 @@ def look(terminal: Terminal) -> Look:
 
     def shown(*found: events.Event, robots: tuple[str, ...] = ("arm", "gripper"), **options: Any) -> list[str]:
         screen = terminal()
-        tell(TextReport(**options), *found, robots=robots)
+        tell(TextReport(Console(**options)), *found, robots=robots)
         return screen.shown()
 
     return shown
@@ -92,7 +93,7 @@ def tell(people: TextReport, *found: events.Event, robots: tuple[str, ...] = ("a
 def test_a_line_per_robot_stays_below_what_scrolls(look: Look) -> None:
     assert look(built("gripper", Kind.UPDATE), events.Settling("arm")) == [
         "14:03:12  watching 2 robots of urdfsync.toml",
-        "14:03:12  gripper  1 record written",
+        "14:03:12  gripper  1 file written",
         "",
         "… arm      settling",
         "✓ gripper  in step, built at 14:03:12",
@@ -103,7 +104,7 @@ def test_the_page_shows_what_a_terminal_shows(terminal: Terminal, monkeypatch: p
     (example,) = re.findall(r"```text\n(.*?)\n```", PAGE, re.DOTALL)
     moments = iter(re.findall(r"^\d\d:\d\d:\d\d", example, re.MULTILINE))
     screen = terminal(110)
-    people = TextReport()
+    people = TextReport(Console())
     mass = [
         change(f"link {name}", "inertial / mass", 1.2, 1.35 + index) for index, name in enumerate(("elbow", "a", "b"))
     ]
@@ -157,17 +158,17 @@ def test_of_many_robots_those_are_shown_that_need_attention(look: Look) -> None:
         "✓ cranecranecranecranecra…  in step",
         "✓ cart0                     in step",
         "… cart40                    settling",
-        "… and 56 more in step",
+        "… and 56 more: 56 in step",
     ]
 
 
 def test_the_terminal_is_left_in_order_whatever_happens(terminal: Terminal) -> None:
     screen = terminal()
-    people = TextReport()
+    people = TextReport(Console())
     with contextlib.suppress(ValueError), people:
         tell(people, built("arm", Kind.UPDATE))
         raise ValueError("a bug")
-    assert screen.shown()[1:] == ["14:03:12  arm  1 record written"]
+    assert screen.shown()[1:] == ["14:03:12  arm  1 file written"]
     assert screen.rows[-1] == ""
 
 
@@ -177,9 +178,9 @@ def test_stopping_takes_the_status_away(look: Look) -> None:
 
 def test_a_long_build_shows_its_progress_now_and_then(terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
     moments = iter([100.0, 100.4, 100.6, 100.7, 100.9])
-    monkeypatch.setattr("urdfsync.watch.report.time.monotonic", lambda: next(moments))
     screen = terminal()
-    people = TextReport()
+    people = TextReport(Console())
+    monkeypatch.setattr("urdfsync.watch.report.time.monotonic", lambda: next(moments))
     tell(people, events.Building("arm"))
     rows = []
     for done in range(4):
@@ -190,23 +191,23 @@ def test_a_long_build_shows_its_progress_now_and_then(terminal: Terminal, monkey
 
 def test_colours_obey_no_color(terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
     coloured = terminal()
-    tell(TextReport(), built("arm"))
+    tell(TextReport(Console()), built("arm"))
     assert "\x1b[32m" in coloured.getvalue()
     monkeypatch.setenv("NO_COLOR", "1")
     plain = terminal()
-    tell(TextReport(), built("arm"))
+    tell(TextReport(Console()), built("arm"))
     assert not re.search(r"\x1b\[[\d;]*m", plain.getvalue())
     assert plain.shown() == coloured.shown()
 
 
 def test_a_pipe_has_lines_only_and_errors_go_their_way(capsys: pytest.CaptureFixture[str]) -> None:
-    with TextReport() as people:
+    with TextReport(Console()) as people:
         tell(people, built("arm", Kind.UPDATE), FAILED)
         people.progress("reading", 1, 2)
     streams = capsys.readouterr()
     assert [line[8:] for line in streams.out.splitlines()] == [
         "  watching 1 robot of urdfsync.toml",
-        "  arm  1 record written",
+        "  arm  1 file written",
     ]
     assert streams.err.splitlines()[1] == "arm.urdf:12: error: this is no XML [xml-syntax]"
 
@@ -221,7 +222,7 @@ def test_quiet_has_no_status(look: Look) -> None:
 def test_an_error_stream_elsewhere_gets_the_errors(terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
     screen, elsewhere = terminal(), io.StringIO()
     monkeypatch.setattr(sys, "stderr", elsewhere)
-    tell(TextReport(), FAILED)
+    tell(TextReport(Console()), FAILED)
     assert screen.shown()[1:] == ["", "✗ arm  error: arm.urdf:12: this is no XML"]
     assert elsewhere.getvalue().splitlines()[1] == "arm.urdf:12: error: this is no XML [xml-syntax]"
 

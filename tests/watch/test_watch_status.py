@@ -36,7 +36,7 @@ def board(*found: events.Event, robots: tuple[str, ...] = ("arm",)) -> StatusTab
 
 
 def words(*found: events.Event) -> str:
-    (status,) = board(*found).rows
+    (status,) = board(*found).rows.values()
     return status.text
 
 
@@ -99,16 +99,16 @@ def test_what_a_check_found_yields_to_what_is_worse() -> None:
 def test_progress_is_that_of_the_build_under_way() -> None:
     found = board(events.Building("arm"), events.Settling("cart"), robots=("arm", "cart"))
     found.progress("arm", 0, 1)
-    assert [status.text for status in found.rows] == ["building", "settling"]
+    assert [status.text for status in found.rows.values()] == ["building", "settling"]
     found.progress("reading", 3, 12)
-    assert [status.text for status in found.rows] == ["building: reading 3 of 12", "settling"]
+    assert [status.text for status in found.rows.values()] == ["building: reading 3 of 12", "settling"]
     found.progress("waiting for another build", 0, 1)
-    assert found.rows[0].text == "building: waiting for another build"
+    assert found.rows["arm"].text == "building: waiting for another build"
 
 
 def test_a_new_configuration_brings_robots_and_takes_others_away() -> None:
     found = board(BUILT, WRONG, events.Settling("cart"), started("crane", "arm"), robots=("arm", "cart"))
-    assert [(status.robot, status.text) for status in found.rows] == [
+    assert [(robot, status.text) for robot, status in found.rows.items()] == [
         ("crane", "not looked at yet"),
         ("arm", "in step, built at 12:00:01"),
     ]
@@ -126,7 +126,7 @@ def test_where_not_all_find_room_those_that_need_attention_do_in_their_usual_ord
         "r10  settling",
         "r50  conflict in F0.mo",
         "r55  error",
-        "… and 56 more in step",
+        "… and 56 more: 56 in step",
     ]
     assert drawn(found, 3) == ["r50  conflict in F0.mo", "r55  error", "… and 58 more: 1 settling, 57 in step"]
 
@@ -153,8 +153,8 @@ def test_nobody_is_hidden_behind_a_calmer_one(activities: list[Activity], room: 
     )
     lines = drawn(found, room)
     assert len(lines) <= room
-    shown = [status for status in found.rows if any(line.startswith(status.robot) for line in lines)]
-    hidden = [status for status in found.rows if status not in shown]
+    shown = [status for robot, status in found.rows.items() if any(line.startswith(robot) for line in lines)]
+    hidden = [status for robot, status in found.rows.items() if not any(line.startswith(robot) for line in lines)]
     assert not hidden or f"and {len(hidden)} more" in lines[-1]
     order = list(Activity)
     assert all(order.index(one.activity) <= order.index(other.activity) for one in shown for other in hidden)

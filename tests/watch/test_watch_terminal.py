@@ -128,13 +128,14 @@ PROGRAM = r"""
 import os
 from pathlib import Path
 from urdfsync.watch import events
+from urdfsync.output.console import Console
 from urdfsync.watch.report import TextReport
 
 def opened():
     return [number for number in range(50) if os.path.exists(f"/dev/fd/{number}")]
 
 before = opened()
-with TextReport() as listener:
+with TextReport(Console()) as listener:
     listener.show(events.Started(Path("urdfsync.toml"), ("arm", "cart")))
     os.system(r"exec >&2; printf 'one\r\ntwo\n\n 10 %%\r100 %%\n\033[2Jthree\033[31m red\033[0m\nfour'")
 assert opened() == before
@@ -181,9 +182,10 @@ OUTLIVED = r"""
 import os, subprocess
 from pathlib import Path
 from urdfsync.watch import events
+from urdfsync.output.console import Console
 from urdfsync.watch.report import TextReport
 
-with TextReport() as listener:
+with TextReport(Console()) as listener:
     listener.show(events.Started(Path("urdfsync.toml"), ("arm",)))
     command = "echo early >&2; sleep 1; seq 20000 >&2; echo late >&2; touch {}"
     subprocess.Popen(command, shell=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
@@ -12,6 +12,7 @@ from urdfsync import config, profiling
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
+from urdfsync.outcome import Exit
 from urdfsync.output.console import Console
 
 CODES = "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, 4 locked, 130 interrupted"
@@ -39,8 +40,41 @@ class Parser(argparse.ArgumentParser):
 Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
 
 
-def add_common(parser: Parser) -> None:
-    """The options that every command has."""
+def count(text: str) -> int:
+    """A number of processes or robots."""
+    if not text.isascii() or not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number of anything; give 1 or more")
+    return int(text)
+
+
+_SHARED: Mapping[str, dict[str, Any]] = {
+    "robots": {"nargs": "*", "metavar": "ROBOT", "help": "robots of urdfsync.toml (default: all)"},
+    "--robot": {"action": "append", "metavar": "ROBOT", "help": "only this robot; may be repeated"},
+    "--wait": {"type": float, "default": 60, "metavar": "S", "help": "seconds to wait for another build (60)"},
+    "--trust": {
+        "action": "store_true",
+        "help": "write to an `output` outside of the configuration's folder, too",
+    },
+    "--jobs": {"type": count, "metavar": "N", "help": "processes for many robots (default: one per core)"},
+    # never from the configuration: workers may do whatever they want
+    "--executor": {
+        "default": "",
+        "metavar": "ADDRESS",
+        "help": "have workers of a Dask scheduler do the work (tcp://HOST:PORT); it has to be one that you trust",
+    },
+    "--profile": {"action": "store_true", "help": "say where the time went; no saved answer is printed"},
+}
+"""Arguments and options that more than one command takes."""
+
+
+def add_command(
+    commands: Commands, name: str, run: Callable[[argparse.Namespace, Console], Exit], shared: str = "", **texts: Any
+) -> Parser:
+    """Add the parser of a command, with some of `_SHARED` and with the options that every command has."""
+    parser = commands.add_parser(name, **texts)
+    for one in shared.split():
+        parser.add_argument(one, **_SHARED[one])
+    parser.set_defaults(run=run, parser=parser)
     group = parser.add_argument_group("common options")
     group.add_argument("--config", type=Path, metavar="PATH", help="default: urdfsync.toml, here or in a folder above")
     group.add_argument("--json", action="store_true", help="one JSON document on the standard output")
@@ -48,57 +82,7 @@ def add_common(parser: Parser) -> None:
     group.add_argument(
         "-v", "--verbose", action="store_true", help="all warnings, and files that are not just unchanged"
     )
-
-
-def add_robots(parser: Parser) -> None:
-    """The choice of robots, as arguments or options."""
-    parser.add_argument("robots", nargs="*", metavar="ROBOT", help="robots of urdfsync.toml (default: all)")
-    add_robot_option(parser)
-
-
-def add_robot_option(parser: Parser) -> None:
-    """The choice of robots by options alone."""
-    parser.add_argument("--robot", action="append", metavar="ROBOT", help="only this robot; may be repeated")
-
-
-def add_wait(parser: Parser) -> None:
-    """How long to wait for another build."""
-    parser.add_argument("--wait", type=float, default=60, metavar="S", help="seconds to wait for another build (60)")
-
-
-def add_trust(parser: Parser) -> None:
-    """Whether the user trusts the configuration."""
-    parser.add_argument(
-        "--trust", action="store_true", help="write to an `output` outside of the configuration's folder, too"
-    )
-
-
-def add_profile(parser: Parser) -> None:
-    """Whether to measure."""
-    parser.add_argument(
-        "--profile", action="store_true", help="say where the time went; nothing is answered from memory"
-    )
-
-
-def add_executor(parser: Parser, verb: str) -> None:
-    """A cluster that works instead of processes of this machine; never from the configuration, since it is trusted."""
-    parser.add_argument(
-        "--executor",
-        default="",
-        metavar="ADDRESS",
-        help=f"have workers of a Dask scheduler {verb} the robots (tcp://HOST:PORT); it has to be one that you trust",
-    )
-
-
-def add_jobs(parser: Parser) -> None:
-    """How many processes may work at once."""
-    parser.add_argument("--jobs", type=_positive, metavar="N", help="processes for many robots (default: one per core)")
-
-
-def _positive(text: str) -> int:
-    if not text.isascii() or not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number of processes; give 1 or more")
-    return int(text)
+    return parser
 
 
 @profiling.stage("configuration")

@@ -24,29 +24,24 @@ _NEXT_COMMANDS = {
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    parser = arguments.add_command(
+        commands,
         "build",
+        run,
+        "robots --robot --wait --trust --jobs --executor --profile",
         help="bring the packages in step with their sources",
         description="Bring Modelica packages in step with their sources. Files that you edited are never overwritten.",
         epilog=f"example: urdfsync build arm --dry-run --explain\n\n{arguments.CODES}",
     )
-    arguments.add_robots(parser)
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
-    arguments.add_wait(parser)
-    arguments.add_trust(parser)
-    arguments.add_jobs(parser)
-    arguments.add_executor(parser, "plan")
-    arguments.add_profile(parser)
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
     parser.add_argument("--repair", action="store_true", help="make a state again that has merge markers or is damaged")
     parser.add_argument(
         "--explain", action="store_true", help="list each file that is not just unchanged, what happens to it and why"
     )
-    parser.set_defaults(run=run)
-    arguments.add_common(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import functools
 import math
 import os
 import sys
 from collections.abc import Iterable, Sequence
+
+from rich.filesize import decimal
 
 from urdfsync import config
 from urdfsync.check import run as run_checks
@@ -18,17 +19,18 @@ from urdfsync.check.results import CheckOptions, CheckResult, exit_code
 from urdfsync.commands import arguments
 from urdfsync.outcome import Exit
 from urdfsync.output.console import Console, line, rich_console
-from urdfsync.output.phrases import byte_size
 
-_DEFAULTS = CheckOptions()
-_CHECK_OPTIONS = ("robot", "physics", "strict", "tool", "jobs", "timeout", "memory", "wait", "executor")
-"""What only a check has a use for."""
+_CHECK_OPTIONS = ("physics", "strict", "compiler", "jobs", "timeout", "memory", "wait", "executor")
+"""Fields of `CheckOptions` that the user may set."""
 
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    parser = arguments.add_command(
+        commands,
         "check",
+        run,
+        "robots --robot --wait --executor",
         help="compile the packages, and compare them with an independent reference",
         description="Check packages as they are on disk: their syntax and layout, and whether their models compile and "
         "are balanced. With --physics poses, torques and masses are compared with an independent reference that reads "
@@ -37,40 +39,17 @@ def add(commands: arguments.Commands) -> None:
         "          urdfsync check --physics --strict --timeout 60 --json\n\n"
         "exit codes: 0 right, 1 differs, out of step or not built, 2 error, 130 interrupted",
     )
-    arguments.add_robots(parser)
-    parser.add_argument("--physics", action="store_true", help="compare poses, torques and masses with a reference")
-    parser.add_argument(
-        "--strict", action="store_true", help="what comes from an edit, or could not be checked, counts as a difference"
-    )
-    parser.add_argument(
-        "--tool",
-        choices=tuple(COMPILERS),
-        default=_DEFAULTS.compiler,
-        help="what compiles (rumoca); omc: OpenModelica",
-    )
-    limits = parser.add_argument_group("limits")
-    limits.add_argument(
-        "--jobs", type=_count, metavar="N", help="robots at the same time (default: as cores and memory allow)"
-    )
-    limits.add_argument(
-        "--timeout",
-        type=_amount,
-        metavar="S",
-        default=_DEFAULTS.timeout,
-        help=f"seconds for a robot ({_DEFAULTS.timeout:g})",
-    )
-    limits.add_argument("--memory", type=_amount, metavar="GB", help="memory for all together (default: what is free)")
-    arguments.add_executor(parser, "check")
-    parser.add_argument("--clear-cache", action="store_true", help="empty the user's cache of checks, and do no more")
-    arguments.add_wait(parser)
-    parser.set_defaults(run=functools.partial(run, parser))
-    arguments.add_common(parser)
-
-
-def _count(text: str) -> int:
-    if not text.isascii() or not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number of robots; give 1 or more")
-    return int(text)
+    option, default = parser.add_argument, CheckOptions()
+    option("--physics", action="store_true", help="compare poses, torques and masses with a reference")
+    option("--strict", action="store_true", help="what comes from an edit, or was not checked, counts as a difference")
+    tools, compiler = tuple(COMPILERS), "what compiles (rumoca); omc: OpenModelica"
+    option("--tool", dest="compiler", choices=tools, default=default.compiler, help=compiler)
+    jobs = "robots at the same time (default: as cores and memory allow)"
+    option("--jobs", type=arguments.count, metavar="N", help=jobs)
+    seconds = f"seconds for a robot ({default.timeout:g})"
+    option("--timeout", type=_amount, metavar="S", default=default.timeout, help=seconds)
+    option("--memory", type=_amount, metavar="GB", help="memory for all together (default: what is free)")
+    option("--clear-cache", action="store_true", help="empty the user's cache of checks, and do no more")
 
 
 def _amount(text: str) -> float:
@@ -83,27 +62,16 @@ def _amount(text: str) -> float:
     return number
 
 
-def run(parser: arguments.Parser, args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> Exit:
     """Check the packages of the robots, and show each as soon as it is checked."""
     if args.clear_cache:
-        return _clear_cache(parser, args, console)
+        return _clear_cache(args, console)
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
-    options = CheckOptions(
-        physics=args.physics,
-        strict=args.strict,
-        compiler=args.tool,
-        jobs=args.jobs,
-        timeout=args.timeout,
-        memory=args.memory,
-        wait=args.wait,
-        executor=args.executor,
-        package_paths=config.ros_package_path(os.environ),
-    )
-    names = [robot.name for robot in robots]
-    results = show_results(
-        console, run_checks.check_robots(configuration, robots, options, console.progress), names, args.strict
-    )
+    chosen = {name: getattr(args, name) for name in _CHECK_OPTIONS}
+    options = CheckOptions(package_paths=config.ros_package_path(os.environ), **chosen)
+    found = run_checks.check_robots(configuration, robots, options, console.progress)
+    results = show_results(console, found, [robot.name for robot in robots], args.strict)
     code = exit_code(results, args.strict)
     console.end("check", code)
     return code
@@ -129,16 +97,16 @@ def show_results(
     return results
 
 
-def _clear_cache(parser: arguments.Parser, args: argparse.Namespace, console: Console) -> Exit:
+def _clear_cache(args: argparse.Namespace, console: Console) -> Exit:
     """Empty the cache. Nothing else may be asked for: a check fills it again."""
-    if args.robots or any(getattr(args, name) != parser.get_default(name) for name in _CHECK_OPTIONS):
+    if args.robots or any(getattr(args, name) != args.parser.get_default(name) for name in ("robot", *_CHECK_OPTIONS)):
         message = "--clear-cache goes without robots and without options of a check"
-        raise arguments.UsageError(parser, message, "it empties the cache of all robots, and checks none")
+        raise arguments.UsageError(args.parser, message, "it empties the cache of all robots, and checks none")
     console.waiting("emptying the cache")
     freed = UserCache.default().clear()
     console.stop_progress()
     if console.json:
         console.write_json("check", Exit.IN_STEP, {"freed": freed})
     elif not console.quiet:
-        console.print([line((f"cache emptied, {byte_size(freed)} freed" if freed else "the cache was empty", ""))])
+        console.print([line((f"cache emptied, {decimal(freed)} freed" if freed else "the cache was empty", ""))])
     return Exit.IN_STEP

@@ -30,22 +30,19 @@ _FEW = 5
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    parser = arguments.add_command(
+        commands,
         "hook",
+        run,
+        "--wait --jobs",
         help="judge what is being committed; for hooks of git",
         description="Judge staged sources against staged outputs, for all configurations that git tracks. The index is "
         "never touched.",
         epilog=f"example: urdfsync hook check\n\n{arguments.CODES}",
     )
-    modes = "build brings packages in step, check writes nothing"
+    modes, configs = "build brings packages in step, check writes nothing", f"only these, instead of all {FILE_NAME}"
     parser.add_argument("mode", choices=("build", "check"), help=modes)
-    parser.add_argument(
-        "configs", nargs="*", type=Path, metavar="CONFIG", help=f"only these, instead of all {FILE_NAME}"
-    )
-    arguments.add_wait(parser)
-    arguments.add_jobs(parser)
-    parser.set_defaults(run=run)
-    arguments.add_common(parser)
+    parser.add_argument("configs", nargs="*", type=Path, metavar="CONFIG", help=configs)
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
@@ -69,7 +66,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             diagnostics += [_finding(fault, advice) for fault in faults]
         else:
             console.print(line((text, "")) for text in _lines(faults, advice))
-    console.fail("hook", diagnostics, code)
+    console.end("hook", code, diagnostics)
     return code
 
 
@@ -83,42 +80,25 @@ def _typing_folder(top: Path, folder: Path) -> Path:
 
 def _lines(faults: Sequence[CommitFault], advice: _Advice) -> Iterator[str]:
     """Return a line for each robot, then commands to copy."""
-    several = len({fault.config for fault in faults}) > 1
+    several = len({fault.files.config.file for fault in faults}) > 1
     for fault in faults:
-        if several:
-            yield f"{fault.robot} ({advice.shown(fault.config)}): {_message(fault, advice)}"
-        elif not fault.needs_user:  # else its result has been shown
-            yield f"{fault.robot}: {_message(fault, advice)}"
-    for step, command in advice.steps(faults):
-        yield step
-        yield f"  {command}"
+        place = f" ({advice.shown(fault.files.config.file)})" if several else ""
+        if several or not fault.needs_user:  # else its result has been shown
+            yield f"{fault.files.robot.name}{place}: {advice.message(fault)}"
+    for step, command in advice.steps(faults).items():
+        yield from (step, f"  {command}")
 
 
 def _finding(fault: CommitFault, advice: _Advice) -> Diagnostic:
     """Return the same of one robot, for programs."""
-    message = f"robot `{fault.robot}`: {_message(fault, advice)}"
-    hint = "; ".join(f"`{command}`" for _, command in advice.steps([fault]))
+    message = f"robot `{fault.files.robot.name}`: {advice.message(fault)}"
+    hint = "; ".join(f"`{command}`" for command in advice.steps([fault]).values())
     code = "out-of-step" if fault.result else "not-staged"
-    return Diagnostic(Severity.ERROR, code, message, advice.shown(fault.config), hint=hint)
-
-
-def _message(fault: CommitFault, advice: _Advice) -> str:
-    """Return what is wrong, as the rest of a line that names the robot."""
-    result = fault.result
-    if result is None:
-        number = len(fault.to_add)
-        return f"in step on disk, but {'1 file is' if number == 1 else f'{number} files are'} not staged"
-    if fault.needs_user:
-        return summary(result)
-    what = "what urdfsync recorded of it is out of date" if result.in_step else summary(result)
-    if not fault.unstaged:
-        return f"out of step: {what}"
-    files = ", ".join(map(advice.shown, fault.unstaged))
-    return f"out of step: {what}; {files} {'has' if len(fault.unstaged) == 1 else 'have'} changes that are not staged"
+    return Diagnostic(Severity.ERROR, code, message, advice.shown(fault.files.config.file), hint=hint)
 
 
 class _Advice:
-    """Commands that put faults right, with paths as the user would type them."""
+    """What is wrong, and commands that put it right, with paths as the user would type them."""
 
     def __init__(self, index: Index, folder: Path) -> None:
         """`folder` is where the user types."""
@@ -129,29 +109,36 @@ class _Advice:
         text = os.path.relpath(self._index.top / path, self._folder)
         return f"./{text}" if text.startswith("-") else text
 
-    def steps(self, faults: Sequence[CommitFault]) -> Iterator[tuple[str, str]]:
+    def message(self, fault: CommitFault) -> str:
+        """Return what is wrong, as the rest of a line that names the robot."""
+        result, number = fault.result, len(fault.to_add)
+        if result is None:
+            return f"in step on disk, but {'1 file is' if number == 1 else f'{number} files are'} not staged"
+        if fault.needs_user:
+            return summary(result)
+        what = "what urdfsync recorded of it is out of date" if result.in_step else summary(result)
+        files = ", ".join(map(self.shown, fault.unstaged))
+        have = "has" if len(fault.unstaged) == 1 else "have"
+        return f"out of step: {what}{f'; {files} {have} changes that are not staged' if files else ''}"
+
+    def steps(self, faults: Sequence[CommitFault]) -> dict[str, str]:
         """Return what to do, and the command for it."""
-        ready = [fault for fault in faults if fault.to_add and not fault.needs_build]
-        if ready:
-            yield "add to the commit:", self._add_command(ready)
-        waiting = [fault for fault in faults if fault.needs_build and not fault.needs_user]
-        if not waiting:
-            return
-        step, unstaged = (
-            "build, then add to the commit:",
-            sorted({path for fault in waiting for path in fault.unstaged}),
-        )
-        if unstaged:
-            files = shlex.join(map(self.shown, unstaged))
+        steps = {}
+        if ready := [fault for fault in faults if fault.to_add and not fault.needs_build]:
+            steps["add to the commit:"] = self._add_command(ready)
+        if waiting := [fault for fault in faults if fault.needs_build and not fault.needs_user]:
+            files = shlex.join(map(self.shown, sorted({path for fault in waiting for path in fault.unstaged})))
             step = f"stage the changes (git add {files}) or put them aside (git stash push --keep-index), then build:"
-        yield step, f"{self._build_commands(waiting)} && {self._add_command(waiting)}"
+            step = step if files else "build, then add to the commit:"
+            steps[step] = f"{self._build_commands(waiting)} && {self._add_command(waiting)}"
+        return steps
 
     def _build_commands(self, faults: Sequence[CommitFault]) -> str:
         """Return a command for each configuration."""
         commands = []
         near = next((f for f in (self._folder, *self._folder.parents) if (f / FILE_NAME).is_file()), None)
-        for file in dict.fromkeys(fault.config for fault in faults):
-            robots = [fault.robot for fault in faults if fault.config == file]
+        for file in dict.fromkeys(fault.files.config.file for fault in faults):
+            robots = [fault.files.robot.name for fault in faults if fault.files.config.file == file]
             option = [] if near is not None and near / FILE_NAME == file else ["--config", self.shown(file)]
             commands.append(shlex.join(["urdfsync", "build", *robots, *option]))
         return " && ".join(commands)
@@ -162,7 +149,7 @@ class _Advice:
         if self._index.ignored(path for path in paths if not self._index.tracks(path)):
             force = ["-f"]
         elif len(paths) > _FEW:
-            for folder in sorted({folder for fault in faults for folder in fault.folders}):
+            for folder in sorted({folder for fault in faults for folder in fault.files.folders}):
                 inside = {path for path in paths if path.startswith(f"{folder}/")}
                 if len(inside) > 1 and inside.issuperset(self._index.pending(folder)):
                     paths = sorted({folder, *paths} - inside)

@@ -20,16 +20,16 @@ if TYPE_CHECKING:
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    parser = arguments.add_command(
+        commands,
         "init",
+        run,
         help="write a commented urdfsync.toml",
         description="Write a commented urdfsync.toml for some sources, with guesses and their reasons.",
         epilog="example: urdfsync init cad/arm.urdf cad/gripper.urdf",
     )
     parser.add_argument("sources", nargs="*", type=Path, metavar="SOURCE", help="default: all below this folder")
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="what the sources are (default: %(default)s)")
-    parser.set_defaults(run=run)
-    arguments.add_common(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:

@@ -15,15 +15,15 @@ from urdfsync.output.console import Console, line
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    arguments.add_command(
+        commands,
         "library",
+        run,
         help="print where the Modelica library is",
         description="Print the folder of the Modelica library, and the line that puts it on MODELICAPATH. "
         "Into a pipe or a file goes the line alone.",
         epilog='example: eval "$(urdfsync library)"',
     )
-    parser.set_defaults(run=run)
-    arguments.add_common(parser)
 
 
 def run(_args: argparse.Namespace, console: Console) -> Exit:

@@ -12,7 +12,7 @@ from urdfsync import config, registry
 from urdfsync.commands import arguments
 from urdfsync.config import shown
 from urdfsync.dependencies import read_unrecorded
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Target, Templates
 from urdfsync.files import kind_of, normalised, put, templates_digest
 from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
@@ -24,8 +24,10 @@ _SUFFIX = "Parameters"
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    parser = arguments.add_command(
+        commands,
         "record",
+        run,
         help="write the whole robot as one record",
         description="Write the record of a source alone: all numbers of the robot, and the tables by which "
         "UrdfSync.Robots.GenericRobot reads them. It needs no urdfsync.toml and leaves nothing else behind; meshes "
@@ -43,8 +45,6 @@ def add(commands: arguments.Commands) -> None:
     )
     parser.add_argument("--within", default="", metavar="PACKAGE", help="the package that FILE is in (default: none)")
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="what the source is (default: %(default)s)")
-    parser.set_defaults(run=run)
-    arguments.add_common(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
@@ -77,12 +77,7 @@ def _render(source: Path, domain_name: str, target: Target) -> tuple[str, tuple[
     from urdfsync.engine.generate import Package
 
     domain, file = registry.domain(domain_name), shown(source)
-    try:
-        content = read_unrecorded(source)
-    except OSError as error:
-        message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
-        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, file, hint=hint)) from None
-    snapshot, reading = sources.read(domain, domain.options(), content, file)
+    snapshot, reading = sources.read(domain, domain.options(), config.read_source(source), file)
     reading = msgspec.structs.replace(reading, snapshot=snapshot)
     found = domain.record(reading, file, target, domain.options())
     if found is None:

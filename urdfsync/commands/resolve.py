@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import functools
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -26,8 +25,11 @@ _FEW = 5
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    parser = arguments.add_command(
+        commands,
         "resolve",
+        run,
+        "--robot --wait --trust",
         help="settle conflicts between your edits and what is generated",
         description="Settle conflicts between your edits and what is generated. What waited for that is then built.",
         epilog="A file that you edited and that is no longer generated can be named too: --keep makes it yours, "
@@ -35,7 +37,6 @@ def add(commands: arguments.Commands) -> None:
     )
     parser.add_argument("paths", nargs="*", metavar="PATH", help="a file, or a folder for all conflicts below it")
     parser.add_argument("--all", action="store_true", help="all conflicts; with --merge, those that can be merged")
-    arguments.add_robot_option(parser)
     choice = parser.add_mutually_exclusive_group()
     kinds = {
         Choice.KEEP: "leave your file as it is, until something new is generated",
@@ -45,13 +46,9 @@ def add(commands: arguments.Commands) -> None:
     for kind, words in kinds.items():
         choice.add_argument(f"--{kind}", dest="choice", action="store_const", const=kind, help=words)
     parser.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
-    arguments.add_wait(parser)
-    arguments.add_trust(parser)
-    arguments.add_common(parser)
-    parser.set_defaults(run=functools.partial(run, parser))
 
 
-def run(parser: arguments.Parser, args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> Exit:
     """Find the files that the user means, and build their robots with the user's choice."""
     configuration = arguments.configuration(args)
     robots = configuration.select(args.robot or [])
@@ -62,7 +59,7 @@ def run(parser: arguments.Parser, args: argparse.Namespace, console: Console) ->
     wrong = "--all goes without paths" if args.all and args.paths else wrong
     wrong = "one of --keep, --take and --merge is needed" if args.choice is None else wrong
     if wrong:
-        raise arguments.UsageError(parser, wrong, f"in conflict: {listed}" if listed else "nothing is in conflict")
+        raise arguments.UsageError(args.parser, wrong, f"in conflict: {listed}" if listed else "nothing is in conflict")
     concerned = set()
     if args.all:
         targets = find_conflicts(found)
@@ -80,7 +77,7 @@ def run(parser: arguments.Parser, args: argparse.Namespace, console: Console) ->
             hint = f"these are: {listed}" if listed else "nothing is"
             code = exit_code(failed) if failed else Exit.ERROR
             no_conflict = Diagnostic(Severity.ERROR, "no-conflict", f"{message} not in conflict", hint=hint)
-            console.fail("resolve", [no_conflict], code)
+            console.end("resolve", code, [no_conflict])
             return code
         if problems := [problem for target in targets for problem in _problems(target, args.choice)]:
             raise UrdfsyncError(*problems)

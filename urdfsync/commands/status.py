@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import argparse
 import enum
-import sys
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
-
-import msgspec
 
 from urdfsync.commands import arguments
 from urdfsync.config import shown
 from urdfsync.diagnostics import Severity
-from urdfsync.engine.actions import DELETES, Action, Kind
+from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
 from urdfsync.outcome import Exit, Result, exit_code
-from urdfsync.output.console import Console, StyledLine, headline, is_terminal, line, more
+from urdfsync.output.conflicts import shown_path
+from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.json_values import action_values, result_values
-from urdfsync.output.phrases import RESOLVE_HINT, change_classes, counted, error_count, generator_change
-from urdfsync.output.results import FileLine, file_lines
+from urdfsync.output.phrases import RESOLVE_HINT, action_counts, change_classes, counted, error_count, generator_change
+from urdfsync.output.phrases import reason as reason_of
+from urdfsync.output.results import file_line, headline
 
 _STALE = 20
 """So many stale files of a robot are listed at most, without --verbose."""
@@ -42,25 +41,17 @@ class FileStatus(enum.StrEnum):
     IN_STEP = "in step"
 
 
-_STATUSES: Mapping[Kind, tuple[FileStatus, str]] = {
-    Kind.UNCHANGED: (FileStatus.IN_STEP, ""),
-    Kind.ADOPT: (FileStatus.IN_STEP, "as wanted; not recorded yet"),
-    Kind.CREATE: (FileStatus.STALE, "to be created"),
-    Kind.UPDATE: (FileStatus.STALE, "to be updated"),
-    Kind.DELETE: (FileStatus.STALE, "to be deleted"),
-    Kind.MERGE: (FileStatus.STALE, "to be updated, your edits stay"),
-    Kind.MOVE: (FileStatus.STALE, "renamed, your edits move here"),
-    Kind.LEAVE: (FileStatus.STALE, "renamed, your edits move away"),
-    Kind.RESTORE: (FileStatus.MISSING, "deleted, to be written again"),
-    Kind.KEEP: (FileStatus.EDITED, ""),
-    Kind.INCLUDED: (FileStatus.EDITED, "already has what is new"),
-    Kind.CONFLICT: (FileStatus.CONFLICT, "edited and stale"),
-    Kind.UNOWNED: (FileStatus.CONFLICT, "not written by urdfsync"),
-    Kind.ORPHAN: (FileStatus.ORPHAN, "edited, no longer generated"),
-    Kind.NEEDED: (FileStatus.ORPHAN, "needed by yours, no longer generated"),
+_STATUSES = {
+    **dict.fromkeys((Kind.UNCHANGED, Kind.ADOPT), FileStatus.IN_STEP),
+    **dict.fromkeys((Kind.CREATE, Kind.UPDATE, Kind.DELETE, Kind.MERGE, Kind.MOVE, Kind.LEAVE), FileStatus.STALE),
+    **dict.fromkeys((Kind.KEEP, Kind.INCLUDED), FileStatus.EDITED),
+    **dict.fromkeys((Kind.CONFLICT, Kind.UNOWNED), FileStatus.CONFLICT),
+    **dict.fromkeys((Kind.ORPHAN, Kind.NEEDED), FileStatus.ORPHAN),
+    Kind.RESTORE: FileStatus.MISSING,
 }
-"""Status and reason by what a build would do; FORGET is left out, since its file is gone for good."""
-
+"""Status by what a build would do; FORGET is left out, since its file is gone for good."""
+_QUIET = (Kind.UNCHANGED, Kind.KEEP)
+"""Actions of which the status says all."""
 _STYLES = {
     FileStatus.CONFLICT: "bold red",
     FileStatus.MISSING: "red",
@@ -69,59 +60,21 @@ _STYLES = {
     FileStatus.ORPHAN: "magenta",
     FileStatus.IN_STEP: "green",
 }
-_COLUMN = max(map(len, FileStatus))
-
-
-class StatusEntry(msgspec.Struct, frozen=True):
-    """How one file stands, and why; the reason is empty if there is nothing to say."""
-
-    path: str
-    """Where it is or will be, as in the manifest: relative to the configuration's folder, with `/`."""
-    status: FileStatus
-    reason: str
-    action: Action
-    """What a build would do."""
-
-
-class PackageStatus(msgspec.Struct, frozen=True):
-    """How one robot's package stands, from the `result` of a dry build; its files are in the order of their paths."""
-
-    result: Result
-    files: tuple[StatusEntry, ...] = ()
-
-    @property
-    def is_built(self) -> bool:
-        """Whether a build has written any of it."""
-        return any(file.action.base is not None for file in self.files)
-
-    @property
-    def in_step(self) -> bool:
-        """Whether a build would write nothing, and no file is in conflict; edits and orphans are in order."""
-        off = {FileStatus.CONFLICT, FileStatus.MISSING, FileStatus.STALE}
-        return not self.result.failed and all(file.status not in off for file in self.files)
-
-    @property
-    def counts(self) -> Mapping[FileStatus, int]:
-        """The number of files of each status that there is, in the order of `FileStatus`."""
-        found = Counter(file.status for file in self.files)
-        return {status: found[status] for status in FileStatus if found[status]}
 
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    arguments.add_command(
+        commands,
         "status",
+        run,
+        "robots --robot --wait --profile",
         help="say which files are stale, edited, missing or in conflict",
         description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
         "Nothing is written.",
         epilog="example: urdfsync status arm --verbose\n\n"
         "exit codes: 0 it is told, in step or not; 2 error, 3 conflict, 4 locked, 130 interrupted",
     )
-    arguments.add_robots(parser)
-    arguments.add_wait(parser)
-    arguments.add_profile(parser)
-    parser.set_defaults(run=run)
-    arguments.add_common(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
@@ -131,115 +84,108 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     sources = {robot.name: shown(robot.source) for robot in robots}
     results = []
     for result in build(configuration, robots, arguments.request(args, console, dry=True)):
-        _show(console, package_status(result), sources[result.robot])
+        _show(console, result, sources[result.robot])
         results.append(result)
     code = exit_code(results)
     console.end("status", code)
     return code
 
 
-def package_status(result: Result) -> PackageStatus:
-    """How a robot's package stands, from the result of a dry build."""
-    mergeable = {found.path for found in result.standoffs if found.merge and found.merge.text is not None}
-    files = []
-    for action in result.actions:
-        if action.kind not in _STATUSES:
-            continue
-        status, reason = _STATUSES[action.kind]
-        is_conflict = status is FileStatus.CONFLICT
-        reason += "; can be merged" if is_conflict and action.path in mergeable else ""
-        reason += ", waits" if action.held else ""
-        path = action.origin if is_conflict and action.origin is not None else action.path
-        files.append(StatusEntry(path, status, reason, action))
-    return PackageStatus(result, tuple(sorted(files, key=lambda file: file.path)))
+def file_status(action: Action) -> FileStatus | None:
+    """How a file stands; None for one that is gone for good."""
+    return _STATUSES.get(action.kind)
 
 
-def _show(console: Console, found: PackageStatus, source: str) -> None:
-    result = found.result
+def is_built(result: Result) -> bool:
+    """Whether a build has written any file of the package."""
+    return any(action.base is not None for action in result.actions)
+
+
+def is_in_step(result: Result) -> bool:
+    """Whether a build would write nothing, and no file is in conflict; edits and orphans are in order."""
+    off = {FileStatus.CONFLICT, FileStatus.MISSING, FileStatus.STALE}
+    return not result.failed and off.isdisjoint(map(file_status, result.actions))
+
+
+def _path(action: Action) -> str:
+    """Where the user's file is: that of a conflict may wait for its new name."""
+    return action.origin or action.path if file_status(action) is FileStatus.CONFLICT else action.path
+
+
+def _reason(action: Action, result: Result) -> str:
+    return "" if action.kind in _QUIET and not action.held else reason_of(action, result.changes)
+
+
+def _show(console: Console, result: Result, source: str) -> None:
     if console.json:
-        console.add_robot(_values(found))
+        console.add_robot(_values(result))
         return
     # Warnings about the source are for whoever builds it.
     told = [one for one in result.diagnostics if one.file != source or one.severity is Severity.ERROR]
     console.findings(result.diagnostics if console.verbose else told)
     console.stop_progress()
     if not console.quiet or result.conflicts:
-        console.print(_lines(found, console.verbose), error=result.failed)
+        console.print(lines(result, console.verbose), error=result.failed)
 
 
-def _values(found: PackageStatus) -> dict[str, Any]:
+def _values(result: Result) -> dict[str, Any]:
     """The robot in the JSON document."""
-    values = result_values(found.result)
-    files = [
-        {**action_values(file.action), "path": file.path, "status": file.status, "reason": file.reason}
-        for file in found.files
-    ]
-    return {
-        **{key: values[key] for key in ("name", "package", "folder", "failed", "locked")},
-        "built": found.is_built,
-        "in_step": found.in_step,
-        "summary": summary(found),
-        **{key: values[key] for key in ("class", "changes")},
-        "files": files,
-        "diagnostics": values["diagnostics"],
+    values = result_values(result)
+    actions = sorted((action for action in result.actions if file_status(action)), key=_path)
+    extra = {
+        "built": is_built(result),
+        "in_step": is_in_step(result),
+        "summary": summary(result),
+        "files": [
+            {
+                **action_values(action),
+                "path": _path(action),
+                "status": file_status(action),
+                "reason": _reason(action, result),
+            }
+            for action in actions
+        ],
     }
+    keys = ("name", "package", "folder", "failed", "locked", "class", "changes", "diagnostics")
+    return {**{key: values[key] for key in keys}, **extra}
 
 
-def _lines(found: PackageStatus, verbose: bool) -> Iterator[StyledLine]:
+def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
     """Everything that there is to say about one robot: with `verbose` all files, else those that are not in step.
 
-    New files of a robot that was never built are not named.
+    Stale files come last. New files of a robot that was never built are not named.
     """
-    result = found.result
-    stream = sys.stderr if result.failed else sys.stdout
-    mark, style = ("✓", "green") if found.in_step else ("!", "bold red" if result.conflicts else "yellow")
-    mark, style = ("✗", "bold red") if result.failed else (mark, style)
-    yield headline(stream, result.robot, summary(found), mark, style)
-    yield from (line((f"  {words}", "")) for words in next_build(found))
-    files = sorted(found.files, key=lambda file: file.path.rpartition("/"))
-    stale = [file.path for file in files if file.status is FileStatus.STALE]
-    few = len(stale) if verbose or len(stale) <= _STALE else _STALE - 1
-    few = few if found.is_built or verbose else 0
-    if not verbose:
-        files = [file for file in files if file.status is not FileStatus.IN_STEP and file.path not in stale[few:]]
-    lines = [FileLine(file.path, f"{file.status:<{_COLUMN}}", _STYLES[file.status], file.reason) for file in files]
-    yield from file_lines(lines, result.root, by_folder=is_terminal(stream))
-    if few < len(stale) and found.is_built:
-        yield more(len(stale) - few, "stale file")
+    yield headline(result, summary(result), is_fine=is_in_step(result))
+    changes = result.changes
+    if changes and changes.generator:
+        yield line((f"  {generator_change(changes)}", ""))
+    elif changes:
+        yield line((f"  {change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}", ""))
+    if not (is_in_step(result) or result.failed):
+        yield line((f"  a build: {', '.join(action_counts(result, {Kind.KEEP}))}", ""))
+    found: dict[bool, list[StyledLine]] = {False: [], True: []}
+    has_package = is_built(result)
+    for action in sorted(result.actions, key=lambda action: _path(action).rpartition("/")):
+        status = file_status(action)
+        is_stale = status is FileStatus.STALE
+        if status and (verbose or (status is not FileStatus.IN_STEP and (has_package or not is_stale))):
+            path = shown_path(result, _path(action))
+            found[is_stale].append(file_line(path, status, _STYLES[status], _reason(action, result)))
+    yield from (*found[False], *first_lines(found[True], _STALE, "stale file", verbose=verbose))
     if result.conflicts:
         yield line((RESOLVE_HINT, "dim"))
 
 
-def summary(found: PackageStatus) -> str:
+def summary(result: Result) -> str:
     """How a package stands, as the rest of a line that names the robot."""
-    if found.result.failed:
-        return f"{error_count(found.result.diagnostics)}, so nothing can be said of its files"
-    counts = {status: number for status, number in found.counts.items() if status is not FileStatus.IN_STEP}
-    if found.is_built or found.in_step:
-        head = f"{'in' if found.in_step else 'out of'} step, {counted(len(found.files), 'file')}"
-    else:
+    if result.failed:
+        return f"{error_count(result.diagnostics)}, so nothing can be said of its files"
+    counts = Counter(filter(None, map(file_status, result.actions)))
+    told = {status: counts[status] for status in FileStatus if counts[status] and status is not FileStatus.IN_STEP}
+    head = f"{'in' if is_in_step(result) else 'out of'} step, {counted(counts.total(), 'file')}"
+    if not (is_built(result) or is_in_step(result)):
         head = "not built yet"
-        counts.pop(FileStatus.STALE, None)
+        told.pop(FileStatus.STALE, None)
     nouns = (FileStatus.CONFLICT, FileStatus.ORPHAN)
-    tally = [counted(number, one) if one in nouns else f"{number} {one}" for one, number in counts.items()]
+    tally = [counted(number, one) if one in nouns else f"{number} {one}" for one, number in told.items()]
     return f"{head}{': ' if tally else ''}{', '.join(tally)}"
-
-
-def next_build(found: PackageStatus) -> list[str]:
-    """What a robot waits for and what the next build does about it, in a line or two; nothing if nothing is due."""
-    changes, changed = found.result.changes, ""
-    if changes and changes.generator:
-        changed = generator_change(changes)
-    elif changes:
-        changed = f"{change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}"
-    actions = found.result.actions.decided
-    moving = [action for action in actions if action.writes]
-    deleted = sum(action.kind in DELETES for action in moving)
-    does = [f"writes {counted(len(moving) - deleted, 'file')}"] if len(moving) > deleted else []
-    does += [f"deletes {deleted if does else counted(deleted, 'file')}"] if deleted else []
-    build = f"`urdfsync build` {' and '.join(does)}" if does else ""
-    held = sum(action.held for action in actions)
-    if not held:
-        return ["; ".join(filter(None, [changed, build]))] if changed or build else []
-    waits = f"{counted(held, 'file')} {'waits' if held == 1 else 'wait'} for the conflict"
-    return [*([changed] if changed else []), "; ".join(filter(None, [build, waits]))]

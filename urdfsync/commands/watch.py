@@ -21,37 +21,33 @@ if TYPE_CHECKING:
 _CODES = "exit codes: 0 ended by SIGTERM or SIGHUP, 2 error, 4 watched already, 130 ended by SIGINT"
 _SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
 """Signals that end the daemon; the last one comes from its own timer."""
+_TIMES = (
+    ("settle", "MS", 300, "build after so long without an event, in milliseconds"),
+    ("sample", "MS", 200, "and after two equal samples so far apart, in milliseconds"),
+    ("patience", "S", 30, "a source that is no model for so long is an error, in seconds"),
+    ("rescan", "S", 30, "look at everything so often, in seconds"),
+)
 _GRACE = 10.0
 """Seconds after the first signal in which the work in hand has to end."""
 
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
-    parser = commands.add_parser(
+    parser = arguments.add_command(
+        commands,
         "watch",
+        run,
+        "robots --robot --wait --trust --jobs",
         help="keep the packages in step while their sources change",
         description="Build whenever a source or anything else that matters has changed and settled, until interrupted.",
         epilog=f"example: urdfsync watch --exec 'make fmu'\n\n{_CODES}",
     )
-    arguments.add_robots(parser)
-    times = parser.add_argument_group("times")
-    _add_time(times, "--settle", "MS", 300, "build after so long without an event, in milliseconds")
-    _add_time(times, "--sample", "MS", 200, "and after two equal samples so far apart, in milliseconds")
-    _add_time(times, "--patience", "S", 30, "a source that is no model for so long is an error, in seconds")
-    _add_time(times, "--rescan", "S", 30, "look at everything so often, in seconds")
+    for name, unit, default, words in _TIMES:
+        words = f"{words} ({default})"
+        parser.add_argument(f"--{name}", type=_duration, metavar=unit, default=default, help=words)
+    command = "shell command to run after a build that changed files"
     parser.add_argument("--poll", action="store_true", help="do without events, for network and container mounts")
-    parser.add_argument(
-        "--exec", metavar="CMD", default="", help="shell command to run after a build that changed files"
-    )
-    arguments.add_wait(parser)
-    arguments.add_trust(parser)
-    arguments.add_jobs(parser)
-    parser.set_defaults(run=run)
-    arguments.add_common(parser)
-
-
-def _add_time(group: argparse._ArgumentGroup, name: str, unit: str, default: float, text: str) -> None:
-    group.add_argument(name, type=_duration, metavar=unit, default=default, help=f"{text} ({default:g})")
+    parser.add_argument("--exec", metavar="CMD", default="", help=command)
 
 
 def _duration(text: str) -> float:
@@ -70,8 +66,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         if console.json:
             listener: Listener = JsonReport()
         else:
-            people = TextReport(quiet=console.quiet, verbose=console.verbose, config=console.config)
-            listener = stack.enter_context(people)
+            listener = stack.enter_context(TextReport(console))
         daemon = Daemon(_options(args, console), listener)
         with _signals(daemon) as received:
             daemon.run()

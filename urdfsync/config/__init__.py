@@ -2,7 +2,7 @@
 
 from urdfsync.config.load import find, load, parse
 from urdfsync.config.names import is_robot_name
-from urdfsync.config.paths import library_folder, ros_package_path, shown, templates_folder, working_folder
+from urdfsync.config.paths import library_folder, read_source, ros_package_path, shown, templates_folder, working_folder
 from urdfsync.config.settings import FILE_NAME, STATE_FOLDER, CheckConfig, Config, Keys, RobotConfig
 
 __all__ = [
@@ -17,6 +17,7 @@ __all__ = [
     "library_folder",
     "load",
     "parse",
+    "read_source",
     "ros_package_path",
     "shown",
     "templates_folder",

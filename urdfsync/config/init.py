@@ -12,10 +12,9 @@ import msgspec
 import tomli_w
 
 from urdfsync import registry
-from urdfsync.config import values
 from urdfsync.config.names import is_robot_name
-from urdfsync.config.paths import shown
-from urdfsync.dependencies import read_unrecorded
+from urdfsync.config.paths import read_source, shown
+from urdfsync.config.values import in_words
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
 from urdfsync.files import put
@@ -129,12 +128,7 @@ def _guess(domain: Domain, source: Path, root: Path, taken: Sequence[Guess]) -> 
     if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
         raise SourceError(Diagnostic(Severity.ERROR, "source-name", message, shown(source), hint=hint))
-    try:
-        content = read_unrecorded(source)
-    except OSError as error:
-        message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
-        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(source), hint=hint)) from None
-    reading = domain.read(content, shown(source), domain.options())
+    reading = domain.read(read_source(source), shown(source), domain.options())
     if reading.snapshot is None or any(found.severity is Severity.ERROR for found in reading.diagnostics):
         raise SourceError(*reading.diagnostics)
     stem = source.name.partition(".")[0][:_LONGEST]
@@ -158,17 +152,12 @@ def _table(guess: Guess, domain: Domain) -> str:
         lines.append(_line("domain", domain.name))
     proposed = {proposal.option: proposal for proposal in guess.options}
     for field in msgspec.structs.fields(domain.options):
-        choices = " or ".join(f'"{choice}"' for choice in values.choices(field.type))
-        if choices and values.is_list(field.type):
-            choices += ", or several"
-        elif choices and values.may_be_list(field.type):
-            choices += ", or a list of names"
+        words = in_words(field.type)
         if proposal := proposed.get(field.encode_name):
             reason = " ".join("".join(char if char.isprintable() else " " for char in proposal.reason).split())
-            comment = f"{choices}; guessed: {reason}" if choices else f"guessed: {reason}"
-            lines.append(f"{_line(proposal.option, proposal.value)}  # {comment}")
+            lines.append(f"{_line(proposal.option, proposal.value)}  # {words}; guessed: {reason}")
         elif field.default not in (msgspec.NODEFAULT, None):  # TOML has no null
-            lines.append(f"# {_line(field.encode_name, field.default)}{f'  # {choices}' if choices else ''}")
+            lines.append(f"# {_line(field.encode_name, field.default)}  # {words}")
     return "\n".join(lines) + "\n"
 
 

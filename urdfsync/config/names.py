@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 from urdfsync.modelica.names import DEVICES, KEYWORDS, LIBRARY, class_name, is_class_name, is_identifier
 from urdfsync.modelica.names import is_package_name as may_be_package
@@ -23,34 +22,29 @@ def model_class(package: str, chosen: str) -> str:
     return chosen or last[:1].upper() + last[1:]
 
 
-def find_name_problems(package: str, chosen: str) -> Iterator[tuple[str, str, str]]:
+def find_name_problems(package: str, chosen: str) -> list[tuple[str, str, str]]:
     """Key, message and hint for each fault of the keys `package` and `class`; `chosen` is the class or empty."""
     parts = package.split(".")
-    faults = [fault for part in parts for fault in _find_identifier_problems("package", part, package)]
-    faults += _find_identifier_problems("class", chosen, package) if chosen else []
-    if faults:
-        yield from faults
-        return
-    clash = False
+    found = []
+    for key, name in [*(("package", part) for part in parts), *([("class", chosen)] if chosen else [])]:
+        if name in KEYWORDS:
+            found.append((key, f"`{key}`: `{name}` is a keyword of Modelica", _example(name)))
+        elif not is_identifier(name):
+            message = f"`{key}`: {name!r} is no Modelica identifier"
+            message = message if name else f"`package` must be a full class name, not {package!r}"
+            found.append((key, message, "use letters, digits and `_`, a letter first"))
+    if found:
+        return found
     for index, part in enumerate(parts):
         in_own_library = part == LIBRARY and index == 0 and len(parts) > 1  # whether it exists is known at the build
         if not may_be_package(part) and not in_own_library:
-            clash = True
             message = f"`package`: `{part}` can't be a package: Modelica, Windows or urdfsync has a use for the name"
-            yield "package", message, _example(part)
+            found.append(("package", message, _example(part)))
     name = model_class(package, chosen)
-    if not clash and not is_class_name(name):
+    if not found and not is_class_name(name):
         hint = "set `class` to a name with a capital first that neither Modelica nor urdfsync has a use for"
-        yield "class" if chosen else "package", f"`{name}` can't be the class of a robot model", hint
-
-
-def _find_identifier_problems(key: str, name: str, package: str) -> list[tuple[str, str, str]]:
-    hint = "use letters, digits and `_`, a letter first"
-    if not name:
-        return [(key, f"`package` must be a full class name, not {package!r}", hint)]
-    if name in KEYWORDS:
-        return [(key, f"`{key}`: `{name}` is a keyword of Modelica", _example(name))]
-    return [] if is_identifier(name) else [(key, f"`{key}`: {name!r} is no Modelica identifier", hint)]
+        found.append(("class" if chosen else "package", f"`{name}` can't be the class of a robot model", hint))
+    return found
 
 
 def _example(name: str) -> str:

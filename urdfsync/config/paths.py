@@ -8,7 +8,7 @@ from pathlib import Path
 
 import urdfsync
 from urdfsync import dependencies
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain
 
 
@@ -19,6 +19,15 @@ def working_folder() -> Path:
     except FileNotFoundError:
         message, hint = "the working folder does not exist any more", "change to a folder that exists"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-folder", message, hint=hint)) from None
+
+
+def read_source(file: Path) -> bytes:
+    """Read a source that is not read by a build. Raises SourceError."""
+    try:
+        return dependencies.read_unrecorded(file)
+    except OSError as error:
+        message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
+        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(file), hint=hint)) from None
 
 
 def shown(path: Path) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+import msgspec
 import platformdirs
 
 from urdfsync import dependencies, tomlfile
@@ -29,17 +30,19 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
     return Diagnostic(Severity.ERROR, "untrusted-output", message, shown(config.file), line, hint=hint)
 
 
+class _Trusted(msgspec.Struct, forbid_unknown_fields=True):
+    """The user's file."""
+
+    folders: list[str] = []
+
+
 def _trusted_folders(file: Path) -> set[str]:
     try:
         text = dependencies.read_file(file).decode()
+        folders = msgspec.convert(tomlfile.parse(text, str(file), ConfigError), _Trusted).folders
     except FileNotFoundError:
         return set()
-    except (OSError, UnicodeDecodeError) as error:
-        message, hint = f"it can't be read: {error}", "make it a text in UTF-8 that you may read"
+    except (OSError, UnicodeDecodeError, msgspec.ValidationError) as error:
+        message, hint = f"it can't be used: {error}", 'write `folders = ["/home/me/robots"]`, in UTF-8'
         raise ConfigError(Diagnostic(Severity.ERROR, "trusted-folders", message, str(file), hint=hint)) from None
-    document = tomlfile.parse(text, str(file), ConfigError)
-    folders = document.get("folders", [])
-    if document.keys() - {"folders"} or not isinstance(folders, list) or not all(isinstance(f, str) for f in folders):
-        message, hint = "it must hold one list of strings, `folders`", 'write `folders = ["/home/me/robots"]`'
-        raise ConfigError(Diagnostic(Severity.ERROR, "trusted-folders", message, str(file), hint=hint))
     return {os.path.realpath(Path(folder).expanduser()) for folder in folders}

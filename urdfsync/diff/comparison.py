@@ -11,15 +11,16 @@ import os
 import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import msgspec
 
 from urdfsync import registry
-from urdfsync.config import Config, RobotConfig, shown, templates_folder
+from urdfsync.config import Config, RobotConfig, read_source, shown, templates_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.diff import changes
 from urdfsync.diff.changes import Changes
-from urdfsync.diff.revisions import VersionedSource, from_file, from_revision
+from urdfsync.diff.revisions import Revision
 from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Templates, Version
 from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
@@ -32,7 +33,7 @@ from urdfsync.files import Tree, digest, templates_digest, text_digest
 from urdfsync.modelica.names import class_name
 from urdfsync.outcome import Exit, Result
 from urdfsync.state.modelfile import ConversionFacts
-from urdfsync.state.store import State, Store
+from urdfsync.state.store import Store
 
 _DOMAIN = "urdf"
 """Domain of a source that no robot of the configuration has."""
@@ -88,30 +89,33 @@ def find_sources(
     there is nothing of that name, or if it can't be compared with `against`.
     """
     path = Path(os.path.normpath(folder / source))
-    robots = config.robots if config else ()
-    chosen = config.select(names) if config else ()
-    using = [robot for robot in robots if os.path.realpath(robot.source) == os.path.realpath(path)]
-    if config is not None and source and not using and not (path.is_file() and not names):
-        using = [] if path.is_file() else [robot for robot in robots if robot.name == source]
-        if not using and not path.is_file():
+    is_file = bool(source) and path.is_file()
+    if config is None:
+        if not is_file:
+            raise _config_error("no-source", f"there is no file {source!r}", hint="name a source that exists")
+        return [_robot_of_file(path)]
+    chosen = config.select(names)
+    if source:
+        using = [robot for robot in config.robots if os.path.realpath(robot.source) == os.path.realpath(path)]
+        using = using or [robot for robot in config.robots if robot.name == source and not is_file]
+        if not (using or is_file):
             message = f"there is no file {source!r}, and no robot of this name in {shown(config.file)}"
-            raise _config_error("no-source", message, hint=f"it has {', '.join(robot.name for robot in robots)}")
-    elif config is None and not path.is_file():
-        raise _config_error("no-source", f"there is no file {source!r}", hint="name a source that exists")
-    elif source and not using:
-        if against is None and config is not None:
+            hint = f"it has {', '.join(robot.name for robot in config.robots)}"
+            raise _config_error("no-source", message, hint=hint)
+        if not (using or names) and against is None:
             message = f"{path.name} was never built: it is no robot's source"
             hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
             raise _config_error("no-robot", message, config.file, hint)
-        return [_robot_of_file(path)]
-    found = [robot for robot in using if robot in chosen] if source else list(chosen)
-    if not found and config is not None:
-        message = f"{source!r} is not the source of {' or '.join(f'`{name}`' for name in names)}"
-        raise _config_error("other-source", message, config.file, "leave out --robot, or name the robot alone")
-    if against is not None and (folder / against).is_file() and len({robot.source for robot in found}) > 1:
-        message = f"one file can't be the older version of {len(found)} sources"
+        if not (using or names):
+            return [_robot_of_file(path)]
+        chosen = tuple(robot for robot in using if robot in chosen)
+        if not chosen:
+            message = f"{source!r} is not the source of {' or '.join(f'`{name}`' for name in names)}"
+            raise _config_error("other-source", message, config.file, "leave out --robot, or name the robot alone")
+    if against is not None and (folder / against).is_file() and len({robot.source for robot in chosen}) > 1:
+        message = f"one file can't be the older version of {len(chosen)} sources"
         raise _config_error("one-file", message, hint="name the source to compare it with")
-    return found
+    return list(chosen)
 
 
 def _robot_of_file(path: Path) -> RobotConfig:
@@ -183,50 +187,49 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
     return Comparison(result, shown(robot.source), None, missing, effects, edited)
 
 
+class _VersionedSource(NamedTuple):
+    """The content of a source in one version."""
+
+    content: bytes
+    name: str
+    """Its name in diagnostics."""
+    places: tuple[Path, ...]
+    """The files from which references count, best first; absolute."""
+    revision: Revision | None = None
+    scratch: Path = Path()
+    """With a revision: a folder for other files of it."""
+
+
 def _with_version(
     robot: RobotConfig, against: str, config: Config | None, options: BuildOptions, folder: Path
 ) -> Comparison:
     """Compare a source with another version of it; the actions are those of a package that nobody edited."""
     domain, result = registry.domain(robot.domain), _result(robot, config)
-    state = tree = None
-    if config is not None and robot in config.robots:
-        state, tree = Store(config.root, shown).load(robot.name), Tree(robot.output, shown)
-
-    def copy(target: str) -> bytes | None:
-        return tree.read(result.folder / target) if tree else None
-
     with tempfile.TemporaryDirectory(prefix="urdfsync-") as scratch:
-        if (folder / against).is_file():
-            other = from_file(folder / against, robot.source)
+        source, file = robot.source, folder / against
+        if file.is_file():
+            other = _VersionedSource(read_source(file), shown(file), (file, source))
         else:
-            other = from_revision(against, robot.source, Path(scratch))
-        # imports of the last build, and those of the one version for the other, need not be converted again
-        recorded = imports.Recorded({}, {}, copy, lambda _target: None)
-        if state is not None and state.model is not None and state.intact:
-            recorded = imports.Recorded(state.manifest.dependencies, state.model.imports, copy, lambda _target: None)
-        new, imported, told = _read(domain, robot, from_file(robot.source), recorded, options)
-        known = imports.Recorded(
-            {key: record for key, record in imported.records.items() if key in imported.imports},
-            {k: ConversionFacts(i.source_hash, i.converter, dict(i.facts)) for k, i in imported.imports.items()},
-            lambda target: imported.contents.get(target) or copy(target),
-            lambda _target: None,
-        )
-        old, _, told_before = _read(domain, robot, other, known, options)
+            revision = Revision(source.parent, against)
+            content = revision.read(source)
+            other = _VersionedSource(content, revision.label(source), (source,), revision, Path(scratch))
+        current = _VersionedSource(read_source(source), shown(source), (source,))
+        new, imported, told = _read(domain, robot, current, imports.Imported(), options)
+        old, _, told_before = _read(domain, robot, other, imported, options)
     before = {(one.code, one.message) for one in told_before}
     new_findings = tuple(one for one in told if (one.code, one.message) not in before)
     result = msgspec.structs.replace(result, diagnostics=new_findings)
     found = changes.compare(old, new, domain, robot.options)
     if not found.changes:
         return Comparison(result, shown(robot.source), against)
+    own = config if config and robot in config.robots else None
     folders = (templates_folder(domain),)
-    templates = Templates(folders, templates_digest(folders))
-    if config is not None and tree is not None:
-        templates = source_files.templates(config, robot, domain)
+    templates = source_files.templates(own, robot, domain) if own else Templates(folders, templates_digest(folders))
     packages = [
         generate(domain, version.snapshot, version.imports or {}, robot.target, robot.options, templates)
         for version in (old, new)
     ]
-    files = _files_of(packages[0], old), _files_of(packages[1], new)
+    files = [_files_of(*pair) for pair in zip(packages, (old, new), strict=True)]
     actions = []
     for path in files[0].keys() | files[1].keys():
         was, now = files[0].get(path), files[1].get(path)
@@ -238,10 +241,7 @@ def _with_version(
             place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
             actions.append(Action(place, kind, known_file[0], known_file[1]))
     result = msgspec.structs.replace(result, actions=Actions(actions), changes=found)
-    edited = frozenset[str]()
-    if tree and state:
-        paths = (action.path for action in actions)
-        edited = frozenset(path for path in paths if _is_edited(path, result.root, tree, state))
+    edited = _find_edited(result, own, robot) if own else frozenset()
     effects = _effects(domain, old, new, found, robot)
     return Comparison(result, shown(robot.source), against, "", effects, edited)
 
@@ -263,9 +263,9 @@ def _effects(domain: Domain, old: Version, new: Version, found: Changes, robot: 
 
 
 def _read(
-    domain: Domain, robot: RobotConfig, version: VersionedSource, known: imports.Recorded, options: BuildOptions
+    domain: Domain, robot: RobotConfig, version: _VersionedSource, known: imports.Imported, options: BuildOptions
 ) -> tuple[Version, imports.Imported, tuple[Diagnostic, ...]]:
-    """Read a version and the files that it refers to; imports that are `known` need not be converted again.
+    """Read a version and the files that it refers to; imports that are `known` are not converted again.
 
     Raises SourceError for a source that can't be read.
     """
@@ -278,19 +278,28 @@ def _read(
     for same in zip(*found, strict=True):  # one file, looked for from several places
         candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
         joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
+    dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined
+    recorded = imports.Recorded(
+        {key: record for key, record in known.records.items() if key in known.imports},
+        {key: ConversionFacts(one.source_hash, one.converter, dict(one.facts)) for key, one in known.imports.items()},
+        known.contents.get,
+        lambda _target: None,
+    )
 
     def progress(done: int, total: int) -> None:
         options.progress(f"{robot.name}: imports", done, total)
 
-    imported = imports.bring_in(domain, version.locate(joined), known, version.name, again=False, progress=progress)
+    imported = imports.bring_in(domain, dependencies, recorded, version.name, again=False, progress=progress)
     return Version(snapshot, imported.imports), imported, (*reading.diagnostics, *imported.diagnostics)
 
 
-def _is_edited(path: str, root: Path, tree: Tree, state: State) -> bool:
-    """Whether the file on disk is another than the last build wrote."""
-    record = state.manifest.files.get(path)
-    if record is None or record.base is None:
-        return False
-    mine = tree.read(Path(os.path.normpath(root / path)))
-    hash_of = digest if record.role is Role.IMPORT else text_digest
-    return mine is not None and hash_of(mine) != record.base
+def _find_edited(result: Result, config: Config, robot: RobotConfig) -> frozenset[str]:
+    """Return the files among the actions that are others on disk than the last build wrote."""
+    state, tree, edited = Store(config.root, shown).load(robot.name), Tree(robot.output, shown), set()
+    for action in result.actions:
+        record = state.manifest.files.get(action.path) if state else None
+        mine = tree.read(Path(os.path.normpath(config.root / action.path))) if record and record.base else None
+        if record and mine is not None:
+            is_same = (digest if record.role is Role.IMPORT else text_digest)(mine) == record.base
+            edited |= set() if is_same else {action.path}
+    return frozenset(edited)

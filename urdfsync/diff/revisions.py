@@ -1,4 +1,4 @@
-"""Versions of a source, from files and from git revisions, with the files that they refer to.
+"""Sources in git revisions, with the files that they refer to.
 
 libgit2 reads the object database: no program is run, nothing is fetched, and nothing in the repository changes.
 """
@@ -91,27 +91,15 @@ class Revision:
                 raise _error("git", message, self.label(file), hint) from None
         return found
 
+    def locate(self, dependencies: Sequence[Dependency], scratch: Path) -> Sequence[Dependency]:
+        """Replace the candidates that this revision has by its own; files that no revision can have stay.
 
-class VersionedSource(msgspec.Struct, frozen=True):
-    """The content of a source in one version."""
-
-    content: bytes
-    name: str
-    """Its name in diagnostics."""
-    places: tuple[Path, ...]
-    """The files from which references count, best first; absolute."""
-    revision: Revision | None = None
-    scratch: Path | None = None
-    """With a revision: a folder for files that are on disk no more, or otherwise."""
-
-    def locate(self, dependencies: Sequence[Dependency]) -> Sequence[Dependency]:
-        """Replace the candidates that the revision has by its own; files that no revision can have stay."""
-        if self.revision is None or self.scratch is None:
-            return dependencies
-        held = {path for one in dependencies for path in one.candidates if self.revision.holds(path)}
+        Those that are on disk no more, or otherwise, are written to `scratch`.
+        """
+        held = {path for one in dependencies for path in one.candidates if self.holds(path)}
         places = {}
-        for number, (path, content) in enumerate(self.revision.contents(sorted(held)).items()):
-            places[path] = path if _is_on_disk(path, content) else self.scratch / str(number) / path.name
+        for number, (path, content) in enumerate(self.contents(sorted(held)).items()):
+            places[path] = path if _is_on_disk(path, content) else scratch / str(number) / path.name
             if places[path] != path:
                 places[path].parent.mkdir()
                 places[path].write_bytes(content)
@@ -120,25 +108,6 @@ class VersionedSource(msgspec.Struct, frozen=True):
             paths = tuple(places.get(path, path) for path in one.candidates if path in places or path not in held)
             found.append(msgspec.structs.replace(one, candidates=paths))
         return found
-
-
-def from_file(path: Path, *others: Path) -> VersionedSource:
-    """Read the version in a file; references are looked for beside it, then beside `others`. Raises SourceError."""
-    try:
-        content = read_unrecorded(path)
-    except OSError as error:
-        message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
-        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(path), hint=hint)) from None
-    return VersionedSource(content, shown(path), (path, *others))
-
-
-def from_revision(name: str, path: Path, scratch: Path) -> VersionedSource:
-    """Read the version of a file in the git revision of this name; other files of it go to `scratch`.
-
-    Raises SourceError if the revision does not have it.
-    """
-    revision = Revision(path.parent, name)
-    return VersionedSource(revision.read(path), revision.label(path), (path,), revision, scratch)
 
 
 def _is_on_disk(path: Path, content: bytes) -> bool:

@@ -87,7 +87,7 @@ class _Builder:
             actions=plan.actions,
             diagnostics=(*warnings, *plan.diagnostics),
             changes=plan.changes,
-            standoffs=plan.conflicts,
+            conflict_texts=plan.conflicts,
             drawing=plan.drawing,
             renews_state=any(change.path.parent == self._state_folder / "robots" for change in plan.writes),
         )
@@ -138,7 +138,7 @@ class _Builder:
                 store.bases(plan.former_name).prune(())
         return applied.not_done
 
-    @profiling.stage("looking")
+    @profiling.stage("looking at files")
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build wrote, or began to, since the plan was made.
 

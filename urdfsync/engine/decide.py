@@ -79,7 +79,7 @@ def decide_package(
     recorded = inputs.own_files(manifest) if manifest else {}
     owned = inputs.own_orders(manifest) if manifest else {}
     roles = {key: record.role for key, record in recorded.items()} | {key: d.role for key, d in desired.files.items()}
-    with profiling.stage("looking"):
+    with profiling.stage("looking at files"):
         on_disk = {key: files.on_disk(key, role) for key, role in roles.items()}
     actions = decide(recorded, desired.files, on_disk, desired.moves)
 

@@ -106,6 +106,7 @@ def bring_in(
     result = Imported()
     known: list[Dependency] = []
     missing: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
+    guessed: dict[tuple[str, str], list[Dependency]] = {}
     for count, dependency in enumerate(dependencies):
         progress(count, len(dependencies))
         key, target, noun = dependency.key, dependency.target, dependency.noun
@@ -127,10 +128,8 @@ def bring_in(
         path, content = found
         sha256 = digest(content)
         if dependency.guessed:
-            message = f"{name} is taken from a folder that is not called like its package"
-            hint = "rename the folder, or add that of the right package to `package_paths`"
-            guess = Diagnostic(Severity.WARNING, f"{noun}-guessed", message, *place, hint=hint)
-            result.diagnostics.append(guess)
+            package = dependency.uri.partition("://")[2].partition("/")[0]
+            guessed.setdefault((noun, package), []).append(dependency)
         made_from = {(one.source_hash, one.converter) for one in (record, facts) if one}
         if record and facts and not again and made_from == {(sha256, domain.converter)}:
             copy = recorded.copy(record.target)
@@ -157,21 +156,32 @@ def bring_in(
         # remembered, so that it is tried again only if it changes
         unreadable = {"unreadable": sha256, "unreadable_by": domain.converter}
         result.records[key] = msgspec.structs.replace(result.records[key], **unreadable)
-    for alike in missing.values():
-        first = min((trouble for _, trouble in alike), key=lambda trouble: trouble.line)
-        if len(alike) > 1:
-            message = _not_found([dependency for dependency, _ in alike], source).message
+    for troubles in missing.values():
+        first = min((trouble for _, trouble in troubles), key=lambda trouble: trouble.line)
+        if len(troubles) > 1:
+            message = _not_found([dependency for dependency, _ in troubles], source).message
             end = "the imported copies are kept" if first.code.endswith("-kept") else "left out"
             first = msgspec.structs.replace(first, message=f"{message}; {end}")
         result.diagnostics.append(first)
+    for (noun, package), alike in guessed.items():
+        be = "is" if len(alike) == 1 else "are"
+        message = f"{_named(alike)} {be} taken from a folder that is not called like the package `{package}`"
+        hint = "rename the folder, or add that of the right package to `package_paths`"
+        line = min(dependency.line for dependency in alike)
+        result.diagnostics.append(Diagnostic(Severity.WARNING, f"{noun}-guessed", message, source, line, hint=hint))
     result.diagnostics += reminder(known, result.records, source)
     return result
 
 
+def _named(dependencies: Sequence[Dependency]) -> str:
+    """Files of one noun in words: the only one, or their number and the first."""
+    first, count = dependencies[0], len(dependencies)
+    return f"{first.noun} `{first.uri}`" if count == 1 else f"{count} {_plural(first.noun)} (such as `{first.uri}`)"
+
+
 def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -> Diagnostic:
     """What to say of files that have the same noun and are missing for the same reason."""
-    first, count = dependencies[0], len(dependencies)
-    what = f"{first.noun} `{first.uri}`" if count == 1 else f"{count} {_plural(first.noun)} (such as `{first.uri}`)"
+    first, count, what = dependencies[0], len(dependencies), _named(dependencies)
     beginning, match = next(
         (beginning, match)
         for beginning in _HINTS

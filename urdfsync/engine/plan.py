@@ -25,7 +25,7 @@ from urdfsync.state.record import RecordState
 def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan:
     """Decide which files one build of a robot writes. Raises UrdfsyncError for whatever is wrong."""
     begin = uptodate.read_clocks()
-    with profiling.stage("looking"):
+    with profiling.stage("looking at files"):
         inputs = inspect(config, robot, options)
         plan = _plan_if_current(inputs)
     if plan is None:
@@ -35,7 +35,7 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
     return plan
 
 
-@profiling.stage("looking")
+@profiling.stage("looking at files")
 def plan_if_current(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan | None:
     """Return the plan if nothing is to be generated or written, without parsing the source; None otherwise."""
     begin = uptodate.read_clocks()

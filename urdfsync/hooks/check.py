@@ -16,7 +16,7 @@ from urdfsync import uptodate
 from urdfsync.config import FILE_NAME, Config, RobotConfig, shown
 from urdfsync.dependencies import Dependencies, record_dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.actions import IN_STEP, Action
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.hook import STATES, answer_key, find_configurations
@@ -26,17 +26,11 @@ from urdfsync.hooks.robot_files import RobotFiles
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.watch import precommit
 
-_IN_STEP = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET)
-"""Actions on files that are as they should be."""
-
 
 class CommitFault(msgspec.Struct, frozen=True):
     """What is wrong with one robot in what is being committed. Files are paths from the top of the repository."""
 
-    config: Path
-    robot: str
-    folders: tuple[str, ...]
-    """The folders of outputs: those of the package and of the recorded state."""
+    files: RobotFiles
     to_add: tuple[str, ...] = ()
     """The files that have to be staged, after a build if one is needed."""
     result: Result | None = None
@@ -99,27 +93,27 @@ def _check_configuration(
     config, staged, unstaged = _plan_differing(index, file, dry)
     same = [robot for robot in config.robots if not unstaged[robot.name]]
     on_disk = {result.robot: result for result in build(config, same, dry)}
-    faults: list[CommitFault] = []
+    faults: dict[str, CommitFault] = {}
     to_build: list[RobotConfig] = []
     for robot in config.robots:
         files, result, here = RobotFiles(index, config, robot), staged.get(robot.name), on_disk.get(robot.name)
         if result is not None and not _needs_build(result):  # what is staged is in step, the working tree differs
-            faults += _fault(files, index.unstaged(files.untracked_sources()))
+            fault = CommitFault(files, index.unstaged(files.untracked_sources()))
         elif result is not None and here is None:  # a build of the working tree would not fit the staged source
-            faults += _fault(files, files.to_stage(result.actions), result, unstaged[robot.name])
+            fault = CommitFault(files, files.to_stage(result.actions), result, tuple(sorted(unstaged[robot.name])))
         elif here is not None and not _needs_build(here):  # built already, perhaps not staged
             add = index.unstaged(files.needed(_work(result) if result else here.actions))
-            faults += _fault(files, add, None if add else result)
-        elif here is not None:
+            fault = CommitFault(files, add, None if add else result)
+        else:
             blocking = _find_blocking(index, files, writing, stashed, dry)
+            planned = result or on_disk[robot.name]
+            fault = CommitFault(files, files.to_stage(planned.actions), planned, tuple(sorted(blocking)))
             if writing and not blocking:
                 to_build.append(robot)
-            else:
-                faults += _fault(files, files.to_stage((result or here).actions), result or here, blocking)
+        faults[robot.name] = fault
     if to_build:
-        faults += _build(index, config, to_build, options, staged)
-    names = [robot.name for robot in config.robots]
-    return sorted(faults, key=lambda fault: names.index(fault.robot))
+        faults |= _build(index, config, to_build, options, staged)
+    return [fault for fault in faults.values() if fault.to_add or fault.result]
 
 
 def _plan_differing(
@@ -146,9 +140,9 @@ def _plan_differing(
 
 def _build(
     index: Index, config: Config, robots: Sequence[RobotConfig], options: BuildOptions, staged: Mapping[str, Result]
-) -> list[CommitFault]:
+) -> dict[str, CommitFault]:
     """Build robots in the working tree; return what has to be staged then."""
-    faults: list[CommitFault] = []
+    faults = {}
     results = list(build(config, robots, options))
     now = Index(index.folder)
     for robot, result in zip(robots, results, strict=True):
@@ -158,18 +152,8 @@ def _build(
             former = {path for path in now.changed - index.changed if path.rpartition("/")[0] in files.folders}
             add = tuple(dict.fromkeys([*add, *sorted(former)]))
         is_fine = exit_code([result]) is Exit.IN_STEP and not add
-        faults += _fault(files, add, before if is_fine else result)
+        faults[robot.name] = CommitFault(files, add, before if is_fine else result)
     return faults
-
-
-def _fault(
-    files: RobotFiles, to_add: Sequence[str], result: Result | None = None, unstaged: Collection[str] = ()
-) -> list[CommitFault]:
-    """Return one fault, or none if nothing is wrong."""
-    if not to_add and result is None:
-        return []
-    config, robot = files.config.file, files.robot.name
-    return [CommitFault(config, robot, files.folders, tuple(to_add), result, tuple(sorted(unstaged)))]
 
 
 def _needs_build(result: Result) -> bool:
@@ -179,7 +163,7 @@ def _needs_build(result: Result) -> bool:
 
 def _work(result: Result) -> list[Action]:
     """Return the actions on files that are not as they should be."""
-    return [action for action in result.actions if action.kind not in _IN_STEP]
+    return [action for action in result.actions if action.kind not in IN_STEP]
 
 
 def _find_blocking(

@@ -34,10 +34,7 @@ class IndexCheckout:
     def __init__(self, index: Index, scratch: Path) -> None:
         """`scratch` is an empty folder, named by its real path."""
         self._index, self._scratch = index, scratch
-        self._made: set[Path] = set()
-        """Folders that have been made here, by their real paths."""
-        self._complete: set[Path] = set()
-        """Those of them that hold nothing but what is staged."""
+        self._link_content(Path(index.top.anchor))
         self._make_folder(index.top)
 
     def place(self, path: Path) -> Path:
@@ -66,8 +63,8 @@ class IndexCheckout:
         path = self._index.path(folder)
         if path is not None:
             self._remove(self._index.top / path)
-            self._complete.add(self._index.top / path)
-            self.add(self._index.below(path))
+            files = [file for file in self._index.below(path) if not self._index.is_submodule(file)]
+            self._index.checkout(files, self.place(self._index.top))
 
     def add_outputs(self, robot: RobotConfig, root: Path) -> None:
         """Check out everything that a build of a robot may write; `root` is the configuration's folder."""
@@ -102,18 +99,17 @@ class IndexCheckout:
         return msgspec.structs.replace(found, message=told(found.message), file=told(found.file), hint=told(found.hint))
 
     def _make_folder(self, folder: Path) -> None:
-        """Make a folder in which everything is a link to the real thing, unless it has been made."""
-        if folder in self._made:
+        """Make a folder in which everything is a link to the real thing, unless it is here already."""
+        if folder == folder.parent:
             return
+        self._make_folder(folder.parent)  # first, so that the place is in no link
         place = self.place(folder)
-        if folder != folder.parent:
-            self._make_folder(folder.parent)
-            if place.is_symlink():
-                place.unlink()
-            place.mkdir(exist_ok=True)
-        self._made.add(folder)
-        if not self._complete.isdisjoint((folder, *folder.parents)):
-            return
+        if place.is_symlink() or not place.is_dir():
+            place.unlink(missing_ok=True)
+            place.mkdir()
+            self._link_content(folder)
+
+    def _link_content(self, folder: Path) -> None:
         try:
             paths = list(folder.iterdir())
         except (PermissionError, FileNotFoundError):
@@ -121,7 +117,7 @@ class IndexCheckout:
         for path in paths:
             if path not in (self._index.top / ".git", self._scratch):
                 # a link that stays in the repository has to stay in here, too
-                (place / path.name).symlink_to(path.readlink() if path.is_symlink() else path)
+                self.place(path).symlink_to(path.readlink() if path.is_symlink() else path)
 
     def _remove(self, path: Path) -> None:
         """Make room for a file or folder of our own."""
@@ -131,7 +127,6 @@ class IndexCheckout:
             place.unlink()
         elif place.is_dir():
             shutil.rmtree(place)
-            self._made = {folder for folder in self._made if path != folder and path not in folder.parents}
 
 
 @contextlib.contextmanager

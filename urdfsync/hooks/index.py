@@ -10,11 +10,6 @@ from urdfsync import git
 from urdfsync.dependencies import mark_incomplete
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 
-_EMPTY = (
-    "e69de29bb2d1d6434b8b29ae775ad8c2e48c5391",
-    "473a0f4c3be8a93681a267e3b1e9a7dcda1185436fe141f7749120a303721813",
-)
-"""Object names of the empty file, with SHA-1 and SHA-256."""
 _SUBMODULE = "160000"
 
 
@@ -32,13 +27,15 @@ class Index:
             head, _, path = line.partition("\t")
             tag, mode, name, stage = head.split(" ")
             if stage != "0":
-                raise _unmerged(path)
+                message = "the file is not merged yet, so there is nothing to commit"
+                hint = "resolve the conflict and `git add` it"
+                raise SourceError(Diagnostic(Severity.ERROR, "unmerged", message, path, hint=hint))
             self._modes[path] = mode
             if tag != "H":  # modified, deleted, or git was told not to look at it
                 changed[path] = name
             if tag in "Ss":
                 self._sparse.add(path)
-        if not set(_EMPTY).isdisjoint(changed.values()):
+        if changed:
             # after `git add --intent-to-add` the index has an empty file that no commit will have
             listing = _git(folder, "-c", "diff.relative=false", "diff-files", "--diff-filter=A", "--name-only", "-z")
             for path in changed.keys() & set(listing.split("\0")[:-1]):
@@ -146,8 +143,3 @@ def _git(folder: Path, *arguments: str, content: str = "", codes: Sequence[int] 
         return os.fsdecode(done.stdout)
     hint = "the hooks judge what is staged; without a repository, use `urdfsync build --check`"
     raise SourceError(Diagnostic(Severity.ERROR, "git", f"git failed: {git.reason(done)}", hint=hint))
-
-
-def _unmerged(path: str) -> SourceError:
-    message, hint = "the file is not merged yet, so there is nothing to commit", "resolve the conflict and `git add` it"
-    return SourceError(Diagnostic(Severity.ERROR, "unmerged", message, path, hint=hint))

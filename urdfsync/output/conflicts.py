@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 import shlex
+import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -14,16 +15,16 @@ from urdfsync.config import shown
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.outcome import Result
-from urdfsync.output.console import text
+from urdfsync.output.console import Console, text
 from urdfsync.output.phrases import counted, reason
 from urdfsync.state.record import Choice
 
 if TYPE_CHECKING:
-    from rich.console import Console
+    import rich.console
     from rich.text import Text
 
 FULL = 3
-"""So many conflicts are shown in full without --verbose."""
+"""So many conflicts of a robot are shown in full without --verbose."""
 NOT_HERE = "the file it is made from is not here"
 
 
@@ -61,24 +62,11 @@ class Target(msgspec.Struct, frozen=True):
         return self.is_decided or self.action.replaceable
 
 
-class Extent(NamedTuple):
-    """How much of the conflicts to show."""
-
-    verbose: bool = False
-    """Everything."""
-    quiet: bool = False
-    """One line for each."""
-    before: int = 0
-    """So many conflicts of other robots have been shown."""
-    config: str = ""
-    """The configuration, if the user named one."""
-
-
 def find_conflicts(results: Iterable[Result]) -> list[Target]:
     """The files that conflict, in the order of robots and paths."""
     found = []
     for result in results:
-        by_path = {texts.path: texts for texts in result.standoffs}
+        by_path = {texts.path: texts for texts in result.conflict_texts}
         found += [Target(result, action, by_path.get(action.path)) for action in result.conflicts]
     return found
 
@@ -115,13 +103,16 @@ def shown_path(result: Result, path: str) -> str:
     return shown(Path(os.path.normpath(result.root / path)))
 
 
-def conflict_lines(result: Result, console: Console, extent: Extent) -> Iterator[Text]:
-    """All conflicts of one robot: the first ones in full, the others on a line each, and the command for all."""
+def conflict_lines(result: Result, console: Console, screen: rich.console.Console) -> Iterator[Text]:
+    """All conflicts of one robot: the first ones in full, the others on a line each, and the command for all.
+
+    What differs is laid out for the width of `screen`.
+    """
     found = find_conflicts([result])
-    full = len(found) if extent.verbose else 0 if extent.quiet else max(0, FULL - extent.before)
+    full = len(found) if console.verbose else 0 if console.quiet else FULL
     for target in found[:full]:
         yield text(("", ""))
-        yield from _full_lines(target, console, extent)
+        yield from _full_lines(target, console, screen)
     if full and found[full:]:
         yield text(("", ""))
     for target in found[full:]:
@@ -129,81 +120,60 @@ def conflict_lines(result: Result, console: Console, extent: Extent) -> Iterator
     if len(found) == 1 and full:
         return
     mergeable = sum(target.merges for target in found)
+    what = "merges it" if len(found) == 1 else f"merges what can be merged: {mergeable} of {len(found)}"
     if not mergeable:
         what = "keeps all your files as they are, --take replaces them by the generated ones"
-    elif mergeable < len(found):
-        what = f"merges what can be merged: {mergeable} of {len(found)}"
-    else:
-        what = {1: "merges it", 2: "merges both"}.get(mergeable, f"merges all {mergeable}")
     choice = Choice.MERGE if mergeable else Choice.KEEP
-    command = _command(["--all", "--robot", result.robot, f"--{choice}"], extent)
-    yield text(("", ""))
-    yield text((f"  {command}", "bold"), (f"  {what}", "dim"))
+    command = _command(["--all", "--robot", result.robot, f"--{choice}"], console)
+    yield from (text(("", "")), text((f"  {command}", "bold"), (f"  {what}", "dim")))
 
 
-def _full_lines(target: Target, console: Console, extent: Extent) -> Iterator[Text]:
+def _full_lines(target: Target, console: Console, screen: rich.console.Console) -> Iterator[Text]:
     """One conflict: what happened, the versions, where they are saved, and what to do."""
     result, action, name = target.result, target.action, target.shown
     yield text(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
     story = f"{_sentence(reason(action, result.changes))} {_sentence(describe(target))}"
     if action.origin:
         story += f" Its element has another name now: it is to become {shown_path(result, action.path)}."
-    yield from _paragraph(story, "", console)
+    yield from _paragraph(story, "", screen)
     if target.texts:
         from urdfsync.output.differences import difference_lines  # only a conflict needs it
 
         saved = {kind: shown_path(result, path) for kind, path in saved_texts(target).items()}
-        lines, left_out = difference_lines(target.texts, console, extent.verbose)
+        lines, left_out = difference_lines(target.texts, screen, console.verbose)
         yield from (text(("", "")), *lines)
         if left_out:
             see = "--verbose shows them" if result.dry else f"see {saved.get('merge', saved['generated'])}"
             yield text((f"    … {counted(left_out, 'more line')}; {see}", "dim"))
         yield text(("", ""))
         if not result.dry:
-            yield text((f"    {_saved_files(saved)}", "dim"))
-    choices = {Choice.KEEP: "--keep leaves your file as it is"}
-    if action.origin:
-        choices[Choice.KEEP] = "--keep moves your file as it is"
+            yield text((f"    saved: {', '.join(saved.values())}", "dim"))
+    keep = "--keep moves your file as it is" if action.origin else "--keep leaves your file as it is"
+    if target.texts and not target.merges:
+        keep += f": first put into it what you want of both{', and its new name' if action.origin else ''}"
+    choices = [keep]
     if target.merges:
-        choices = {Choice.MERGE: "--merge takes both sides' changes", **choices}
-    elif target.texts:
-        choices[Choice.KEEP] += ": first put into it what you want of both" + (
-            ", and its new name" * bool(action.origin)
-        )
+        choices.insert(0, "--merge takes both sides' changes")
     if target.replaceable:
-        choices[Choice.TAKE] = "--take replaces it by the generated one"
+        choices.append("--take replaces it by the generated one")
     typed = f"./{name}" if name.startswith("-") else name
-    yield text((f"    {_command([typed, f'--{next(iter(choices))}'], extent)}", "bold"))
-    yield from _paragraph("; ".join(choices.values()), "dim", console)
+    yield text((f"    {_command([typed, choices[0].partition(' ')[0]], console)}", "bold"))
+    yield from _paragraph("; ".join(choices), "dim", screen)
 
 
-def _saved_files(saved: dict[str, str]) -> str:
-    """`base and generated: .urdfsync/conflicts/arm/Elbow.{base.mo,generated.mo}`."""
-    *names, last = saved
-    if not names:
-        return f"{last}: {saved[last]}"
-    stem = saved["generated"].rpartition("generated")[0]
-    ends = ",".join(path.removeprefix(stem) for path in saved.values())
-    return f"{', '.join(names)} and {last}: {stem}{{{ends}}}"
-
-
-def _command(arguments: Sequence[str], extent: Extent) -> str:
+def _command(arguments: Sequence[str], console: Console) -> str:
     """A command line of `resolve` to copy."""
-    options = ["--config", extent.config] if extent.config else []
+    command = ["urdfsync", "resolve", *arguments, *(["--config", console.config] if console.config else [])]
     if os.name == "nt":
-        quoted = [f'"{argument}"' if " " in argument else argument for argument in (*arguments, *options)]
-        return " ".join(["urdfsync", "resolve", *quoted])
-    return shlex.join(["urdfsync", "resolve", *arguments, *options])
+        return " ".join(f'"{argument}"' if " " in argument else argument for argument in command)
+    return shlex.join(command)
 
 
-def _paragraph(words: str, style: str, console: Console) -> Iterator[Text]:
+def _paragraph(words: str, style: str, screen: rich.console.Console) -> Iterator[Text]:
     """Indented text; a terminal's lines are broken so that they keep the indent."""
-    paragraph = text((words, style))
-    width = console.width - 4 if console.is_terminal else paragraph.cell_len
-    for line in paragraph.wrap(console, max(width, 20)):
-        line.rstrip()
-        line.pad_left(4)
-        yield line
+    width = max(screen.width - 4, 20) if screen.is_terminal else len(words)
+    for part in textwrap.wrap(words, width, break_on_hyphens=False):
+        yield text((f"    {part}", style))
 
 
 def _sentence(clause: str) -> str:

@@ -58,14 +58,12 @@ def line(*parts: tuple[str, str]) -> StyledLine:
     return StyledLine(tuple((visible(text), style) for text, style in parts))
 
 
-def headline(stream: IO[str], robot: str, words: str, mark: str, style: str) -> StyledLine:
-    """The first line about a robot, with a mark where it can be shown: `✓ arm: in step`."""
-    return line(*([(f"{mark} ", style)] if has_marks(stream) else []), (robot, "bold"), (f": {words}", ""))
-
-
-def more(count: int, noun: str) -> StyledLine:
-    """What stands for lines that are left out."""
-    return line((f"  … and {count} more {noun}{'s' if count > 1 else ''}; --verbose shows them", "dim"))
+def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: bool) -> Sequence[StyledLine]:
+    """So many lines, the last of which stands for those that are left out; with `verbose` all of them."""
+    rest = len(lines) - most + 1
+    if verbose or rest < 2:
+        return lines
+    return [*lines[: most - 1], line((f"  … and {rest} more {noun}s; --verbose shows them", "dim"))]
 
 
 def text(*parts: tuple[str, str]) -> Text:
@@ -82,12 +80,8 @@ def visible(text: str) -> str:
 
 def finding(found: Diagnostic) -> StyledLine:
     """A diagnostic as one line: `file:line: severity: message; hint [code]`."""
-    numbers = [str(number) for number in (found.line, found.column) if number]
-    place = ":".join([found.file, *numbers]) + ": " if found.file else ""
-    hint = f"; {found.hint}" if found.hint else ""
-    message = " ".join(f"{found.message}{hint}".split())
-    style = _SEVERITIES[found.severity]
-    return line((place, "bold"), (found.severity.value, style), (f": {message} ", ""), (f"[{found.code}]", "dim"))
+    place, severity, rest = str(found).partition(f"{found.severity}: ")
+    return line((place, "bold"), (severity, _SEVERITIES[found.severity]), (rest, ""))
 
 
 def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool, verbose: bool) -> list[StyledLine]:
@@ -170,27 +164,19 @@ class Console:
         self.stop_progress()
         self._robots.append(values)
 
-    def end(self, command: str, code: int) -> None:
-        """The end of a command on robots: its JSON document, and where the time went."""
+    def end(self, command: str, code: int, diagnostics: Sequence[Diagnostic] = ()) -> None:
+        """The end of a command: what stopped it, or the JSON document of its robots, and where the time went."""
         self.stop_progress()
-        from urdfsync.output import profiles
-
         profile = profiling.current()
+        if profile:
+            from urdfsync.output import profiles  # hardly anybody asks
         if self.json:
             measured = {"profile": profiles.to_json(profile)} if profile else {}
-            self.write_json(command, code, {"robots": self._robots, **measured})
-        elif profile:
-            screen = rich_console(sys.stderr)
-            for part in profiles.parts(profile):
-                screen.print(part)
-
-    def fail(self, command: str, diagnostics: Sequence[Diagnostic], code: int) -> None:
-        """Say what stopped the command."""
-        self.stop_progress()
-        if self.json:
-            self.write_json(command, code, {"robots": self._robots}, diagnostics)
-        else:
-            self.findings(diagnostics)
+            self.write_json(command, code, {"robots": self._robots, **measured}, diagnostics)
+            return
+        self.findings(diagnostics)
+        if profile:
+            self.print(profiles.profile_lines(profile), error=True)
 
     def write_json(
         self, command: str, code: int, values: Mapping[str, Any], diagnostics: Sequence[Diagnostic] = ()

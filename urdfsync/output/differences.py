@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import zip_longest
+from collections.abc import Iterator, Sequence
+from itertools import groupby, zip_longest
 from typing import TYPE_CHECKING, NamedTuple
 
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.merge import Merge, split_lines
-from urdfsync.merge.sequence import Replacement, compare
-from urdfsync.merge.tokens import NEWLINE, tokens
+from urdfsync.merge.sequence import compare
 from urdfsync.output.console import has_marks, text, visible
 
 if TYPE_CHECKING:
@@ -23,265 +21,184 @@ LINES = 30
 """So many lines of a conflict are shown without --verbose."""
 _WIDE = 100
 """Columns from which a terminal has room for two versions side by side."""
-_REWRITTEN = 0.6
-"""Of lines that changed more than this share of their characters, no part is singled out."""
 _ROWS = 3
-"""A changed line may take so many rows, others one; of a longer one, what surrounds its first change is shown."""
+"""A changed line may take so many rows, others one; of a longer one, what surrounds its change is shown."""
 _NARROW = 20
 """Columns that a line gets on the narrowest terminal."""
 _LEAD = 12
-"""Characters shown before the first change of a line that is too long."""
+"""Characters shown before the change of a line that is too long."""
 _PIPE = 240
 """Characters of one line in a file or pipe; of a longer one, see `_ROWS`."""
-_COLOURS = {"base": "red", "mine": "cyan", "generated": "green", "both": "magenta", "": ""}
-_SIDES = ("mine", "generated")
+_COLOURS = {"base": "red", "mine": "cyan", "generated": "green", "both": "magenta", "": "dim"}
 
 
 class Line(NamedTuple):
-    """One line, its number in the version that it belongs to (from 1; 0: none), and what of it is new or gone."""
-
-    number: int
-    text: str
-    parts: tuple[range, ...] = ()
-
-
-class Cell(NamedTuple):
-    """One side's half of a row: a line as it was (` `), one that the side removed (`-`), added (`+`), or has (`*`)."""
+    """One line of a version: as it was (` `), removed (`-`), added (`+`), or in this version alone (`*`)."""
 
     mark: str
-    line: Line
+    number: int
+    """In the version that has it, from 1; 0 for none."""
+    text: str
+    changed: range = range(0)
+    """Its characters that differ from those of the line in its place."""
 
 
 class Row(NamedTuple):
     """What stands side by side."""
 
-    mine: Cell | None
-    generated: Cell | None
-    clash: bool = False
+    mine: Line | None
+    generated: Line | None
+
+    @property
+    def is_context(self) -> bool:
+        """Whether neither side changed the line."""
+        return all(line is not None and line.mark == " " for line in self)
 
 
 class Hunk(NamedTuple):
     """A run of lines with changes in it."""
 
-    lines: range
-    """Of the user's file, from 1."""
-    sides: frozenset[str]
-    """Who changed something: `mine`, `generated`."""
+    rows: list[Row]
     clash: bool
     """The sides contradict each other."""
-    rows: list[Row]
-    """For two columns."""
-    stack: list[tuple[str, Line]]
-    """For one column: which version has a line (`base`, `mine`, `generated`, `both`, empty for all), and the line."""
 
 
 class _Version(NamedTuple):
-    """One side, compared with the version that both come from; keys are indices of lines in that one."""
+    """One side, compared with the version that both come from; lines by their index in that one."""
 
-    changes: list[Replacement]
-    lines: list[Line]
-    kept: dict[int, Line]
-    """Lines that this version has as well, with their numbers in it."""
-    gone: dict[int, Line]
-    """Lines that it has not."""
+    lines: dict[int, Line]
     added: dict[int, list[Line]]
-    """Its own lines, by the line before which they stand."""
-
-
-class _Group(NamedTuple):
-    """Changes that no common line keeps apart: lines of the old version, what they are in both others, and whose."""
-
-    old: range
-    new: Mapping[str, range]
-    sides: frozenset[str]
-    clash: bool
+    """By the line before which they stand."""
+    changes: list[tuple[int, int]]
 
 
 def find_hunks(base: str | None, mine: str, generated: str, merge: Merge | None) -> list[Hunk]:
     """Where base, mine and generated differ; without a base, where the other two do."""
-    texts = [split_lines(one.replace("\r\n", NEWLINE)) for one in (mine if base is None else base, mine, generated)]
-    old = texts[0]
-    versions = {side: _compare(old, lines) for side, lines in zip(_SIDES, texts[1:], strict=True)}
-    runs: list[list[_Group]] = []
-    for group in _groups(versions, [conflict.base for conflict in merge.conflicts] if merge else []):
-        if not runs or group.old.start - runs[-1][-1].old.stop > 2 * CONTEXT:
-            runs.append([])
-        runs[-1].append(group)
-    return [_hunk(run, old, versions, has_base=base is not None) for run in runs]
+    texts = [split_lines(one.replace("\r\n", "\n")) for one in (mine if base is None else base, mine, generated)]
+    size, versions = len(texts[0]), [_compare(texts[0], lines) for lines in texts[1:]]
+    hunks: list[range] = []
+    for start, stop in sorted(change for version in versions for change in version.changes):
+        if hunks and start - hunks[-1].stop <= 2 * CONTEXT:
+            hunks[-1] = range(hunks[-1].start, max(hunks[-1].stop, stop))
+        else:
+            hunks.append(range(start, stop))
+    clashes = [conflict.base for conflict in merge.conflicts] if merge else []
+    found = []
+    for hunk in hunks:
+        place = range(max(0, hunk.start - CONTEXT), min(size, hunk.stop + CONTEXT))
+        rows = list(_rows(versions, place, hunk.stop == size))
+        clash = any(hunk.start < lines.start <= lines.stop <= hunk.stop + 1 for lines in clashes)
+        found.append(Hunk(rows if base is not None else list(map(_without_base, rows)), clash))
+    return found
 
 
-def _groups(versions: Mapping[str, _Version], clashes: Sequence[range]) -> Iterator[_Group]:
-    """The changes of both sides, those together that overlap or touch, as the merge sees them.
-
-    `clashes` are the lines of base, from 1, over which the sides are in conflict.
-    """
-    waiting = sorted((change, side) for side, version in versions.items() for change in version.changes)
-    shifts = dict.fromkeys(versions, 0)  # how far a line of the old version has moved
-    while waiting:
-        start = stop = waiting[0][0].start
-        before, sides = dict(shifts), set()
-        while waiting and waiting[0][0].start <= stop:
-            change, side = waiting.pop(0)
-            sides.add(side)
-            stop, shifts[side] = max(stop, change.stop), change.new_stop - change.stop
-        new = {side: range(start + before[side], stop + shifts[side]) for side in versions}
-        clash = any(start <= lines.start - 1 and lines.stop - 1 <= stop for lines in clashes)
-        yield _Group(range(start, stop), new, frozenset(sides), clash)
-
-
-def _hunk(run: Sequence[_Group], old: Sequence[str], versions: Mapping[str, _Version], *, has_base: bool) -> Hunk:
-    first, last = run[0], run[-1]
-    place = range(max(0, first.old.start - CONTEXT), min(len(old), last.old.stop + CONTEXT))
-    rows: list[Row] = []
-    stack: list[tuple[str, Line]] = []
-    position = place.start
-    for group in [*run, None]:
-        for index in range(position, group.old.start if group else place.stop):
-            left, right = (version.kept[index] for version in versions.values())
-            rows.append(Row(Cell(" ", left), Cell(" ", right)))
-            stack.append(("", left))
-        if group:
-            rows += _group_rows(group, versions) if has_base else _two_way_rows(group, versions)
-            stack += _group_stack(group, versions, has_base=has_base)
-            position = group.old.stop
-    start = first.new["mine"].start - (first.old.start - place.start)
-    stop = last.new["mine"].stop + (place.stop - last.old.stop)
-    sides = frozenset[str]().union(*(group.sides for group in run))
-    return Hunk(range(start + 1, stop + 1), sides, any(group.clash for group in run), rows, stack)
-
-
-def _group_rows(group: _Group, versions: Mapping[str, _Version]) -> Iterator[Row]:
+def _rows(versions: Sequence[_Version], place: range, is_last: bool) -> Iterator[Row]:
     """The lines of base with what each side did to them; what is added follows what it replaces."""
-    for index in range(group.old.start, group.old.stop + 1):
-        new = ([Cell("+", line) for line in version.added.get(index, ())] for version in versions.values())
-        yield from (Row(one, two, group.clash) for one, two in zip_longest(*new))
-        if index < group.old.stop:
-            left, right = (
-                Cell("-", version.gone[index]) if index in version.gone else Cell(" ", version.kept[index])
-                for version in versions.values()
-            )
-            yield Row(left, right, group.clash)
+    for index in range(place.start, place.stop + is_last):
+        yield from (Row(*pair) for pair in zip_longest(*(version.added.get(index, ()) for version in versions)))
+        if index in place:
+            yield Row(*(version.lines[index] for version in versions))
 
 
-def _two_way_rows(group: _Group, versions: Mapping[str, _Version]) -> Iterator[Row]:
-    """The lines of both sides; nothing tells which of them changed."""
-    ours = [Cell("*", versions["generated"].gone[index]) for index in group.old]
-    theirs = [Cell("*", versions["generated"].lines[index]) for index in group.new["generated"]]
-    return (Row(left, right) for left, right in zip_longest(ours, theirs))
-
-
-def _group_stack(group: _Group, versions: Mapping[str, _Version], *, has_base: bool) -> Iterator[tuple[str, Line]]:
-    """The versions of some lines one below the other."""
-    sides = [side for side in _SIDES if side in group.sides]
-    for index in group.old:
-        found = [versions[side].gone[index] for side in sides if index in versions[side].gone]
-        yield "base" if has_base else "mine", next((line for line in found if line.parts), found[0])
-    new = {side: [versions[side].lines[index] for index in group.new[side]] for side in sides}
-    if len(sides) == 2 and [line.text for line in new["mine"]] == [line.text for line in new["generated"]]:
-        new = {"both": new["mine"]}
-    for label, lines in new.items():
-        yield from ((label, line) for line in lines or ([Line(0, "(removed)")] if has_base else []))
+def _without_base(row: Row) -> Row:
+    """The same where mine stands for a base: nothing tells which side changed something."""
+    mine, generated = row
+    if mine is not None and generated is not None:
+        return row if row.is_context else Row(generated._replace(mark="*"), None)
+    return Row(None, generated and generated._replace(mark="*"))
 
 
 def _compare(old: Sequence[str], new: Sequence[str]) -> _Version:
-    """Compare two versions, and find out which parts of their lines changed."""
-    changes = compare(old, new)
-    lines = [Line(number, line.rstrip(NEWLINE)) for number, line in enumerate(new, start=1)]
-    gone: dict[int, Line] = {}
+    lines: dict[int, Line] = {}
     added: dict[int, list[Line]] = {}
     position = shift = 0
-    kept: dict[int, Line] = {}
-    for change in changes:
-        kept |= {index: lines[index + shift] for index in range(position, change.start)}
-        position, shift = change.stop, change.new_stop - change.stop
-        before, after = "".join(old[change.start : change.stop]), "".join(new[change.new_start : change.new_stop])
-        is_blank = bool(before and after) and "".join(before.split()) == "".join(after.split())
-        parts: list[list[range]] = [[], []]
-        if before and after and not is_blank:
-            words = tokens(before), tokens(after)
-            found = compare(*words, minimal=True)
-            spans = [(one.start, one.stop) for one in found], [(one.new_start, one.new_stop) for one in found]
-            joined = [_character_ranges(*pair) for pair in zip(words, spans, strict=True)]
-            shares = [
-                sum(len("".join(side[part.start : part.stop].split())) for part in ranges) / len("".join(side.split()))
-                for side, ranges in zip((before, after), joined, strict=True)
-                if side.strip()
-            ]
-            parts = joined if min(shares, default=1) <= _REWRITTEN else parts
-        gone |= {line.number - 1: line for line in _lines(before, change.start, parts[0], is_blank)}
-        added[change.stop] = list(_lines(after, change.new_start, parts[1], is_blank))
-        lines[change.new_start : change.new_stop] = added[change.stop]
-    kept |= {index: lines[index + shift] for index in range(position, len(old))}
-    return _Version(changes, lines, kept, gone, added)
+    changes = compare(old, new)
+    for start, stop, new_start, new_stop in changes:
+        lines |= {index: _line(" ", index + shift, old[index]) for index in range(position, start)}
+        before, after = old[start:stop], new[new_start:new_stop]
+        parts = [(range(0), range(0))] * max(len(before), len(after))
+        if len(before) == len(after):
+            parts = [_changed(*pair) for pair in zip(before, after, strict=True)]
+        for index, line in enumerate(before):
+            lines[start + index] = _line("-", start + index, line, parts[index][0])
+        added[stop] = [_line("+", new_start + index, line, parts[index][1]) for index, line in enumerate(after)]
+        position, shift = stop, new_stop - stop
+    lines |= {index: _line(" ", index + shift, old[index]) for index in range(position, len(old))}
+    return _Version(lines, added, [(change.start, change.stop) for change in changes])
 
 
-def _character_ranges(words: Sequence[str], spans: Sequence[tuple[int, int]]) -> list[range]:
-    """Ranges of words as ranges of characters; those with nothing but white space between them are one."""
-    offsets = [0, *itertools.accumulate(map(len, words))]
-    ranges: list[range] = []
-    for start, stop in spans:
-        if ranges and all(word.isspace() for word in words[offsets.index(ranges[-1].stop) : start]):
-            ranges[-1] = range(ranges[-1].start, offsets[stop])
-        else:
-            ranges.append(range(offsets[start], offsets[stop]))
-    return ranges
+def _changed(old: str, new: str) -> tuple[range, range]:
+    """What is between the beginning and the end that two lines share."""
+    start = _shared(old, new)
+    end = _shared(old[start:][::-1], new[start:][::-1])
+    return range(start, len(old) - end), range(start, len(new) - end)
 
 
-def _lines(joined: str, first: int, parts: Sequence[range], is_blank: bool) -> Iterator[Line]:
-    """Cut a text into lines, the first of which has the index `first`, and its changed parts with it."""
-    begin = 0
-    for number, line in enumerate(split_lines(joined), start=first + 1):
-        shown = line.rstrip(NEWLINE)
-        own = []
-        for part in parts:
-            start, stop = max(part.start - begin, 0), min(part.stop - begin, len(shown))
-            changed = shown[start:stop]
-            if changed.strip():
-                own.append(range(stop - len(changed.lstrip()), start + len(changed.rstrip())))
-        if is_blank:
-            shown = shown.replace(" ", "·").replace("\t", "→")
-        yield Line(number, shown if line.endswith(NEWLINE) else f"{shown}  (no end of line)", tuple(own))
-        begin += len(line)
+def _shared(one: str, two: str) -> int:
+    """So many characters at their beginning are the same."""
+    pairs = enumerate(zip(one, two, strict=False))
+    return next((index for index, (a, b) in pairs if a != b), min(len(one), len(two)))
+
+
+def _line(mark: str, index: int, line: str, changed: range = range(0)) -> Line:
+    return Line(mark, index + 1, line[:-1] if line.endswith("\n") else f"{line}  (no end of line)", changed)
+
+
+def stack(rows: Sequence[Row]) -> Iterator[tuple[str, Line]]:
+    """Lines one below the other, each with the version that has it: base, mine, generated, both; empty for all."""
+    for is_context, run in groupby(rows, lambda row: row.is_context):
+        group = list(run)
+        if is_context:
+            yield from (("", row.mine) for row in group if row.mine)
+            continue
+        cells = [[line for row in group if (line := row[side])] for side in (0, 1)]
+        gone = [line for row in group if (line := next((one for one in row if one and one.mark == "-"), None))]
+        yield from (("base", line) for line in gone)
+        new = {
+            name: [line for line in side if line.mark != "-"]
+            for name, side in zip(("mine", "generated"), cells, strict=True)
+            if any(line.mark != " " for line in side)
+        }
+        if len(new) == 2 and [line.text for line in new["mine"]] == [line.text for line in new["generated"]]:
+            new = {"both": new["mine"]}
+        for name, found in new.items():
+            yield from ((name, line) for line in found or [Line("-", 0, "(removed)")])
 
 
 # --- lines for people ---------------------------------------------------------------------------------------------
 
 
 def difference_lines(conflict: Conflict, console: Console, verbose: bool) -> tuple[list[Text], int]:
-    """The versions of a file where they differ, and the number of lines that were left out for want of room."""
+    """The versions of a file where they differ, and the number of lines that were left out for want of room.
+
+    Contradictions come first if there is no room for all.
+    """
     hunks = find_hunks(conflict.base, conflict.mine, conflict.generated, conflict.merge)
-    numbers = (cell.line.number for hunk in hunks for row in hunk.rows for cell in row[:2] if cell)
-    digits = len(str(max(numbers, default=1)))
-    lines: list[Text] = []
-    if is_wide := console.is_terminal and console.width >= _WIDE:
-        bar = "│" if has_marks(console.file) else "|"
-        lines.append(text((f"    {'mine':<{(console.width - 7) // 2}} {bar} generated", "bold")))
-    sizes = [1 + len(hunk.rows if is_wide else hunk.stack) for hunk in hunks]
+    digits = len(str(max((line.number for hunk in hunks for row in hunk.rows for line in row if line), default=1)))
+    is_wide = console.is_terminal and console.width >= _WIDE
+    show = _side_by_side if is_wide else _stacked
+    painted = [[_title(hunk, conflict, console), *show(hunk, console, digits)] for hunk in hunks]
     kept: list[int] = []
     for index in sorted(range(len(hunks)), key=lambda index: not hunks[index].clash):
-        if kept and not verbose and sum(sizes[other] for other in (*kept, index)) > LINES:
+        if kept and not verbose and sum(len(painted[other]) for other in (*kept, index)) > LINES:
             break
         kept.append(index)
-    left_out = sum(sizes) - sum(sizes[index] for index in kept)
-    for index in sorted(kept):
-        hunk = hunks[index]
-        painted = _side_by_side(hunk, console, digits) if is_wide else _stacked(hunk, console, digits)
-        rows = [_title(hunk, conflict, console), *painted]
-        room = len(rows) if verbose else LINES
-        lines += rows[:room]
-        left_out += len(rows[room:])
+    lines = [line for index in sorted(kept) for line in painted[index][: None if verbose else LINES]]
+    left_out = sum(map(len, painted)) - len(lines)
+    if is_wide:
+        bar = "│" if has_marks(console.file) else "|"
+        lines.insert(0, text((f"    {'mine':<{(console.width - 7) // 2}} {bar} generated", "bold")))
     return lines, left_out
 
 
 def _title(hunk: Hunk, conflict: Conflict, console: Console) -> Text:
-    first, last = hunk.lines.start, hunk.lines.stop - 1
-    where = f"lines {first} to {last}" if last > first else f"line {first}" if last == first else "empty"
-    if hunk.clash:
-        what = "the sides contradict each other"
-    elif conflict.base is None:
-        what = "not the same"
-    else:
-        what = {"mine": "your edit", "generated": "new"}.get("".join(hunk.sides), "your edit and what is new")
+    numbers = [row.mine.number for row in hunk.rows if row.mine and row.mine.mark != "-"]
+    first, last = min(numbers, default=0), max(numbers, default=0)
+    where = f"lines {first} to {last}" if last > first else f"line {first}" if first else "empty"
+    sides = [any(line and line.mark != " " for line in column) for column in zip(*hunk.rows, strict=True)]
+    what = "your edit and what is new" if all(sides) else "your edit" if sides[0] else "new"
+    if hunk.clash or conflict.base is None:
+        what = "the sides contradict each other" if hunk.clash else "not the same"
     rule = "──" if has_marks(console.file) else "--"
     return text((f"    {rule} {where}: ", "dim"), (what, "bold red" if hunk.clash else ""))
 
@@ -290,66 +207,49 @@ def _side_by_side(hunk: Hunk, console: Console, digits: int) -> Iterator[Text]:
     """Mine and generated in two columns; long lines go on below."""
     from rich.text import Text
 
-    bar, clash = ("│", "┃") if has_marks(console.file) else ("|", "!")
-    half = (console.width - 7) // 2
+    bar, half = "│" if has_marks(console.file) else "|", (console.width - 7) // 2
     for row in hunk.rows:
-        halves: list[list[Text]] = []
-        for side, cell in zip(_SIDES, row[:2], strict=True):
-            halves.append([])
-            if cell:
-                style = {"-": "red", " ": "dim"}.get(cell.mark, _COLOURS[side])
-                gutter = Text(f"{cell.line.number:>{digits}} {cell.mark} ", style)
-                wrapped = _wrapped(cell.line, style, half - digits - 3, console, rows=1 if cell.mark == " " else _ROWS)
-                for part in wrapped:
-                    halves[-1].append(Text.assemble(gutter, part))
-                    gutter = Text(" " * gutter.cell_len)
-        for left, right in zip_longest(*halves):
-            mine = left or Text()
-            mine.pad_right(half - mine.cell_len)
-            middle = (clash, "bold red") if row.clash else (bar, "dim")
-            yield Text.assemble("    ", mine, " ", middle, *([" ", right] if right else []))
+        halves: list[list[Text]] = [[], []]
+        for side, line, colour in zip(halves, row, ("cyan", "green"), strict=True):
+            if line:
+                style = {"-": "red", " ": "dim"}.get(line.mark, colour)
+                gutter = f"{line.number:>{digits}} {line.mark} "
+                side += _wrapped(line, gutter, style, half, console, rows=1 if line.mark == " " else _ROWS)
+        for mine, generated in zip_longest(*halves):
+            left = mine or Text()
+            left.pad_right(half - left.cell_len)
+            yield Text.assemble("    ", left, (f" {bar} ", "dim"), generated or "")
 
 
 def _stacked(hunk: Hunk, console: Console, digits: int) -> Iterator[Text]:
     """The versions one below the other, each line with the name of its version."""
+    for name, line in stack(hunk.rows):
+        gutter = f"    {name:<9}  {line.number or '':>{digits}}  "
+        room = max(_NARROW + len(gutter), console.width) if console.is_terminal else _PIPE + len(gutter)
+        rows = _ROWS if name and console.is_terminal else 1
+        yield from _wrapped(line, gutter, _COLOURS[name], room, console, rows=rows)
+
+
+def _wrapped(line: Line, gutter: str, style: str, width: int, console: Console, *, rows: int) -> list[Text]:
+    """A line in so many columns and rows, its change set off; cut around that if it is longer."""
     from rich.text import Text
 
-    for label, line in hunk.stack:
-        style = _COLOURS[label] or "dim"
-        gutter = Text(f"    {label:<9}  {line.number or '':>{digits}}  ", style)
-        if console.is_terminal:
-            room = max(_NARROW, console.width - digits - 17)
-            wrapped = _wrapped(line, style, room, console, rows=_ROWS if label else 1)
-        else:
-            wrapped = [_painted(line, style, _PIPE)]
-        for part in wrapped:
-            row = Text.assemble(gutter, part)
-            row.rstrip()
-            yield row
-            gutter = Text(" " * gutter.cell_len)
-
-
-def _wrapped(line: Line, style: str, room: int, console: Console, *, rows: int) -> list[Text]:
-    painted = _painted(line, style, room * rows)
-    return list(painted.wrap(console, room, overflow="fold", tab_size=4)) or [painted]
-
-
-def _painted(line: Line, style: str, room: int) -> Text:
-    """A line with its changed parts set off; cut around the first of them if it is longer than `room` characters."""
-    from rich.text import Text
-
+    room = width - len(gutter)
     start, stop = 0, len(line.text)
-    if stop > room:
-        first = line.parts[0].start if line.parts else 0
-        start = max(0, min(first - _LEAD, stop - room + 2))
-        stop = min(stop, start + room - 2)
-    pieces, position = [("…", "dim")] if start else [], start
-    for part in line.parts:
-        inside = range(max(part.start, start), min(part.stop, stop))
-        if inside:
-            pieces.append((line.text[position : inside.start], style))
-            pieces.append((line.text[inside.start : inside.stop], f"bold underline {style}"))
-            position = inside.stop
-    pieces.append((line.text[position:stop], style))
-    pieces += [("…", "dim")] if stop < len(line.text) else []
-    return Text.assemble(*((visible(piece.replace("\t", "    ")), look) for piece, look in pieces))
+    if stop > room * rows:
+        start = max(0, min(line.changed.start - _LEAD, stop - room * rows + 2))
+        stop = min(stop, start + room * rows - 2)
+    first, last = (min(max(end, start), stop) for end in (line.changed.start, line.changed.stop))
+    pieces = [
+        ("…" if start else "", "dim"),
+        (line.text[start:first], style),
+        (line.text[first:last], f"bold underline {style}"),
+        (line.text[last:stop], style),
+        ("…" if stop < len(line.text) else "", "dim"),
+    ]
+    painted = Text.assemble(*((visible(piece.replace("\t", "    ")), look) for piece, look in pieces))
+    parts = list(painted.wrap(console, room, overflow="fold")) or [painted]
+    found = [Text.assemble((" " * len(gutter) if number else gutter, style), part) for number, part in enumerate(parts)]
+    for row in found:
+        row.rstrip()
+    return found

@@ -1,7 +1,7 @@
-"""Changes as an outline for people: a few rows per element, numbers with the digits that tell them apart.
+"""Changes of a model in words: the rows of each element, numbers with the digits that tell them apart.
 
-What belongs together is one row: the components of a vector, and all rounding. Elements with the same rows share
-an entry. A long outline is condensed to one row per element.
+What belongs together is one row: the components of a vector, all rounding, all that is not modelled. Elements with the
+same rows share them.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ import itertools
 import json
 import math
 import re
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -19,140 +19,73 @@ import msgspec
 from urdfsync.diff.changes import Change, Changes, is_number
 from urdfsync.domain import ChangeClass, ChangeKind, Effect
 
-LONG = 60
-"""So many rows are shown in full; of more, numbers are condensed unless somebody asks."""
-NOT_MODELLED, _ROUNDING = "not modelled", "rounding"
-"""Relations of changes that matter little, and labels of rows that only count them."""
+_NOT_MODELLED, _ROUNDING = "not modelled", "rounding"
+"""Relations of changes that matter little, and labels of the rows that count them."""
 _NAMES = 140
 """Characters of the names of elements in a title; there is always one name."""
-_FEW = 2
-"""So many changes of an element that are not modelled are shown one by one."""
 _SAME = 1e-9
 """Relative change of a sum that comes from its rounding; lengths and angles that nobody can measure, in m and rad."""
-_NUMBERED = re.compile(r" \d+$")
 _COMPONENT = re.compile(r"(.*)\[(\d+)\]")
 _WIDTH = 40
 """Characters of a text that are shown."""
 _CONTEXT = 12
 """Characters of a long text before the place where it differs."""
-_SHORT = 32
-"""Texts of more characters do not help to tell a thing from others."""
 _DIGITS = 6
 """Numbers with so many characters are not rounded."""
 _HASH = re.compile(r"[0-9a-f]{64}")
 
 
 class OutlineRow(msgspec.Struct, frozen=True):
-    """One line below an element, or beside its name if it has no label."""
+    """What happened at one place of an element; the label is empty for the element itself."""
 
     label: str
     kind: ChangeKind = ChangeKind.CHANGED
-    old: str = ""
-    new: str = ""
-    """With an old value, the new one; else all that there is to say."""
+    value: str = ""
+    """`54 → 60 N·m`, `added`, or all that there is to say."""
     relation: str = ""
     """Percent, or the same values in degrees."""
     is_quiet: bool = False
     """Whether nothing in the package depends on it, or next to nothing."""
 
-
-class OutlineEntry(msgspec.Struct, frozen=True):
-    """Elements that share their rows."""
-
-    elements: tuple[str, ...]
-    rows: tuple[OutlineRow, ...]
-
-    @property
-    def title(self) -> str:
-        """The elements in words; what they all begin with is said once."""
-        first, space, _ = self.elements[0].partition(" ")
-        begin = f"{first} " if space and all(e.startswith(f"{first} ") for e in self.elements) else ""
-        names = [element.removeprefix(begin) for element in self.elements]
-        lengths = itertools.accumulate(len(name) + 2 for name in names)
-        few = max(1, sum(length <= _NAMES for length in lengths))
-        more = f" and {len(names) - few} more" if few < len(names) else ""
-        return f"{begin}{', '.join(names[:few])}{more}"
+    def __str__(self) -> str:
+        """The row as words: `limit / effort 54 → 60 N·m (+11.1 %)`."""
+        return " ".join(filter(None, (self.label, self.value, f"({self.relation})" if self.relation else "")))
 
 
-class Outline(msgspec.Struct, frozen=True):
-    """All entries."""
-
-    entries: tuple[OutlineEntry, ...]
-    condensed: bool = False
-    """Whether numbers are counted instead of shown."""
-
-
-def outline(changes: Changes, *, everything: bool = False) -> Outline:
-    """Return the outline of changes; with `everything`, each change has a row of its own and all its digits."""
-    by_element = changes.by_element()
-    if everything:
-        rows = (
-            (element, [change_row(change, exact=True) for change in found]) for element, found in by_element.items()
-        )
-        return Outline(tuple(OutlineEntry((element,), tuple(own)) for element, own in rows))
-    full = []
-    for element, found in by_element.items():
-        own = tuple(_element_rows(found))
-        if all(row.label in (NOT_MODELLED, _ROUNDING) for row in own):
-            # elements with nothing but counts come last, and without the numbers
-            own = (OutlineRow("", new=" and ".join(row.label for row in own), is_quiet=True),)
-        full.append((element, own))
-    full.sort(key=lambda pair: pair[1][0].is_quiet and not pair[1][0].label)
-    shared = _shared(full)
-    if sum(len(entry.rows) for entry in shared) <= LONG:
-        return Outline(shared)
-    return Outline(_shared((name, tuple(_condensed_rows(found))) for name, found in by_element.items()), condensed=True)
+def outline(changes: Changes, *, everything: bool = False) -> dict[str, tuple[OutlineRow, ...]]:
+    """Return the rows of changed elements; with `everything`, each change has a row of its own and all its digits."""
+    elements: dict[tuple[OutlineRow, ...], list[str]] = defaultdict(list)
+    for element, found in changes.by_element().items():
+        rows = [change_row([one], exact=True) for one in found] if everything else _element_rows(found)
+        elements[tuple(rows)].append(element)
+    return {_title(names): rows for rows, names in elements.items()}
 
 
-def _shared(entries: Iterable[tuple[str, tuple[OutlineRow, ...]]]) -> tuple[OutlineEntry, ...]:
-    """Put elements of the same rows together, at the place of the first."""
-    groups: dict[tuple[OutlineRow, ...], list[str]] = {}
-    for element, rows in entries:
-        groups.setdefault(rows, []).append(element)
-    return tuple(OutlineEntry(tuple(elements), rows) for rows, elements in groups.items())
+def _title(elements: Sequence[str]) -> str:
+    """Return elements in words; what they all begin with is said once."""
+    first, space, _ = elements[0].partition(" ")
+    begin = f"{first} " if space and all(element.startswith(f"{first} ") for element in elements) else ""
+    names = [element.removeprefix(begin) for element in elements]
+    few = max(1, sum(length <= _NAMES for length in itertools.accumulate(len(name) + 2 for name in names)))
+    more = f" and {len(names) - few} more" if few < len(names) else ""
+    return f"{begin}{', '.join(names[:few])}{more}"
 
 
-def _element_rows(found: Sequence[Change]) -> Iterator[OutlineRow]:
-    foreign = [change for change in found if change.change_class is ChangeClass.UNMODELLED]
-    foreign = foreign if len(foreign) > _FEW else []
-    noise = [change for change in found if _is_rounding(change) and change not in foreign]
-    rest = (change for change in found if change not in noise and change not in foreign)
-    yield from _numbered(_vector_row(list(group)) for _, group in itertools.groupby(rest, key=_vector_key))
-    if foreign:
-        kinds = Counter(ChangeKind.CHANGED if _is_rounding(change) else change.kind for change in foreign)
-        yield OutlineRow(NOT_MODELLED, new=", ".join(f"{n} {kind}" for kind, n in kinds.items()), is_quiet=True)
-    if noise:
-        yield OutlineRow(_ROUNDING, new=f"{len(noise)} number{'s' if len(noise) > 1 else ''}", is_quiet=True)
-
-
-def _condensed_rows(found: Sequence[Change]) -> Iterator[OutlineRow]:
-    """Yield the rows of an element with its numbers, rounding and what is not modelled counted in one."""
-    quiet = [c for c in found if c.change_class is ChangeClass.UNMODELLED or _is_rounding(c)]
-    numbers = [
-        c for c in found if c not in quiet and c.kind is ChangeKind.CHANGED and is_number(c.old) and len(c.path) > 1
-    ]
-    parts = []
-    if numbers:
-        places = dict.fromkeys(_NUMBERED.sub("", change.path[1]) for change in numbers)
-        parts.append(f"{len(numbers)} in {', '.join(places)}")
-    if rounding := sum(c.change_class is not ChangeClass.UNMODELLED for c in quiet):
-        parts.append(f"{rounding} by rounding")
-    if foreign := len(quiet) - rounding:
-        parts.append(f"{foreign} not modelled")
-    if parts:
-        yield OutlineRow("", new="; ".join(parts), is_quiet=not numbers)
-    yield from _numbered(change_row(change) for change in found if change not in numbers and change not in quiet)
-
-
-def _numbered(rows: Iterable[OutlineRow]) -> Iterator[OutlineRow]:
-    """Put rows of things together that differ in their numbers only: `visual 2, 3, 4`."""
-
-    def split(row: OutlineRow) -> tuple[str, OutlineRow]:
-        return _NUMBERED.sub("", row.label), msgspec.structs.replace(row, label="")
-
-    for (stem, rest), group in itertools.groupby(rows, key=split):
-        numbers = [row.label.removeprefix(stem).strip() for row in group]
-        yield msgspec.structs.replace(rest, label=f"{stem} {', '.join(filter(None, numbers))}".strip())
+def _element_rows(found: Sequence[Change]) -> list[OutlineRow]:
+    counts = {_NOT_MODELLED: 0, _ROUNDING: 0}
+    vectors: dict[object, list[Change]] = defaultdict(list)
+    for change in found:
+        if change.change_class is ChangeClass.UNMODELLED:
+            counts[_NOT_MODELLED] += 1
+        elif _is_rounding(change):
+            counts[_ROUNDING] += 1
+        else:
+            vectors[_vector_key(change)].append(change)
+    rows = [change_row(components) for components in vectors.values()]
+    for label, number in counts.items():
+        if number:
+            rows.append(OutlineRow(label, value=f"{number} change{'s' if number > 1 else ''}", is_quiet=True))
+    return rows
 
 
 def _is_rounding(change: Change) -> bool:
@@ -166,69 +99,52 @@ def _vector_key(change: Change) -> object:
     match = _COMPONENT.fullmatch(change.path[-1])
     if match is None or not (is_number(change.old) and is_number(change.new)):
         return id(change)
-    return (*change.path[:-1], match[1], change.unit, change.change_class)
+    return (*change.path[:-1], match[1], change.unit)
 
 
-def _vector_row(components: Sequence[Change]) -> OutlineRow:
-    """Return components of one vector as one row."""
-    first = components[0]
-    if len(components) == 1:
-        return change_row(first)
-    indices = ", ".join(change.path[-1].rpartition("[")[2][:-1] for change in components)
-    label = " / ".join([*first.path[1:-1], f"{first.path[-1].rpartition('[')[0]}[{indices}]"])
-    before, after = [change.old for change in components], [change.new for change in components]
-    old, new = _pair(before, after)
+def change_row(components: Sequence[Change], *, exact: bool = False) -> OutlineRow:
+    """Return a change, or those of the components of a vector, as a row; with `exact` all digits and the whole text."""
+    first, old, new = components[0], components[0].old, components[0].new
+    label = " / ".join(first.path[1:])
     is_quiet = first.change_class is ChangeClass.UNMODELLED
-    relation = NOT_MODELLED if is_quiet else ""
-    if first.unit == "rad":
-        relation = " → ".join(_pair([*map(math.degrees, before)], [*map(math.degrees, after)], mark="°"))
-    return OutlineRow(label, ChangeKind.CHANGED, old, f"{new} {first.unit}".rstrip(), relation, is_quiet)
-
-
-def change_row(change: Change, *, exact: bool = False) -> OutlineRow:
-    """Return a change as a row; with `exact` all digits and the whole text."""
-    label = " / ".join(change.path[1:])
-    is_quiet = change.change_class is ChangeClass.UNMODELLED
-    relation = NOT_MODELLED if is_quiet else ""
-    if change.kind is ChangeKind.RENAMED:
-        return OutlineRow(label, change.kind, new=f"renamed to {change.new}")
-    if change.kind is not ChangeKind.CHANGED:
-        value = change.new if change.kind is ChangeKind.ADDED else change.old if label else None
-        details = _details(value)
-        new = f"{change.kind}: {details}" if details else str(change.kind)
-        return OutlineRow(label, change.kind, new=new, relation=relation, is_quiet=is_quiet)
-    old, new = _pair(change.old, change.new, exact=exact)
-    if change.noise:
+    relation = _NOT_MODELLED if is_quiet else ""
+    if first.kind is ChangeKind.RENAMED:
+        return OutlineRow(label, first.kind, f"renamed to {new}")
+    if first.kind is not ChangeKind.CHANGED:
+        details = _details(new if first.kind is ChangeKind.ADDED else old if label else None)
+        return OutlineRow(label, first.kind, f"{first.kind}: {details}" if details else first.kind, relation, is_quiet)
+    if len(components) > 1:
+        indices = ", ".join(change.path[-1].rpartition("[")[2][:-1] for change in components)
+        label = f"{label.rpartition('[')[0]}[{indices}]"
+        old, new = [change.old for change in components], [change.new for change in components]
+    if first.noise:
         relation = _ROUNDING
-    elif change.unit == "rad" and is_number(change.old) and is_number(change.new):
-        relation = " → ".join(_pair(math.degrees(change.old), math.degrees(change.new), mark="°"))
+    elif first.unit == "rad" and is_number(first.old) and is_number(first.new):
+        degrees = [list(map(math.degrees, one)) if isinstance(one, list) else math.degrees(one) for one in (old, new)]
+        relation = " → ".join(_pair(*degrees, mark="°"))
     else:
-        relation = _percent(change.old, change.new) or relation
-    new = f"{new} {change.unit}".rstrip()
-    return OutlineRow(label, change.kind, old, new, relation, is_quiet or change.noise)
+        relation = _percent(old, new) or relation
+    value = f"{' → '.join(_pair(old, new, exact=exact))} {first.unit}".rstrip()
+    return OutlineRow(label, first.kind, value, relation, is_quiet or first.noise)
 
 
 def effect_rows(effects: Sequence[Effect]) -> list[OutlineRow]:
     """Return properties of the whole model as rows, without those that differ by rounding at most."""
     rows = []
     for effect in effects:
-        label, old, new, unit = " ".join(effect.path), effect.old, effect.new, effect.unit
-        is_vector = _is_vector(old) and _is_vector(new) and len(old) == len(new)
-        if is_vector:
-            is_same = math.dist(old, new) <= _SAME * max(map(abs, (*old, *new)))
-        elif is_number(old) and is_number(new):
-            is_same = math.isclose(old, new, rel_tol=_SAME)
-        else:
-            is_same = old == new
-        if is_same:
-            continue
+        label, old, new, relation = " ".join(effect.path), effect.old, effect.new, effect.hint
+        kind, is_same = ChangeKind.CHANGED, old == new
         if old is None or new is None:
-            kind, word, value = (ChangeKind.REMOVED, "was", old) if new is None else (ChangeKind.ADDED, "now", new)
-            rows.append(OutlineRow(label, kind, new=f"{word} {_value(value)} {unit}".rstrip(), relation=effect.hint))
-            continue
-        before, after = _pair(old, new)
-        relation = f"by {math.dist(old, new):.3g} {unit}".rstrip() if is_vector else effect.hint or _percent(old, new)
-        rows.append(OutlineRow(label, ChangeKind.CHANGED, before, f"{after} {unit}".rstrip(), relation))
+            kind = ChangeKind.REMOVED if new is None else ChangeKind.ADDED
+            value = f"was {_value(old)}" if new is None else f"now {_value(new)}"
+        elif _is_vector(old) and _is_vector(new) and len(old) == len(new):
+            is_same = math.dist(old, new) <= _SAME * max(map(abs, (*old, *new)))
+            value, relation = " → ".join(_pair(old, new)), f"by {math.dist(old, new):.3g} {effect.unit}".rstrip()
+        else:
+            is_same = math.isclose(old, new, rel_tol=_SAME) if is_number(old) and is_number(new) else is_same
+            value, relation = " → ".join(_pair(old, new)), relation or _percent(old, new)
+        if not is_same:
+            rows.append(OutlineRow(label, kind, f"{value} {effect.unit}".rstrip(), relation))
     return rows
 
 
@@ -271,23 +187,15 @@ def _value(value: Any) -> str:
 
 
 def _details(value: Any) -> str:
-    """Return the little that tells what comes or goes: texts and numbers, of its parts texts only."""
-    if isinstance(value, str):
-        return "" if value.startswith("<") else _cut(value)
+    """Return what tells a thing that comes or goes from others: its number or text, the numbers and texts in it."""
+    if isinstance(value, str) and value.startswith("<"):
+        return ""
+    if isinstance(value, str) or is_number(value) or _is_vector(value):
+        return _value(value)
     if not isinstance(value, Mapping):
-        return _value(value) if _is_vector(value) or isinstance(value, int | float) else ""
-    items: list[tuple[str, Any]] = []
-    for key, item in value.items():
-        if isinstance(item, Mapping):
-            items += [(f"{key} {name}", text) for name, text in item.items() if isinstance(text, str)]
-        elif isinstance(item, str | int | float):
-            items.append((key, item))
-    told = (
-        key if isinstance(item, str) and len(item) > _SHORT else f"{key} {_value(item)}"
-        for key, item in items
-        if item != ""
-    )
-    return _cut(", ".join(told), 2 * _WIDTH)
+        return ""
+    told = (f"{key} {_details(item)}" for key, item in value.items() if item != "" and not _is_vector(item))
+    return _cut(", ".join(text for text in told if not text.endswith(" ")), 2 * _WIDTH)
 
 
 def _percent(old: Any, new: Any) -> str:

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass, ChangeKind, Role
+from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.outcome import Checked, Result
-from urdfsync.output.outline import change_row
+from urdfsync.output.outline import change_row, outline
 
 if TYPE_CHECKING:
-    from urdfsync.diff.changes import Change, Changes
+    from urdfsync.diff.changes import Changes
 
 RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
 _NAMED = {
@@ -36,23 +36,12 @@ def error_count(diagnostics: Sequence[Diagnostic]) -> str:
     return counted(sum(found.severity is Severity.ERROR for found in diagnostics), "error")
 
 
-def byte_size(number: int) -> str:
-    """So many bytes, in the largest unit of which there is at least one: `812 kB`, `1.2 GB`."""
-    for power, unit in ((3, "GB"), (2, "MB"), (1, "kB")):
-        if number >= 1000**power:
-            value = number / 1000**power
-            return f"{value:.0f} {unit}" if value >= 10 else f"{value:.1f} {unit}"
-    return counted(number, "byte")
-
-
 def summary(result: Result) -> str:
     """What happened to a robot's package (in a dry run: what would), as the rest of a line that names the robot."""
     if result.failed:
         end = "the next build finishes or undoes what was begun" if result.unfinished else "nothing was changed"
         return f"{error_count(result.diagnostics)}, {end}"
     parts = action_counts(result)
-    if waiting := sum(action.held for action in result.actions.decided):
-        parts.append(f"{counted(waiting, 'change')} waiting for that")
     if result.in_step:
         fine = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED)
         total = sum(action.kind in fine for action in result.actions)
@@ -72,7 +61,7 @@ def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
 
 
 def action_counts(result: Result, silent: Container[Kind] = ()) -> list[str]:
-    """A phrase for each kind of action that is not `silent`, with the number of files."""
+    """A phrase for each kind of action that is not `silent`, with the number of files, and for what waits."""
     kinds = Counter(action.kind for action in result.actions.decided if not action.held)
     kinds[Kind.UPDATE] += kinds.pop(Kind.CREATE, 0)
     kinds[Kind.CONFLICT] += kinds.pop(Kind.UNOWNED, 0)
@@ -81,6 +70,8 @@ def action_counts(result: Result, silent: Container[Kind] = ()) -> list[str]:
         if (number := kinds[kind]) and kind not in silent:
             them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
             phrases.append((to_do if result.dry else done).format(n=number, them=them, have=have, s=s))
+    if waiting := sum(action.held for action in result.actions.decided):
+        phrases.append(f"{counted(waiting, 'change')} waiting for that")
     return phrases
 
 
@@ -122,8 +113,7 @@ def _cause(action: Action, changes: Changes) -> str:
     if not found:
         return generator_change(changes) if changes.generator else ""
     more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
-    place = " / ".join(found[0].path[1:])
-    return f"{found[0].element}: {f'{place} ' if place else ''}{_change_value(found[0])}{more}"
+    return f"{found[0].element}: {change_row(found[:1])}{more}"
 
 
 def generator_change(changes: Changes) -> str:
@@ -134,20 +124,11 @@ def generator_change(changes: Changes) -> str:
     return f"the option{'s' if len(changes.options) > 1 else ''} {names} changed"
 
 
-def change_lines(changes: Changes) -> list[str]:
-    """What changed in the model, one line each: `joint elbow / limit / effort: 54 → 60 N.m (+11.1 %)`."""
+def change_lines(changes: Changes, *, everything: bool = False) -> list[str]:
+    """What changed in the model, one line each: `joint elbow: limit / effort 54 → 60 N.m (+11.1 %)`."""
     lines = [generator_change(changes)] if changes.generator else []
-    return [*lines, *(f"{change}: {_change_value(change)}" for change in changes.changes)]
-
-
-def _change_value(change: Change) -> str:
-    """What happened at one place: `54 → 60 N.m (+11.1 %)`, `renamed to elbow`, `added`."""
-    row = change_row(change)
-    if change.kind in (ChangeKind.ADDED, ChangeKind.REMOVED):
-        what = str(change.kind)
-    else:
-        what = f"{row.old} → {row.new}" if row.old else row.new
-    return f"{what} ({row.relation})" if row.relation else what
+    rows = outline(changes, everything=everything).items()
+    return [*lines, *(f"{title}: {row}" for title, own in rows for row in own)]
 
 
 def change_classes(changes: Changes) -> str:

@@ -3,58 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from urdfsync.output.console import text
+from urdfsync.output.console import StyledLine, line
 from urdfsync.profiling import OTHER, STAGES, Profile
 
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-_WORDS = {
-    "start": "start-up",
-    "imports": "imports of domain and templates",
-    "stamp": "asking the stamp",
-    "looking": "looking at files",
-    "reading": "reading the source",
-    "cross-check": "second reader",
-    "recording": "recording the state",
-    "waiting": "waiting for processes",
-    OTHER: "everything else",
-}
-"""What stages are called, if not by their name."""
-_COUNTS = {
-    "read": "files read",
-    "rendered": "texts rendered",
-    "written": "files written, those of the state included",
-}
 _LEAST = 50_000
 """Nanoseconds: shorter stages are left out."""
 
 
-def parts(profile: Profile) -> Iterator[RenderableType]:
-    """A table of all stages that took time, what was done, and whether a stamp would have been enough."""
-    from rich import box
-    from rich.table import Table
-
+def profile_lines(profile: Profile) -> Iterator[StyledLine]:
+    """A table of all stages that took time, what was done, and whether a saved answer would have been enough."""
     here, counts = profile.results()
-    total = sum(here.values())
-    table = Table(box=box.SIMPLE_HEAD, show_footer=True)
-    table.add_column("stage", footer="total")
-    table.add_column("ms", justify="right", footer=_ms(total))
-    table.add_column("share", justify="right")
-    if profile.elsewhere:
-        table.add_column("ms in other processes", justify="right", footer=_ms(sum(profile.elsewhere.values())))
+    total, elsewhere = sum(here.values()), sum(profile.elsewhere.values())
+    yield line((f"{'stage':<18}{'ms':>9}{'share':>7}{'  ms in other processes' if elsewhere else ''}", "bold"))
     for name in (*STAGES, OTHER):
         own, others = here.get(name, 0), profile.elsewhere[name]
         if max(own, others) >= _LEAST:
-            beside = [_ms(others)] if profile.elsewhere else []
-            table.add_row(_WORDS.get(name, name), _ms(own), f"{own / total:.0%}", *beside)
-    yield table
+            yield line((f"{name:<18}{own / 1e6:>9.1f}{own / total:>7.0%}", ""), _others(others, elsewhere))
+    yield line((f"{'total':<18}{total / 1e6:>9.1f}{'':>7}", "bold"), _others(elsewhere, elsewhere))
     if counts:
-        yield text((", ".join(f"{number} {_COUNTS[what]}" for what, number in sorted(counts.items())), ""))
-    if profile.stamp:
-        yield text((f"nothing has changed: without --profile, the stamp answers, in {_ms(here['stamp'])} ms", ""))
+        yield line((", ".join(f"{number} {what}" for what, number in sorted(counts.items())), ""))
+    if profile.has_answer:
+        took = f"{here['saved answer'] / 1e6:.1f} ms"
+        yield line((f"nothing has changed: without --profile, the saved answer is printed after {took}", ""))
+
+
+def _others(nanoseconds: int, elsewhere: int) -> tuple[str, str]:
+    return (f"{nanoseconds / 1e6:>23.1f}" if elsewhere else "", "")
 
 
 def to_json(profile: Profile) -> dict[str, Any]:
@@ -68,9 +44,5 @@ def to_json(profile: Profile) -> dict[str, Any]:
             if (others := profile.elsewhere[name]) or here.get(name)
         ],
         "counts": counts,
-        "stamp": profile.stamp,
+        "stamp": profile.has_answer,
     }
-
-
-def _ms(nanoseconds: int) -> str:
-    return f"{nanoseconds / 1e6:.1f}"

@@ -28,7 +28,7 @@ from urdfsync.watch import build, events, precommit
 from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.debounce import Debouncer, Phase, Times
 from urdfsync.watch.exec import CommandEnded, CommandRunner
-from urdfsync.watch.observer import EventsLost, Observer
+from urdfsync.watch.observer import Observer
 from urdfsync.watch.paths import CONFIG, WatchedPaths, find_robot_paths, find_watched_paths
 from urdfsync.watch.robots import WatchedRobot, find_changes, read_state
 from urdfsync.watch.single_instance import SingleInstance
@@ -65,7 +65,7 @@ class Daemon:
         self._cache = Cache()
         self._build_options = msgspec.structs.replace(options.build, progress=self._progress, cache=self._cache)
         self._queue: SimpleQueue[object] = SimpleQueue()
-        """Paths that may have changed, `EventsLost`, `CommandEnded`, `CheckEnded`, and None to wake the daemon."""
+        """Paths that may have changed, `CommandEnded`, `CheckEnded`, and None to wake the daemon."""
         self._observer = Observer(self._queue)
         self._robots: dict[str, WatchedRobot] = {}
         self._checks = CheckQueue(self._queue, options.build)
@@ -92,7 +92,7 @@ class Daemon:
         """
         loaded = config.load(self._options.file)
         try:
-            with SingleInstance(loaded) as instance, self._observer, self._checks:
+            with SingleInstance(loaded) as instance, contextlib.closing(self._observer), self._checks:
                 self._use(loaded)
                 self._next_rescan = time.monotonic() + self._options.rescan
                 while not self._stop_signal:
@@ -177,8 +177,6 @@ class Daemon:
                 match message:
                     case str():
                         paths.add(message)
-                    case EventsLost():
-                        self._next_rescan = 0.0
                     case CommandEnded():
                         self._show(events.Ran(message.robot, message.code))
                         self._note(self._commands.finish(message))

@@ -7,10 +7,8 @@ import logging
 import os
 from pathlib import Path
 from queue import SimpleQueue
-from types import TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING
 
-import msgspec
 from watchdog import events, observers
 
 from urdfsync.config import shown
@@ -39,43 +37,24 @@ _HINTS = {
 }
 
 
-class EventsLost(msgspec.Struct, frozen=True):
-    """The system dropped events, so everything has to be looked at."""
+# what it warns of is lost events, which the next rescan makes good
+logging.getLogger("watchdog").addHandler(logging.NullHandler())
 
 
-class Observer(events.FileSystemEventHandler, logging.Handler):
-    """Puts paths that may have changed into a queue, within its context; paths that matter to nobody are left out."""
+class Observer(events.FileSystemEventHandler):
+    """Puts paths that may have changed into a queue, until it is closed; paths that matter to nobody are left out."""
 
     def __init__(self, queue: SimpleQueue[object]) -> None:
-        logging.Handler.__init__(self, logging.WARNING)
         self._queue = queue
         self._paths = WatchedPaths()
         self._backend: BaseObserver | None = None
         self._watches: dict[tuple[str, bool], tuple[ObservedWatch, tuple[int, int]]] = {}
-
-    def __enter__(self) -> Self:
-        log = logging.getLogger("watchdog")
-        log.addHandler(self)
-        log.propagate = False
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self._close()
-        log = logging.getLogger("watchdog")
-        log.removeHandler(self)
-        log.propagate = True
 
     def dispatch(self, event: events.FileSystemEvent) -> None:
         """Pass on both paths of an event."""
         for path in (event.src_path, event.dest_path):
             if path and self._paths.robots_for(os.fsdecode(path)):
                 self._queue.put(os.fsdecode(path))
-
-    def emit(self, record: logging.LogRecord) -> None:  # noqa: ARG002 - as logging calls it
-        """Take a warning of watchdog. It tells in no other way that events were lost, so any warning counts as that."""
-        self._queue.put(EventsLost())
 
     def watch_folders(self, paths: WatchedPaths) -> tuple[Diagnostic, ...]:
         """Watch exactly the folders of these paths; one that was replaced since the last call is watched anew.
@@ -108,7 +87,7 @@ class Observer(events.FileSystemEventHandler, logging.Handler):
     def _start(self) -> BaseObserver:
         """Return the running backend. Raises OSError or RuntimeError if the system gives none."""
         if self._backend is not None and not self._backend.is_alive():
-            self._close()
+            self.close()
         if self._backend is None:
             backend = observers.Observer()
             backend.start()
@@ -120,7 +99,8 @@ class Observer(events.FileSystemEventHandler, logging.Handler):
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
         return backend.schedule(self, folder, recursive=deep, event_filter=_EVENTS)
 
-    def _close(self) -> None:
+    def close(self) -> None:
+        """Watch nothing any more."""
         self._watches.clear()
         if self._backend is not None:
             self._backend.stop()

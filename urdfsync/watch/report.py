@@ -6,21 +6,19 @@ import datetime
 import json
 import sys
 import time
-from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.actions import Kind
 from urdfsync.outcome import Result
-from urdfsync.output.console import JSON_VERSION, has_marks, rich_console, write_lines
-from urdfsync.output.json_values import finding_values, result_values
+from urdfsync.output.console import JSON_VERSION, Console, has_marks, rich_console, write_lines
+from urdfsync.output.json_values import result_values
 from urdfsync.watch import events
 from urdfsync.watch.event_log import EventLog
 from urdfsync.watch.status import StatusTable
-from urdfsync.watch.terminal import StatusArea, StderrCapture
+from urdfsync.watch.terminal import StatusArea
 
 _PATIENCE = 0.5
 """Seconds of a build before its progress is shown."""
@@ -46,16 +44,8 @@ def event_values(event: events.Event, time: datetime.datetime) -> dict[str, Any]
             actions = [action for action in inside["actions"] if action["action"] != Kind.UNCHANGED]
             values |= {"robot": inside.pop("name"), **inside, "actions": actions}
         else:
-            values[name] = _plain(value)
+            values[name] = msgspec.to_builtins(value, enc_hook=str)
     return values
-
-
-def _plain(value: object) -> Any:
-    if isinstance(value, tuple):
-        return [_plain(item) for item in value]
-    if isinstance(value, Diagnostic):
-        return finding_values(value)
-    return str(value) if isinstance(value, Path) else value
 
 
 class JsonReport:
@@ -73,27 +63,24 @@ class JsonReport:
 class TextReport:
     """Lines that scroll and, on a terminal, the status of each robot below them."""
 
-    def __init__(self, *, quiet: bool = False, verbose: bool = False, config: str = "") -> None:
+    def __init__(self, console: Console) -> None:
         self._table = StatusTable()
         screen = rich_console(sys.stdout)
-        self._log = EventLog(screen, quiet=quiet, verbose=verbose, config=config)
-        has_status = not quiet and sys.stdout.isatty() and not screen.is_dumb_terminal
+        self._log = EventLog(console, screen)
+        has_status = not console.quiet and sys.stdout.isatty() and not screen.is_dumb_terminal
         self._area = StatusArea(sys.stdout) if has_status else None
-        self._capture = StderrCapture(self._area) if self._area else None
         self._build_began = self._progress_shown = 0.0
 
     def __enter__(self) -> Self:
-        if self._area and self._capture:
+        if self._area:
             self._area.start()
-            self._capture.start()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Take the status away; what scrolled stays."""
-        if self._area and self._capture:
-            self._capture.close()
+        if self._area:
             self._area.close()
 
     def show(self, event: events.Event) -> None:
@@ -103,16 +90,14 @@ class TextReport:
             self._build_began = time.monotonic()
         self._table.take(event, clock)
         lines = list(self._log.lines(event, clock))
-        area = self._area
-        if area is None or not sys.stderr.isatty():
+        if self._area is None or not sys.stderr.isatty():
             write_lines([line.text for line in lines if line.error], sys.stderr)
             lines = [line for line in lines if not line.error]
-        if area is None:
-            write_lines([line.text for line in lines], sys.stdout)
+        texts = [line.text for line in lines]
+        if self._area is None:
+            write_lines(texts, sys.stdout)
         else:
-            is_last = isinstance(event, events.Stopping)
-            status = () if is_last else [*self._table.lines(area.room, marks=has_marks(sys.stdout))]
-            area.write([line.text for line in lines], status)
+            self._area.write(texts, () if isinstance(event, events.Stopping) else self._status(self._area))
 
     def progress(self, what: str, done: int, total: int) -> None:
         """Show how far a build is that takes some time."""
@@ -120,4 +105,7 @@ class TextReport:
         if area and moment - self._build_began >= _PATIENCE and moment - self._progress_shown >= _PACE:
             self._progress_shown = moment
             self._table.progress(what, done, total)
-            area.write((), [*self._table.lines(area.room, marks=has_marks(sys.stdout))])
+            area.write((), self._status(area))
+
+    def _status(self, area: StatusArea) -> list[Any]:
+        return list(self._table.lines(area.room, marks=has_marks(sys.stdout)))

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import enum
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
-
-import msgspec
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Checked, Result
@@ -36,29 +34,27 @@ class Activity(enum.StrEnum):
 
 
 _RANKS = {activity: rank for rank, activity in enumerate(Activity)}
-_STYLES = {
+_SIGNS = {
     Activity.ERROR: ("✗", "bold red"),
     Activity.CONFLICT: ("!", "yellow"),
     Activity.WAITING: ("…", "yellow"),
-    Activity.BUILDING: ("…", "cyan"),
-    Activity.CHECKING: ("…", "cyan"),
-    Activity.SETTLING: ("…", "cyan"),
     Activity.STARTING: ("…", "dim"),
     Activity.IN_STEP: ("✓", "green"),
 }
+"""Mark and style; of others those of `_BUSY`."""
+_BUSY = "…", "cyan"
 
 
-class RobotStatus(msgspec.Struct, frozen=True):
+class RobotStatus(NamedTuple):
     """One robot at one moment."""
 
-    robot: str
     activity: Activity
     text: str
     """The rest of a line that names the robot."""
 
 
 class StatusTable:
-    """The status of all robots."""
+    """The status of all robots, by their names."""
 
     def __init__(self) -> None:
         self.pause_reason = ""
@@ -70,41 +66,38 @@ class StatusTable:
         self._checks: dict[str, RobotStatus] = {}
 
     @property
-    def rows(self) -> Sequence[RobotStatus]:
+    def rows(self) -> Mapping[str, RobotStatus]:
         """The status of each robot in the order of the configuration; of build and check that which matters more."""
-        rows = []
+        rows = {}
         for robot, result in self._results.items():
             at_rest = min(result, self._checks.get(robot, result), key=lambda status: _RANKS[status.activity])
-            rows.append(self._builds.get(robot) or at_rest)
+            rows[robot] = self._builds.get(robot) or at_rest
         return rows
 
     def take(self, event: events.Event, clock: str) -> None:
         """Take note of an event; `clock` is the time of day as people see it."""
         match event:
             case events.Started(robots=robots):
-                new = {name: RobotStatus(name, Activity.STARTING, Activity.STARTING) for name in robots}
-                self._results = {name: self._results.get(name, status) for name, status in new.items()}
-                self._builds = {name: status for name, status in self._builds.items() if name in new}
+                starting = RobotStatus(Activity.STARTING, Activity.STARTING)
+                self._results = {name: self._results.get(name, starting) for name in robots}
+                self._builds = {name: status for name, status in self._builds.items() if name in robots}
                 self._checks = {}
-            case events.Settling(robot):
-                self._builds[robot] = RobotStatus(robot, Activity.SETTLING, Activity.SETTLING)
+            case events.Settling(robot) | events.Building(robot):
+                activity = Activity(str(event.__struct_config__.tag))
+                self._builds[robot] = RobotStatus(activity, activity)
             case events.Waiting(robot, reason, diagnostics):
-                said = ": ".join([reason, *_first_error(diagnostics)])
-                self._builds[robot] = RobotStatus(robot, Activity.WAITING, said)
-            case events.Building(robot):
-                self._builds[robot] = RobotStatus(robot, Activity.BUILDING, Activity.BUILDING)
+                self._builds[robot] = RobotStatus(Activity.WAITING, _with_error(reason, diagnostics))
             case events.Unchanged(robot):
                 self._builds.pop(robot, None)
             case events.Built(result) | events.Failed(result):
                 self._builds.pop(result.robot, None)
                 self._results[result.robot] = _after_build(result, clock, self._results.get(result.robot))
             case events.Checking(robot):
-                self._checks[robot] = RobotStatus(robot, Activity.CHECKING, Activity.CHECKING)
+                self._checks[robot] = RobotStatus(Activity.CHECKING, Activity.CHECKING)
             case events.CheckDone(robot, checked, diagnostics=diagnostics):
                 self._checks.pop(robot, None)
                 if checked is Checked.WRONG:
-                    said = ": ".join(["checked with errors", *_first_error(diagnostics)])
-                    self._checks[robot] = RobotStatus(robot, Activity.ERROR, said)
+                    self._checks[robot] = RobotStatus(Activity.ERROR, _with_error("checked with errors", diagnostics))
             case events.Paused(reason):
                 self.pause_reason = reason
             case events.Resumed():
@@ -117,7 +110,7 @@ class StatusTable:
         for robot, status in self._builds.items():
             if status.activity is Activity.BUILDING and what != robot:
                 count = f" {done} of {total}" if total > 1 else ""
-                self._builds[robot] = RobotStatus(robot, Activity.BUILDING, f"{Activity.BUILDING}: {what}{count}")
+                self._builds[robot] = RobotStatus(Activity.BUILDING, f"{Activity.BUILDING}: {what}{count}")
 
     def lines(self, room: int, *, marks: bool) -> Iterator[Text]:
         """Yield a line for each robot for which there is room, and one for all others.
@@ -131,41 +124,37 @@ class StatusTable:
         if self.pause_reason:
             yield text((f"paused: {self.pause_reason}", "yellow"))
             room -= 1
-        order = sorted(range(len(rows)), key=lambda index: _RANKS[rows[index].activity])
+        by_rank = sorted(rows, key=lambda robot: _RANKS[rows[robot].activity])
         number = len(rows) if len(rows) <= room else max(room - 1, 0)  # the last line takes room, too
-        shown = [rows[index] for index in sorted(order[:number])]
-        width = min(max((len(status.robot) for status in shown), default=0), NAME_WIDTH)
-        for status in shown:
-            mark, style = _STYLES[status.activity]
-            name = text((status.robot, "bold"))
+        width = min(max(map(len, by_rank[:number]), default=0), NAME_WIDTH)
+        for robot in (robot for robot in rows if robot in by_rank[:number]):
+            activity, said = rows[robot]
+            mark, style = _SIGNS.get(activity, _BUSY)
+            name = text((robot, "bold"))
             name.truncate(width, overflow="ellipsis", pad=True)
-            said = text((f"  {status.text}", "" if status.activity is Activity.IN_STEP else style))
-            yield text((f"{mark} " if marks else "", style)).append_text(name).append_text(said)
-        counts = Counter(rows[index].activity for index in order[number:])
-        if len(counts) == 1:
-            yield text((f"… and {counts.total()} more {next(iter(counts))}", "dim"))
-        elif counts:
+            words = text((f"  {said}", "" if activity is Activity.IN_STEP else style))
+            yield text((f"{mark} " if marks else "", style)).append_text(name).append_text(words)
+        if counts := Counter(rows[robot].activity for robot in by_rank[number:]):
             rest = ", ".join(f"{counts[activity]} {activity}" for activity in Activity if counts[activity])
             yield text((f"… and {counts.total()} more: {rest}", "dim"))
 
 
 def _after_build(result: Result, clock: str, before: RobotStatus | None) -> RobotStatus:
-    robot = result.robot
     if result.failed:
-        return RobotStatus(robot, Activity.ERROR, ": ".join([Activity.ERROR, *_first_error(result.diagnostics)]))
+        return RobotStatus(Activity.ERROR, _with_error(Activity.ERROR, result.diagnostics))
     if result.conflicts:
         files = [(action.origin or action.path).rpartition("/")[2] for action in result.conflicts]
         where = files[0] if len(files) == 1 else f"{len(files)} files"
-        return RobotStatus(robot, Activity.CONFLICT, f"{Activity.CONFLICT} in {where}")
+        return RobotStatus(Activity.CONFLICT, f"{Activity.CONFLICT} in {where}")
     if result.in_step and before is not None and before.activity is Activity.IN_STEP:
         return before  # with the time of the build that wrote something
-    return RobotStatus(robot, Activity.IN_STEP, "in step" if result.in_step else f"in step, built at {clock}")
+    return RobotStatus(Activity.IN_STEP, "in step" if result.in_step else f"in step, built at {clock}")
 
 
-def _first_error(diagnostics: Sequence[Diagnostic]) -> list[str]:
-    """Return place and message of the first error, or else of the first finding, if there is any."""
-    errors = [found for found in diagnostics if found.severity is Severity.ERROR] or list(diagnostics)
-    for found in errors[:1]:
-        place = f"{found.file}:{found.line}: " if found.line else f"{found.file}: " if found.file else ""
-        return [" ".join(f"{place}{found.message}".split())]
-    return []
+def _with_error(words: str, diagnostics: Sequence[Diagnostic]) -> str:
+    """Return words with place and message of the first error, or else of the first finding, if there is any."""
+    found = next((one for one in diagnostics if one.severity is Severity.ERROR), next(iter(diagnostics), None))
+    if found is None:
+        return words
+    place = f"{found.file}:{found.line}: " if found.line else f"{found.file}: " if found.file else ""
+    return " ".join(f"{words}: {place}{found.message}".split())

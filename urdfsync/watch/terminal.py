@@ -42,6 +42,7 @@ class StatusArea:
         self._stream = stream
         self._lock = threading.RLock()  # a signal may come while lines are written
         self._status: Sequence[Text] = ()
+        self._capture = StderrCapture(self)
         self._live: Live | None = None
         """Not there while the status is empty, or the terminal is a shell's."""
         self._stop_handler: Any = None
@@ -54,12 +55,14 @@ class StatusArea:
         return max(min(4, height - 1), height // 3)
 
     def start(self) -> None:
-        """Handle Ctrl-Z: a shell that writes meanwhile must find no status, and its lines must not be erased."""
+        """Capture the error stream, and handle Ctrl-Z: a shell that writes meanwhile must find no status."""
+        self._capture.start()
         if hasattr(signal, "SIGTSTP") and threading.current_thread() is threading.main_thread():
             self._stop_handler = signal.signal(signal.SIGTSTP, self._suspend)
 
     def close(self) -> None:
         """Take the status away for good."""
+        self._capture.close()
         self.write((), ())
         if self._stop_handler is not None:
             signal.signal(signal.SIGTSTP, self._stop_handler)
