@@ -1,17 +1,10 @@
-"""Draws the diagrams of models as SVG, as a Modelica tool does: icons of components, and the lines between them.
-
-`python tests/modelica/diagrams.py DIAGRAM.svg CLASS` draws one. A component whose class is not in the library is a
-box with its name.
-"""
+"""What annotations of models say of their diagrams: icons of components, and the lines between them."""
 
 from __future__ import annotations
 
 import dataclasses
-import html
 import re
-import sys
-from collections.abc import Iterator, Sequence
-from pathlib import Path
+from collections.abc import Iterator
 
 import icons
 from icons import Call, Point
@@ -22,7 +15,6 @@ _COMPONENT = re.compile(
     r"(?:[^;\"]|\"(?:\\.|[^\"\\])*\")*;",
     re.MULTILINE,
 )
-_MARGIN = 20
 
 
 @dataclasses.dataclass(frozen=True)
@@ -88,39 +80,3 @@ def _full_name(kind: str, inside: str) -> str:
 def _exists(name: str) -> bool:
     path = icons.LIBRARY.parent.joinpath(*name.split("."))
     return path.with_name(f"{path.name}.mo").is_file() or (path / "package.mo").is_file()
-
-
-def draw(shown: Diagram) -> str:
-    """The diagram as SVG."""
-    (x1, y1), (x2, y2) = shown.extent
-    left, top, width, height = x1 - _MARGIN, -y2 - _MARGIN, x2 - x1 + 2 * _MARGIN, y2 - y1 + 2 * _MARGIN
-    parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{3 * width:g}" height="{3 * height:g}" '
-        f'viewBox="{left:g} {top:g} {width:g} {height:g}">',
-        f'<rect x="{left:g}" y="{top:g}" width="{width:g}" height="{height:g}" fill="#ffffff"/>',
-    ]
-    for component in shown.components:
-        (left, top), (right, bottom) = component.place((-100, 100)), component.place((100, -100))
-        x, y = component.place((0, 0))
-        place = f"translate({x:g} {-y:g})"
-        scale = f"scale({(right - left) / 200:g} {(top - bottom) / 200:g})"
-        parts.append(f'<g transform="{place} {scale}">\n{_picture(component)}\n</g>')
-    thin = (Call("Line", {**line.arguments, "thickness": line.get("thickness", 0.25) / 2}) for line in shown.lines)
-    return "\n".join([*parts, *(icons.draw(icons.Icon((line,)), "") for line in thin), "</svg>", ""])
-
-
-def _picture(component: Component) -> str:
-    if component.icon.graphics:
-        return icons.draw(component.icon, component.name)
-    box = '<rect x="-100" y="-100" width="200" height="200" fill="#ffffff" stroke="#999999" stroke-width="4"/>'
-    return f'{box}\n<text font-size="36" text-anchor="middle">{html.escape(component.name)}</text>'
-
-
-def main(arguments: Sequence[str]) -> None:
-    """Write the diagram that the command line asks for."""
-    target, name = arguments
-    Path(target).write_text(draw(diagram(name)), "utf-8")
-
-
-if __name__ == "__main__":
-    main(sys.argv[1:])
