@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 import tomllib
 from pathlib import Path
@@ -192,26 +191,6 @@ def test_names_from_the_source_stay_inside_their_comment(tmp_path: Path, monkeyp
     assert set(table) == {"source", "package", "base"}
 
 
-def test_config_elsewhere(bare: Path, capsys: Capture) -> None:
-    (bare / "deep").mkdir()
-    assert init("ladder.json", "--config", "deep/own.toml") == 0
-    assert config.load(bare / "deep/own.toml").robots[0].source_text == "../ladder.json"
-
-
-def test_init_as_json(bare: Path, capsys: Capture) -> None:
-    assert init("ladder.json", "--json") == 0
-    loaded = json.loads(capsys.readouterr().out)
-    assert (loaded["version"], loaded["command"], loaded["exit"]) == (2, "init", 0)
-    assert loaded["robots"] == [
-        {
-            "name": "ladder",
-            "source": "ladder.json",
-            "package": "Ladder",
-            "options": [{"option": "ground", "value": True, "reason": "a node is named ground"}],
-        }
-    ]
-
-
 @pytest.mark.parametrize(
     ("stem", "name"),
     [
@@ -226,3 +205,9 @@ def test_init_as_json(bare: Path, capsys: Capture) -> None:
 def test_class_names_from_stems(stem: str, name: str) -> None:
     assert class_name(stem) == name
     assert is_identifier(name)
+
+
+def test_sources_count_from_the_folder_of_the_configuration(bare: Path) -> None:
+    (bare / "deep").mkdir()
+    assert init("ladder.json", "--config", "deep/own.toml") == 0
+    assert config.load(bare / "deep/own.toml").robots[0].source_text == "../ladder.json"

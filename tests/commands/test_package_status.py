@@ -1,4 +1,4 @@
-"""How files stand, for each action that a build may plan: those that a small project does not come to, too."""
+"""How files stand and what the next build does, for actions that a small project does not come to, too."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.commands.status import FileStatus, PackageStatus, next_build, package_status, summary
+from urdfsync.commands.status import PackageStatus, next_build, package_status, summary
 from urdfsync.diff.changes import Change, Changes
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.domain import ChangeKind as Happening
-from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Result
 
 
@@ -27,15 +27,6 @@ def status_of(*actions: Action, changes: Changes | None = None) -> PackageStatus
 def changed(*classes: ChangeClass, noise: bool = False) -> Changes:
     new = 1 + 1e-9 if noise else 2.0
     return Changes(tuple(Change(("link tip", "mass"), Happening.CHANGED, one, 1.0, new) for one in classes))
-
-
-@pytest.mark.parametrize("kind", [kind for kind in Kind if kind is not Kind.FORGET])
-def test_every_action_says_how_its_file_stands(kind: Kind) -> None:
-    (file,) = status_of(action(kind)).files
-    assert (file.status is FileStatus.CONFLICT) == (kind in CONFLICTS)
-    assert (file.status in (FileStatus.STALE, FileStatus.MISSING)) == (kind in WRITES)
-    assert file.reason or kind in (Kind.UNCHANGED, Kind.KEEP)
-    assert status_of(action(Kind.FORGET)).files == ()
 
 
 def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:

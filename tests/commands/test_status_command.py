@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from urdfsync import cli, files
+from urdfsync import cli
 from urdfsync.config import library_folder
 from urdfsync.state.lock import build_lock
 
@@ -176,19 +173,6 @@ def test_a_build_that_is_writing_is_waited_for(built: Path, capsys: Capture) -> 
 
 
 # The process
-
-
-def test_nothing_heavy_is_imported_if_all_is_in_step(built: Path, rc_site: Path) -> None:
-    code = (
-        "import sys; from urdfsync.cli import main; main(['status']); "
-        "print([name for name in ('jinja2', 'rich', 'lxml', 'numpy', 'yourdfpy', 'deepdiff') if name in sys.modules])"
-    )
-    rc_folder = Path(sys.modules["rc_domain"].__file__ or "").parent
-    environment = os.environ | {
-        "PYTHONPATH": os.pathsep.join(map(str, (Path(files.__file__).parents[1], rc_site, rc_folder)))
-    }
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines() == ["ladder: in step, 14 files", "[]"]
 
 
 @pytest.mark.parametrize("arguments", [["--dry-run"], ["--wait", "soon"]])
