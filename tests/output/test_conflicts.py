@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from pathlib import Path
 
+import msgspec
 import pytest
 from rich.cells import cell_len
 from rich.console import Console
@@ -35,11 +36,11 @@ def standoff(mine: str, generated: str, base: str | None = BASE, path: str = ELB
     return Conflict(path, "link elbow", base, mine, generated, merged, **more)
 
 
-def result(*standoffs: Conflict, kind: Kind = Kind.CONFLICT, dry: bool = False) -> Result:
+def result(
+    *standoffs: Conflict, kind: Kind = Kind.CONFLICT, dry: bool = False, package: Path = Path("modelica/Arm")
+) -> Result:
     actions = [Action(s.path, kind, Role.MODEL, s.owner, origin=s.origin, mine="hash") for s in standoffs]
-    return Result(
-        "arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), Actions(actions), dry=dry, standoffs=standoffs
-    )
+    return Result("arm", "Arm", package.absolute(), Path.cwd(), Actions(actions), dry=dry, standoffs=standoffs)
 
 
 def seen(found: Result, width: int | None = None, **look: object) -> list[str]:
@@ -103,13 +104,8 @@ def test_a_narrow_terminal_and_a_pipe_show_the_versions_one_below_the_other() ->
 
 
 def test_why_a_merge_is_not_offered() -> None:
-    twice = standoff(EDITED, EXPORTED)
-    assert twice.merge
-    refused = Conflict(
-        **{name: getattr(twice, name) for name in ("path", "owner", "base", "mine", "generated")},
-        merge=type(twice.merge)(None, twice.merge.proposal, ()),
-        rejected="the merge declares `x` twice",
-    )
+    merged = msgspec.structs.replace(merge(BASE, EDITED, EXPORTED), text=None)
+    refused = Conflict(ELBOW, "link elbow", BASE, EDITED, EXPORTED, merged, rejected="the merge declares `x` twice")
     words = "\n".join(seen(result(refused)))
     assert "The changes fit together line by line, but the merge declares `x` twice." in words
     assert "Elbow.{base.mo,generated.mo,merge.txt}" in words
@@ -164,11 +160,11 @@ def test_what_is_no_text_can_be_kept_or_taken() -> None:
 
 
 def test_a_class_that_became_a_folder_can_only_be_kept() -> None:
-    action = Action(ELBOW, Kind.CONFLICT, Role.MODEL, "link elbow")
     texts = Conflict(ELBOW, "link elbow", BASE, EDITED, EXPORTED, None, rejected="you made a folder of the class")
-    found = Result("arm", "Arm", Path("modelica/Arm").absolute(), Path.cwd(), Actions([action]), standoffs=(texts,))
-    assert seen(found)[2] == "    You edited it, and what it is made from changed too. You made a folder of the class."
-    assert seen(found)[-1] == "    --keep leaves your file as it is: first put into it what you want of both"
+    there = [Action(ELBOW, Kind.CONFLICT, Role.MODEL, "link elbow")]
+    lines = seen(msgspec.structs.replace(result(texts), actions=Actions(there)))
+    assert lines[2] == "    You edited it, and what it is made from changed too. You made a folder of the class."
+    assert lines[-1] == "    --keep leaves your file as it is: first put into it what you want of both"
 
 
 def test_a_dry_run_has_put_nothing_aside() -> None:
@@ -182,15 +178,8 @@ def test_a_dry_run_has_put_nothing_aside() -> None:
 )
 def test_commands_can_be_copied(path: str, typed: str) -> None:
     conflict = standoff(EDITED, EXPORTED, path=path)
-    action = Action(path, Kind.CONFLICT, Role.MODEL, "link elbow")
-    folder = Path(path).parent.absolute()
-    found = Result("arm", "Arm", folder, Path.cwd(), Actions([action]), standoffs=(conflict,))
-    assert f"    urdfsync resolve {typed} --merge" in seen(found)
-
-
-def test_commands_name_the_configuration_if_the_user_did() -> None:
-    lines = seen(result(standoff(EDITED, EXPORTED)), config="other dir/urdfsync.toml")
-    assert f"    urdfsync resolve {ELBOW} --merge --config 'other dir/urdfsync.toml'" in lines
+    lines = seen(result(conflict, package=Path(path).parent), config="other dir/urdfsync.toml")
+    assert f"    urdfsync resolve {typed} --merge --config 'other dir/urdfsync.toml'" in lines
 
 
 def test_paths_count_from_the_working_folder(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from itertools import groupby
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.merge import merge
-from urdfsync.output.differences import CONTEXT, Cell, Hunk, Line, find_hunks
+from urdfsync.output.differences import CONTEXT, Cell, Hunk, find_hunks
 
 TEXTS = st.lists(st.sampled_from("abcdefgh"), max_size=30).map(lambda lines: "".join(f"{line}\n" for line in lines))
 LETTERS = "".join(f"{letter}\n" for letter in "abcdefghijklmnop")
@@ -31,36 +32,47 @@ def stacked(hunk: Hunk) -> list[str]:
     return [f"{label} {line.number} {line.text}" for label, line in hunk.stack]
 
 
-def test_each_side_stands_against_base() -> None:
-    (hunk,) = three("a\nb\nc\nd\n", "a\nB\nc\nd\n", "a\nb\nc\nD\nE\n")
-    assert shown(hunk) == ["1 a | 1 a", "2-b | 2 b", "2+B |", "3 c | 3 c", "4 d | 4-d", " | 4+D", " | 5+E"]
-    assert stacked(hunk) == [
-        " 1 a",
-        "base 2 b",
-        "mine 2 B",
-        " 3 c",
-        "base 4 d",
-        "generated 4 D",
-        "generated 5 E",
-    ]
-    assert (hunk.lines, hunk.sides, hunk.clash) == (range(1, 5), frozenset({"mine", "generated"}), False)
-
-
-def test_contradictions_are_marked() -> None:
-    (hunk,) = three("a\nb\nc\n", "a\nx\nc\n", "a\ny\nc\n")
-    assert hunk.clash
-    assert shown(hunk) == ["1 a | 1 a", "2-b | 2-b !", "2+x | 2+y !", "3 c | 3 c"]
-    assert stacked(hunk) == [" 1 a", "base 2 b", "mine 2 x", "generated 2 y", " 3 c"]
-
-
-def test_what_both_did_alike_is_shown_once() -> None:
-    (hunk,) = three("a\nb\nc\n", "a\nx\nc\n", "a\nx\nc\n")
-    assert stacked(hunk) == [" 1 a", "base 2 b", "both 2 x", " 3 c"]
-
-
-def test_what_is_gone_is_said() -> None:
-    (hunk,) = three("a\nb\nc\n", "a\nc\n", "a\nx\nc\n")
-    assert stacked(hunk) == [" 1 a", "base 2 b", "mine 0 (removed)", "generated 2 x", " 2 c"]
+@pytest.mark.parametrize(
+    ("base", "mine", "generated", "rows", "stack"),
+    [
+        pytest.param(
+            "abcd", "aBcd", "abcDE",
+            ["1 a | 1 a", "2-b | 2 b", "2+B |", "3 c | 3 c", "4 d | 4-d", " | 4+D", " | 5+E"],
+            [" 1 a", "base 2 b", "mine 2 B", " 3 c", "base 4 d", "generated 4 D", "generated 5 E"],
+            id="each side against base",
+        ),
+        pytest.param(
+            "abc", "axc", "ayc",
+            ["1 a | 1 a", "2-b | 2-b !", "2+x | 2+y !", "3 c | 3 c"],
+            [" 1 a", "base 2 b", "mine 2 x", "generated 2 y", " 3 c"],
+            id="a contradiction is marked",
+        ),
+        pytest.param(
+            "abc", "axc", "axc",
+            ["1 a | 1 a", "2-b | 2-b", "2+x | 2+x", "3 c | 3 c"],
+            [" 1 a", "base 2 b", "both 2 x", " 3 c"],
+            id="what both did alike is shown once",
+        ),
+        pytest.param(
+            "abc", "ac", "axc",
+            ["1 a | 1 a", "2-b | 2-b !", " | 2+x !", "2 c | 3 c"],
+            [" 1 a", "base 2 b", "mine 0 (removed)", "generated 2 x", " 2 c"],
+            id="what is gone is said",
+        ),
+        pytest.param(
+            None, "abc", "axyc",
+            ["1 a | 1 a", "2*b | 2*x", " | 3*y", "3 c | 4 c"],
+            [" 1 a", "mine 2 b", "generated 2 x", "generated 3 y", " 3 c"],
+            id="without a base only the difference is known",
+        ),
+    ],
+)  # fmt: skip
+def test_examples(base: str | None, mine: str, generated: str, rows: list[str], stack: list[str]) -> None:
+    one, two, three_ = ("".join(f"{letter}\n" for letter in version) for version in (base or "", mine, generated))
+    (hunk,) = find_hunks(None, two, three_, None) if base is None else three(one, two, three_)
+    assert shown(hunk) == rows
+    assert stacked(hunk) == stack
+    assert hunk.clash == any(row.endswith("!") for row in rows)
 
 
 def test_distant_changes_are_hunks_of_their_own() -> None:
@@ -76,44 +88,30 @@ def test_numbers_are_those_of_each_version() -> None:
     assert shown(second) == ["13 k | 11 k", "14 l | 12 l", "15 m | 13-m", " | 13+M", "16 n | 14 n", "17 o | 15 o"]
 
 
-def test_without_a_base_only_the_difference_is_known() -> None:
-    (hunk,) = find_hunks(None, "a\nb\nc\n", "a\nx\ny\nc\n", None)
-    assert shown(hunk) == ["1 a | 1 a", "2*b | 2*x", " | 3*y", "3 c | 4 c"]
-    assert stacked(hunk) == [" 1 a", "mine 2 b", "generated 2 x", "generated 3 y", " 3 c"]
+@pytest.mark.parametrize(
+    ("old", "new", "shown", "parts"),
+    [
+        ("  Real x = 1.05;", "  Real x = 1.07; // measured", "  Real x = 1.07; // measured", ["1.07", "// measured"]),
+        ("Real x;", "Body body(m = 3);", "Body body(m = 3);", []),
+        ("  Real x;", "\tReal x; ", "→Real·x;·", None),
+    ],
+    ids=["changed parts", "a line that is rewritten", "white space only"],
+)
+def test_what_changed_in_a_line(old: str, new: str, shown: str, parts: list[str] | None) -> None:
+    (hunk,) = three(f"{old}\n", f"{new}\n", f"{old}\n")
+    (_, line) = (row.mine.line for row in hunk.rows if row.mine)
+    assert line.text == shown
+    assert parts is None or [line.text[part.start : part.stop] for part in line.parts] == parts
 
 
-def parts(line: Line) -> list[str]:
-    return [line.text[part.start : part.stop] for part in line.parts]
-
-
-def test_the_changed_parts_of_a_line_are_known() -> None:
-    (hunk,) = three("  Real x = 1.05;\n", "  Real x = 1.07; // measured\n", "  Real x = 1.05;\n")
-    (old, new) = (row.mine.line for row in hunk.rows if row.mine)
-    assert parts(old) == ["1.05"]
-    assert parts(new) == ["1.07", "// measured"]
-
-
-def test_of_a_rewritten_line_no_part_is_singled_out() -> None:
-    (hunk,) = three("Real x;\n", "Body body(m = 3);\n", "Real x;\n")
-    assert all(not row.mine.line.parts for row in hunk.rows if row.mine)
-
-
-def test_white_space_shows_where_nothing_else_changed() -> None:
-    (hunk,) = three("  Real x;\n", "\tReal x; \n", "  Real x;\n")
-    assert [row.mine.line.text for row in hunk.rows if row.mine] == ["··Real·x;", "→Real·x;·"]
-
-
-def test_a_missing_end_of_line_is_said() -> None:
+def test_line_endings_are_no_difference_but_a_missing_one_is() -> None:
+    assert three("a\nb\n", "a\r\nb\r\n", "a\nb\n") == []
     (hunk,) = three("a\nb\n", "a\nb", "a\nb\n")
     assert shown(hunk)[1:] == ["2-b | 2 b", "2+b  (no end of line) |"]
 
 
-def test_kinds_of_line_endings_are_no_difference() -> None:
-    assert three("a\nb\n", "a\r\nb\r\n", "a\nb\n") == []
-
-
 @given(TEXTS, TEXTS, TEXTS)
-def test_all_versions_can_be_read_from_the_rows(base: str, mine: str, generated: str) -> None:
+def test_all_versions_can_be_read_from_rows_and_stack(base: str, mine: str, generated: str) -> None:
     found = three(base, mine, generated)
     assert any(hunk.clash for hunk in found) == bool(merge(base, mine, generated).conflicts)
     rows = [row for hunk in found for row in hunk.rows]
@@ -128,16 +126,10 @@ def test_all_versions_can_be_read_from_the_rows(base: str, mine: str, generated:
     assert outside[0] == outside[1], "what is not shown is the same on both sides"
     numbers = [cell.line.number for cell in columns[0] if cell.mark in " +"]
     assert numbers == [number for hunk in found for number in hunk.lines]
-
-
-@given(TEXTS, TEXTS, TEXTS)
-def test_all_versions_can_be_read_from_the_stack(base: str, mine: str, generated: str) -> None:
-    for hunk in three(base, mine, generated):
-        own = [line for label, line in hunk.stack if label in ("", "mine", "both") and line.number]
-        lines = mine.split("\n")
-        assert {line.number for line in own} <= set(hunk.lines)
-        assert all(line.text == lines[line.number - 1] for line in own)
-        theirs = [line for label, line in hunk.stack if label == "generated" and line.number]
-        assert all(line.text == generated.split("\n")[line.number - 1] for line in theirs)
+    for hunk in found:
+        for labels, version in ((("", "mine", "both"), mine), (("generated",), generated)):
+            stacked = [line for label, line in hunk.stack if label in labels and line.number]
+            assert all(line.text == version.split("\n")[line.number - 1] for line in stacked)
+            assert version is generated or {line.number for line in stacked} <= set(hunk.lines)
         unchanged = [len(list(run)) for label, run in groupby(hunk.stack, lambda part: part[0]) if not label]
         assert max(unchanged, default=0) <= 2 * CONTEXT

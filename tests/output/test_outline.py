@@ -40,73 +40,107 @@ def words(row: OutlineRow) -> list[str]:
     return [part for part in (row.label, value, row.relation) if part]
 
 
-def test_a_number_has_its_unit_and_its_percentage() -> None:
-    found = lines(change("joint elbow / limit / effort", 54.0, 60.0, "N·m"))
-    assert found == ["joint elbow", "  limit / effort 54 → 60 N·m +11.1 %"]
+ADDED, REMOVED, CHANGED, RENAMED = list(ChangeKind)
+UNMODELLED, STRUCTURAL = ChangeClass.UNMODELLED, ChangeClass.STRUCTURAL
+JOINT = {"type": "fixed", "parent": "a", "child": "b", "axis": [1, 0, 0], "origin": {"xyz": [0, 0, 0]}}
+LIMIT = {"lower": -1.0, "upper": 1.5}
+TINY = [change(f"link a / inertia / {name}", 1.0, 1.0000001, "kg·m²") for name in ("ixx", "iyy")]
+TINY.append(change("link a / origin / xyz[0]", 1e-17, -3e-17, "m"))
+OUTLINES: dict[str, tuple[list[Change], list[str]]] = {
+    "a number has its unit and its percentage": (
+        [change("joint elbow / limit / effort", 54.0, 60.0, "N·m")],
+        ["joint elbow", "  limit / effort 54 → 60 N·m +11.1 %"],
+    ),
+    "angles are also in degrees": (
+        [change("joint elbow / limit / upper", 0.0, math.pi / 2, "rad")],
+        ["joint elbow", "  limit / upper 0 → 1.571 rad 0° → 90°"],
+    ),
+    "components of a vector are one row": (
+        [
+            change("joint a / origin / rpy[0]", 0.0, math.pi, "rad"),
+            change("joint a / origin / rpy[2]", 0.0, -math.pi / 2, "rad"),
+            change("joint a / origin / xyz[1]", 0.1, 0.2, "m"),
+        ],
+        [
+            "joint a",
+            "  origin / rpy[0, 2] (0, 0) → (3.142, -1.571) rad (0°, 0°) → (180°, -90°)",
+            "  origin / xyz[1] 0.1 → 0.2 m +100 %",
+        ],
+    ),
+    "vectors of shapes of one element stay apart": (
+        [change(f"link a / visual {number} / size[0]", 1, 2, "m") for number in (1, 2)],
+        ["link a", "  visual 1 / size[0] 1 → 2 m +100 %", "  visual 2 / size[0] 1 → 2 m +100 %"],
+    ),
+    "noise is counted": (
+        [*TINY, change("link a / mass", 1.0, 2.0, "kg")],
+        ["link a", "  mass 1 → 2 kg +100 %", "  rounding 3 numbers"],
+    ),
+    "a tiny capacity is no rounding": (
+        [change("C1 / farad", 1e-12, 2e-12, "F")],
+        ["C1", "  farad 1e-12 → 2e-12 F +100 %"],
+    ),
+    "what comes and goes is told apart": (
+        [
+            change("joint new", None, JOINT, reach=STRUCTURAL, kind=ADDED),
+            change("joint old", JOINT, None, reach=STRUCTURAL, kind=REMOVED),
+            change("joint elbow / limit", None, LIMIT, kind=ADDED),
+            change("joint wrist / limit", LIMIT, None, kind=REMOVED),
+            change("link left", "left", "port", reach=STRUCTURAL, kind=RENAMED),
+        ],
+        [
+            "joint new",
+            "  added: type fixed, parent a, child b",
+            "joint old",
+            "  removed",
+            "joint elbow",
+            "  limit added: lower -1, upper 1.5",
+            "joint wrist",
+            "  limit removed: lower -1, upper 1.5",
+            "link left",
+            "  renamed to port",
+        ],
+    ),
+    "elements with the same rows share an entry": (
+        [change(f"{name} / effort", 50.0, 17.0, "N·m") for name in ("joint a", "joint b", "joint c")],
+        ["joint a, b, c", "  effort 50 → 17 N·m -66 %"],
+    ),
+    "also those without a kind": (
+        [change(f"{name} / ohm", 50.0, 17.0) for name in ("R1", "R2")],
+        ["R1, R2", "  ohm 50 → 17 -66 %"],
+    ),
+    "things that are counted share a row": (
+        [change(f"link a / visual {k}", {"name": "x"}, None, kind=REMOVED) for k in (2, 3, 5)],
+        ["link a", "  visual 2, 3, 5 removed: name x"],
+    ),
+    "what is not modelled is marked": (
+        [change("robot / gazebo", None, "<gazebo>" * 9, reach=UNMODELLED, kind=ADDED)],
+        ["robot", "  gazebo added not modelled"],
+    ),
+    "and does not crowd out the rest": (
+        [
+            *(change(f"robot / transmission {k}", "x", None, reach=UNMODELLED, kind=REMOVED) for k in range(9)),
+            change("robot / name", "a", "b"),
+        ],
+        ["robot", "  name a → b", "  not modelled 9 removed"],
+    ),
+    "elements with nothing that matters come last and together": (
+        [change(f"link {name} / mass", 1.0, 1.0000001 if name < "c" else 2.0, "kg") for name in "abc"],
+        ["link c", "  mass 1 → 2 kg +100 %", "link a, b", "  rounding"],
+    ),
+}
 
 
-def test_angles_are_also_in_degrees() -> None:
-    found = lines(change("joint elbow / limit / upper", 0.0, math.pi / 2, "rad"))
-    assert found[1] == "  limit / upper 0 → 1.571 rad 0° → 90°"
+@pytest.mark.parametrize(("found", "expected"), OUTLINES.values(), ids=OUTLINES)
+def test_outlines(found: list[Change], expected: list[str]) -> None:
+    assert lines(*found) == expected
 
 
-def test_components_of_a_vector_are_one_row() -> None:
-    found = lines(
-        change("joint a / origin / rpy[0]", 0.0, math.pi, "rad"),
-        change("joint a / origin / rpy[2]", 0.0, -math.pi / 2, "rad"),
-        change("joint a / origin / xyz[1]", 0.1, 0.2, "m"),
-    )
-    assert found == [
-        "joint a",
-        "  origin / rpy[0, 2] (0, 0) → (3.142, -1.571) rad (0°, 0°) → (180°, -90°)",
-        "  origin / xyz[1] 0.1 → 0.2 m +100 %",
-    ]
-
-
-def test_vectors_of_shapes_of_one_element_stay_apart() -> None:
-    found = lines(change("link a / visual 1 / size[0]", 1, 2, "m"), change("link a / visual 2 / size[0]", 1, 2, "m"))
-    assert [line.split(" / ")[0] for line in found] == ["link a", "  visual 1", "  visual 2"]
-
-
-def test_noise_is_counted() -> None:
-    noise = [change(f"link a / inertia / {name}", 1.0, 1.0000001, "kg·m²") for name in ("ixx", "iyy")]
-    zero = change("link a / origin / xyz[0]", 1e-17, -3e-17, "m")
-    mass = change("link a / mass", 1.0, 2.0, "kg")
-    assert lines(*noise, zero, mass) == ["link a", "  mass 1 → 2 kg +100 %", "  rounding 3 numbers"]
-    assert lines(*noise, zero, everything=True) == [
+def test_all_digits_and_noise_are_shown_on_request() -> None:
+    assert lines(*TINY, everything=True) == [
         "link a",
         "  inertia / ixx 1.0 → 1.0000001 kg·m² rounding",
         "  inertia / iyy 1.0 → 1.0000001 kg·m² rounding",
         "  origin / xyz[0] 1e-17 → -3e-17 m",
-    ]
-
-
-def test_a_tiny_capacity_is_no_rounding() -> None:
-    assert lines(change("C1 / farad", 1e-12, 2e-12, "F"))[1] == "  farad 1e-12 → 2e-12 F +100 %"
-
-
-def test_what_comes_and_goes_is_told_apart() -> None:
-    structural = ChangeClass.STRUCTURAL
-    joint = {"type": "fixed", "parent": "a", "child": "b", "axis": [1, 0, 0], "origin": {"xyz": [0, 0, 0]}}
-    limit = {"lower": -1.0, "upper": 1.5}
-    found = lines(
-        change("joint new", None, joint, reach=structural, kind=ChangeKind.ADDED),
-        change("joint old", joint, None, reach=structural, kind=ChangeKind.REMOVED),
-        change("joint elbow / limit", None, limit, kind=ChangeKind.ADDED),
-        change("joint wrist / limit", limit, None, kind=ChangeKind.REMOVED),
-        change("link left", "left", "port", reach=structural, kind=ChangeKind.RENAMED),
-    )
-    assert found == [
-        "joint new",
-        "  added: type fixed, parent a, child b",
-        "joint old",
-        "  removed",
-        "joint elbow",
-        "  limit added: lower -1, upper 1.5",
-        "joint wrist",
-        "  limit removed: lower -1, upper 1.5",
-        "link left",
-        "  renamed to port",
     ]
 
 
@@ -127,38 +161,11 @@ def test_a_change_is_one_line_of_a_build() -> None:
     ]
 
 
-def test_elements_with_the_same_rows_share_an_entry() -> None:
-    found = lines(*(change(f"joint {name} / effort", 50.0, 17.0, "N·m") for name in "abc"))
-    assert found == ["joint a, b, c", "  effort 50 → 17 N·m -66 %"]
-    mixed = lines(*(change(f"{name} / ohm", 50.0, 17.0) for name in ("R1", "R2")))
-    assert mixed[0] == "R1, R2"
-
-
-def test_things_that_are_counted_share_a_row() -> None:
-    removed = [change(f"link a / visual {k}", {"name": "x"}, None, kind=ChangeKind.REMOVED) for k in (2, 3, 5)]
-    assert lines(*removed) == ["link a", "  visual 2, 3, 5 removed: name x"]
-
-
 def test_long_lists_of_names_are_cut() -> None:
     names = [f"a_rather_long_name_{k}" for k in range(30)]
     title = OutlineEntry(tuple(f"joint {name}" for name in names), ()).title
     assert title.startswith("joint a_rather_long_name_0, a_rather_long_name_1, ")
     assert title.endswith(" and 24 more")
-
-
-def test_what_is_not_modelled_is_marked_and_does_not_crowd_out_the_rest() -> None:
-    unmodelled = ChangeClass.UNMODELLED
-    few = [change("robot / gazebo", None, "<gazebo>" * 9, reach=unmodelled, kind=ChangeKind.ADDED)]
-    assert lines(*few) == ["robot", "  gazebo added not modelled"]
-    many = [change(f"robot / transmission {k}", "x", None, reach=unmodelled, kind=ChangeKind.REMOVED) for k in range(9)]
-    name = change("robot / name", "a", "b")
-    assert lines(*many, name) == ["robot", "  name a → b", "  not modelled 9 removed"]
-
-
-def test_elements_with_nothing_that_matters_come_last_and_together() -> None:
-    noise = [change(f"link {name} / mass", 1.0, 1.0000001, "kg") for name in "ab"]
-    mass = change("link c / mass", 1.0, 2.0, "kg")
-    assert lines(*noise, mass) == ["link c", "  mass 1 → 2 kg +100 %", "link a, b", "  rounding"]
 
 
 def test_a_long_outline_is_condensed_to_a_row_per_element() -> None:
