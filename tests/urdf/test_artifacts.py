@@ -228,15 +228,6 @@ def test_capsules_have_round_ends_with_visualization2(tmp_path: Path, modelica_l
     assert outcome.error == ""
 
 
-@pytest.mark.parametrize("base", ["fixed", "floating"])
-def test_a_robot_of_one_link_has_no_joints_and_no_drives(base: str) -> None:
-    package = package_of(urdfs.link("stone", 1), base=base)
-    assert not any(path.startswith("Joints") for path in package.texts)
-    assert package.texts["package.order"].split()[-1] == "Links"
-    assert "connect(stone.frame_a, stoneFrame)" in package.texts["Own.mo"]
-    assert not re.search("Rotational|Translational", package.texts["Own.mo"] + package.texts["OwnRun.mo"])
-
-
 @pytest.mark.parametrize(
     "options",
     [Options(), Options(base="floating", visualizer="visualization2"), Options(approach=("record",))],

@@ -71,10 +71,6 @@ def test_a_robot_that_says_nothing_of_drives_keeps_all_of_them() -> None:
     assert passive_joints(silent) == frozenset()
 
 
-def test_a_transmission_of_a_joint_that_can_not_move_says_something_too() -> None:
-    assert driven_joints([joint("weld", "fixed", actuated=True), joint("caster")], PLAIN) == frozenset()
-
-
 @pytest.mark.parametrize(
     ("names", "driven"),
     [

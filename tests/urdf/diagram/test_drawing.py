@@ -99,15 +99,6 @@ def test_dots_mark_where_a_net_branches(root: etree._Element, diagram: Diagram) 
     assert [dot[1] for dot in dots if dot[0] == "dot-translational"] == [axis]
 
 
-def test_all_text_is_ten_pixels_high_or_more_at_its_natural_size() -> None:
-    robot = chain(*(f"link_{'o' * length}" for length in range(0, 80, 8)))
-    root = etree.fromstring(draw(robot, TARGET, Options()))
-    width, height = map(float, root.get("viewBox", "").split()[2:])
-    scale = float(root.get("width", "")) / width
-    assert float(root.get("height", "")) == scale * height
-    assert min(scale * float(text.get("font-size", "")) for text in root.iter(f"{SVG}text")) >= 10
-
-
 def test_joints_names_keep_clear_of_their_neighbours_connectors() -> None:
     robot = chain("a", "b", "c")
     tree = KinematicTree.of(robot)

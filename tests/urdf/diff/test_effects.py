@@ -50,15 +50,6 @@ def test_a_robot_without_mass_has_no_centre_of_mass() -> None:
     assert found["robot / mass"] == (0.0, 2.0)
 
 
-def test_joints_are_at_zero_even_if_their_limits_exclude_it() -> None:
-    out = (
-        PAIR[2]
-        .replace("continuous", "prismatic")
-        .replace("</joint>", '<limit lower="1" upper="2" effort="1" velocity="1"/></joint>')
-    )
-    assert values(version(*PAIR), version(*PAIR[:2], out))["robot / centre of mass"][1] == pytest.approx((1.5, 0, 0.75))
-
-
 def test_other_names_make_no_difference_to_the_last_digit() -> None:
     links = [link(name, mass, "0.1 0.2 0.3") for name, mass in (("base", 0.1), ("b", 0.2), ("c", 0.3), ("d", 1e9))]
     first = version(*links, *(joint(name, "fixed", "base", name) for name in "bcd"))

@@ -74,20 +74,6 @@ def test_a_leaf_that_is_none_any_more_loses_its_frame_and_an_option_keeps_it() -
     assert changed(new, old) == {"link a / frame": (None, "aFrame")}
 
 
-def test_a_joint_that_follows_or_stops_loses_its_axis_and_its_support() -> None:
-    first, follower = joint("first", "continuous", "base", "a"), joint("second", "continuous", "base", "b")
-    mimics = joint("second", "continuous", "base", "b", '<mimic joint="first"/>')
-    gone = {
-        "joint second / axis": ("secondAxis", None),
-        "joint second / support": ("secondSupport", None),
-        "joint second / position in Run": ("second_phi", None),
-        "joint second / effort in Run": ("second_tau", None),
-    }
-    assert changed(version(*STAR[:3], first, follower), version(*STAR[:3], first, mimics)) == gone
-    stopped = joint("second", "fixed", "base", "b")
-    assert changed(version(*STAR[:3], first, follower), version(*STAR[:3], first, stopped)) == gone
-
-
 def test_a_connector_that_gives_way_to_a_new_element_is_named() -> None:
     old = version(*STAR[:2], joint("turn", "continuous", "base", "a"))
     link = '<link name="turnAxis"/>'
@@ -106,11 +92,6 @@ def test_a_renamed_joint_shows_its_new_connectors() -> None:
         "joint w / position in Run": ("v_phi", "w_phi"),
         "joint w / effort in Run": ("v_tau", "w_tau"),
     }
-
-
-def test_what_is_gone_altogether_is_no_change_of_a_connector() -> None:
-    one, other = joint("one", "continuous", "base", "a"), joint("other", "continuous", "base", "b")
-    assert changed(version(*STAR[:3], one, other), version(*STAR[:2], one)) == {}
 
 
 def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:

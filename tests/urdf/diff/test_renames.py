@@ -21,11 +21,10 @@ from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Inertial, Joint, Link, Material, Mimic, Origin, Robot, Sphere, Visual
+from urdfsync.urdf.robot import Inertial, Joint, Link, Mimic, Origin, Robot
 from urdfsync.urdf.snapshot import to_snapshot
 
 TARGET = Target("Robots.Arm", "Arm")
-Data = dict[str, Any]
 
 
 def link(name: str, mass: float = 0.0) -> Link:
@@ -95,14 +94,6 @@ def test_other_numbers_are_no_rename() -> None:
 def test_another_place_is_no_rename() -> None:
     moved = snapshot(*ARM[:4], joint("bend", "base", "lower"))
     assert find_renames(snapshot(*ARM), moved) == {}
-
-
-def test_names_of_materials_and_shapes_are_names_too() -> None:
-    def arm(name: str) -> Snapshot:
-        visual = Visual(Sphere(1.0), name=name, material=Material(name, (1.0, 0.0, 0.0, 1.0)))
-        return snapshot(ARM[0], Link(name, visuals=(visual,)), joint("shoulder", "base", name))
-
-    assert find_renames(arm("upper"), arm("arm")) == {("link", "upper"): "arm"}
 
 
 def test_swapped_names_are_no_rename() -> None:
@@ -232,16 +223,6 @@ def expected_moves(old: Snapshot, new: Snapshot, names: Mapping[ElementKey, str]
         for kind, one, two in pairs
         if two is not None and one != two
         for suffix in ("", "Parameters")
-    }
-
-
-def test_files_move_when_a_new_link_takes_the_name_of_a_joint() -> None:
-    old = snapshot(*ARM)
-    new = snapshot(*ARM, link("elbow"), joint("tip", "lower", "elbow"))
-    assert find_renames(old, new) == {}
-    assert moved_files(owners(old), owners(new), {}) == {
-        "Joints/Elbow.mo": "Joints/Elbow_joint.mo",
-        "Joints/ElbowParameters.mo": "Joints/Elbow_jointParameters.mo",
     }
 
 

@@ -69,18 +69,6 @@ def test_joints_on_one_axis(
     assert found(urdf, free={"first"}) == found(urdf, free={"second"}) == {}
 
 
-def test_the_first_and_last_axis_of_a_straight_wrist() -> None:
-    at = {"xyz": "0 0 0.1", "rpy": "0 0 0"}
-    urdf = urdfs.robot(
-        *(urdfs.link(name, one) for name, one in {"arm": 5, "roll": None, "pitch": None, "hand": 1}.items()),
-        urdfs.joint("first", "continuous", "arm", "roll", axis="0 0 1", **at),
-        urdfs.joint("across", "continuous", "roll", "pitch", axis="0 1 0", **at),
-        urdfs.joint("last", "continuous", "pitch", "hand", axis="0 0 1", **at),
-    )
-    assert found(urdf) == {"first": Massless.UNDONE}
-    assert is_singular(urdf)
-
-
 def test_a_joint_that_others_follow_moves_their_masses() -> None:
     urdf = urdfs.robot(
         *(urdfs.link(name, mass) for name, mass in {"base": 5, "ring": None, "tool": 1, "other": 1}.items()),

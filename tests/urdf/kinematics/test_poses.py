@@ -15,12 +15,9 @@ from numpy.typing import NDArray
 from support.trees import NUMBERS, SCALAR, robots
 
 from urdfsync.urdf.kinematics.poses import (
-    IDENTITY,
     Pose,
     link_poses,
-    motion,
     own_range,
-    pose,
     start_positions,
 )
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -30,7 +27,6 @@ from urdfsync.urdf.robot import (
     Limit,
     Link,
     Mimic,
-    Origin,
     Robot,
     Vector,
 )
@@ -90,17 +86,6 @@ def test_link_poses_are_those_of_pinocchio(robot: Robot, values: list[float]) ->
     for link, found in poses.items():
         expected = data.oMf[model.getFrameId(link, pin.FrameType.BODY)].homogeneous
         assert np.abs(homogeneous(found) - expected).max() < 1e-12 * max(1, np.abs(expected).max()), link
-
-
-def test_rpy_turns_about_fixed_axes_x_first() -> None:
-    rotation = homogeneous(pose(Origin(rpy=(math.pi / 2, 0, math.pi / 2))))[:3, :3]
-    assert rotation @ [0, 1, 0] == pytest.approx([0, 0, 1], abs=1e-15)
-    assert rotation @ [1, 0, 0] == pytest.approx([0, 1, 0], abs=1e-15)
-
-
-@pytest.mark.parametrize("kind", ["fixed", "planar", "floating"])
-def test_joints_without_a_position_stay_where_they_are(kind: str) -> None:
-    assert motion(Joint("j", kind, "a", "b"), 1.0) == IDENTITY  # type: ignore[arg-type]
 
 
 def followed(robot: Robot, leader: str) -> Iterator[tuple[Joint, float, float]]:

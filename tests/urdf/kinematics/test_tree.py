@@ -67,14 +67,6 @@ def test_leaders_come_before_those_that_follow_them(robot: Robot) -> None:
     assert all(place[joint.mimic.joint] < place[joint.name] for joint in order if joint.mimic)
 
 
-def test_a_fixed_joint_that_claims_to_follow_does_not() -> None:
-    links = (Link("a"), Link("b"), Link("c"))
-    joints = (Joint("j", "revolute", "a", "b"), Joint("k", "fixed", "b", "c", mimic=Mimic("j")))
-    skeleton = KinematicTree.of(Robot("r", links, joints))
-    assert list(skeleton.followers()) == []
-    assert [joint.name for joint in skeleton.leaders_first()] == ["j", "k"]
-
-
 def test_a_chain_may_be_longer_than_python_recurses() -> None:
     joints = tuple(Joint(f"j{n}", "revolute", f"l{n}", f"l{n + 1}") for n in range(3000))
     followers = tuple(

@@ -96,12 +96,6 @@ def test_nodes_place_each_of_two_geometries() -> None:
     assert _volume(corners) == pytest.approx((6 + 8) / 1000)
 
 
-def test_transformations_of_a_node_apply_in_their_order() -> None:
-    scene = '<node><rotate>0 0 1 90</rotate><translate>5 0 0</translate><instance_geometry url="#box"/></node>'
-    low, high = _bounds(_dae(scene))
-    assert [*low, *high] == pytest.approx([-2, 5, 0, 0, 6, 3], abs=1e-6)
-
-
 def test_node_of_the_library_is_placed_where_it_is_instanced() -> None:
     library = f'<library_nodes><node id="part"><translate>1 0 0</translate>{PLACED}</node></library_nodes>'
     content = _dae('<node><translate>0 7 0</translate><instance_node url="#part"/></node>')
@@ -150,10 +144,6 @@ def test_skin_stands_as_it_is_bound() -> None:
     content = _dae('<node><instance_controller url="#skin"/></node>')
     content = content.replace(b"<library_visual_scenes>", skin.encode() + b"<library_visual_scenes>")
     assert _bounds(content) == [[4, 5, 6], [5, 7, 9]]
-
-
-def test_scene_without_geometry_has_no_triangles() -> None:
-    assert _read(_dae("<node/>")).shape == (0, 3, 3)
 
 
 @pytest.mark.parametrize(

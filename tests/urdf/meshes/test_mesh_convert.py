@@ -112,10 +112,3 @@ def test_unreadable_mesh_is_one_diagnostic(uri: str, content: bytes, scale: Vect
     assert diagnostic.file == f"/ws/arm/{Path(uri).name}"
     assert diagnostic.message.startswith(f"the mesh {uri} can't be read: {reason}")
     assert diagnostic.hint == "export it again, best as STL or OBJ"
-
-
-def test_nothing_is_printed_or_logged(capfd: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture) -> None:
-    with pytest.raises(SourceError):
-        _convert("box.ply", CONTENTS[".ply"][:-9])
-    assert capfd.readouterr() == ("", "")
-    assert caplog.records == []

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from support.packages import RENDERER
 from support.records import record_components, record_tables, record_text
-from support.skeletons import GRIPPER, skeleton
+from support.skeletons import skeleton
 from support.trees import robots
 
 from urdfsync.domain import Import, Target
@@ -23,7 +23,6 @@ from urdfsync.urdf.robot import (
     Box,
     Calibration,
     Capsule,
-    Collision,
     Cylinder,
     Dynamics,
     Geometry,
@@ -31,7 +30,6 @@ from urdfsync.urdf.robot import (
     JointType,
     Limit,
     Link,
-    Material,
     Mesh,
     Mimic,
     Origin,
@@ -51,16 +49,6 @@ def data(tree: KinematicTree, imports: Mapping[str, Import] | None = None, **opt
     return record_data("the robot", tree, imports or {}, Target("Plant.Arm", "Arm"), Options(**options))
 
 
-def test_elements_count_from_one_in_canonical_order() -> None:
-    found = data(GRIPPER)
-    assert [link["name"] for link in found["links"]] == ["base", "palm", "camera", "lens", "right", "left", "gear"]
-    assert [entry["joint"].name for entry in found["joints"]] == ["turn", "mount", "lock", "other", "slide", "pinion"]
-    assert found["structure"]["connection_matrix"] == [(1, 2), (2, 3), (3, 4), (2, 5), (2, 6), (6, 7)]
-    assert found["structure"]["moveable_joints"] == [(1, 1), (3, 1), (4, 1), (5, 1), (6, 1)]
-    axes = [(axis["constant"], axis["vector"], axis["number"]) for axis in found["structure"]["axes"]]
-    assert axes == [("turnAxis", "rotationalAxis", 1), ("slideAxis", "translationalAxis", 1)]
-
-
 @given(robots())
 def test_the_matrices_say_what_the_tree_is(robot: Robot) -> None:
     found = data(KinematicTree.of(robot))
@@ -71,12 +59,6 @@ def test_the_matrices_say_what_the_tree_is(robot: Robot) -> None:
     }
     moving = {found["joints"][number - 1]["joint"].name for number, _ in found["structure"]["moveable_joints"]}
     assert moving == {joint.name for joint in robot.joints if joint.type != "fixed"}
-
-
-def test_only_a_mobile_robot_has_a_height() -> None:
-    tree = skeleton(links=(Link("a", collisions=(Collision(Sphere(0.5)),)),))
-    assert data(tree, base="fixed")["standing_height"] is None
-    assert data(tree, base="floating")["standing_height"] == 0.5
 
 
 # Joints
@@ -166,14 +148,6 @@ def test_a_capsule_is_drawn_as_a_cylinder_and_two_spheres() -> None:
     )
 
 
-def test_place_colour_and_opacity_stand_in_the_record_of_the_visual() -> None:
-    visual = Visual(Sphere(0.5), Origin((1, 2, 3), (0.1, 0.2, 0.3)), "ball", Material("red", (1, 0, 0, 0.25)))
-    text = record_text(Robot("r", (Link("a", visuals=(visual,)),)))
-    expected = "origin( xyz = {1, 2, 3}, rpy = {0.1, 0.2, 0.3}), radius = 0.5, color = {255, 0, 0}, opacity = 0.25)"
-    assert expected in " ".join(text.split())
-    assert '"Visual 1: \\"ball\\" of link \\"a\\""' in text
-
-
 def test_a_mesh_is_addressed_in_the_package_and_one_that_was_never_found_is_left_out() -> None:
     tree = skeleton(links=(shown("a", Mesh("lost.stl"), MESH, Sphere(1)),))
     text = RENDERER.render("robot/record.mo.jinja", data(tree, {key(MESH): IMPORT}))
@@ -183,12 +157,6 @@ def test_a_mesh_is_addressed_in_the_package_and_one_that_was_never_found_is_left
     assert "UrdfSync.Records.Sphere aVisual3(" in text
     assert "drawnShapes = 2," in text
     assert "aVisual" not in record_text(Robot("r", (shown("a", MESH),))), "without a package there are no meshes"
-
-
-def test_where_the_generic_robot_can_not_read_the_record_the_visuals_are_there_without_tables() -> None:
-    robot = Robot("r", (shown("a", Sphere(1)), Link("b")), (Joint("j", "floating", "a", "b"),))
-    assert "UrdfSync.Records.Sphere aVisual1(" in record_text(robot)
-    assert "drawnShapes" not in record_text(robot)
 
 
 @pytest.mark.parametrize("other", ["aVisual1", "AVISUAL1"])

@@ -17,7 +17,7 @@ from support.trees import ORIGINS
 from urdfsync.domain import Import
 from urdfsync.urdf.kinematics.poses import pose
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.shapes import GREY, PINK, contacts, link_shapes, standing_height, structure
+from urdfsync.urdf.model.shapes import GREY, PINK, contacts, link_shapes, standing_height
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,
@@ -85,17 +85,6 @@ def test_a_mesh_has_a_modelica_uri_and_its_bounds_and_a_hull_only_to_stand_on() 
     assert collision["hull"] == ()
     (visual,), (collision,) = shapes_of(MESH, imports=imported(POINTS), base="floating")
     assert (visual["hull"], collision["hull"]) == ((), POINTS)
-
-
-def test_collisions_can_be_left_out() -> None:
-    visuals, collisions = shapes_of(Sphere(1), collisions=False)
-    assert (len(visuals), len(collisions)) == (1, 0)
-
-
-def test_models_have_no_numbers_of_shapes() -> None:
-    (shape,), _ = shapes_of(Sphere(0.123456))
-    assert "123456" in repr(shape)
-    assert "123456" not in repr(structure([shape]))
 
 
 @pytest.mark.parametrize(("base", "points", "names"), [

@@ -14,7 +14,7 @@ from support.records import record_components, record_tables
 from support.trees import SCALAR, robots
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.tables import Tables, has_tables, obstacles, tables
+from urdfsync.urdf.model.tables import Tables, has_tables, tables
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Robot
 
 TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: has_tables(robot.joints))
@@ -69,17 +69,6 @@ def carried(found: Tables, body: int) -> Iterator[int]:
         number = found.next_joints[number - 1]
 
 
-def test_a_gripper() -> None:
-    found = tables(skeleton(*GRIPPER))
-    assert found.link_bodies == [1, 2, 2, 3, 4, 5, 6]
-    assert found.joint_tree == [(1, 1), (2, 1), (2, 2), (2, 2), (5, 1)]
-    assert found.first_joints == [1, 2, 6, 6, 5, 6]
-    assert found.next_joints == [6, 3, 4, 6, 6]
-    assert found.axes == {"rotational": [1], "translational": [4]}
-    assert found.moving == {"rotational": [1, 2, 5], "translational": [3, 4]}
-    assert found.followers == [(2, 0), (3, 4), (5, 3)]
-
-
 def test_the_text_of_a_gripper() -> None:
     found = texts_of(skeleton(*GRIPPER))
     assert found["movingJoints"] == "5"
@@ -109,13 +98,6 @@ def test_the_text_of_a_chain_of_mimic_joints_grows_with_its_length() -> None:
 
     small, middle, large = (length(count) for count in (200, 400, 800))
     assert large - middle == pytest.approx(2 * (middle - small), rel=0.01)
-
-
-@pytest.mark.parametrize("kind", ["planar", "floating"])
-def test_planar_and_floating_joints_have_no_place(kind: str) -> None:
-    joint = Joint("j", kind, "a", "b")  # type: ignore[arg-type]
-    assert list(obstacles([joint])) == [joint]
-    assert not has_tables([Joint("i", "revolute", "b", "c"), joint])
 
 
 def test_a_robot_that_does_not_move_is_one_body() -> None:

@@ -149,12 +149,6 @@ def test_the_line_is_where_a_start_tag_begins_even_in_long_files() -> None:
     assert [(d.code, d.line) for d in reading.diagnostics] == [("duplicate-link", 70_003)]
 
 
-def test_the_first_of_two_elements_that_are_called_the_same_has_the_line() -> None:
-    inertial = '<inertial>\n<mass value="1"/>\n<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
-    reading = read(f'<robot name="r">\n<link name="a">\n{inertial}</link>\n<link name="a / inertial"/></robot>')
-    assert reading.lines["link a / inertial"] == 3
-
-
 def test_elements_are_counted_without_those_that_are_left_out() -> None:
     inside = '<parent link="a"/><child link="a"/><axis xyz="0 0 2"/>'
     joints = f'<joint name="j" type="fixed"/><joint name="j" type="continuous">{inside}</joint>'
@@ -173,38 +167,22 @@ def test_encodings_and_line_ends(encoding: str, line_end: str) -> None:
     assert reading.lines == read(ARM).lines
 
 
-def test_a_declared_latin_1_is_read() -> None:
-    text = '<?xml version="1.0" encoding="iso-8859-1"?><robot name="ä"><link name="ö"/></robot>'
-    reading = read_robot(text.encode("latin-1"), "a.urdf")
-    assert reading.robot == Robot("ä", (Link("ö"),))
-
-
-def test_utf_8_that_calls_itself_utf_16() -> None:
-    reading = read('<?xml version="1.0" encoding="utf-16"?><robot name="ä"><link name="a"/></robot>')
-    assert reading.robot == Robot("ä", (Link("a"),))
-    assert [(str(d.severity), d.code) for d in reading.diagnostics] == [("warning", "xml-declaration")]
-
-
-def test_a_wrong_xml_version_is_tolerated() -> None:
-    reading = read(ARM.replace('version="1.0"', 'version="0.0"'))
-    assert reading.robot == robot_of(ARM)
-    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [("warning", "xml-version", 1)]
-
-
 @pytest.mark.parametrize(
-    "declaration",
+    ("declaration", "code"),
     [
-        "<?xml version=1.0?>",
-        "<?XML version='1.0'?>",
-        "<?xml encoding='utf-8' version='1.0'?>",
-        "<?xml version='1.0'encoding='utf-8'?>",
-        "<?xml verison='1.0'\r\n?>",
+        ("<?xml version='0.0'?>", "xml-version"),
+        ("<?xml version=1.0?>", "xml-declaration"),
+        ("<?XML version='1.0'?>", "xml-declaration"),
+        ("<?xml encoding='utf-8' version='1.0'?>", "xml-declaration"),
+        ("<?xml version='1.0'encoding='utf-8'?>", "xml-declaration"),
+        ("<?xml verison='1.0'\r\n?>", "xml-declaration"),
+        ('<?xml version="1.0" encoding="utf-16"?>', "xml-declaration"),
     ],
 )
-def test_a_declaration_that_is_not_well_formed_is_tolerated(declaration: str) -> None:
-    reading = read(f"{declaration}<robot name='cart'>\r\n<link name='body'/></robot>")
-    assert reading.robot == Robot("cart", (Link("body"),))
-    assert [(d.severity, d.code, d.line) for d in reading.diagnostics] == [(Severity.WARNING, "xml-declaration", 1)]
+def test_a_wrong_declaration_is_tolerated(declaration: str, code: str) -> None:
+    reading = read(f"{declaration}<robot name='cart'>\r\n<link name='bödy'/></robot>")
+    assert reading.robot == Robot("cart", (Link("bödy"),))
+    assert [(d.severity, d.code, d.line) for d in reading.diagnostics] == [(Severity.WARNING, code, 1)]
 
 
 def test_only_a_declaration_without_faults_names_the_encoding() -> None:
@@ -232,17 +210,6 @@ def test_undeclared_prefixes_are_tolerated_once_each() -> None:
 
 def test_a_default_namespace_does_not_hide_the_elements() -> None:
     assert robot_of('<robot name="r" xmlns="http://www.ros.org"><link name="a"/></robot>').links == (Link("a"),)
-
-
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
-def test_every_truncation_is_one_error(encoding: str) -> None:
-    content = ARM.rstrip().replace("utf-8", encoding).encode(encoding)
-    for end in range(len(content)):
-        reading = read_robot(content[:end], "a.urdf")
-        assert reading.robot is None, end
-        assert [d.severity for d in reading.diagnostics] == [Severity.ERROR], end
-        assert reading.diagnostics[0].line > 0, end
-    assert read_robot(content + b"", "a.urdf", cross_check=False).robot is not None
 
 
 DEEP = b"<origin>" * 254, b"</origin>" * 254
@@ -300,11 +267,6 @@ def test_a_file_that_is_no_urdf_is_one_error(content: bytes, code: str, line: in
     assert all(d.hint for d in reading.diagnostics)
 
 
-def test_a_syntax_error_has_its_column() -> None:
-    (diagnostic,) = read("<robot>\n  <link name=a/></robot>").diagnostics
-    assert (diagnostic.line, diagnostic.column) == (2, 14)
-
-
 @pytest.mark.parametrize(
     ("text", "message", "hint"),
     [
@@ -323,7 +285,7 @@ def test_a_syntax_error_has_its_column() -> None:
 )
 def test_what_is_often_wrong_in_xml_is_said_with_what_to_do(text: str, message: str, hint: str) -> None:
     (found,) = read(f"<robot name='r'>\n{text}</robot>").diagnostics
-    assert (found.code, found.line) == ("xml-syntax", 2)
+    assert (found.code, found.line, found.column > 0) == ("xml-syntax", 2, "deep" not in message)
     assert found.message.startswith(f"this is not well-formed XML: {message}")
     assert hint in found.hint
     assert found.hint.endswith(", or wait until the export is complete")
@@ -445,29 +407,23 @@ def test_many_warnings_of_a_kind_are_told_once() -> None:
     assert diagnostic.message.endswith("(and 11 more like it: lines 5, 6, 7, 8, 9, 10, 11, 12, …)")
 
 
+LEADER = '<link name="c"/><joint name="k" type="continuous"><parent link="b"/><child link="c"/></joint></robot>'
+
+
 @pytest.mark.parametrize(
     ("inner", "expected"),
     [
-        ("", None),
-        ("<limit/>", Limit(0.0, 0.0, None, None)),
-        ('<limit upper="2" effort="0"/>', Limit(0.0, 2.0, 0.0, None)),
+        ("<origin/><axis/>", Joint("j", "continuous", "a", "b")),
+        ("<limit/>", Joint("j", "continuous", "a", "b", limit=Limit(0.0, 0.0, None, None))),
+        ('<limit upper="2" effort="0"/>', Joint("j", "continuous", "a", "b", limit=Limit(0.0, 2.0, 0.0, None))),
+        ("<dynamics/>", Joint("j", "continuous", "a", "b", dynamics=Dynamics(0.0, 0.0))),
+        ('<mimic joint="k"/>', Joint("j", "continuous", "a", "b", mimic=Mimic("k", 1.0, 0.0))),
     ],
 )
-def test_limits_that_are_absent(inner: str, expected: Limit | None) -> None:
-    robot = read(with_joint(inner)).robot
+def test_defaults_of_a_joint(inner: str, expected: Joint) -> None:
+    robot = read(with_joint(inner, "continuous").replace("</robot>", LEADER)).robot
     assert robot is not None
-    assert robot.joints[0].limit == expected
-
-
-def test_defaults_of_a_joint() -> None:
-    assert only_joint("<origin/><axis/>", "continuous") == Joint("j", "continuous", "a", "b")
-
-
-def test_dynamics_and_mimic_count_by_their_presence() -> None:
-    assert only_joint("<dynamics/>", "continuous").dynamics == Dynamics(0.0, 0.0)
-    text = with_joint('<mimic joint="k"/>', "continuous").replace("</robot>", "")
-    text += '<link name="c"/><joint name="k" type="continuous"><parent link="b"/><child link="c"/></joint></robot>'
-    assert robot_of(text).joints[0].mimic == Mimic("k", 1.0, 0.0)
+    assert robot.joints[0] == expected
 
 
 def test_axes_are_unit_vectors_and_exact_ones_stay_exact() -> None:
@@ -600,15 +556,3 @@ def test_no_input_raises(noise: bytes, position: int, removed: int) -> None:
     assert (reading.robot is None) == bool(errors)
     assert all(d.line > 0 and d.hint for d in reading.diagnostics)
     assert all(re.fullmatch("[a-z]+(-[a-z]+)*", d.code) for d in reading.diagnostics)
-
-
-ATTRIBUTE = st.text(st.characters(exclude_characters='<&"', exclude_categories=["Cs", "Cc"]), max_size=8)
-
-
-@settings(deadline=None)
-@given(ATTRIBUTE)
-def test_any_name_is_a_name(name: str) -> None:
-    reading = read(f'<robot name="r"><link name="{name}"/></robot>')
-    assert all(d.code in ("empty-attribute", "xml-syntax", "xacro-leftover") for d in reading.diagnostics)
-    if reading.robot:
-        assert reading.robot.links[0].name.strip() == name.strip()
