@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import icons
-import pytest
 
 SHOWN = [name for name in icons.classes() if icons.icon(name).graphics]
 COMPONENTS = [name for name in icons.classes() if name.startswith("UrdfSync.Icons.") and not name.endswith("Package")]
@@ -80,17 +79,6 @@ def test_a_text_above_a_connector_at_the_top_is_crossed(tmp_path: Path) -> None:
     assert crossed("UrdfSync.X", library) == ["a at (0.0, 100.0)"]
 
 
-@pytest.mark.parametrize("name", ["UrdfSync.Icons.StationaryRobot", "UrdfSync.Icons.MobileRobot"])
-def test_a_robot_can_continue_its_icon_at_the_top(name: str) -> None:
-    assert max(y for graphic in icons.icon(name).graphics for _, y in icons.corners(graphic)) <= 100
-
-
 def test_no_two_icons_look_the_same() -> None:
     drawings = [repr(icons.icon(name)) for name in [*COMPONENTS, *SHAPES]]
     assert len(set(drawings)) == len(drawings)
-
-
-def test_each_shape_and_the_sweep_draw_a_picture() -> None:
-    bare = icons.icon("UrdfSync.Visualizers.PartialShape").graphics
-    assert [name for name in SHAPES if len(icons.icon(name).graphics) <= len(bare)] == []
-    assert icons.icon("UrdfSync.Robots.AxisSweeps").graphics

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import psutil
 import pytest
-from support.daemon import LIMIT, REPOSITORY, Daemons, Watch
+from support.daemon import LIMIT, MODEL, RECORD, REPOSITORY, Daemons, Watch, until
 
 from urdfsync.check import run
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
@@ -25,8 +25,6 @@ from urdfsync.watch import events
 RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12, 3),), seconds=2.5)
 BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)
 WRONG = CheckResult("ladder", "Ladder", diagnostics=(BROKEN,))
-RECORD = Path("modelica/Ladder/Elements/R2Parameters.mo")
-MODEL = Path("modelica/Ladder/Elements/R2.mo")
 
 
 class Compiler:
@@ -71,14 +69,6 @@ def start(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Start]:
 def edit(project: Path, old: str, new: str) -> None:
     source = project / "ladder.json"
     source.write_text(source.read_text().replace(old, new))
-
-
-def until(condition: Callable[[], bool]) -> None:
-    """Wait for something that no single event tells."""
-    deadline = time.monotonic() + LIMIT
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
 
 
 def test_each_build_is_checked_once(project: Path, start: Start) -> None:

@@ -20,7 +20,7 @@ from typing import Any
 
 import pytest
 import watchdog.observers
-from support.daemon import LIMIT, REPOSITORY, Daemons
+from support.daemon import MODEL, RECORD, REPOSITORY, Daemons, holds, ladder, until
 from support.git import NEEDS_GIT, Repository
 
 from urdfsync import cli, dependencies, registry
@@ -31,8 +31,6 @@ from urdfsync.watch import build, events, observer, precommit, robots
 from urdfsync.watch.daemon import Daemon
 from urdfsync.watch.debounce import Times
 
-RECORD = Path("modelica/Ladder/Elements/R2Parameters.mo")
-MODEL = Path("modelica/Ladder/Elements/R2.mo")
 CONFIG = '[robots.{0}]\nsource = "{1}"\npackage = "{2}"\ndomain = "rcnetwork"\n'
 BUILD = ["Settling", "Building", "Built"]
 NEVER = 100000.0
@@ -57,24 +55,14 @@ def start(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Start]:
         daemon.stop()
 
 
-def text(ohm: float) -> str:
-    """The source with another resistance."""
-    example = REPOSITORY / "tests/rcnetwork/examples/ladder.json"
-    return example.read_text().replace("220.5", f"{ohm:g}")
-
-
 def put(path: Path | str, ohm: float) -> Path:
     """Write a source, with its signal beside it."""
     place = Path(path)
     place.parent.mkdir(parents=True, exist_ok=True)
     if not (place.parent / "step.csv").is_file():
         shutil.copy(REPOSITORY / "tests/rcnetwork/examples/step.csv", place.parent)
-    place.write_text(text(ohm))
+    place.write_text(ladder(ohm))
     return place
-
-
-def holds(ohm: float) -> bool:
-    return f"{ohm:g}" in RECORD.read_text()
 
 
 def probe(daemon: Daemons, source: Path | str = "ladder.json", ohm: float = 999.0) -> None:
@@ -84,14 +72,6 @@ def probe(daemon: Daemons, source: Path | str = "ladder.json", ohm: float = 999.
     daemon.wait(events.Built, since, lambda event: bool(event.files))
     daemon.rest()
     assert holds(ohm)
-
-
-def until(condition: Callable[[], bool]) -> None:
-    """Wait for something that no event tells."""
-    deadline = time.monotonic() + LIMIT
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
 
 
 def await_rescans(monkeypatch: pytest.MonkeyPatch, number: int) -> None:
@@ -136,7 +116,7 @@ def test_an_editor_that_renames(start: Start) -> None:
 
 def test_a_slow_writer_is_one_build(start: Start) -> None:
     daemon = start(times=Times(settle=0.5, sample=0.1))
-    since, content = daemon.mark, text(330).encode()
+    since, content = daemon.mark, ladder(330).encode()
     with Path("ladder.json").open("r+b", buffering=0) as file:
         file.truncate(0)
         for begin in range(0, len(content), 40):
@@ -176,7 +156,7 @@ def test_a_source_that_is_never_valid_is_told_once_and_recovers(start: Start, mo
 
 def test_many_elements_that_vanish_are_looked_at_longer(start: Start) -> None:
     daemon = start(times=PATIENT)
-    whole = json.loads(text(330))
+    whole = json.loads(ladder(330))
     short = json.dumps({**whole, "elements": whole["elements"][:1]})
     Path("ladder.json").write_text(short)
     assert "3 of 4 elements are gone" in daemon.wait(events.Waiting).reason
@@ -318,7 +298,7 @@ def test_times_do_not_matter(start: Start, monkeypatch: pytest.MonkeyPatch) -> N
         assert holds(ohm)
     since, facts = daemon.mark, source.stat()
     with source.open("r+") as file:
-        file.write(text(333))
+        file.write(ladder(333))
     os.utime(source, ns=(facts.st_atime_ns, facts.st_mtime_ns))
     assert (source.stat().st_size, source.stat().st_mtime_ns) == (facts.st_size, facts.st_mtime_ns)
     daemon.wait(events.Built, since)
@@ -345,7 +325,7 @@ def test_what_a_user_edits_is_left_alone(start: Start, monkeypatch: pytest.Monke
     assert "1000" in RECORD.read_text()
     daemon.rest()
     since = daemon.mark
-    whole = json.loads(text(330))
+    whole = json.loads(ladder(330))
     kept = [element for element in whole["elements"] if element["name"] != "R2"]
     Path("ladder.json").write_text(json.dumps({**whole, "elements": kept}))
     orphans = daemon.wait(events.Built, since).result.actions

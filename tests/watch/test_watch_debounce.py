@@ -57,17 +57,6 @@ def test_the_time_counts_from_the_first_invalid_sample() -> None:
     assert debouncer.wait_for_valid(31.5) is Phase.IDLE
 
 
-def test_the_time_begins_anew_after_a_valid_source() -> None:
-    debouncer = settled(0.0)
-    debouncer.wait_for_valid(0.5)
-    debouncer.note_valid()
-    debouncer.rest()
-    debouncer.touch(100.0)
-    debouncer.add_sample("b", 100.3)
-    debouncer.add_sample("b", 100.5)
-    assert debouncer.wait_for_valid(100.5) is Phase.INVALID
-
-
 def test_times_of_zero() -> None:
     debouncer = Debouncer(Times(settle=0, sample=0))
     debouncer.touch(1.0)

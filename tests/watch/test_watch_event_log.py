@@ -125,10 +125,6 @@ def test_a_check_is_one_line_and_what_holds_is_not_said_again() -> None:
     assert told(events.Checking("arm"), verbose=True) == ["14:03:12  arm  checking"]
 
 
-def test_what_was_known_of_a_package_took_no_time() -> None:
-    assert told(events.CheckDone("arm", Checked.RIGHT)) == ["14:03:12  arm  checked: compiles"]
-
-
 def test_what_could_not_be_checked_is_a_warning() -> None:
     lacking = Diagnostic(Severity.WARNING, "no-compiler", "there is no compiler", hint="install it")
     assert told(events.CheckDone("arm", Checked.INCOMPLETE, 0.0, (lacking,))) == [
@@ -311,7 +307,3 @@ WAITS = [file(Kind.CONFLICT), file(Kind.UPDATE, "Base", held=True)]
 )
 def test_a_build_in_one_line(changes: list[Change] | Changes | None, files: list[Action], words: str) -> None:
     assert said(changes, *files) == words
-
-
-def test_conflicts_of_the_last_build_are_told_as_such() -> None:
-    assert said(None, *WAITS, known=True) == "1 conflict as before, 1 change waiting for that"

@@ -58,11 +58,6 @@ def test_a_robot_on_its_way() -> None:
     assert words(FAILED) == "error: arm.urdf:12: this is no XML"
 
 
-def test_a_conflict_names_its_file_or_says_how_many() -> None:
-    assert words(CONFLICT) == "conflict in F0.mo"
-    assert words(events.Built(result("arm", Kind.CONFLICT, Kind.UNOWNED))) == "conflict in 2 files"
-
-
 def test_a_build_that_did_nothing_keeps_the_time_of_the_last_one() -> None:
     assert words(BUILT, events.Building("arm"), UNCHANGED) == "in step, built at 12:00:01"
     assert words(CONFLICT, UNCHANGED) == "in step"
@@ -112,23 +107,6 @@ def test_a_new_configuration_brings_robots_and_takes_others_away() -> None:
         ("crane", "not looked at yet"),
         ("arm", "in step, built at 12:00:01"),
     ]
-
-
-def test_where_not_all_find_room_those_that_need_attention_do_in_their_usual_order() -> None:
-    robots = tuple(f"r{number}" for number in range(60))
-    found = board(*(events.Built(result(robot)) for robot in robots), robots=robots)
-    found.take(events.Settling("r10"), "")
-    found.take(events.Built(result("r50", Kind.CONFLICT)), "")
-    found.take(events.Failed(result("r55", failed=True)), "")
-    assert drawn(found, 6) == [
-        "",
-        "r0   in step",
-        "r10  settling",
-        "r50  conflict in F0.mo",
-        "r55  error",
-        "… and 56 more in step",
-    ]
-    assert drawn(found, 3) == ["r50  conflict in F0.mo", "r55  error", "… and 58 more: 1 settling, 57 in step"]
 
 
 def drawn(found: StatusTable, room: int) -> list[str]:
