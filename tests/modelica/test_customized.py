@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
-from support.modelica import Array, Run, Series, Task, execute
+from support.modelica import Array, Run, Series, Task, simulate
 from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, robot
 
@@ -106,11 +106,7 @@ def found(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> M
         Task(USERS, f"Users_.{name}", [run], [*axes, *(["mass"] if name == "RedeclaredTest" else [])])
         for name, run in runs.items()
     ]
-    outcomes = execute(modelica_library, [folder], tasks)
-    assert [outcome.error for outcome in outcomes] == [""] * len(runs)
-    series = {name: outcome.runs[0] for name, outcome in zip(runs, outcomes, strict=True)}
-    assert {name: one.error for name, one in series.items()} == dict.fromkeys(runs, "")
-    return series
+    return dict(zip(runs, simulate(modelica_library, [folder], tasks), strict=True))
 
 
 def model_of(urdf: str) -> pin.Model:

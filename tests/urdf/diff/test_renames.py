@@ -82,30 +82,6 @@ def test_links_joints_subtrees_and_whole_robots(names: Mapping[ElementKey, str])
     assert {change.kind for change in found.changes} == {ChangeKind.RENAMED}
 
 
-def test_other_numbers_are_no_rename() -> None:
-    heavier = snapshot(
-        ARM[0], link("arm", 2.5), ARM[2], joint("shoulder", "base", "arm"), joint("elbow", "arm", "lower")
-    )
-    assert find_renames(snapshot(*ARM), heavier) == {}
-    farther = snapshot(*ARM[:4], joint("bend", "upper", "lower", x=0.1))
-    assert find_renames(snapshot(*ARM), farther) == {}
-
-
-def test_another_place_is_no_rename() -> None:
-    moved = snapshot(*ARM[:4], joint("bend", "base", "lower"))
-    assert find_renames(snapshot(*ARM), moved) == {}
-
-
-def test_swapped_names_are_no_rename() -> None:
-    old = snapshot(*ARM)
-    assert find_renames(old, with_names(old, {("link", "upper"): "lower", ("link", "lower"): "upper"})) == {}
-
-
-def test_a_name_that_another_element_takes_is_no_rename() -> None:
-    old = snapshot(*ARM)
-    assert find_renames(old, with_names(old, {("link", "upper"): "lower", ("link", "lower"): "hand"})) == {}
-
-
 def legs(*names: str, x: float = 0.0, foot: Mapping[str, float] | None = None) -> Snapshot:
     """A trunk with equal legs, unless they start at different places or their feet weigh differently."""
     elements: list[Link | Joint] = [link("trunk", 9)]
@@ -121,46 +97,49 @@ def leg_names(**names: str) -> Mapping[ElementKey, str]:
     return {(kind, f"{old}_{part}"): f"{new}_{part}" for old, new in names.items() for kind, part in parts}
 
 
-def test_legs_that_look_the_same_are_not_guessed() -> None:
-    assert find_renames(legs("left", "right"), legs("l", "r")) == {}
+PALM = (link("palm"), link("a"), link("b"), link("c"), link("d"))
+FINGERS = snapshot(*PALM[:3], joint("one", "palm", "a"), joint("two", "palm", "b", 1.0, mimic="one"))
+FIRST_AND_SECOND = {("joint", "one"): "first", ("joint", "two"): "second"}
 
 
-def test_one_of_two_legs_that_look_the_same_can_be_renamed() -> None:
-    assert find_renames(legs("left", "right"), legs("left", "r")) == leg_names(right="r")
-
-
-def test_legs_are_told_apart_by_what_hangs_on_them() -> None:
-    old, new = legs("left", "right", foot={"right": 1.5}), legs("l", "r", foot={"l": 1.5})
-    assert find_renames(old, new) == leg_names(left="r", right="l")
-
-
-def test_joints_that_follow_another_joint_are_renamed_with_it() -> None:
-    fingers = (
-        link("palm"),
-        link("a"),
-        link("b"),
-        joint("one", "palm", "a"),
-        joint("two", "palm", "b", 1.0, mimic="one"),
+def followers(first: str, second: str, third: str, last: str, leader: str) -> Snapshot:
+    """Four fingers; the third one follows one of the first two, and the last one the third."""
+    return snapshot(
+        *PALM,
+        joint(first, "palm", "a"),
+        joint(second, "palm", "b", 1.0),
+        joint(third, "palm", "c", 2.0, leader),
+        joint(last, "palm", "d", 3.0, third),
     )
-    old = snapshot(*fingers)
-    names = {("joint", "one"): "first", ("joint", "two"): "second"}
-    assert find_renames(old, with_names(old, names)) == names
 
 
-def test_a_joint_that_follows_another_one_now_is_not_renamed() -> None:
-    palm = (link("palm"), link("a"), link("b"), link("c"), link("d"))
-    chain = joint("end", "palm", "d", 3.0, mimic="two")
-    old = snapshot(
-        *palm, joint("x", "palm", "a"), joint("y", "palm", "b", 1.0), joint("two", "palm", "c", 2.0, "x"), chain
-    )
-    new = snapshot(
-        *palm,
-        joint("p", "palm", "a"),
-        joint("q", "palm", "b", 1.0),
-        joint("zwei", "palm", "c", 2.0, "q"),
-        joint("ende", "palm", "d", 3.0, "zwei"),
-    )
-    assert find_renames(old, new) == {("joint", "x"): "p", ("joint", "y"): "q"}
+OLD = snapshot(*ARM)
+HEAVIER = snapshot(ARM[0], link("arm", 2.5), ARM[2], joint("shoulder", "base", "arm"), joint("elbow", "arm", "lower"))
+CASES: dict[str, tuple[Snapshot, Snapshot, Mapping[ElementKey, str]]] = {
+    "another mass": (OLD, HEAVIER, {}),
+    "another length": (OLD, snapshot(*ARM[:4], joint("bend", "upper", "lower", x=0.1)), {}),
+    "another place": (OLD, snapshot(*ARM[:4], joint("bend", "base", "lower")), {}),
+    "swapped names": (OLD, with_names(OLD, {("link", "upper"): "lower", ("link", "lower"): "upper"}), {}),
+    "a name that was taken": (OLD, with_names(OLD, {("link", "upper"): "lower", ("link", "lower"): "hand"}), {}),
+    "legs that look the same": (legs("left", "right"), legs("l", "r"), {}),
+    "one of these": (legs("left", "right"), legs("left", "r"), leg_names(right="r")),
+    "legs with other feet": (
+        legs("left", "right", foot={"right": 1.5}),
+        legs("l", "r", foot={"l": 1.5}),
+        leg_names(left="r", right="l"),
+    ),
+    "a joint that others follow": (FINGERS, with_names(FINGERS, FIRST_AND_SECOND), FIRST_AND_SECOND),
+    "a joint that follows another one now": (
+        followers("x", "y", "two", "end", leader="x"),
+        followers("p", "q", "zwei", "ende", leader="q"),
+        {("joint", "x"): "p", ("joint", "y"): "q"},
+    ),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "names"), CASES.values(), ids=CASES)
+def test_what_is_certain_is_a_rename(old: Snapshot, new: Snapshot, names: Mapping[ElementKey, str]) -> None:
+    assert find_renames(old, new) == names
 
 
 @given(st.randoms(use_true_random=False), st.integers(0, 2))

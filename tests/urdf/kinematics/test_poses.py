@@ -128,13 +128,6 @@ def chain(*joints: Joint) -> KinematicTree:
     return KinematicTree.of(Robot("r", (Link("l0"), *(Link(joint.child) for joint in joints)), joints))
 
 
-def test_a_leader_starts_where_the_last_of_its_followers_can_be() -> None:
-    first = Joint("a", "continuous", "l0", "l1")
-    second = Joint("b", "revolute", "l1", "l2", limit=Limit(-9, 9), mimic=Mimic("a", -2, 0))
-    third = Joint("c", "prismatic", "l2", "l3", limit=Limit(3, 5), mimic=Mimic("b", 0.5, 1))
-    assert start_positions(chain(first, second, third)) == {"a": -2, "b": 4, "c": 3}
-
-
 def test_joints_that_follow_a_fixed_one_are_held_at_their_offsets() -> None:
     mount = Joint("mount", "fixed", "l0", "l1")
     held = Joint("held", "revolute", "l1", "l2", limit=Limit(-3, -2), mimic=Mimic("mount", 1, 0.25))

@@ -103,15 +103,6 @@ def body(name: str, *shapes: Geometry) -> Link:
     return Link(name, collisions=tuple(map(Collision, shapes)))
 
 
-@pytest.mark.parametrize(
-    ("shape", "height"),
-    [(Sphere(0.3), 0.3), (Box((1, 1, 0.5)), 0.25), (Cylinder(0.2, 0.6), 0.3), (Capsule(0.2, 0.6), 0.5), (MESH, 1)],
-)
-def test_a_body_stands_on_its_lowest_shape(shape: Geometry, height: float) -> None:
-    tree = skeleton(links=(body("a", Sphere(0.1), shape),))
-    assert standing_height(tree, imported(POINTS)) == pytest.approx(height, abs=1e-12)
-
-
 def circle(radius: float, height: float) -> Array:
     angles = np.linspace(0, 2 * math.pi, 241)
     return np.stack([radius * np.cos(angles), radius * np.sin(angles), np.full_like(angles, height)], axis=1)

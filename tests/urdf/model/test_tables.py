@@ -11,32 +11,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.records import record_components, record_tables
+from support.skeletons import GRIPPER, skeleton
 from support.trees import SCALAR, robots
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import Tables, has_tables, tables
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Mimic, Robot
 
 TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: has_tables(robot.joints))
 few = settings(max_examples=30)  # trees are small, and take their time to be drawn
 FIELD = re.compile(r"(\w+) = (\{[^{}]*\})")
 """A field of an array of records."""
 REFERENCE = re.compile(r"\b[a-z]\w*(?:\.[a-zA-Z_]\w*)+")
-
-GRIPPER = (
-    Joint("turn", "continuous", "base", "palm"),
-    Joint("mount", "fixed", "palm", "camera"),
-    Joint("lock", "revolute", "camera", "lens", mimic=Mimic("mount", 1, 0.5)),
-    Joint("slide", "prismatic", "palm", "left"),
-    Joint("other", "prismatic", "palm", "right", mimic=Mimic("slide", -1)),
-    Joint("pinion", "continuous", "left", "gear", mimic=Mimic("other", 80)),
-)
-"""In canonical order: turn, mount, lock, other, slide, pinion."""
-
-
-def skeleton(*joints: Joint) -> KinematicTree:
-    names = {joint.parent: None for joint in joints} | {joint.child: None for joint in joints}
-    return KinematicTree.of(Robot("r", tuple(map(Link, names)), joints))
 
 
 def texts_of(of: KinematicTree) -> Mapping[str, str]:
@@ -70,7 +56,7 @@ def carried(found: Tables, body: int) -> Iterator[int]:
 
 
 def test_the_text_of_a_gripper() -> None:
-    found = texts_of(skeleton(*GRIPPER))
+    found = texts_of(GRIPPER)
     assert found["movingJoints"] == "5"
     assert found["jointTree"] == "{{1, 1}, {2, 1}, {2, 2}, {2, 2}, {5, 1}}"
     assert found["turning"] == "{1, 2, 5}"
