@@ -78,7 +78,7 @@ RODS = urdfs.robot(
 POSITION = "so the generic robot can move it by position only"
 WARNINGS = [
     (PLANAR, RECORD, "6: warning: the generic robot has no planar joints, so there are no tables for it: joint "
-     "'glide'; write it as two prismatic joints and a continuous one, or use the package approach [planar-not-generic]"),
+     "'glide'; write it as two prismatic joints and a continuous one, or use the package approach"),
     (PLANAR, BOTH, "6: warning: the generic robot has no planar joints"),
     (FREE_INSIDE, RECORD, "6: warning: the generic robot has no floating joints, so there are no tables for it: joint "
      "'drift'; write it as three prismatic joints and three continuous ones"),
