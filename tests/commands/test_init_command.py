@@ -11,7 +11,6 @@ import pytest
 
 from urdfsync import cli, config
 from urdfsync.files import TEMPORARY
-from urdfsync.modelica.names import class_name, is_identifier
 
 Capture = pytest.CaptureFixture[str]
 
@@ -189,22 +188,6 @@ def test_names_from_the_source_stay_inside_their_comment(tmp_path: Path, monkeyp
     assert cli.main(["init"]) == 0
     table = tomllib.loads((tmp_path / "urdfsync.toml").read_text())["robots"]["arm"]
     assert set(table) == {"source", "package", "base"}
-
-
-@pytest.mark.parametrize(
-    ("stem", "name"),
-    [
-        ("ur5e", "Ur5e"),
-        ("my_robot-arm", "MyRobotArm"),
-        ("3d arm", "Robot3dArm"),
-        ("", "Robot"),
-        ("ä", "Robot"),
-        ("end", "End"),
-    ],
-)
-def test_class_names_from_stems(stem: str, name: str) -> None:
-    assert class_name(stem) == name
-    assert is_identifier(name)
 
 
 def test_sources_count_from_the_folder_of_the_configuration(bare: Path) -> None:

@@ -5,6 +5,7 @@ That nothing else was built shows when one more change has been built: its event
 
 from __future__ import annotations
 
+import dataclasses
 import errno
 import json
 import logging
@@ -23,11 +24,11 @@ import watchdog.observers
 from support.daemon import MODEL, RECORD, REPOSITORY, Daemons, holds, ladder, until
 from support.git import NEEDS_GIT, Repository
 
-from urdfsync import cli, dependencies, registry
+from urdfsync import cli, registry
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
-from urdfsync.watch import build, events, observer, precommit, robots
+from urdfsync.watch import build, events, observer, precommit
 from urdfsync.watch.daemon import Daemon
 from urdfsync.watch.debounce import Times
 
@@ -336,6 +337,14 @@ def test_what_a_user_edits_is_left_alone(start: Start, monkeypatch: pytest.Monke
     assert daemon.mark == since, "each is told once"
 
 
+@dataclasses.dataclass
+class Passes:
+    """Whether each build was dry, and what happens when one has ended, given how many have."""
+
+    dry: list[bool] = dataclasses.field(default_factory=list)
+    then: Callable[[int], None] = lambda _: None
+
+
 def _to_folder(path: Path) -> None:
     path.unlink()
     path.mkdir()
@@ -392,65 +401,41 @@ def test_saves_right_after_the_build_has_looked(start: Start, monkeypatch: pytes
 
 
 @pytest.fixture
-def passes(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
-    """Grows by each build that ends: whether it was dry."""
-    real, ended = build.build_robots, list[bool]()
+def passes(monkeypatch: pytest.MonkeyPatch) -> Passes:
+    """Grows by each build that ends."""
+    real, passes = build.build_robots, Passes()
 
     def results(config: Any, robots: Any, options: BuildOptions) -> Iterator[Result]:
         yield from real(config, robots, options)
-        ended.append(options.dry)
+        passes.dry.append(options.dry)
+        passes.then(len(passes.dry))
 
     monkeypatch.setattr(build, "build_robots", results)
-    return ended
+    return passes
 
 
 @pytest.mark.parametrize("number", [1, 2])
-def test_an_edit_during_a_build_is_seen(start: Start, monkeypatch: pytest.MonkeyPatch, number: int) -> None:
+def test_an_edit_during_a_build_is_seen(
+    start: Start, monkeypatch: pytest.MonkeyPatch, passes: Passes, number: int
+) -> None:
     """Its event is not needed."""
-    monkeypatch.setattr(observer.Observer, "dispatch", lambda *_: None)
-    real, ended = build.build_robots, list[bool]()
 
-    def results(config: Any, robots: Any, options: BuildOptions) -> Iterator[Result]:
-        yield from real(config, robots, options)
-        ended.append(options.dry)
-        if len(ended) == number:
+    def edit(ended: int) -> None:
+        if ended == number:
             MODEL.write_text(MODEL.read_text() + "// mine\n")
 
-    monkeypatch.setattr(build, "build_robots", results)
+    monkeypatch.setattr(observer.Observer, "dispatch", lambda *_: None)
+    passes.then = edit
     result = start().wait(events.Built, 3).result
     assert [action.path for action in result.actions if action.kind is Kind.KEEP] == [str(MODEL)]
-    assert ended == [False, True, False, True]
+    assert passes.dry == [False, True, False, True]
 
 
-def test_a_change_is_built_once_and_confirmed_once(start: Start, passes: list[bool]) -> None:
+def test_a_change_is_built_once_and_confirmed_once(start: Start, passes: Passes) -> None:
     daemon = start(rescan=0.02)
     for ohm in (330, 331):
         probe(daemon, ohm=ohm)
-    assert passes == 3 * [False, True]
-
-
-def test_files_are_read_once_until_they_change(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Files that changed shortly before are hashed each time, since they may be racy: here an hour has gone by."""
-    real_clock, real_read, read = time.time_ns, dependencies.read_unrecorded, list[str]()
-
-    def note(path: str) -> bytes:
-        read.extend({path} - {os.path.abspath("urdfsync.toml")})  # noqa: PTH100
-        return real_read(path)
-
-    monkeypatch.setattr(time, "time_ns", lambda: real_clock() + 3600 * 10**9)
-    monkeypatch.setattr(robots, "read_unrecorded", note)
-    daemon = start(rescan=0.02)
-    probe(daemon)
-    await_rescans(monkeypatch, 2)
-    read.clear()
-    await_rescans(monkeypatch, 2)
-    assert read == []
-    MODEL.touch()
-    await_rescans(monkeypatch, 2)
-    assert set(read) == {str(MODEL.absolute())}
-    read.clear()
-    await_rescans(monkeypatch, 2)
-    assert read == []
+    assert passes.dry == 3 * [False, True]
 
 
 def test_the_state_folder_is_deleted(start: Start) -> None:
@@ -495,9 +480,7 @@ def test_it_pauses_while_pre_commit_has_stashed_changes(start: Start, project: P
     assert daemon.kinds(since) == ["Settling", "Paused", "Resumed", "Building", "Built"]
 
 
-def test_nothing_is_built_again_during_a_pause(
-    start: Start, monkeypatch: pytest.MonkeyPatch, passes: list[bool]
-) -> None:
+def test_nothing_is_built_again_during_a_pause(start: Start, monkeypatch: pytest.MonkeyPatch, passes: Passes) -> None:
     """Changes are stashed away while a robot is built: the next build would take what is left for the user's."""
     stashed = threading.Event()
     monkeypatch.setattr(precommit, "find_stash", lambda _: (Path("patch"), 1) if stashed.is_set() else None)
@@ -512,7 +495,7 @@ def test_nothing_is_built_again_during_a_pause(
     monkeypatch.setattr(Daemon, "_renew_paths", stash)
     daemon = start(rests=False)
     daemon.wait(events.Paused)
-    assert passes == [False, True]
+    assert passes.dry == [False, True]
     monkeypatch.setattr(Daemon, "_renew_paths", real)
     RECORD.unlink()
     stashed.clear()

@@ -99,15 +99,6 @@ def test_dots_mark_where_a_net_branches(root: etree._Element, diagram: Diagram) 
     assert [dot[1] for dot in dots if dot[0] == "dot-translational"] == [axis]
 
 
-def test_joints_names_keep_clear_of_their_neighbours_connectors() -> None:
-    robot = chain("a", "b", "c")
-    tree = KinematicTree.of(robot)
-    support = layout(tree, connector_names(tree, Options())).placements["forearm_roll_to_cSupport"]
-    root = etree.fromstring(draw(robot, TARGET, Options()))
-    (text,) = [element for element in root.iter(f"{SVG}text") if element.text == "forearm_roll_to_b"][1:]
-    assert -float(text.get("y", "")) > support.centre[1] + 4  # radius of its circle
-
-
 def test_it_needs_nothing_from_elsewhere_and_the_order_of_elements_makes_no_difference() -> None:
     drawing = draw(GRIPPER, TARGET, Options())
     assert drawing == draw(Robot("r", GRIPPER.links[::-1], GRIPPER.joints[::-1]), TARGET, Options())

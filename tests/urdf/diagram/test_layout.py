@@ -33,11 +33,6 @@ TYPES: tuple[JointType, ...] = ("fixed", "revolute", "prismatic", "planar")
 Segment: TypeAlias = tuple[Point, Point]
 
 
-def draw(*joints: Joint, frames: tuple[str, ...] = ()) -> Diagram:
-    tree = skeleton(*joints)
-    return layout(tree, connector_names(tree, Options(frames=frames)))
-
-
 def random_robot(random_: random.Random, links: int, depth: int, mimics: float) -> tuple[KinematicTree, Connectors]:
     """A random tree: every joint starts at one of the last `depth` links; followers and leaders in any order."""
     count = links - 1
@@ -172,7 +167,8 @@ def steps(tree: KinematicTree, names: Connectors) -> int:
 
 def test_one_joint_in_full() -> None:
     """frame_a at (-100, 0), base, shoulder, arm, its frame: joints on the spine, links below, connectors above."""
-    diagram = draw(Joint("shoulder", "revolute", "base", "arm"))
+    tree = skeleton(Joint("shoulder", "revolute", "base", "arm"))
+    diagram = layout(tree, connector_names(tree, Options()))
     assert diagram.extent == (-116, -44, 36, 34)
     assert diagram.placements == {
         "frame_a": Placement(-116, -16, -84, 16),
@@ -191,26 +187,6 @@ def test_one_joint_in_full() -> None:
         ("shoulder.axis", "shoulderAxis"): ("rotational", ((-46, 10), (-46, 20))),
         ("shoulder.support", "shoulderSupport"): ("rotational", ((-52, 10), (-52, 12), (-60, 12), (-60, 20))),
     }
-
-
-def test_the_first_child_goes_on_and_the_next_ones_stand_below() -> None:
-    diagram = draw(*(Joint(name, "fixed", "trunk", f"{name}Foot") for name in ("a", "b", "c")))
-    x, heights = zip(*(diagram.placements[name].centre for name in ("a", "b", "c")), strict=True)
-    assert len(set(x)) == 1
-    assert list(heights) == sorted(heights, reverse=True)
-    assert heights[0] == diagram.placements["frame_a"].centre[1]
-
-
-def test_a_coupling_joins_leader_and_follower_in_the_kind_of_each() -> None:
-    right = Joint("right", "prismatic", "palm", "rightFinger", mimic=Mimic("left"))
-    stay = Joint("stay", "revolute", "camera", "lens", mimic=Mimic("mount"))
-    mount = Joint("mount", "fixed", "palm", "camera")
-    diagram = draw(Joint("left", "revolute", "palm", "leftFinger"), right, mount, stay)
-    assert diagram.lines["rightMimic.leader", "left.axis"][0] == "rotational"
-    assert diagram.lines["rightMimic.follower", "right.axis"][0] == "translational"
-    assert diagram.placements["rightMimic"].y1 > diagram.placements["right"].y2
-    held = [ends for ends in diagram.lines if ends[0].startswith("stayMimic")]
-    assert held == [("stayMimic.follower", "stay.axis")], "its leader never moves"
 
 
 @settings(deadline=None, max_examples=200)

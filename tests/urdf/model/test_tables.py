@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from types import SimpleNamespace
 
 import pytest
@@ -15,7 +15,7 @@ from support.skeletons import GRIPPER, skeleton
 from support.trees import SCALAR, robots
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.tables import Tables, has_tables, tables
+from urdfsync.urdf.model.tables import has_tables, tables
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Mimic, Robot
 
 TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: has_tables(robot.joints))
@@ -45,14 +45,6 @@ def entries(value: str) -> list[str]:
 
 def moving(of: KinematicTree) -> list[Joint]:
     return [joint for joint in of.joints if joint.type in MOTION_KINDS]
-
-
-def carried(found: Tables, body: int) -> Iterator[int]:
-    """The joints of a body, as the tables chain them."""
-    number = found.first_joints[body - 1]
-    while number <= len(found.joint_tree):
-        yield number
-        number = found.next_joints[number - 1]
 
 
 def test_the_text_of_a_gripper() -> None:
@@ -95,6 +87,13 @@ def test_a_robot_that_does_not_move_is_one_body() -> None:
     assert not {"movingJoints", "jointTree", "nextJoints", "jointAxes"} & text.keys()
 
 
+def iterate(number: int, following: Sequence[int]) -> Iterator[int]:
+    """A number, the one that follows it, and so on."""
+    while True:
+        yield number
+        number = following[number - 1]
+
+
 @few
 @given(TREES)
 def test_every_link_is_part_of_one_body_and_every_body_has_links(robot: Robot) -> None:
@@ -111,36 +110,12 @@ def test_every_link_is_part_of_one_body_and_every_body_has_links(robot: Robot) -
             assert bodies[joint.child] == number + 1
             turns = 1 if MOTION_KINDS[joint.type] == "rotational" else 2
             assert found.joint_tree[number - 1] == (bodies[joint.parent], turns)
-
-
-@few
-@given(TREES)
-def test_what_carries_a_joint_comes_before_what_it_moves(robot: Robot) -> None:
-    found = tables(KinematicTree.of(robot))
-    assert all(body <= number for number, (body, _) in enumerate(found.joint_tree, 1))
-    for body in range(1, len(found.joint_tree) + 2):
-        assert list(carried(found, body)) == [
-            n for n, (carrier, _) in enumerate(found.joint_tree, 1) if carrier == body
-        ]
-
-
-@few
-@given(TREES)
-def test_sums_over_bodies_are_sums_over_links(robot: Robot) -> None:
-    of = KinematicTree.of(robot)
-    found = tables(of)
-    mass = {link.name: 2.0**k for k, link in enumerate(of.links)}  # sums of these are exact, and no two are equal
-    bodies = [0.0] * (len(found.joint_tree) + 1)
-    for link, body in zip(of.links, found.link_bodies, strict=True):
-        bodies[body - 1] += mass[link.name]
-    for number, (carrier, _) in reversed(list(enumerate(found.joint_tree, 1))):
-        bodies[carrier - 1] += bodies[number]
-    children = of.children()
-
-    def behind(link: str) -> float:
-        return mass[link] + sum(behind(joint.child) for joint in children.get(link, ()))
-
-    assert bodies == [behind(of.links[0].name), *(behind(joint.child) for joint in moving(of))]
+            assert bodies[joint.parent] <= number, "what carries a joint comes before what it moves"
+    for body in set(found.link_bodies):
+        chain = itertools.takewhile(
+            lambda number: number <= len(numbers), iterate(found.first_joints[body - 1], found.next_joints)
+        )
+        assert list(chain) == [n for n, (carrier, _) in enumerate(found.joint_tree, 1) if carrier == body]
 
 
 @few

@@ -72,16 +72,6 @@ def test_differences_are_the_greatest_of_the_first_and_last_instant() -> None:
     assert mass.difference == 0.25
 
 
-def test_sizes_are_those_of_a_quantity_in_one_unit() -> None:
-    """A torque is not held against forces, and what drives an axis is not held against what holds the base."""
-    found = experiment(ARM).compare(zeros(experiment(ARM)))
-    sizes = {(one.quantity, one.unit): one.size for one in found}
-    kinds = {kind: max(one.value for one in found if (one.quantity, one.unit) == kind) for kind in sizes}
-    assert sizes == kinds
-    assert all(one.size == sizes[one.quantity, one.unit] for one in found)
-    assert len(set(sizes.values())) == len(sizes) == 10
-
-
 def test_a_heavy_base_hides_no_lost_damping() -> None:
     """The base is held by 50 kN: against that, or against its torque, the loss would be nothing."""
     heavy = ARM.replace(link("base", 4.0), link("base", 5000.0)).replace(dynamics(1, 1), dynamics(1e-7, 0))
