@@ -10,14 +10,12 @@ from typing import Any
 import pytest
 
 from urdfsync import cli
-from urdfsync.config import library_folder
 from urdfsync.state.lock import build_lock
 
 Capture = pytest.CaptureFixture[str]
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
 
 PACKAGE = "modelica/Ladder"
-ARM = library_folder() / "UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
 
 
 @pytest.fixture
@@ -26,18 +24,6 @@ def built(project: Path, capsys: Capture) -> Path:
     cli.main(["build"])
     capsys.readouterr()
     return project
-
-
-@pytest.fixture
-def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> Path:
-    """The package of the six-axis arm without its meshes, built; the working folder is the project's."""
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "arm.urdf").write_bytes(ARM.read_bytes())
-    robot = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n'
-    (tmp_path / "urdfsync.toml").write_text(robot)
-    assert cli.main(["build", "--quiet"]) == 0
-    capsys.readouterr()
-    return tmp_path / "modelica/Arm"
 
 
 def edit(path: Path, old: str, new: str) -> None:
