@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from support.networks import edit
 
 from urdfsync import cli
 from urdfsync.engine.rules import sides_hash
@@ -22,12 +23,6 @@ MODEL = f"{LADDER}/Ladder.mo"
 SIGNAL = f"{LADDER}/Resources/step.txt"
 MINE = '"Element R2, 1 %"'
 FRESH = '"Element R3"'
-
-
-def edit(path: str | Path, old: str, new: str) -> None:
-    text = Path(path).read_text()
-    assert old in text
-    Path(path).write_text(text.replace(old, new))
 
 
 def more(name: str) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from support.networks import edit
 
 from urdfsync import cli
 from urdfsync.state.lock import build_lock
@@ -24,12 +25,6 @@ def built(project: Path, capsys: Capture) -> Path:
     cli.main(["build"])
     capsys.readouterr()
     return project
-
-
-def edit(path: Path, old: str, new: str) -> None:
-    text = path.read_text()
-    assert text.count(old) == 1
-    path.write_text(text.replace(old, new))
 
 
 def shown(capsys: Capture, *arguments: str, code: int = 0) -> list[str]:

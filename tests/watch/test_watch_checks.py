@@ -13,6 +13,7 @@ from pathlib import Path
 import psutil
 import pytest
 from support.daemon import LIMIT, MODEL, RECORD, REPOSITORY, Daemons, Watch, until
+from support.networks import edit
 
 from urdfsync.check import run
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
@@ -67,17 +68,12 @@ def start(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Start]:
         daemon.stop()
 
 
-def edit(project: Path, old: str, new: str) -> None:
-    source = project / "ladder.json"
-    source.write_text(source.read_text().replace(old, new))
-
-
 def test_each_build_is_checked_once(project: Path, start: Start) -> None:
     compiler = Compiler()
     daemon = start(compiler)
     daemon.wait(events.CheckDone)
     since = len(daemon.events)
-    edit(project, "220.5", "330")
+    edit(project / "ladder.json", "220.5", "330")
     found = daemon.wait(events.CheckDone, since)
     assert (found.checked, found.seconds) == (Checked.RIGHT, 2.5)
     assert daemon.kinds(since) == ["Settling", "Building", "Built", "Checking", "CheckDone"]
@@ -102,7 +98,7 @@ def test_builds_go_on_while_a_package_is_checked_and_the_last_one_counts(project
     daemon = start(compiler)
     daemon.wait(events.Checking)
     since = len(daemon.events)
-    edit(project, "220.5", "330")
+    edit(project / "ladder.json", "220.5", "330")
     assert daemon.wait(events.Built, since).files
     daemon.wait(events.Checking, since)
     compiler.free.set()
@@ -133,7 +129,7 @@ def test_who_wants_no_checks_any_more_gets_none(project: Path, start: Start) -> 
     file.write_text(file.read_text().replace('"check"', '"nothing"'))
     daemon.wait(events.Started, since)
     daemon.wait(events.Built, since)
-    edit(project, "220.5", "330")
+    edit(project / "ladder.json", "220.5", "330")
     daemon.wait(events.Built, len(daemon.events))
     assert "CheckDone" not in daemon.kinds()
     assert len(compiler.saw) == 1
@@ -146,7 +142,7 @@ def test_a_package_that_was_right_is_not_checked_again_at_the_start(project: Pat
     daemon.stop()
     daemon = start(second)
     since = len(daemon.events)
-    edit(project, "220.5", "330")
+    edit(project / "ladder.json", "220.5", "330")
     daemon.wait(events.CheckDone, since)
     assert daemon.kinds()[:3] == ["Started", "Building", "Built"]
     assert daemon.kinds().count("Checking") == 1
@@ -252,7 +248,7 @@ def test_builds_go_on_beside_a_compiler_that_is_never_done_and_it_does_not_outli
 ) -> None:
     stuck.wait("checking")
     first, since = compilers(stuck), stuck.mark
-    edit(project, "220.5", "330")
+    edit(project / "ladder.json", "220.5", "330")
     stuck.wait("built", lambda event: bool(event["files"]), since)
     stuck.wait("checking", since=since)
     assert psutil.wait_procs(first, LIMIT)[1] == [], "what is checked now is the newer package"
