@@ -34,9 +34,7 @@ WAY = {"phi[1]": 0.8, "phi[2]": 0.7, "phi[3]": 0.2, "phi[6]": -0.6}
 """Where some axes of the arm are to be after the motion."""
 
 
-@pytest.mark.parametrize(
-    "link", ["wheel", *(pytest.param(name, marks=pytest.mark.slow) for name in ("sensor", "plate"))]
-)
+@pytest.mark.parametrize("link", ["wheel", "sensor", "plate"])
 def test_a_force_at_the_tool_frame_accelerates_the_robot_as_pinocchio_says(
     modelica_library: Path, tmp_path: Path, link: str
 ) -> None:
@@ -75,7 +73,6 @@ def example(library: Path, model: str, stop: float, values: list[str]) -> Series
     return series
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("model", ["ComputedTorque", "ComputedTorquePackage"])
 def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) -> None:
     """Gravity, inertia and friction of the arm are all met: the error is a thousandth of the way."""
@@ -88,7 +85,6 @@ def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) 
     assert np.ptp(series.values["controller.tau[2]"]) > 10, "it takes torque"
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("model", ["ToolPath", "ToolPathPackage"])
 def test_the_tool_follows_the_circle(modelica_library: Path, model: str) -> None:
     """The first part of it, nearly a radius to the side."""

@@ -43,10 +43,7 @@ end Axes_;
 """An axis of the gripper is edited by hand; its direction is as before, its length is not."""
 
 
-@pytest.mark.parametrize(
-    ("text", "form"),
-    [pytest.param(*case, id=name, marks=[pytest.mark.slow] * (name == "ladder")) for name, case in CASES.items()],
-)
+@pytest.mark.parametrize(("text", "form"), CASES.values(), ids=CASES)
 def test_functions_agree_with_pinocchio_in_random_configurations(
     modelica_library: Path, tmp_path: Path, text: str, form: Form
 ) -> None:

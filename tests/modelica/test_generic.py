@@ -300,7 +300,6 @@ TOOLS = {"six_axis_arm": "drive_pinion", "wheeled_robot": "camera_optical_frame"
 MOMENT = 0.2
 
 
-@pytest.mark.slow
 def test_a_study_redeclares_the_record(modelica_library: Path) -> None:
     """The same bench with three records: each robot drops as Pinocchio says that it does."""
     tasks = []

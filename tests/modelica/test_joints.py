@@ -199,18 +199,9 @@ def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> 
     return np.asarray(np.linalg.solve(b.T @ (upper + np.triu(upper, 1).T) @ b, -b.T @ load))
 
 
-CHOSEN = ("types", "gripper")
-"""All kinds of joints, and sliding and turning that follow each other; the others are released in the long run."""
-
-
-@pytest.mark.parametrize(
-    "names",
-    [CHOSEN, pytest.param([name for name in DRIVEN if name not in CHOSEN], marks=pytest.mark.slow)],
-    ids=["chosen", "others"],
-)
-def test_free_joints_accelerate_as_pinocchio_says(names: Sequence[str], modelica_library: Path, tmp_path: Path) -> None:
+def test_free_joints_accelerate_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
     """Without drives."""
-    released = {name: release_of_axes(name.capitalize(), DRIVEN[name]) for name in names}
+    released = {name: release_of_axes(name.capitalize(), urdf) for name, urdf in DRIVEN.items()}
     folders = [one.package.write(tmp_path) for one in released.values()]
     runs = modelica.simulate(modelica_library, folders, [one.task for one in released.values()])
     for (name, one), series in zip(released.items(), runs, strict=True):

@@ -239,8 +239,8 @@ def compilers(watch: Watch) -> list[psutil.Process]:
     [
         ([signal.SIGTERM], 0),
         ([signal.SIGKILL], -9),
-        pytest.param([signal.SIGINT], 130, marks=pytest.mark.slow),
-        pytest.param([signal.SIGINT, signal.SIGINT], 130, marks=pytest.mark.slow),
+        ([signal.SIGINT], 130),
+        ([signal.SIGINT, signal.SIGINT], 130),
     ],
 )
 def test_builds_go_on_beside_a_compiler_that_is_never_done_and_it_does_not_outlive_the_daemon(

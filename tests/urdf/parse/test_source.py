@@ -290,78 +290,73 @@ def test_what_looks_like_a_fault_in_a_comment_is_none() -> None:
 INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
 
 
-@pytest.mark.parametrize(
-    ("text", "code", "line"),
-    [
-        ('<robot name="r">\n</robot>', "no-link", 1),
-        ('<robot name="r">\n<link/></robot>', "missing-attribute", 2),
-        ('<robot name="r">\n<link name=" "/></robot>', "empty-attribute", 2),
-        (with_joint("", "fixed").replace(' type="fixed"', ""), "missing-attribute", 3),
-        (with_joint("", "fixed").replace('<parent link="a"/>', ""), "missing-element", 3),
-        (with_joint("", "fixed").replace('<child link="b"/>', "\n<child/>"), "missing-attribute", 4),
-        (with_joint("", "revolut"), "unknown-joint-type", 3),
-        (with_joint('<axis xyz="0 0"/>', "continuous"), "bad-number", 4),
-        (with_joint('<axis xyz="0 0 0"/>', "continuous"), "zero-axis", 4),
-        (with_joint('<limit lower="1" upper="-1" effort="1" velocity="1"/>'), "limit-order", 4),
-        (with_joint('<limit lower="" upper="1" effort="1" velocity="1"/>'), "empty-attribute", 4),
-        (with_joint('<mimic/>', "continuous"), "missing-attribute", 4),
-        (with_joint('<mimic joint="k"/>', "continuous"), "unknown-mimic", 4),
-        (with_joint('<mimic joint="j"/>', "continuous"), "mimic-cycle", 4),
-        (with_joint('<dynamics damping="1 2"/>', "continuous"), "bad-number", 4),
-        (with_joint('<origin xyz="nan 0 0"/>', "fixed"), "bad-number", 4),
-        (with_joint('<origin quat_xyzw="0 0 0 1"/>', "fixed"), "unsupported-attribute", 4),
-        (in_link(f'<inertial>\n<mass value="-1"/>{INERTIA}</inertial>'), "negative-mass", 4),
-        (in_visual('\n<geometry><cylinder length="1"/></geometry>'), "missing-attribute", 4),
-        (in_visual('\n<geometry><mesh/></geometry>'), "missing-attribute", 4),
-        (in_visual('\n<geometry><mesh filename="a.stl" scale="0.001"/></geometry>'), "bad-number", 4),
-    ],
-)  # fmt: skip
-def test_a_fault_of_the_model_is_one_error(text: str, code: str, line: int) -> None:
-    reading = read(text)
-    assert reading.robot is None
-    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [("error", code, line)]
-    assert all(d.hint for d in reading.diagnostics)
+FAULTS = [
+    ('<robot name="r">\n</robot>', "no-link", 1),
+    ('<robot name="r">\n<link/></robot>', "missing-attribute", 2),
+    ('<robot name="r">\n<link name=" "/></robot>', "empty-attribute", 2),
+    (with_joint("", "fixed").replace(' type="fixed"', ""), "missing-attribute", 3),
+    (with_joint("", "fixed").replace('<parent link="a"/>', ""), "missing-element", 3),
+    (with_joint("", "fixed").replace('<child link="b"/>', "\n<child/>"), "missing-attribute", 4),
+    (with_joint("", "revolut"), "unknown-joint-type", 3),
+    (with_joint('<axis xyz="0 0"/>', "continuous"), "bad-number", 4),
+    (with_joint('<axis xyz="0 0 0"/>', "continuous"), "zero-axis", 4),
+    (with_joint('<limit lower="1" upper="-1" effort="1" velocity="1"/>'), "limit-order", 4),
+    (with_joint('<limit lower="" upper="1" effort="1" velocity="1"/>'), "empty-attribute", 4),
+    (with_joint('<mimic/>', "continuous"), "missing-attribute", 4),
+    (with_joint('<mimic joint="k"/>', "continuous"), "unknown-mimic", 4),
+    (with_joint('<mimic joint="j"/>', "continuous"), "mimic-cycle", 4),
+    (with_joint('<dynamics damping="1 2"/>', "continuous"), "bad-number", 4),
+    (with_joint('<origin xyz="nan 0 0"/>', "fixed"), "bad-number", 4),
+    (with_joint('<origin quat_xyzw="0 0 0 1"/>', "fixed"), "unsupported-attribute", 4),
+    (in_link(f'<inertial>\n<mass value="-1"/>{INERTIA}</inertial>'), "negative-mass", 4),
+    (in_visual('\n<geometry><cylinder length="1"/></geometry>'), "missing-attribute", 4),
+    (in_visual('\n<geometry><mesh/></geometry>'), "missing-attribute", 4),
+    (in_visual('\n<geometry><mesh filename="a.stl" scale="0.001"/></geometry>'), "bad-number", 4),
+]  # fmt: skip
+ODDITIES = [
+    ('<robot>\n<link name="a"/></robot>', "missing-name", 1),
+    (in_link("<visual nme='v'><geometry><sphere radius='1'/></geometry></visual>"), "unknown-attribute", 3),
+    (with_joint(""), "missing-limit", 3),
+    (with_joint('<limit effort="1" velocity="1"/>'), "missing-limit-value", 4),
+    (with_joint('<limit velocity="1"/>', "continuous"), "missing-limit-value", 4),
+    (with_joint('<limit lower="0" upper="1" effort="1" velocity="-1"/>'), "negative-limit", 4),
+    (with_joint('<limit lower="0" upper="1" effort="1" velocity="1"/><axis xyz="0 0 2"/>'), "axis-not-unit", 4),
+    (with_joint('<limit lower="0" upper="1" effort="1" velcoity="1" velocity="1"/>\n<dynamics dampin="1"/>'),
+     "unknown-attribute", 5),
+    (with_joint("<dynamic/>", "continuous"), "unknown-element", 4),
+    (with_joint('<dynamics damping="-1"/>', "continuous"), "negative-dynamics", 4),
+    (with_joint('<dynamics friction="1"/>', "fixed"), "dynamics-without-effect", 4),
+    (with_joint('<safety_controller k_position="1"/>', "continuous"), "missing-gain", 4),
+    (with_joint('<origin/>\n<origin xyz="1 0 0"/>', "fixed"), "duplicate-element", 5),
+    (in_link(f"<inertial>{INERTIA}</inertial>"), "missing-mass", 3),
+    (in_link('<inertial><mass value="1"/></inertial>'), "missing-inertia", 3),
+    (in_link('<inertial><mass value="1"/>\n<inertia ixx="1" iyy="1" izz="1"/></inertial>'), "missing-inertia", 4),
+    (in_link("<visual/>"), "unknown-geometry", 3),
+    (in_visual("<geometry/>"), "unknown-geometry", 3),
+    (in_visual("<geometry><plane/></geometry>"), "unknown-geometry", 3),
+    (in_visual('<geometry><sphere radius="1"/><sphere radius="2"/></geometry>'), "duplicate-element", 3),
+    (in_visual('\n<geometry><sphere radius="-1"/></geometry>'), "shape-size", 4),
+    (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name="m"/>'), "unknown-material", 4),
+    (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color/></material>'), "bad-color", 4),
+    (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color rgba="1 1 1"/></material>'),
+     "bad-color", 4),
+    (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color rgba="255 0 0 1"/></material>'),
+     "color-range", 4),
+    ('<robot name="r">\n<xacro:arg name="b" xmlns:xacro="x"/>\n<link name="a"/></robot>', "xacro-leftover", 2),
+    ('<robot name="r">\n<link name="${n}a"/></robot>', "xacro-leftover", 2),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(
-    ("text", "code", "line"),
-    [
-        ('<robot>\n<link name="a"/></robot>', "missing-name", 1),
-        (in_link("<visual nme='v'><geometry><sphere radius='1'/></geometry></visual>"), "unknown-attribute", 3),
-        (with_joint(""), "missing-limit", 3),
-        (with_joint('<limit effort="1" velocity="1"/>'), "missing-limit-value", 4),
-        (with_joint('<limit velocity="1"/>', "continuous"), "missing-limit-value", 4),
-        (with_joint('<limit lower="0" upper="1" effort="1" velocity="-1"/>'), "negative-limit", 4),
-        (with_joint('<limit lower="0" upper="1" effort="1" velocity="1"/><axis xyz="0 0 2"/>'), "axis-not-unit", 4),
-        (with_joint('<limit lower="0" upper="1" effort="1" velcoity="1" velocity="1"/>\n<dynamics dampin="1"/>'),
-         "unknown-attribute", 5),
-        (with_joint("<dynamic/>", "continuous"), "unknown-element", 4),
-        (with_joint('<dynamics damping="-1"/>', "continuous"), "negative-dynamics", 4),
-        (with_joint('<dynamics friction="1"/>', "fixed"), "dynamics-without-effect", 4),
-        (with_joint('<safety_controller k_position="1"/>', "continuous"), "missing-gain", 4),
-        (with_joint('<origin/>\n<origin xyz="1 0 0"/>', "fixed"), "duplicate-element", 5),
-        (in_link(f"<inertial>{INERTIA}</inertial>"), "missing-mass", 3),
-        (in_link('<inertial><mass value="1"/></inertial>'), "missing-inertia", 3),
-        (in_link('<inertial><mass value="1"/>\n<inertia ixx="1" iyy="1" izz="1"/></inertial>'), "missing-inertia", 4),
-        (in_link("<visual/>"), "unknown-geometry", 3),
-        (in_visual("<geometry/>"), "unknown-geometry", 3),
-        (in_visual("<geometry><plane/></geometry>"), "unknown-geometry", 3),
-        (in_visual('<geometry><sphere radius="1"/><sphere radius="2"/></geometry>'), "duplicate-element", 3),
-        (in_visual('\n<geometry><sphere radius="-1"/></geometry>'), "shape-size", 4),
-        (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name="m"/>'), "unknown-material", 4),
-        (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color/></material>'), "bad-color", 4),
-        (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color rgba="1 1 1"/></material>'),
-         "bad-color", 4),
-        (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color rgba="255 0 0 1"/></material>'),
-         "color-range", 4),
-        ('<robot name="r">\n<xacro:arg name="b" xmlns:xacro="x"/>\n<link name="a"/></robot>', "xacro-leftover", 2),
-        ('<robot name="r">\n<link name="${n}a"/></robot>', "xacro-leftover", 2),
-    ],
-)  # fmt: skip
-def test_an_oddity_of_the_model_is_one_warning(text: str, code: str, line: int) -> None:
+    ("severity", "text", "code", "line"),
+    [*(("error", *fault) for fault in FAULTS), *(("warning", *oddity) for oddity in ODDITIES)],
+)
+def test_a_fault_of_the_model_is_one_error_and_an_oddity_one_warning(
+    severity: str, text: str, code: str, line: int
+) -> None:
     reading = read(text)
-    assert reading.robot is not None
-    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [("warning", code, line)]
+    assert (reading.robot is None) == (severity == "error")
+    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [(severity, code, line)]
     assert all(d.hint for d in reading.diagnostics)
 
 
