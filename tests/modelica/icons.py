@@ -1,4 +1,4 @@
-"""What annotations of the library's classes say of icons: graphics, and where connectors are placed.
+"""What annotations of the library's classes say of icons.
 
 Icons are inherited from classes of the library; those of the standard library are not looked up.
 """
@@ -114,41 +114,20 @@ def annotations_in(text: str) -> list[Call]:
 
 
 @dataclasses.dataclass(frozen=True)
-class Connector:
-    """A connector as it is placed: its kind (the last part of its type's name) and its corners."""
-
-    kind: str
-    corners: tuple[Point, Point]
-
-    @property
-    def middle(self) -> Point:
-        """The point at which connection lines end."""
-        (x1, y1), (x2, y2) = self.corners
-        return (x1 + x2) / 2, (y1 + y2) / 2
-
-
-@dataclasses.dataclass(frozen=True)
 class Icon:
-    """The graphics of a class, those of its base classes first, and its placed connectors."""
+    """The graphics of a class, those of its base classes first."""
 
     graphics: tuple[Call, ...] = ()
-    connectors: tuple[Connector, ...] = ()
     extent: tuple[Point, Point] = ((-100, -100), (100, 100))
     """Lower left and upper right corner of its coordinate system."""
 
 
-_CONNECTOR = re.compile(
-    r"^ *(?:\w+ )?(?:Modelica|UrdfSync)\.[\w.]*Interfaces\.(\w+)\s"  # its type
-    r"(?:[^;\"]|\"[^\"]*\")*?\s"  # its name and description
-    r"(annotation \((?:.|\n)*?\);)",
-    re.MULTILINE,
-)
 _EXTENDS = re.compile(r"^ *extends (UrdfSync\.[\w.]+)", re.MULTILINE)
 
 
-def source(name: str, library: Path = LIBRARY) -> str:
+def source(name: str) -> str:
     """Text of the class with the full name `name`, from its own file or the `package.mo` of its own folder."""
-    path = library.parent.joinpath(*name.split("."))
+    path = LIBRARY.parent.joinpath(*name.split("."))
     return (path / "package.mo" if path.is_dir() else path.with_suffix(".mo")).read_text("utf-8")
 
 
@@ -158,32 +137,20 @@ def bases(text: str) -> list[str]:
 
 
 @functools.cache
-def icon(name: str, library: Path = LIBRARY) -> Icon:
+def icon(name: str) -> Icon:
     """The icon of the class with the full name `name`."""
-    text = source(name, library)
-    inherited = [icon(base, library) for base in bases(text)]
+    text = source(name)
+    inherited = [icon(base) for base in bases(text)]
     own = [
         graphic for note in annotations_in(text) for graphic in note.get("Icon", Call("Icon", {})).get("graphics", [])
     ]
-    connectors = [_connector(kind, annotations_in(note)[0]) for kind, note in _CONNECTOR.findall(text)]
     notes = [note.get("Icon") for note in annotations_in(text) if note.get("Icon")]
     system = next((note.get("coordinateSystem") for note in notes), None)
     lower, upper = system.get("extent") if system else next((base.extent for base in inherited), Icon.extent)
     return Icon(
         (*(graphic for base in inherited for graphic in base.graphics), *own),
-        (*(mark for base in inherited for mark in base.connectors), *filter(None, connectors)),
         ((lower[0], lower[1]), (upper[0], upper[1])),
     )
-
-
-def _connector(kind: str, note: Call) -> Connector | None:
-    placement = note.get("Placement")
-    if placement is None:
-        return None
-    transformation = placement.get("iconTransformation") or placement.get("transformation")
-    first, second = ((float(x), float(y)) for x, y in transformation.get("extent"))
-    x, y = transformation.get("origin", [0.0, 0.0])
-    return Connector(kind, ((first[0] + x, first[1] + y), (second[0] + x, second[1] + y)))
 
 
 def corners(graphic: Call) -> list[Point]:
@@ -198,8 +165,8 @@ def corners(graphic: Call) -> list[Point]:
     return [(x0 + c * x - s * y, y0 + s * x + c * y) for x, y in points]
 
 
-def classes(library: Path = LIBRARY) -> list[str]:
+def classes() -> list[str]:
     """Full names of all classes of the library that have a file of their own, packages included."""
-    files = sorted(library.rglob("*.mo"))
+    files = sorted(LIBRARY.rglob("*.mo"))
     paths = [file.parent if file.name == "package.mo" else file.with_suffix("") for file in files]
-    return [".".join(path.relative_to(library.parent).parts) for path in paths]
+    return [".".join(path.relative_to(LIBRARY.parent).parts) for path in paths]

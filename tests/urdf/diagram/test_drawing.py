@@ -99,6 +99,15 @@ def test_dots_mark_where_a_net_branches(root: etree._Element, diagram: Diagram) 
     assert [dot[1] for dot in dots if dot[0] == "dot-translational"] == [axis]
 
 
+def test_all_text_is_ten_pixels_high_or_more_at_its_natural_size() -> None:
+    robot = chain(*(f"link_{'o' * length}" for length in range(0, 80, 8)))
+    root = etree.fromstring(draw(robot, TARGET, Options()))
+    width, height = map(float, root.get("viewBox", "").split()[2:])
+    scale = float(root.get("width", "")) / width
+    assert float(root.get("height", "")) == scale * height
+    assert min(scale * float(text.get("font-size", "")) for text in root.iter(f"{SVG}text")) >= 10
+
+
 def test_it_needs_nothing_from_elsewhere_and_the_order_of_elements_makes_no_difference() -> None:
     drawing = draw(GRIPPER, TARGET, Options())
     assert drawing == draw(Robot("r", GRIPPER.links[::-1], GRIPPER.joints[::-1]), TARGET, Options())
