@@ -66,22 +66,16 @@ def test_box_has_twelve_triangles_that_look_outwards() -> None:
 
 
 @pytest.mark.parametrize(
-    ("unit", "metres"),
+    ("asset", "metres"),
     [
         ('<unit name="inch" meter="0.0254"/>', 0.0254),
         ('<unit name="millimeter" meter="1e-3"/>', 0.001),
-        ('<unit name="meter" meter="1"/>', 1),
         ('<unit name="meter"/>', 1),
-        ("", 1),
+        *((f"<up_axis>{axis}_UP</up_axis>", 1) for axis in "XYZ"),
     ],
 )
-def test_unit_is_applied(unit: str, metres: float) -> None:
-    assert _bounds(_dae(asset=unit)) == [[0, 0, 0], [metres, 2 * metres, 3 * metres]]
-
-
-@pytest.mark.parametrize("axis", ["X_UP", "Y_UP", "Z_UP"])
-def test_up_axis_is_not_applied(axis: str) -> None:
-    assert _bounds(_dae(asset=f"<up_axis>{axis}</up_axis>")) == [[0, 0, 0], [1, 2, 3]]
+def test_the_unit_is_applied_and_the_up_axis_is_not(asset: str, metres: float) -> None:
+    assert _bounds(_dae(asset=asset)) == [[0, 0, 0], [metres, 2 * metres, 3 * metres]]
 
 
 def test_nodes_place_each_of_two_geometries() -> None:
