@@ -217,8 +217,8 @@ def test_imports_that_nobody_looked_for_are_not_compared() -> None:
     assert changes(Version({"books": {}}), Version({"books": {}}, {"x": import_("1")})).changes == ()
 
 
-def change(old: Any, new: Any, unit: str = "") -> Change:
-    return Change(("joint elbow", "origin", "xyz[2]"), ChangeKind.CHANGED, ChangeClass.PARAMETER, old, new, unit)
+def change(old: Any, new: Any) -> Change:
+    return Change(("joint elbow", "origin", "xyz[2]"), ChangeKind.CHANGED, ChangeClass.PARAMETER, old, new, "")
 
 
 @pytest.mark.parametrize(

@@ -113,12 +113,11 @@ def simulate(session: Any, text: str, seconds: float = 1.0) -> Any:
     return session.loads(text, model="Case").simulate((0, seconds), config=settings)
 
 
-def mesh_wheel(radius: float = 0.1, corners: int = 36, half_width: float = 0.02) -> str:
-    """The hull of a wheel that is a prism, with its axis along z of the mesh."""
-    angles = [2 * math.pi * k / corners for k in range(corners)]
-    rims = [(radius * math.cos(a), radius * math.sin(a), side) for side in (-half_width, half_width) for a in angles]
-    points = ", ".join(map(vector, rims))
-    return f"Points(parameters({ACROSS}), corners = {{{points}}})"
+def mesh_wheel() -> str:
+    """The hull of a wheel that is a prism of 36 corners, with its axis along z of the mesh."""
+    angles = [2 * math.pi * k / 36 for k in range(36)]
+    rims = [(0.1 * math.cos(a), 0.1 * math.sin(a), side) for side in (-0.02, 0.02) for a in angles]
+    return f"Points(parameters({ACROSS}), corners = {{{', '.join(map(vector, rims))}}})"
 
 
 # --- At rest -----------------------------------------------------------------------------------------------------

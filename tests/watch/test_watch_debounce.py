@@ -18,10 +18,10 @@ def touched(now: float = 0.0) -> Debouncer:
     return debouncer
 
 
-def settled(now: float = 0.0, sample: str = "a") -> Debouncer:
+def settled(now: float = 0.0) -> Debouncer:
     debouncer = touched(now)
-    debouncer.add_sample(sample, now + 0.3)
-    assert debouncer.add_sample(sample, now + 0.5) is Phase.SETTLED
+    debouncer.add_sample("a", now + 0.3)
+    assert debouncer.add_sample("a", now + 0.5) is Phase.SETTLED
     return debouncer
 
 

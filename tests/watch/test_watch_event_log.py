@@ -38,8 +38,8 @@ def failed(*diagnostics: Diagnostic, again: bool = False) -> events.Failed:
     return events.Failed(Result("arm", "Arm", Path("Arm"), Path(), diagnostics=diagnostics, failed=True), again)
 
 
-def action(kind: Kind, mine: str = "mine", generated: str = "generated") -> Action:
-    return Action(ELBOW, kind, Role.RECORD, "link elbow", "base", generated, mine=mine)
+def action(kind: Kind, generated: str = "generated") -> Action:
+    return Action(ELBOW, kind, Role.RECORD, "link elbow", "base", generated, mine="mine")
 
 
 STARTED = events.Started(Path("urdfsync.toml"), ("arm", "gripper"))

@@ -21,12 +21,12 @@ def names(project: Path, paths: frozenset[str]) -> set[str]:
     return {os.path.relpath(path, project) for path in paths}
 
 
-def bare(source: Path, package: Path, templates: Path | None = None, *outputs: Path) -> RobotPaths:
+def bare(source: Path, package: Path) -> RobotPaths:
     return RobotPaths(
         source=str(source),
         inputs=frozenset([str(source)]),
-        templates=str(templates) if templates else None,
-        outputs=frozenset(map(str, outputs)),
+        templates=None,
+        outputs=frozenset(),
         package=str(package),
     )
 

@@ -82,12 +82,12 @@ def test_links_joints_subtrees_and_whole_robots(names: Mapping[ElementKey, str])
     assert {change.kind for change in found.changes} == {ChangeKind.RENAMED}
 
 
-def legs(*names: str, x: float = 0.0, foot: Mapping[str, float] | None = None) -> Snapshot:
-    """A trunk with equal legs, unless they start at different places or their feet weigh differently."""
+def legs(*names: str, foot: Mapping[str, float] | None = None) -> Snapshot:
+    """A trunk with equal legs, unless their feet weigh differently."""
     elements: list[Link | Joint] = [link("trunk", 9)]
-    for number, name in enumerate(names):
+    for name in names:
         elements += [link(f"{name}_thigh", 2), link(f"{name}_foot", (foot or {}).get(name, 1.0))]
-        elements += [joint(f"{name}_hip", "trunk", f"{name}_thigh", x * number)]
+        elements += [joint(f"{name}_hip", "trunk", f"{name}_thigh")]
         elements += [joint(f"{name}_knee", f"{name}_thigh", f"{name}_foot")]
     return snapshot(*elements)
 

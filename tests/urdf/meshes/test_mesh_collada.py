@@ -31,11 +31,9 @@ def _box(x: float = 1, y: float = 2, z: float = 3, name: str = "box", extra: str
       </mesh></geometry>"""
 
 
-def _dae(
-    scene: str = PLACED, geometries: str = "", asset: str = "", libraries: str = "", version: str = "1.4.1"
-) -> bytes:
+def _dae(scene: str = PLACED, geometries: str = "", asset: str = "", libraries: str = "") -> bytes:
     return f"""<?xml version="1.0" encoding="utf-8"?>
-    <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="{version}">
+    <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
       <asset>{asset}</asset>{libraries}
       <library_geometries>{geometries or _box()}</library_geometries>
       <library_visual_scenes><visual_scene id="scene"><!-- a comment -->{scene}</visual_scene></library_visual_scenes>
