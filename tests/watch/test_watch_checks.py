@@ -68,6 +68,15 @@ def start(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Start]:
         daemon.stop()
 
 
+def held(start: Start) -> tuple[Compiler, Daemons]:
+    """A compiler that is never done until it is set free, and a daemon for which it works."""
+    compiler = Compiler()
+    compiler.free.clear()
+    daemon = start(compiler)
+    daemon.wait(events.Checking)
+    return compiler, daemon
+
+
 def test_each_build_is_checked_once(project: Path, start: Start) -> None:
     compiler = Compiler()
     daemon = start(compiler)
@@ -93,10 +102,7 @@ def test_an_edit_that_does_not_compile_is_told_and_so_is_its_end(project: Path, 
 
 
 def test_builds_go_on_while_a_package_is_checked_and_the_last_one_counts(project: Path, start: Start) -> None:
-    compiler = Compiler()
-    compiler.free.clear()
-    daemon = start(compiler)
-    daemon.wait(events.Checking)
+    compiler, daemon = held(start)
     since = len(daemon.events)
     edit(project / "ladder.json", "220.5", "330")
     assert daemon.wait(events.Built, since).files
@@ -108,10 +114,7 @@ def test_builds_go_on_while_a_package_is_checked_and_the_last_one_counts(project
 
 
 def test_a_source_that_can_not_be_built_leaves_the_check_of_the_last_build_alone(project: Path, start: Start) -> None:
-    compiler = Compiler()
-    compiler.free.clear()
-    daemon = start(compiler)
-    daemon.wait(events.Checking)
+    compiler, daemon = held(start)
     since = len(daemon.events)
     (project / "ladder.json").write_text("{")
     daemon.wait(events.Failed, since)
@@ -121,10 +124,7 @@ def test_a_source_that_can_not_be_built_leaves_the_check_of_the_last_build_alone
 
 
 def test_who_wants_no_checks_any_more_gets_none(project: Path, start: Start) -> None:
-    compiler = Compiler()
-    compiler.free.clear()
-    daemon = start(compiler)
-    daemon.wait(events.Checking)
+    compiler, daemon = held(start)
     since, file = len(daemon.events), project / "urdfsync.toml"
     file.write_text(file.read_text().replace('"check"', '"nothing"'))
     daemon.wait(events.Started, since)
@@ -161,10 +161,7 @@ def other(project: Path, start: Start) -> None:
 
 @pytest.mark.usefixtures("other")
 def test_one_package_is_checked_at_a_time_in_the_order_of_builds(project: Path, start: Start) -> None:
-    compiler = Compiler()
-    compiler.free.clear()
-    daemon = start(compiler)
-    daemon.wait(events.Checking)
+    compiler, daemon = held(start)
     until(lambda: daemon.kinds().count("Built") == 2 and bool(compiler.saw))
     time.sleep(0.2)
     assert len(compiler.saw) == 1
