@@ -29,12 +29,6 @@ def changed(*classes: ChangeClass, noise: bool = False) -> Changes:
     return Changes(tuple(Change(("link tip", "mass"), Happening.CHANGED, one, 1.0, new) for one in classes))
 
 
-def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:
-    conflict = Action("Arm/New.mo", Kind.CONFLICT, Role.MODEL, base="b", origin="Arm/Old.mo")
-    move = Action("Arm/Other.mo", Kind.MOVE, Role.MODEL, base="b", origin="Arm/Same.mo")
-    assert [file.path for file in status_of(conflict, move).files] == ["Arm/Old.mo", "Arm/Other.mo"]
-
-
 @pytest.mark.parametrize(
     ("kinds", "words"),
     [

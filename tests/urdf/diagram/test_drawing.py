@@ -88,17 +88,6 @@ def test_every_line_is_drawn_in_the_colour_of_its_kind(root: etree._Element, dia
     assert sorted(starts) == sorted(points[0] for _, points in diagram.lines.values())
 
 
-def test_dots_mark_where_a_net_branches(root: etree._Element, diagram: Diagram) -> None:
-    dots = {(dot.get("class"), int(dot.get("cx", "")), -int(dot.get("cy", ""))) for dot in root.iter(f"{SVG}circle")}
-    trunk = diagram.lines["palm.frame_a", "a_slide.frame_a"][1][1][0]
-    spines = [diagram.placements[joint].centre[1] for joint in ("a_slide", "b_follow", "c_mount")]
-    palm = diagram.placements["palm"].centre[1]
-    on_trunk = {dot for dot in dots if dot[1] == trunk}
-    assert on_trunk == {("dot-frame", trunk, y) for y in (spines[0], palm, spines[1])}, "the last branch is a bend"
-    axis = diagram.placements["a_slide"].centre[0]
-    assert [dot[1] for dot in dots if dot[0] == "dot-translational"] == [axis]
-
-
 def test_all_text_is_ten_pixels_high_or_more_at_its_natural_size() -> None:
     robot = chain(*(f"link_{'o' * length}" for length in range(0, 80, 8)))
     root = etree.fromstring(draw(robot, TARGET, Options()))

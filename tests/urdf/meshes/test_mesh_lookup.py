@@ -225,11 +225,3 @@ def test_each_mesh_is_a_dependency_once_with_its_first_line() -> None:
     ]
     assert [d.target for d in found] == [target(base), target(scaled), target(wheel)]
     assert found[0].candidates == candidates("base.dae", LOOKUP)
-
-
-def test_order_of_links_does_not_matter_and_lines_may_be_unknown() -> None:
-    base, wheel = Mesh("base.dae"), Mesh("wheel.stl")
-    robot = _robot((base, wheel), (wheel, base))
-    turned = Robot("r", robot.links[::-1])
-    assert dependencies(robot, LOOKUP, {}) == dependencies(turned, LOOKUP, {})
-    assert {d.line for d in dependencies(robot, LOOKUP, {})} == {0}

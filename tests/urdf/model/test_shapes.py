@@ -17,7 +17,7 @@ from support.trees import ORIGINS
 from urdfsync.domain import Import
 from urdfsync.urdf.kinematics.poses import pose
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.shapes import GREY, PINK, contacts, link_shapes, standing_height
+from urdfsync.urdf.model.shapes import GREY, contacts, link_shapes, standing_height
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,
@@ -69,22 +69,6 @@ def test_colours_are_integers_that_tools_take(
     link = Link("l", visuals=(Visual(Sphere(1), name='a "b"', material=material),))
     ((visual,), _) = link_shapes(link, {}, "Arm", Options())
     assert (visual["color"], visual["opacity"], visual["title"]) == (color, opacity, 'Visual 1: "a "b""')
-
-
-def test_shapes_keep_their_numbers_when_a_mesh_is_not_found() -> None:
-    visuals, collisions = shapes_of(Sphere(1), MESH, Sphere(2))
-    assert [(shape["component"], shape["y"]) for shape in visuals] == [("visual1", 30), ("visual3", 60)]
-    assert [(shape["component"], shape["y"]) for shape in collisions] == [("collision1", -30), ("collision3", -60)]
-    assert collisions[0]["color"] == PINK
-
-
-def test_a_mesh_has_a_modelica_uri_and_its_bounds_and_a_hull_only_to_stand_on() -> None:
-    (visual,), (collision,) = shapes_of(MESH, imports=imported(POINTS))
-    assert visual["uri"] == "modelica://Plant.Arm/Resources/a_12345678.stl"
-    assert visual["bounds"] == [[0, 0, -1], [1, 0.5, 0]]
-    assert collision["hull"] == ()
-    (visual,), (collision,) = shapes_of(MESH, imports=imported(POINTS), base="floating")
-    assert (visual["hull"], collision["hull"]) == ((), POINTS)
 
 
 @pytest.mark.parametrize(("base", "points", "names"), [
