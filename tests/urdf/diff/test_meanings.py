@@ -241,81 +241,86 @@ CASTERS = (
 WHEEL, MAST = (f'<transmission name="{name} drive"><joint name="{name}"/></transmission>' for name in ("wheel", "mast"))
 
 
-def of(elements: Sequence[str]) -> Version:
-    snapshot = read(urdfs.robot(*elements).encode()).snapshot
-    assert snapshot is not None
-    return Version(snapshot, {})
-
-
-def drives(old: Sequence[str], new: Sequence[str], options: Options = FIXED) -> dict[str, tuple[Any, Any, ChangeClass]]:
-    """The changes from one robot to another: old value and new one where a drive changed, and the class."""
-    found = compare(of(old), of(new), DOMAIN, options).changes
-    return {
-        str(c): (c.old, c.new, c.change_class) if c.path[-1] == "drive" else (None, None, c.change_class) for c in found
-    }
-
-
-TEXT = (None, None, UNMODELLED)
-PASSIVE, DRIVEN = ("driven", "passive", STRUCTURAL), ("passive", "driven", STRUCTURAL)
-
-
-def test_the_first_drive_makes_casters_passive() -> None:
-    found = drives(CASTERS, (*CASTERS, WHEEL))
-    assert found == {"joint caster / drive": PASSIVE, "robot / extensions": TEXT}
-
-
-def test_drives_of_joints_that_are_driven_anyway_are_not_modelled() -> None:
-    assert set(drives((*CASTERS, WHEEL), (*CASTERS, WHEEL, MAST)).values()) == {TEXT}
-    other = WHEEL.replace("</transmission>", "<actuator name='m'/></transmission>")
-    assert drives((*CASTERS, WHEEL), (*CASTERS, other)) == {"robot / transmission wheel drive": TEXT}
-
-
-@pytest.mark.parametrize("options", [Options(driven=("wheel",)), Options(approach=("record",))])
-def test_where_the_source_does_not_decide_drives_are_text(options: Options) -> None:
-    assert set(drives(CASTERS, (*CASTERS, WHEEL), options).values()) == {TEXT}
-
-
-def test_a_joint_that_can_not_be_driven_any_more_has_another_type_and_no_more_to_say() -> None:
-    fixed = [element.replace('"caster" type="continuous"', '"caster" type="fixed"') for element in CASTERS]
-    assert drives((*CASTERS, WHEEL), (*fixed, WHEEL)) == {"joint caster / type": (None, None, STRUCTURAL)}
-    following = [element.replace('"two"/>', '"two"/><mimic joint="wheel"/>') for element in CASTERS[5:6]]
-    mimics = (*CASTERS[:5], *following, *CASTERS[6:])
-    assert drives((*CASTERS, WHEEL), (*mimics, WHEEL)) == {"joint caster / mimic": (None, None, STRUCTURAL)}
-
-
-def test_a_rename_that_the_transmission_has_missed_is_one_still() -> None:
-    renamed = [element.replace('"wheel"', '"tyre"') for element in CASTERS]
-    assert drives((*CASTERS, WHEEL), (*renamed, WHEEL)) == {
-        "joint wheel": (None, None, STRUCTURAL),
-        "joint caster / drive": DRIVEN,
-    }
-
-
-# --- names and extensions -----------------------------------------------------------------------------------------
-
 PAIR = (
     '<link name="a"/><link name="b"/>',
     '<joint name="a" type="fixed"><parent link="a"/><child link="b"/></joint>',
 )
+EYE = '<link name="b"><sensor name="camera"/></link>'
 
 
-def between(old: Sequence[str], new: Sequence[str]) -> list[str]:
-    """The changes from one robot of these elements to another."""
-    return [f"{change}: {change.kind}" for change in compare(of(old), of(new), DOMAIN, FIXED).changes]
+def with_caster(old: str, new: str) -> tuple[str, ...]:
+    """The robot with the drive of its wheel, and another text about its caster."""
+    return (*CASTERS[:5], CASTERS[5].replace(old, new), *CASTERS[6:], WHEEL)
 
 
-def test_extensions_are_told_apart_by_what_they_are_about() -> None:
-    def tags(*links: str) -> list[str]:
-        return [f'<gazebo reference="{link}"><mu1>1</mu1></gazebo>' for link in links]
-
-    assert between((*PAIR, *tags("b")), (*PAIR, *tags("a", "b"))) == ["robot / gazebo a: added"]
-    assert between((*PAIR, "<gazebo><a/></gazebo>"), (*PAIR, "<gazebo><a/></gazebo>", "<gazebo><b/></gazebo>")) == [
-        "robot / gazebo (2): added"
-    ]
+def tags(*links: str) -> list[str]:
+    return [f'<gazebo reference="{link}"><mu1>1</mu1></gazebo>' for link in links]
 
 
-def test_extensions_of_a_renamed_element_go_with_it() -> None:
-    eye = '<link name="b"><sensor name="camera"/></link>'
-    old = ('<link name="a"/>', eye, PAIR[1])
-    new = (old[0], eye.replace('"b"', '"head"'), PAIR[1].replace('"b"', '"head"'))
-    assert between(old, new) == ["link b: renamed"]
+def said(old: Sequence[str], new: Sequence[str], options: Options = FIXED) -> set[str]:
+    """The changes from one robot to another: with both values where a drive changed."""
+    one, two = (read(urdfs.robot(*elements).encode()).snapshot for elements in (old, new))
+    assert one is not None
+    assert two is not None
+    found = compare(Version(one, {}), Version(two, {}), DOMAIN, options).changes
+    return {
+        f"{each}: {f'{each.old} → {each.new}' if each.path[-1] == 'drive' else each.kind}, {each.change_class}"
+        for each in found
+    }
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        pytest.param(
+            CASTERS, (*CASTERS, WHEEL),
+            {"joint caster / drive: driven → passive, structural", "robot / extensions: added, unmodelled"},
+            id="the first drive makes casters passive",
+        ),
+        pytest.param(
+            (*CASTERS, WHEEL), (*CASTERS, WHEEL, MAST), {"robot / transmission mast drive: added, unmodelled"},
+            id="a joint that is driven anyway",
+        ),
+        pytest.param(
+            (*CASTERS, WHEEL), (*CASTERS, WHEEL.replace("</trans", "<actuator name='m'/></trans")),
+            {"robot / transmission wheel drive: changed, unmodelled"},
+            id="another text about a drive",
+        ),
+        pytest.param(
+            (*CASTERS, WHEEL), with_caster("continuous", "fixed"), {"joint caster / type: changed, structural"},
+            id="a caster that is fixed has no drive to speak of",
+        ),
+        pytest.param(
+            (*CASTERS, WHEEL), with_caster('"two"/>', '"two"/><mimic joint="wheel"/>'),
+            {"joint caster / mimic: added, structural"},
+            id="nor has one that follows",
+        ),
+        pytest.param(
+            (*CASTERS, WHEEL), (*(element.replace('"wheel"', '"tyre"') for element in CASTERS), WHEEL),
+            {"joint wheel: renamed, structural", "joint caster / drive: passive → driven, structural"},
+            id="a rename that the transmission has missed",
+        ),
+        pytest.param(
+            (*PAIR, *tags("b")), (*PAIR, *tags("a", "b")), {"robot / gazebo a: added, unmodelled"},
+            id="extensions are told apart by what they are about",
+        ),
+        pytest.param(
+            (*PAIR, "<gazebo><a/></gazebo>"), (*PAIR, "<gazebo><a/></gazebo>", "<gazebo><b/></gazebo>"),
+            {"robot / gazebo (2): added, unmodelled"},
+            id="or by their number",
+        ),
+        pytest.param(
+            ('<link name="a"/>', EYE, PAIR[1]),
+            ('<link name="a"/>', EYE.replace('"b"', '"head"'), PAIR[1].replace('"b"', '"head"')),
+            {"link b: renamed, structural"},
+            id="and go with their element",
+        ),
+    ],
+)  # fmt: skip
+def test_drives_and_extensions(old: Sequence[str], new: Sequence[str], expected: set[str]) -> None:
+    assert said(old, new) == expected
+
+
+@pytest.mark.parametrize("options", [Options(driven=("wheel",)), Options(approach=("record",))])
+def test_where_the_source_does_not_decide_drives_are_text(options: Options) -> None:
+    assert said(CASTERS, (*CASTERS, WHEEL), options) == {"robot / extensions: added, unmodelled"}
