@@ -25,15 +25,6 @@ def settled(now: float = 0.0) -> Debouncer:
     return debouncer
 
 
-def test_quiet_and_two_equal_samples() -> None:
-    debouncer = touched(10.0)
-    assert debouncer.deadline == pytest.approx(10.3)
-    assert debouncer.add_sample("a", 10.3) is Phase.COMPARE
-    assert debouncer.deadline == pytest.approx(10.5)
-    assert debouncer.add_sample("a", 10.5) is Phase.SETTLED
-    assert debouncer.deadline is None
-
-
 def test_an_invalid_source_is_given_up_after_a_time() -> None:
     debouncer = settled(0.0)
     assert debouncer.wait_for_valid(0.5) is Phase.INVALID
@@ -55,13 +46,6 @@ def test_the_time_counts_from_the_first_invalid_sample() -> None:
     debouncer.add_sample("c", 31.3)
     assert debouncer.add_sample("c", 31.5) is Phase.SETTLED
     assert debouncer.wait_for_valid(31.5) is Phase.IDLE
-
-
-def test_times_of_zero() -> None:
-    debouncer = Debouncer(Times(settle=0, sample=0))
-    debouncer.touch(1.0)
-    assert debouncer.add_sample("a", 1.0) is Phase.SETTLED, "another sample would have to be alike at the same moment"
-    assert debouncer.deadline is None
 
 
 steps = st.lists(

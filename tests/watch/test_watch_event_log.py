@@ -55,82 +55,89 @@ def told(*found: events.Event, **options: Any) -> list[str]:
     return [f"{'! ' if line.error else ''}{line.text.plain.rstrip()}" for line in lines]
 
 
-def test_a_build_is_one_line_with_robots_in_a_column() -> None:
-    assert told(STARTED, UPDATED) == [
-        "14:03:12  watching 2 robots of urdfsync.toml",
-        "14:03:12  arm      link elbow: mass 1.2 → 1.35 kg (+12.5 %), 1 record written",
-    ]
-
-
-def test_what_goes_on_between_builds_is_for_those_who_ask() -> None:
-    busy = (
-        events.Settling("arm"),
-        events.Waiting("arm", "waiting for the exporter", (BROKEN,)),
-        events.Unchanged("arm"),
-        events.Building("arm"),
-        IN_STEP,
-        events.Ran("arm", 0),
-        events.Paused("pre-commit runs"),
-        events.Resumed(),
-    )
-    assert told(*busy) == []
-    assert told(*busy, verbose=True) == [
-        "14:03:12  arm  changed, settling",
-        "14:03:12  arm  waiting for the exporter",
-        "! arm.urdf:12:3: error: this is no XML; correct it [xml-syntax]",
-        "14:03:12  arm  as before",
-        "14:03:12  arm  building",
-        "14:03:12  arm  in step, 1 file",
-        "14:03:12  arm  command ended with 0",
-        "14:03:12  paused: pre-commit runs",
-        "14:03:12  building again",
-    ]
-
-
-def test_a_verbose_build_lists_changes_and_files() -> None:
-    assert told(UPDATED, verbose=True) == [
-        "14:03:12  arm  link elbow: mass 1.2 → 1.35 kg (+12.5 %), 1 record written",
-        "  link elbow / mass: 1.2 → 1.35 kg (+12.5 %)",
-        f"  update     {ELBOW}  link elbow: mass 1.2 → 1.35 kg (+12.5 %)",
-    ]
-
-
-def test_an_error_is_told_once_and_so_is_its_end() -> None:
-    lines = told(failed(BROKEN), failed(BROKEN, again=True), built(action(Kind.UNCHANGED), recovered=True), IN_STEP)
-    assert lines == [
-        "! 14:03:12  arm  1 error, nothing was changed",
-        "! arm.urdf:12:3: error: this is no XML; correct it [xml-syntax]",
-        "14:03:12  arm  in step again",
-    ]
-    recovered = built(action(Kind.UPDATE), changes=HEAVIER, recovered=True)
-    assert told(failed(BROKEN), recovered)[-1].endswith("1 record written, in step again")
-
-
 NO_CLASS = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", ELBOW, 4)
+NO_COMPILER = Diagnostic(Severity.WARNING, "no-compiler", "there is no compiler", hint="install it")
 CHECKED = events.CheckDone("arm", Checked.RIGHT, 2.54)
 WRONG = events.CheckDone("arm", Checked.WRONG, 2.54, (NO_CLASS,))
+MOVED = Diagnostic(Severity.WARNING, "odd", "this is odd", "arm.urdf", 8)
+OTHER = Diagnostic(Severity.WARNING, "odd", "this is odd, too", "arm.urdf", 9)
+BUSY = [
+    events.Settling("arm"),
+    events.Waiting("arm", "waiting for the exporter", (BROKEN,)),
+    events.Unchanged("arm"),
+    events.Building("arm"),
+    IN_STEP,
+    events.Ran("arm", 0),
+    events.Paused("pre-commit runs"),
+    events.Resumed(),
+    events.Checking("arm"),
+]
+NOISE = [STARTED, UPDATED, events.Noted((ODD,)), built(diagnostics=(ODD,)), events.Recovered("all is well")]
+FAILING = [failed(BROKEN), failed(BROKEN, again=True)]
+XML = "! arm.urdf:12:3: error: this is no XML; correct it [xml-syntax]"
+ERROR, WARNING = "! 14:03:12  arm  1 error, nothing was changed", "! arm.urdf:7: warning: this is odd [odd]"
+MASS = "14:03:12  arm  link elbow: mass 1.2 → 1.35 kg (+12.5 %), 1 record written"
+FOO = ["! 14:03:12  arm  checked: 1 error (2.5 s)", f"! {ELBOW}:4: error: there is no class `Foo` [compile]"]
+TOLD: dict[str, tuple[list[events.Event], dict[str, bool], list[str]]] = {
+    "a build is one line, with robots in a column": (
+        [STARTED, UPDATED], {},
+        ["14:03:12  watching 2 robots of urdfsync.toml", MASS.replace("arm  ", "arm      ")],
+    ),
+    "a verbose build lists changes and files": (
+        [UPDATED], {"verbose": True},
+        [MASS, "  link elbow / mass: 1.2 → 1.35 kg (+12.5 %)",
+         f"  update     {ELBOW}  link elbow: mass 1.2 → 1.35 kg (+12.5 %)"],
+    ),
+    "what goes on between builds is not told": (BUSY, {}, []),
+    "but to those who ask": (
+        BUSY, {"verbose": True},
+        ["14:03:12  arm  changed, settling", "14:03:12  arm  waiting for the exporter", XML,
+         "14:03:12  arm  as before", "14:03:12  arm  building", "14:03:12  arm  in step, 1 file",
+         "14:03:12  arm  command ended with 0", "14:03:12  paused: pre-commit runs", "14:03:12  building again",
+         "14:03:12  arm  checking"],
+    ),
+    "an error is told once, and so is its end": (
+        [*FAILING, built(action(Kind.UNCHANGED), recovered=True), IN_STEP], {},
+        [ERROR, XML, "14:03:12  arm  in step again"],
+    ),
+    "also if something is written then": (
+        [*FAILING, built(action(Kind.UPDATE), changes=HEAVIER, recovered=True)], {},
+        [ERROR, XML, f"{MASS}, in step again"],
+    ),
+    "a check is one line": ([events.Checking("arm"), CHECKED], {}, ["14:03:12  arm  checked: compiles (2.5 s)"]),
+    "what a check found is not said again": (
+        [WRONG, WRONG, CHECKED], {},
+        [*FOO, "! 14:03:12  arm  checked: 1 error as before", "14:03:12  arm  checked: compiles again (2.5 s)"],
+    ),
+    "quiet checks say what is new and wrong": ([CHECKED, WRONG, WRONG, CHECKED, WRONG], {"quiet": True}, [*FOO, *FOO]),
+    "what could not be checked is a warning": (
+        [events.CheckDone("arm", Checked.INCOMPLETE, 0.0, (NO_COMPILER,))], {},
+        ["14:03:12  arm  not checked completely", "! warning: there is no compiler; install it [no-compiler]"],
+    ),
+    "warnings are told when they are new": (
+        [built(diagnostics=(ODD,)), built(diagnostics=(MOVED,)), built(diagnostics=(MOVED, OTHER))], {},
+        [WARNING, "! arm.urdf:9: warning: this is odd, too [odd]"],
+    ),
+    "or come back": ([built(diagnostics=(ODD,)), built(), built(diagnostics=(ODD,))], {}, [WARNING, WARNING]),
+    "what concerns the daemon": (
+        [events.Noted((ODD, BROKEN)), events.Recovered("all folders are watched again"), events.Stopping("SIGINT")], {},
+        ["! 14:03:12  arm.urdf:7: warning: this is odd [odd]", XML.replace("! ", "! 14:03:12  "),
+         "14:03:12  all folders are watched again", "14:03:12  stopped by SIGINT"],
+    ),
+    "another configuration": (
+        [events.Started(Path("urdfsync.toml"), ("arm",), again=True)], {},
+        ["14:03:12  configuration read again, watching 1 robot of urdfsync.toml"],
+    ),
+    "quiet leaves errors alone": (
+        [*NOISE, built(recovered=True), events.Stopping("SIGTERM"), failed(ODD, BROKEN)], {"quiet": True},
+        [ERROR.replace("arm  ", "arm      "), XML],
+    ),
+}  # fmt: skip
 
 
-def test_a_check_is_one_line_and_what_holds_is_not_said_again() -> None:
-    wrong = [f"! {ELBOW}:4: error: there is no class `Foo` [compile]"]
-    assert told(events.Checking("arm"), CHECKED) == ["14:03:12  arm  checked: compiles (2.5 s)"]
-    assert told(WRONG, WRONG, CHECKED) == [
-        "! 14:03:12  arm  checked: 1 error (2.5 s)",
-        *wrong,
-        "! 14:03:12  arm  checked: 1 error as before",
-        "14:03:12  arm  checked: compiles again (2.5 s)",
-    ]
-    assert told(CHECKED, WRONG, CHECKED, WRONG, quiet=True) == ["! 14:03:12  arm  checked: 1 error (2.5 s)", *wrong] * 2
-    assert told(WRONG, WRONG, quiet=True)[2:] == []
-    assert told(events.Checking("arm"), verbose=True) == ["14:03:12  arm  checking"]
-
-
-def test_what_could_not_be_checked_is_a_warning() -> None:
-    lacking = Diagnostic(Severity.WARNING, "no-compiler", "there is no compiler", hint="install it")
-    assert told(events.CheckDone("arm", Checked.INCOMPLETE, 0.0, (lacking,))) == [
-        "14:03:12  arm  not checked completely",
-        "! warning: there is no compiler; install it [no-compiler]",
-    ]
+@pytest.mark.parametrize(("found", "options", "lines"), TOLD.values(), ids=TOLD)
+def test_what_is_told(found: list[events.Event], options: dict[str, bool], lines: list[str]) -> None:
+    assert told(*found, **options) == lines
 
 
 def test_conflicts_are_shown_as_in_build_and_only_once() -> None:
@@ -164,18 +171,6 @@ def test_files_that_are_kept_are_listed_once() -> None:
     assert told(left, left) == first
 
 
-def test_warnings_are_told_when_they_are_new() -> None:
-    moved = Diagnostic(Severity.WARNING, "odd", "this is odd", "arm.urdf", 8)
-    other = Diagnostic(Severity.WARNING, "odd", "this is odd, too", "arm.urdf", 9)
-    assert told(built(diagnostics=(ODD,)), built(diagnostics=(moved,)), built(diagnostics=(moved, other))) == [
-        "! arm.urdf:7: warning: this is odd [odd]",
-        "! arm.urdf:9: warning: this is odd, too [odd]",
-    ]
-    assert told(built(), built(diagnostics=(ODD,)), built(), built(diagnostics=(ODD,))) == 2 * [
-        "! arm.urdf:7: warning: this is odd [odd]"
-    ]
-
-
 def test_builds_with_nothing_to_do_have_warnings_of_their_own() -> None:
     summary = Diagnostic(Severity.NOTE, "left-out", "1 mesh left out", "arm.urdf")
     idle, busy = built(diagnostics=(summary,)), built(action(Kind.UPDATE), diagnostics=(ODD,))
@@ -186,25 +181,7 @@ def test_builds_with_nothing_to_do_have_warnings_of_their_own() -> None:
     ]
 
 
-def test_what_concerns_the_daemon() -> None:
-    noted = events.Noted((ODD, BROKEN))
-    assert told(noted, events.Recovered("all folders are watched again"), events.Stopping("SIGINT")) == [
-        "! 14:03:12  arm.urdf:7: warning: this is odd [odd]",
-        "! 14:03:12  arm.urdf:12:3: error: this is no XML; correct it [xml-syntax]",
-        "14:03:12  all folders are watched again",
-        "14:03:12  stopped by SIGINT",
-    ]
-    again = events.Started(Path("urdfsync.toml"), ("arm",), again=True)
-    assert told(again) == ["14:03:12  configuration read again, watching 1 robot of urdfsync.toml"]
-
-
-def test_quiet_leaves_errors_and_conflicts() -> None:
-    noise = (STARTED, UPDATED, events.Noted((ODD,)), built(diagnostics=(ODD,)), events.Recovered("all is well"))
-    assert told(*noise, built(recovered=True), events.Stopping("SIGTERM"), quiet=True) == []
-    assert told(failed(ODD, BROKEN), quiet=True) == [
-        "! 14:03:12  arm  1 error, nothing was changed",
-        "! arm.urdf:12:3: error: this is no XML; correct it [xml-syntax]",
-    ]
+def test_quiet_leaves_conflicts_in_brief() -> None:
     lines = told(CONFLICT, CONFLICT, quiet=True)
     assert lines[:2] == [
         "14:03:12  arm  1 conflict",
@@ -220,7 +197,7 @@ def test_nothing_in_a_message_can_move_the_cursor() -> None:
 
 # A build in one line
 
-MASS = ("link elbow", "inertial", "mass")
+INERTIAL_MASS = ("link elbow", "inertial", "mass")
 
 
 def change(path: tuple[str, ...], old: Any, new: Any, unit: str = "", kind: Event = Event.CHANGED) -> Change:
@@ -239,7 +216,7 @@ def said(changes: list[Change] | Changes | None, *actions: Action, known: bool =
 
 
 WRITTEN = file(Kind.UPDATE)
-ELBOW_MASS = change(MASS, 1.2, 1.35, "kg")
+ELBOW_MASS = change(INERTIAL_MASS, 1.2, 1.35, "kg")
 EFFORT = change(("joint elbow", "limit", "effort"), 54, 60, "N·m")
 VISUAL = change(("link elbow", "visual 1", "origin", "xyz[2]"), 0.0, 0.1, "m")
 ORIGIN = change(("joint hold", "origin", "xyz[2]"), 0.0, 0.1, "m")
@@ -271,7 +248,7 @@ WAITS = [file(Kind.CONFLICT), file(Kind.UPDATE, "Base", held=True)]
         ([change(("joint a", "mimic", "joint"), "b", "c")], [], "joint a: mimic joint b → c, nothing to write"),
         # two rows find room, more are counted
         (
-            [change(MASS, 1, 2, "kg"), EFFORT],
+            [change(INERTIAL_MASS, 1, 2, "kg"), EFFORT],
             [WRITTEN],
             "link elbow: mass 1 → 2 kg (+100 %); joint elbow: effort 54 → 60 N·m (+11.1 %), 1 record written",
         ),
@@ -298,7 +275,7 @@ WAITS = [file(Kind.CONFLICT), file(Kind.UPDATE, "Base", held=True)]
         (None, KEPT, ""),
         (FOREIGN, KEPT, "link a: gazebo added (not modelled), nothing to write"),
         (
-            Changes((change(MASS, 1, 2),), generator=True),
+            Changes((change(INERTIAL_MASS, 1, 2),), generator=True),
             [file(Kind.UPDATE, role=Role.MODEL)],
             "a template, an option or urdfsync itself changed, 1 model written",
         ),

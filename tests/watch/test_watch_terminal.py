@@ -32,14 +32,6 @@ def write(found: StatusArea, lines: list[str], status: list[str] | None = None) 
     found.write([Text(line) for line in lines], None if status is None else [Text(line) for line in status])
 
 
-def test_each_change_is_written_at_once() -> None:
-    screen = Screen()
-    found = area(screen)
-    write(found, ["one", "two"], ["status"])
-    write(found, ["three", "four"], ["another"])
-    assert screen.writes == 2
-
-
 def test_the_cursor_stays_visible_and_what_the_terminal_echoes_goes() -> None:
     screen = Screen()
     found = area(screen)

@@ -62,12 +62,6 @@ def test_elements_connectors_masses_and_ratios_can_be_read(root: etree._Element)
     assert "planar or floating joint" not in found, "the legend has the kinds that are there"
 
 
-def test_the_robots_class_decides_about_names_as_in_the_model() -> None:
-    robot = Robot("r", (Link("Arm"),), ())
-    assert "arm_link" in texts(etree.fromstring(draw(robot, TARGET, Options())))
-    assert "arm" in texts(etree.fromstring(draw(robot, Target("Plant.Machine", "Machine"), Options())))
-
-
 def test_components_stand_where_the_layout_puts_them_with_y_downwards(root: etree._Element, diagram: Diagram) -> None:
     moves = {element.get("transform") for element in root.iter(f"{SVG}g")}
     for name in ("palm", "left", "camera", "a_slide", "b_follow", "c_mount", "b_followMimic"):
