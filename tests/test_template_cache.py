@@ -12,7 +12,7 @@ import pytest
 
 from urdfsync import template_cache
 from urdfsync.check.cache import UserCache
-from urdfsync.render import Renderer, _Environment
+from urdfsync.render import Renderer, _Sandbox
 
 needs_owners = pytest.mark.skipif(not hasattr(os, "getuid"), reason="needs owners and modes of files")
 
@@ -151,7 +151,7 @@ def test_folders_and_files_are_made_for_this_user_alone(home: Path, templates: P
 
 
 def test_code_for_another_sandbox_is_not_run(home: Path, templates: Path, compiled: list[str]) -> None:
-    class Unsafe(_Environment):
+    class Unsafe(_Sandbox):
         sandboxed = False
 
     (templates / "t.jinja").write_text("<< x.__class__.__name__ >>")

@@ -8,9 +8,7 @@ import importlib
 import os
 import signal
 import sys
-import tempfile
 import threading
-import traceback
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import FrameType
@@ -26,7 +24,7 @@ _COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "re
 """In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
 
 
-_GARBAGE_THRESHOLD = 100_000
+_GARBAGE_THRESHOLD = 1_000_000
 """New objects after which Python looks for cycles; its own 700 cost the daemon a quarter of a changed mass."""
 
 
@@ -98,6 +96,9 @@ def unforeseen(error: Exception, *, show: bool = False) -> Diagnostic:
 
     Its traceback goes to a file in the folder for temporary files, or to the error stream if `show` asks for it.
     """
+    import tempfile
+    import traceback
+
     if isinstance(error, MemoryError):
         message = "there is not enough memory"
     else:

@@ -55,7 +55,10 @@ class Artifact(msgspec.Struct, frozen=True):
 
 
 class Templates(NamedTuple):
-    """Folders that templates are taken from, best first, and the hash of all that is in them."""
+    """Folders that templates are taken from, best first, and the hash of all that is in them.
+
+    The last folder is the domain's own; one before it is the user's.
+    """
 
     folders: tuple[Path, ...]
     digest: str

@@ -14,7 +14,6 @@ from pathlib import Path
 
 import jinja2
 import platformdirs
-from jinja2.sandbox import SandboxedEnvironment
 
 from urdfsync.modelica import literals
 
@@ -41,7 +40,7 @@ class TemplateCache(jinja2.FileSystemBytecodeCache):
             super().dump_bytecode(bucket)
 
 
-def find_cache(environment: type[SandboxedEnvironment]) -> TemplateCache | None:
+def find_cache(environment: type[jinja2.Environment]) -> TemplateCache | None:
     """Find the cache for templates of such an environment, and make its folder.
 
     None if somebody else may write to the folder or replace it, so that all templates are compiled each time.
@@ -73,12 +72,12 @@ def _is_safe_above(status: os.stat_result) -> bool:
     return status.st_uid in (os.getuid(), 0) and (not status.st_mode & 0o022 or bool(status.st_mode & stat.S_ISVTX))
 
 
-def _fingerprint(environment: type[SandboxedEnvironment]) -> str:
+def _fingerprint(environment: type[jinja2.Environment]) -> str:
     """A hash of all that decides what a template is compiled to, beside its text and the version of Python.
 
     Calls, loops and operators are compiled for one kind of sandbox, and filters are applied to constants then.
     """
-    kind = environment.sandboxed, environment.__qualname__, sorted(environment.intercepted_binops)
+    kind = environment.sandboxed, environment.__qualname__, sorted(getattr(environment, "intercepted_binops", ()))
     files = [Path(file) for file in (jinja2.__file__, literals.__file__, __file__)]
     files.append(files[-1].with_name("render.py"))
     stats = [(str(file), file.stat().st_size, file.stat().st_mtime_ns) for file in files]

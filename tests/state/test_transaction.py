@@ -7,6 +7,7 @@ import os
 import sys
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from urdfsync.diagnostics import OutputError, StateError
@@ -51,7 +52,7 @@ OVERTAKEN = {"renewed.mo": b"new", "b/c/made.mo": b"made", "state/robots": b""}
 
 def test_all_is_done(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
     (tmp_path / "renewed.mo").chmod(0o640)
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).overtaken == ()
+    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == ()
     assert contents(tmp_path) == DONE
     assert (tmp_path / "renewed.mo").stat().st_mode & 0o777 == 0o640
     assert not transactions.pending()
@@ -79,15 +80,33 @@ def test_a_file_that_is_not_as_planned_stays(
     mine = changes[number].path
     mine.parent.mkdir(parents=True, exist_ok=True)
     mine.write_bytes(b"mine")
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).overtaken == (mine,)
-    after = OVERTAKEN if number < 3 else DONE
+    applied = transactions.apply("arm", changes, [tmp_path / "a"])
+    assert applied.not_done[0] == mine
+    after = DONE if number == 3 else OVERTAKEN
     assert contents(tmp_path) == {**after, mine.relative_to(tmp_path).as_posix(): b"mine"}
+
+
+@pytest.mark.parametrize("number", [0, 2], ids=["a file is there", "a free name"])
+def test_a_moved_text_that_finds_its_place_taken_is_kept(
+    tmp_path: Path, transactions: Transactions, changes: list[Change], number: int
+) -> None:
+    changes[number] = msgspec.structs.replace(changes[number], content=b"moved", is_moved=True)
+    place = changes[number].path
+    place.parent.mkdir(parents=True, exist_ok=True)
+    place.write_bytes(b"mine")
+    (said,) = transactions.apply("arm", changes).diagnostics
+    assert (place.read_bytes(), place.with_name(f"{place.name}.saved").read_bytes()) == (b"mine", b"moved")
+    assert said.code == "kept-save"
+    assert f"{place.name}.saved" in said.message
 
 
 def test_a_folder_in_the_way_stays(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
     (tmp_path / "renewed.mo").unlink()
     (tmp_path / "renewed.mo").mkdir()
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).overtaken == (tmp_path / "renewed.mo",)
+    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == (
+        tmp_path / "renewed.mo",
+        tmp_path / "state/robots/arm.json",
+    )
     assert contents(tmp_path) == {**OVERTAKEN, "renewed.mo": b""}
 
 
@@ -96,7 +115,7 @@ def test_a_new_file_that_somebody_has_made_just_so_is_no_hindrance(
 ) -> None:
     (tmp_path / "b/c").mkdir(parents=True)
     (tmp_path / "b/c/made.mo").write_bytes(b"made")
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).overtaken == ()
+    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == ()
     assert contents(tmp_path) == DONE
 
 

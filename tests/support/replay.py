@@ -18,7 +18,7 @@ from unittest import mock
 
 from support import corpus
 from support.packages import proposed_base, read
-from urdfsync import config, render
+from urdfsync import config
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
@@ -59,12 +59,8 @@ def base_of(versions: Sequence[bytes]) -> str:
 
 @contextlib.contextmanager
 def in_haste() -> Iterator[None]:
-    """Builds share their compiled templates, and leave it to the system when the disk gets to know."""
-    compiled = functools.cache(render.Renderer)
-    with (
-        mock.patch.object(render, "Renderer", lambda folders: compiled(tuple(folders))),
-        mock.patch.object(file_operations, "sync"),
-    ):
+    """Builds leave it to the system when the disk gets to know."""
+    with mock.patch.object(file_operations, "sync"):
         yield
 
 

@@ -22,7 +22,7 @@ from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.plan import plan_robot
-from urdfsync.engine.stage import Plan
+from urdfsync.engine.stage import Plan, partly_done
 from urdfsync.outcome import Result
 from urdfsync.state.lock import Lock, LockedError, build_lock
 from urdfsync.state.store import Store
@@ -108,8 +108,8 @@ class _Builder:
                     self._lock.acquire(waiting=self._wait)
                 if not self._is_current(plan):
                     continue
-                if overtaken := self._write(robot, plan):
-                    saved, first = overtaken[0], _joined(first, plan) if first else plan
+                if not_done := self._write(robot, plan):
+                    saved, first = not_done[0], _joined(first, plan) if first else plan
                     continue
             return _joined(first, plan) if first else plan
         message = "it changes all the time while urdfsync builds"
@@ -117,7 +117,7 @@ class _Builder:
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
 
     def _write(self, robot: RobotConfig, plan: Plan) -> tuple[Path, ...]:
-        """Carry out a plan. Returns the files that somebody saved in between."""
+        """Carry out a plan. Returns the files that are not as planned, since somebody saved one in between."""
         files, store = PackageFiles(self._config, robot), Store(self._config.root, shown)
         shared = [change for file in plan.shared if (change := file.change(files)) is not None]
         changes = [*shared, *store.ignoring(), *plan.writes]
@@ -129,11 +129,14 @@ class _Builder:
             return ()
         applied = self._transactions.apply(robot.name, changes, plan.emptied)
         self.notes += applied.diagnostics
-        if plan.mentioned is not None and not applied.overtaken:
+        if applied.not_done:
+            if renewed := partly_done(plan, robot.name, applied.not_done, store, files):
+                self._transactions.apply(robot.name, renewed)
+        elif plan.mentioned is not None:
             bases.prune(plan.mentioned)
             if plan.former_name:
                 store.bases(plan.former_name).prune(())
-        return applied.overtaken
+        return applied.not_done
 
     @profiling.stage("looking")
     def _is_current(self, plan: Plan) -> bool:
@@ -178,6 +181,6 @@ def _joined(first: Plan, second: Plan) -> Plan:
         second,
         actions=Actions([*actions, *deleted]),
         diagnostics=tuple(dict.fromkeys((*first.diagnostics, *second.diagnostics))),
-        changes=first.changes or second.changes,
+        changes=second.changes or first.changes,
         writes=(*first.writes, *second.writes),
     )

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import PurePosixPath
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
 from urdfsync.engine.actions import CONFLICTS, Action, Kind
-from urdfsync.merge import Merge, merge
 from urdfsync.state.record import Choice
+
+if TYPE_CHECKING:
+    from urdfsync.merge import Merge
 
 
 class Conflict(msgspec.Struct, frozen=True):
@@ -62,6 +64,8 @@ def conflict_files(conflict: Conflict, folder: str) -> ConflictFiles:
 
 def find_conflict(action: Action, base: str | None, mine: str, generated: str) -> Conflict:
     """Merge the texts of a file; a merge that is no sound Modelica is rejected."""
+    from urdfsync.merge import merge
+
     merged = None if base is None else merge(base, mine, generated, is_modelica=action.path.endswith(".mo"))
     rejected = f"the merge {merged.flaw}" if merged and merged.flaw else ""
     return Conflict(action.path, action.owner, base, mine, generated, merged, action.origin, rejected)

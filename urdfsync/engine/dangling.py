@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 from urdfsync.config import library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Role, Target
+from urdfsync.domain import Target
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import NO_MODEL
@@ -30,7 +30,6 @@ _EDITED = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
 _STAYING = frozenset({Kind.NEEDED, Kind.ORPHAN})
 """What happens to files that stay although they are no longer generated."""
 _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
-_TEXTS = (Role.MODEL, Role.RECORD, Role.PACKAGE)
 
 
 class DanglingNames:
@@ -41,25 +40,10 @@ class DanglingNames:
         self._package = generation.inputs.robot.target.package
 
     @functools.cached_property
-    def _changed(self) -> dict[str, str]:
-        """Hashes of the last texts of files that get another text or none, by path; of records, only those that go."""
-        generation, found = self._generation, {}
-        recorded, now = generation.inputs.recorded, generation.package.artifacts
-        if recorded is None or generation.inputs.recovered is not None:
-            return {}
-        for key, record in recorded.files.items():
-            path = generation.inputs.old_path(key)
-            may_differ = path in generation.changed or record.state in (RecordState.WAITING, RecordState.CONFLICT)
-            stays = path in now and (record.role is Role.RECORD or not may_differ)
-            if not stays and record.role in _TEXTS and record.state is not RecordState.ORPHAN and record.base:
-                found[path] = record.base
-        return found
-
-    @functools.cached_property
     def lost(self) -> dict[str, str]:
         """The names that the package loses, with their new names."""
         generation, inputs, recorded = self._generation, self._generation.inputs, self._generation.inputs.recorded
-        before = {path: generation.base(inputs.old_key(path), one) or "" for path, one in self._changed.items()}
+        before = {path: generation.base(inputs.old_key(path), one) or "" for path, one in generation.rewritten.items()}
         if recorded is None or not before:
             return {}
         states = {inputs.old_path(key): record.state for key, record in recorded.files.items()}
@@ -115,7 +99,7 @@ class DanglingNames:
         `written` are texts that files are about to get.
         """
         inputs, files, recorded = self._generation.inputs, self._files, self._generation.inputs.recorded
-        if recorded is None or not self._changed:
+        if recorded is None:
             return []
         known = {action.path: action for action in actions}
         edited = {path for path, action in known.items() if action.kind in _EDITED and not action.held}
@@ -123,7 +107,7 @@ class DanglingNames:
         mine = {key: written.get(key) or files.any_text(key) for key in sorted(edited | own)}
         around = files.users_files({inputs.folder, recorded.folder})
         target, options = Target(recorded.package, recorded.class_), inputs.robot.options
-        gone = sorted(self._changed.keys() - self._generation.package.artifacts.keys())
+        gone = sorted(self._generation.rewritten.keys() - self._generation.package.artifacts.keys())
         left_out = {path: option for path in gone if (option := inputs.domain.option_for(path, target, options))}
         found = []
         for path, option in left_out.items():

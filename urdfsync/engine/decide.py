@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -13,7 +14,6 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, USERS, Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
-from urdfsync.engine.dangling import DanglingNames, code_words
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import encode
@@ -23,6 +23,9 @@ from urdfsync.files import text_digest
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.state.manifest import Manifest
 from urdfsync.state.record import FileRecord
+
+if TYPE_CHECKING:
+    from urdfsync.engine.dangling import DanglingNames
 
 _GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
 """Actions on files that are not generated any more."""
@@ -144,6 +147,8 @@ def _mentioned_records(
     leaving = [a.path for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in moved]
     if not leaving:
         return frozenset()
+    from urdfsync.engine.dangling import code_words
+
     edited = [action.path for action in actions if action.kind in USERS]
     own = files.classes(inputs.folder) - {action.path for action in actions}
     texts = [merged.get(key) or files.any_text(key) for key in (*edited, *sorted(own))]

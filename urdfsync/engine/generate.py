@@ -78,7 +78,7 @@ def _renderer(templates: Templates) -> Renderer:
     with profiling.stage("imports"):  # Jinja takes 10 ms to import: most builds have nothing to render
         from urdfsync.render import Renderer
 
-    return Renderer(templates.folders)
+    return Renderer(templates.folders, is_trusted=len(templates.folders) == 1)
 
 
 def check_paths(paths: Sequence[str]) -> None:

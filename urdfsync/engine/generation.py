@@ -111,6 +111,22 @@ class Generation:
         return orders
 
     @cached_property
+    def rewritten(self) -> dict[str, str]:
+        """Hashes of the last texts of files that get another text or none, by path; of records, only those that go."""
+        found: dict[str, str] = {}
+        recorded, now = self.inputs.recorded, self.package.artifacts
+        if recorded is None or self.inputs.recovered is not None:
+            return found
+        for key, record in recorded.files.items():
+            path = self.inputs.old_path(key)
+            may_differ = path in self.changed or record.state in (RecordState.WAITING, RecordState.CONFLICT)
+            stays = path in now and (record.role is Role.RECORD or not may_differ)
+            is_text = record.role in (Role.MODEL, Role.RECORD, Role.PACKAGE)
+            if not stays and is_text and record.state is not RecordState.ORPHAN and record.base:
+                found[path] = record.base
+        return found
+
+    @cached_property
     def changes(self) -> Changes | None:
         """What changed in the model since the last build; None if that is not known."""
         return self._changes_since(self.inputs.last)
@@ -162,6 +178,8 @@ class Generation:
             for old_path, path in changes.moved_files(written, today, {}).items():
                 before[old_path] = (last[path].owner, last[path].template)
         now = {path: (a.owner, a.template) for path, a in self.package.artifacts.items()}
+        if before == now and inputs.folder == inputs.old_folder and not any(r.origin for r in texts.values()):
+            return {}
         renamed = changes.moved_files(before, now, self.changes.renames if self.changes else {})
         targets = {inputs.old_key(path): inputs.key(renamed.get(path, path)) for path in texts}
         return renamed_files(recorded.files, targets, {inputs.key(path) for path in now})

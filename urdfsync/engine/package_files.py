@@ -14,7 +14,6 @@ from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.rules import OnDisk
 from urdfsync.files import Tree, digest, placed, text_digest
-from urdfsync.modelica.files import files_that_use, modelica_files
 
 
 class FileState(NamedTuple):
@@ -124,6 +123,8 @@ class PackageFiles:
 
     def classes(self, folder: str) -> set[str]:
         """Return all Modelica files below the folder with this key, the user's own included."""
+        from urdfsync.modelica.files import modelica_files
+
         return {self.key(Path(path)) for path in modelica_files(self.path(folder))}
 
     def users_files(self, folders: Iterable[str]) -> dict[Path, bytes]:
@@ -131,6 +132,8 @@ class PackageFiles:
 
         They are outside of these folders. Files that can't be read are left out.
         """
+        from urdfsync.modelica.files import files_that_use, modelica_files
+
         packages, found = {self.path(folder) for folder in folders}, {}
         for path in map(Path, modelica_files(self._output)):
             if packages.isdisjoint(path.parents):

@@ -10,7 +10,6 @@ import msgspec
 from urdfsync import dependencies, profiling, uptodate
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.engine import imports
-from urdfsync.engine.dangling import DanglingNames
 from urdfsync.engine.decide import DesiredPackage, decide_package
 from urdfsync.engine.findings import find_all
 from urdfsync.engine.generation import generate_robot
@@ -88,12 +87,17 @@ def _plan_if_current(inputs: Inputs) -> Plan | None:
 
 def _plan_generation(inputs: Inputs) -> Plan:
     generation = generate_robot(inputs)
-    names = DanglingNames(generation)
+    names = None
+    if generation.rewritten:  # else no name goes; the parser, which this needs, takes a tenth of a small build to load
+        from urdfsync.engine.dangling import DanglingNames
+
+        names = DanglingNames(generation)
     moves = generation.renamed_files()
     desired = DesiredPackage(generation.desired_files(), generation.desired_orders(), moves)
     hashes = {key: file.hash for key, file in desired.files.items()} if inputs.recovered else {}
     decision = decide_package(inputs, inputs.rebuilt_manifest(hashes), desired, generation, names)
-    found = find_all(generation, decision.actions, names.find(decision.actions, decision.texts))
+    lost = names.find(decision.actions, decision.texts) if names else []
+    found = find_all(generation, decision.actions, lost)
     changes = generation.changes_since_complete
     if changes and not (changes.changes or changes.generator):
         changes = None

@@ -43,6 +43,8 @@ class Step(msgspec.Struct, frozen=True, omit_defaults=True):
     """POSIX, from the configuration's folder."""
     old: str | None = None
     new: str | None = None
+    is_moved: bool = False
+    """As in `transaction.Change`."""
 
 
 class Journal(msgspec.Struct, frozen=True):

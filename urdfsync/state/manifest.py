@@ -6,6 +6,7 @@ Two files in `.urdfsync/robots/`, both committed: `<robot>.toml`, which people r
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import posixpath
 import re
@@ -115,16 +116,22 @@ def dumps(manifest: Manifest) -> str:
     """The manifest as text: the same value gives the same text everywhere."""
     manifest = manifest.recorded
     above, below = _order_above(manifest.folder), len(manifest.folder) + 1
-    document = msgspec.to_builtins(manifest)
+    document = msgspec.to_builtins(msgspec.structs.replace(manifest, files={}))
     orders = {_PARENT if path == above else path[below:]: list(names) for path, names in manifest.orders.items()}
     document["orders"] = dict(sorted(orders.items()))
-    document["files"] = {path[below:]: record for path, record in document["files"].items()}
-    for record in document["files"].values():
-        if "origin" in record:
-            record["origin"] = record["origin"][below:]
     optional = ("names", "dependencies", "orders", "files")
     kept = {key: value for key, value in document.items() if value is not None and (value or key not in optional)}
-    return _HEADER + tomli_w.dumps(kept)
+    tables = [_file_table(path[below:], record, below) for path, record in manifest.files.items()]
+    return "\n".join([_HEADER + tomli_w.dumps(kept), *tables])
+
+
+@functools.lru_cache(maxsize=20_000)  # serves "one mass changed in the daemon": nearly all files are as they were
+def _file_table(path: str, record: FileRecord, below: int) -> str:
+    """The table of one file, by its path below the package; `below` characters of its origin are the package's path."""
+    entry = msgspec.to_builtins(record)
+    if record.origin:
+        entry["origin"] = record.origin[below:]
+    return tomli_w.dumps({"files": {path: entry}})
 
 
 def loads(text: str, file: str) -> Manifest:

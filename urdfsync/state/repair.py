@@ -15,7 +15,6 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Role
-from urdfsync.merge import split_lines
 from urdfsync.state import manifest, modelfile
 from urdfsync.state.manifest import FORMAT, DependencyRecord, Manifest
 from urdfsync.state.modelfile import ConversionFacts, Model
@@ -97,6 +96,8 @@ def sides(text: str) -> tuple[str, ...]:
 
     What the common ancestor had (between `|||||||` and `=======`) is in none.
     """
+    from urdfsync.merge import split_lines
+
     ours: list[str] = []
     theirs: list[str] = []
     targets = {"<": (ours,), "|": (), "=": (theirs,), ">": (ours, theirs)}

@@ -8,7 +8,7 @@ A transaction only goes forward:
    whether it is the one that was planned with. If it is not, somebody has saved the target in between: the two are
    exchanged back, and the target is *overtaken*.
 4. The recorded state takes its place, the manifest last, unless a target was overtaken: then it stays as it was, and
-   the next plan finds new files as they would be written, and a conflict in the one that was saved.
+   the build records what was done.
 5. What is left under temporary names is removed.
 
 Whoever finds a journal finishes the transaction by the same steps: what stands in a target and under its temporary
@@ -29,7 +29,7 @@ import msgspec
 
 from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
-from urdfsync.files import TEMPORARY, Tree, digest, failure
+from urdfsync.files import TEMPORARY, Tree, digest, failure, placed
 from urdfsync.state import file_operations
 from urdfsync.state.journal import Journal, JournalFolder, Phase, Step
 
@@ -52,13 +52,15 @@ class Change(msgspec.Struct, frozen=True):
     """None to delete the file."""
     old: str | None
     """SHA-256 (hex) of the bytes that were there when this was decided; None if there was no file."""
+    is_moved: bool = False
+    """Whether this is a text of the user's that leaves its old place; it is kept if it can't come here."""
 
 
 class Applied(msgspec.Struct, frozen=True):
     """What became of a transaction."""
 
-    overtaken: tuple[Path, ...] = ()
-    """Targets that somebody saved in between; they are as they were saved."""
+    not_done: tuple[Path, ...] = ()
+    """Targets that somebody saved in between, and the recorded state that stays because of it."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
@@ -70,6 +72,7 @@ class Transactions:
     ) -> None:
         """`root` is the configuration's folder, `folder` the state folder; `outputs` may be written to as well."""
         self._root, self._folder, self._shown, self._outputs = root, folder, shown, outputs
+        self._prefix = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
         self._journals = JournalFolder(root, folder / "journal", shown)
 
     def pending(self) -> bool:
@@ -83,7 +86,10 @@ class Transactions:
         Raises OutputError if a file can't be written: nothing has changed then. Raises UnfinishedError if that shows
         only when files have changed already; `recover` goes on.
         """
-        steps = (Step(self._key(c.path), c.old, None if c.content is None else digest(c.content)) for c in changes)
+        steps = (
+            Step(self._key(c.path), c.old, None if c.content is None else digest(c.content), c.is_moved)
+            for c in changes
+        )
         made = self._missing_folders(change.path.parent for change in changes if change.content is not None)
         journal = Journal(robot, os.urandom(8).hex(), tuple(steps), tuple(made), tuple(map(self._key, emptied)))
         self._check(journal)
@@ -101,7 +107,7 @@ class Transactions:
             else:
                 self._discard(journal, known)
             raise
-        profiling.count("written", len(changes) - len(applied.overtaken))
+        profiling.count("written", len(changes) - len(applied.not_done))
         return applied
 
     def recover(self, repair: bool = False) -> tuple[Diagnostic, ...]:
@@ -163,22 +169,22 @@ class Transactions:
     def _finish(self, journal: Journal) -> Applied:
         """Change all targets that have not changed yet, and remove all traces. Raises UnfinishedError."""
         files = self._files(journal)
-        overtaken: list[Path] = []
+        not_done: list[Path] = []
         try:
             if self._journals.phase() is not Phase.DONE:
-                overtaken = self._change(files)
+                not_done = self._change(files)
                 file_operations.sync(sorted({file.path.parent for file in files if file.path.parent.is_dir()}))
                 self._journals.enter(Phase.DONE)
-            left = {str(path) for folder in {file.path.parent for file in files} for path in _files_in(folder)}
+            left = {path for folder in {str(file.path.parent) for file in files} for path in _files_in(folder)}
             saved = [(file, name) for file in files for name in file.clear(left)]
             for path in journal.emptied:
                 file_operations.remove_folder(self._path(path))
             self._journals.remove()
         except OSError as error:
             self._refuse_to_finish(error)
-        message = "it was saved in the instant in which a build replaced it; that save is kept as"
+        message = "it was saved in the instant in which a build wrote it; the other text is kept as"
         return Applied(
-            tuple(overtaken),
+            tuple(not_done),
             tuple(
                 Diagnostic(Severity.WARNING, "kept-save", f"{message} {self._shown(name)}", self._shown(file.path))
                 for file, name in saved
@@ -186,17 +192,17 @@ class Transactions:
         )
 
     def _change(self, files: Sequence[_File]) -> list[Path]:
-        """Change all targets, the recorded state last. Returns those that somebody saved in between."""
+        """Change all targets, the recorded state last. Returns those that are not as planned."""
         state = [file for file in files if file.path.parent == self._folder / "robots"]
         others = [file for file in files if file not in state]
         changed = [file.change() for file in others]
         # again, since somebody may have written to an old file through a handle that was opened before
         again = [done if file.old is None else file.change() for file, done in zip(others, changed, strict=True)]
-        overtaken = [file.path for file, done in zip(others, again, strict=True) if not done]
+        not_done = [file.path for file, done in zip(others, again, strict=True) if not done]
         for file in state:
-            if not overtaken and not file.change():
-                overtaken.append(file.path)
-        return overtaken
+            if not_done or not file.change():
+                not_done.append(file.path)
+        return not_done
 
     def _check(self, journal: Journal, source: Path | None = None) -> None:
         """Refuse files and folders that no build writes, and links on the way. Raises StateError or OutputError.
@@ -204,30 +210,32 @@ class Transactions:
         `source` is the file of a journal that was found; None for a build that is about to write.
         """
         trees = [Tree(self._root, self._shown), *(Tree(output, self._shown) for output in self._outputs)]
-        paths = [(self._path(step.path), False) for step in journal.steps]
-        paths += [(self._path(path), True) for path in (*journal.made, *journal.emptied)]
+        paths = [(placed(self._prefix, step.path), False) for step in journal.steps]
+        paths += [(placed(self._prefix, path), True) for path in (*journal.made, *journal.emptied)]
         for path, is_folder in paths:
             tree = next((tree for tree in trees if tree.covers(path)), None)
             if tree is None or not self._is_written(path, tree.root, is_folder):
                 code, hint = ("broken-journal", _REPAIR) if source else ("outside", "")
                 if source and tree is None:
                     hint = f"bring back the `output` that the robot had, and build; {_REPAIR}"
-                message, file = f"{self._shown(path)} is no file that a build writes", self._shown(source or path)
+                message = f"{self._shown(Path(path))} is no file that a build writes"
+                file = self._shown(source or Path(path))
                 raise StateError(Diagnostic(Severity.ERROR, code, message, file, hint=hint))
-            tree.check_folder(path.parent)
+            tree.check_folder(os.path.dirname(path))  # noqa: PTH120 - strings: there are thousands of files
 
-    def _is_written(self, path: Path, root: Path, is_folder: bool) -> bool:
+    def _is_written(self, path: str, root: Path, is_folder: bool) -> bool:
         """Whether a path below a root is of a package, around one, or of the state."""
-        if path.is_relative_to(self._folder):
-            parts = path.relative_to(self._folder).parts
-            if is_folder or parts == (".gitignore",):
+        state = str(self._folder)
+        if path == state or path.startswith(state + os.sep):
+            parts = path[len(state) + 1 :].replace(os.sep, "/").split("/")
+            if is_folder or parts == [".gitignore"]:
                 return True
-            is_state = len(parts) == 2 and path.suffix in _STATE_FILES.get(parts[0], ())
+            is_state = len(parts) == 2 and parts[1].endswith(_STATE_FILES.get(parts[0], ()))
             return is_state or (len(parts) > 1 and parts[0] == "conflicts")
-        parts = path.relative_to(root).parts
+        parts = path[len(str(root)) :].strip(os.sep).replace(os.sep, "/").split("/")
         if any(part.startswith(".") for part in parts):  # `.git` among them
             return False
-        return is_folder or parts[-1] == "package.order" or path.suffix == ".mo" or "Resources" in parts[1:-1]
+        return is_folder or parts[-1] == "package.order" or parts[-1].endswith(".mo") or "Resources" in parts[1:-1]
 
     def _set_aside(self) -> Diagnostic:
         try:
@@ -246,11 +254,12 @@ class Transactions:
         raise UnfinishedError(*known, found) from error
 
     def _files(self, journal: Journal) -> list[_File]:
-        paths = [self._path(step.path) for step in journal.steps]
-        return [
-            _File(path, path.with_name(f".{journal.token}-{number}{TEMPORARY}"), step.old, step.new)
-            for number, (path, step) in enumerate(zip(paths, journal.steps, strict=True))
-        ]
+        found = []
+        for number, step in enumerate(journal.steps):
+            folder, name = os.path.split(placed(self._prefix, step.path))
+            temporary = f"{folder}{os.sep}.{journal.token}-{number}{TEMPORARY}"
+            found.append(_File(Path(folder, name), Path(temporary), step.old, step.new, step.is_moved))
+        return found
 
     def _missing_folders(self, folders: Iterable[Path]) -> list[str]:
         """The folders that files need and that do not exist, outermost first."""
@@ -264,12 +273,12 @@ class Transactions:
 
     def _key(self, path: Path) -> str:
         """A path as journals name it: from the configuration's folder, POSIX."""
-        if path.is_relative_to(self._root):
-            return path.relative_to(self._root).as_posix()
-        return Path(os.path.relpath(path, self._root)).as_posix()
+        text = str(path)
+        key = text[len(self._prefix) :] if text.startswith(self._prefix) else os.path.relpath(path, self._root)
+        return key.replace(os.sep, "/")
 
     def _path(self, key: str) -> Path:
-        return Path(os.path.normpath(self._root / key))
+        return Path(placed(self._prefix, key))
 
 
 class _File(msgspec.Struct, frozen=True):
@@ -280,6 +289,7 @@ class _File(msgspec.Struct, frozen=True):
     """Holds the new file before the change, and the old one after it."""
     old: str | None
     new: str | None
+    is_moved: bool
 
     def change(self) -> bool:
         """Change the target, unless that is done. Returns False if somebody saved it in between: then it is theirs.
@@ -296,11 +306,15 @@ class _File(msgspec.Struct, frozen=True):
     def clear(self, left: Collection[str]) -> Iterator[Path]:
         """Remove what is left under temporary names. What nobody planned with is kept; yields under which name.
 
-        `left` are all paths that exist: nearly all temporary files are gone.
+        So is a text of the user's that was to move here. `left` are all paths that exist: nearly all temporary files
+        are gone.
         """
         for path in (self.temporary, file_operations.spare(self.temporary)):
-            found = hash_of(path) if str(path) in left else None
-            if found in (self.old, self.new):
+            if str(path) not in left:
+                continue
+            found = hash_of(path)
+            is_homeless = self.is_moved and found == self.new != hash_of(self.path)
+            if found in (self.old, self.new) and not is_homeless:
                 file_operations.remove(path)
             elif found is not None:
                 yield self._keep(path)
@@ -359,8 +373,8 @@ def hash_of(path: Path) -> str | None:
     return None if content is None else digest(content)
 
 
-def _files_in(folder: Path) -> list[Path]:
+def _files_in(folder: str) -> list[str]:
     try:
-        return list(folder.iterdir())
+        return [f"{folder}{os.sep}{name}" for name in os.listdir(folder)]  # noqa: PTH208
     except (FileNotFoundError, NotADirectoryError):
         return []

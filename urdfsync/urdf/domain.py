@@ -26,13 +26,11 @@ from urdfsync.domain import (
 )
 from urdfsync.urdf import artifacts as package
 from urdfsync.urdf import names, option_names
-from urdfsync.urdf.diagram.drawing import draw
 from urdfsync.urdf.diff.comparable import comparable
 from urdfsync.urdf.diff.effects import effects
 from urdfsync.urdf.diff.interface import interface
 from urdfsync.urdf.diff.meanings import describe
 from urdfsync.urdf.diff.renames import find_renames
-from urdfsync.urdf.kinematics.base_guess import guess_base
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes.lookup import dependencies
 from urdfsync.urdf.meshes.single_thread import single_thread
@@ -102,6 +100,8 @@ class UrdfDomain(Domain):
 
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         """Guess whether the robot is mobile."""
+        from urdfsync.urdf.kinematics.base_guess import guess_base
+
         return (guess_base(from_snapshot(snapshot)),)
 
     def option_for(self, path: str, target: Target, options: Options) -> str:
@@ -135,6 +135,8 @@ class UrdfDomain(Domain):
         options: Options,
     ) -> str | None:
         """Return the diagram of the robot model, which only the package approach has."""
+        from urdfsync.urdf.diagram.drawing import draw
+
         return draw(from_snapshot(snapshot), target, options) if "package" in options.approach else None
 
     def models(self, snapshot: Snapshot, target: Target, options: Options) -> Sequence[str]:

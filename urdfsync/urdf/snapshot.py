@@ -26,7 +26,7 @@ from urdfsync.urdf.robot import Joint, Link, Robot
 def to_snapshot(robot: Robot) -> Snapshot:
     """Return the robot as plain data, as it would come back from JSON; names of links, and of joints, are unique."""
     text = msgspec.json.encode(robot, order="sorted")
-    plain = json.loads(text, object_hook=lambda data: {key: item for key, item in data.items() if item is not None})
+    plain = json.loads(text, object_hook=_without_none)
     for joint in plain["joints"]:
         if not joint["actuated"]:
             del joint["actuated"]
@@ -38,6 +38,10 @@ def to_snapshot(robot: Robot) -> Snapshot:
         for part in ("joints", "links")
     }
     return {"extensions": extensions, **by_name, "name": robot.name}
+
+
+def _without_none(data: dict[str, Any]) -> dict[str, Any]:
+    return {key: item for key, item in data.items() if item is not None} if None in data.values() else data
 
 
 def from_snapshot(snapshot: Snapshot) -> Robot:

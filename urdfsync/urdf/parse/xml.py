@@ -9,11 +9,9 @@ The parser is expat, since it tells where a start tag begins; lxml tells where i
 from __future__ import annotations
 
 import codecs
-import html
 import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
-from xml.etree import ElementTree
 from xml.parsers import expat
 
 import msgspec
@@ -110,6 +108,9 @@ class XmlNode(msgspec.Struct, eq=False, gc=False):
 
     def canonical(self) -> str:
         """Return the element as canonical XML 2.0, without comments, indentation and invented namespaces."""
+        import html
+        from xml.etree import ElementTree
+
         content, known = self.document.content, self.document.namespaces
         tag = _START_TAG.match(content, self.start)
         end = tag.end() if tag and tag[0].endswith(b"/>") else content.index(b">", self.end) + 1
@@ -174,7 +175,6 @@ def parse(content: bytes) -> XmlNode:
     except expat.ExpatError as error:
         if text.split("\n")[error.lineno - 1].startswith("<" * 7):
             raise _merge_conflict(error.lineno) from None
-        before = document.content[: parser.ErrorByteIndex + 1]
         before = document.content[: parser.ErrorByteIndex + 1]
         what, hint = _explain(expat.errors.messages[error.code], above[-1], before)
         message, hint = f"this is not well-formed XML: {what}", f"{hint}, or {_WAIT}"

@@ -1,0 +1,98 @@
+"""Somebody saves a file in the instant in which a build replaces it, and the source changes before the build is told.
+
+The save stays, and is compared with what was written there before. No other file is taken for one that was edited.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from urdfsync import cli
+from urdfsync.outcome import Exit
+from urdfsync.state import file_operations
+
+R1 = "modelica/Ladder/Elements/R1Parameters.mo"
+R2 = "modelica/Ladder/Elements/R2Parameters.mo"
+MINE = "// mine\n"
+
+
+def set_ohms(source: Path, ohms: int) -> None:
+    """Give all resistors so many ohms."""
+    source.write_text(re.sub(r'"ohm": \d+', f'"ohm": {ohms}', source.read_text()))
+
+
+@pytest.fixture
+def save_in_between(project: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], None]], None]:
+    """A function that lets the next build be overtaken: R1's record is saved, and then something else happens."""
+
+    def arrange(then: Callable[[], None]) -> None:
+        exchange = file_operations.exchange
+
+        def saved(one: Path, two: Path) -> None:
+            if two == project / R1:
+                monkeypatch.setattr(file_operations, "exchange", exchange)
+                two.write_text(two.read_text() + MINE)
+                then()
+            exchange(one, two)
+
+        monkeypatch.setattr(file_operations, "exchange", saved)
+
+    return arrange
+
+
+def test_a_newer_source_is_written_to_all_other_files(
+    project: Path, save_in_between: Callable[[Callable[[], None]], None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    source = project / "ladder.json"
+    assert cli.main(["build"]) == Exit.IN_STEP
+    set_ohms(source, 70)
+    save_in_between(lambda: set_ohms(source, 80))
+    capsys.readouterr()
+    assert cli.main(["build"]) == Exit.CONFLICT
+    assert " 1 conflict\n" in capsys.readouterr().out
+    assert "80" in (project / R2).read_text()
+    assert (project / R1).read_text().endswith(MINE)
+    assert cli.main(["resolve", R1, "--merge"]) == Exit.IN_STEP
+    assert "80" in (project / R1).read_text()
+    assert (project / R1).read_text().endswith(MINE)
+    assert cli.main(["build", "--check"]) == Exit.IN_STEP
+
+
+def test_a_source_that_is_broken_for_a_while_changes_nothing_about_it(
+    project: Path, save_in_between: Callable[[Callable[[], None]], None]
+) -> None:
+    source = project / "ladder.json"
+    assert cli.main(["build"]) == Exit.IN_STEP
+    set_ohms(source, 70)
+    whole = source.read_text()
+    save_in_between(lambda: os.truncate(source, 50))
+    assert cli.main(["build"]) == Exit.ERROR
+    assert "70" in (project / R2).read_text(), "it was written when the build was overtaken"
+    source.write_text(whole)
+    set_ohms(source, 80)
+    assert cli.main(["build"]) == Exit.CONFLICT
+    assert "80" in (project / R2).read_text()
+    assert (project / R1).read_text().endswith(MINE)
+    assert cli.main(["resolve", R1, "--merge"]) == Exit.IN_STEP
+    assert "80" in (project / R1).read_text()
+
+
+def test_a_first_build_keeps_what_somebody_puts_in_its_way(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    place = file_operations.place
+
+    def saved(one: Path, two: Path) -> None:
+        if two == project / R1:
+            monkeypatch.setattr(file_operations, "place", place)
+            two.write_text(MINE)
+            set_ohms(project / "ladder.json", 80)
+        place(one, two)
+
+    monkeypatch.setattr(file_operations, "place", saved)
+    assert cli.main(["build"]) == Exit.CONFLICT
+    assert (project / R1).read_text() == MINE
+    assert "80" in (project / R2).read_text()
