@@ -49,6 +49,15 @@ def test_a_connector_keeps_its_name_whatever_comes_and_goes_beside_it() -> None:
     assert "joint jc / position in Run" not in changed(old, new, inputs="vector")  # one input for all joints
 
 
+def test_a_joint_that_becomes_passive_loses_its_variables_of_run() -> None:
+    joints = [joint(name, "continuous", "base", child) for name, child in (("wheel", "a"), ("caster", "b"))]
+    drive = '<transmission name="t"><joint name="wheel"/></transmission>'
+    old, new = version(*STAR[:3], *joints), version(*STAR[:3], *joints, drive)
+    gone = {"joint caster / position in Run": "caster_phi", "joint caster / effort in Run": "caster_tau"}
+    assert changed(old, new) == {path: (name, None) for path, name in gone.items()}
+    assert changed(new, old) == {path: (None, name) for path, name in gone.items()}
+
+
 def test_a_connector_that_gives_way_to_a_new_element_is_named() -> None:
     old = version(*STAR[:2], joint("turn", "continuous", "base", "a"))
     link = '<link name="turnAxis"/>'

@@ -171,6 +171,7 @@ def test_encodings_and_line_ends(encoding: str, line_end: str) -> None:
     ("declaration", "code"),
     [
         ("<?xml version='0.0'?>", "xml-version"),
+        (" <?xml version='1.0'?>", "xml-declaration"),
         ("<?xml version=1.0?>", "xml-declaration"),
         ("<?XML version='1.0'?>", "xml-declaration"),
         ("<?xml encoding='utf-8' version='1.0'?>", "xml-declaration"),
@@ -240,6 +241,7 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (f"\n{LAUGHS}<robot name='&b;'/>".encode(), "xml-entity", 2),
         (b"<!DOCTYPE robot [<!ENTITY a SYSTEM 'file:///etc/passwd'>]><robot/>", "xml-entity", 1),
         (b"<robot>\n<<<<<<< HEAD\n<link name='a'/>\n=======\n>>>>>>> b\n</robot>", "merge-conflict", 2),
+        (b"<robot name='r'>\r\n<link name='a'/>\r\n>>>>>>> b\r\n</robot>", "merge-conflict", 3),
         (b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "lfs-pointer", 1),
         (b"<sdf version='1.9'/>", "not-urdf", 1),
         (b"<!-- a -->\n<mujoco model='m'/>", "not-urdf", 2),
