@@ -327,20 +327,17 @@ def test_an_orphan_that_is_kept_is_the_users_own(orphan: Path, capsys: Capture) 
     assert "Real mine;" in orphan.read_text()
 
 
-def test_an_orphan_that_is_not_wanted_is_deleted(orphan: Path) -> None:
-    assert resolve(str(orphan), "--take") == 0
-    assert not orphan.exists()
-    assert not orphan.with_name("R2Parameters.mo").exists()
-    assert cli.main(["build", "--check"]) == 0
-
-
-def test_an_orphan_has_to_be_named(orphan: Path, capsys: Capture) -> None:
+def test_an_orphan_has_to_be_named_to_be_deleted(orphan: Path, capsys: Capture) -> None:
     assert resolve("--all", "--take") == 0
     assert resolve(str(orphan.parent), "--take") == 2
     assert orphan.exists()
     capsys.readouterr()
     assert resolve(str(orphan), "--merge") == 2
     assert "it is no longer generated: there is nothing to merge" in capsys.readouterr().err
+    assert resolve(str(orphan), "--take") == 0
+    assert not orphan.exists()
+    assert not orphan.with_name("R2Parameters.mo").exists()
+    assert cli.main(["build", "--check"]) == 0
 
 
 # Elements with another name
