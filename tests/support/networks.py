@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 
-def edit(path: str, old: str, new: str) -> None:
+def edit(path: str | Path, old: str, new: str) -> None:
     """Replace a text that a file has once."""
     text = Path(path).read_text()
     assert text.count(old) == 1
