@@ -229,7 +229,7 @@ def _compare(project: Path, fresh: Path, tags: set[str]) -> Iterator[str]:
         yield from (
             f"not settled: {c['path']}: {c['reason']}" for c in robot["conflicts"] if not _is_edited(project, c)
         )
-    everything = "".join(path.read_text() for path in (project / "modelica").rglob("*.mo"))
+    everything = "".join(path.read_text() for path in (project / "modelica").rglob("*.mo*"))  # `.mo.saved`, too
     lost = tags - set(TAG.findall(everything))
     yield from (f"lost: {tag}" for tag in sorted(lost))
     shutil.copytree(project, fresh, ignore=shutil.ignore_patterns("modelica", ".urdfsync"))

@@ -164,7 +164,7 @@ def test_it_is_checked_again_with_another_tool_and_by_a_full_build(
     if name == "urdfsync":
         monkeypatch.setattr(afterbuild, "__version__", "99")
     else:
-        monkeypatch.setattr("urdfsync.check.compilers.installed_version", lambda _: "99")
+        monkeypatch.setattr("urdfsync.check.compilers.installed_version", lambda *_: "99")
     run(examiner)
     run(examiner, full=True)
     assert examiner.asked == ["ladder"] * 3
@@ -197,7 +197,7 @@ def test_a_check_that_fails_is_an_error_of_its_robot(project: Path, error: Excep
     (result,) = run(Examiner(error))
     assert result.checked is Checked.WRONG
     (found,) = result.diagnostics
-    assert str(found) in (str(BROKEN), "x.mo: error: the packages can't be checked: Permission denied [system]")
+    assert str(found) in (str(BROKEN), "x.mo: error: Permission denied [system]")
 
 
 def test_what_could_not_be_checked_is_said_once_for_all_robots_and_at_each_build(project: Path) -> None:

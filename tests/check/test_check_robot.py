@@ -292,13 +292,13 @@ def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_librar
         "open it in a Modelica tool",
         f"Bench/MyBench.mo:2: warning: {nested}; "
         "write a model that says `extends Arm.Arm(redeclare … elbow)`, and use that instead",
-        "Bench/MyBench.mo:4: error: MyArm has no parameter `laod`; did you mean `mine.load`?",
-        "Bench/MyBench.mo:4: error: Elbow has no connector `axs`; did you mean `robot.elbow.axis.tau`?",
-        "Bench/MyBench.mo:5: error: MyBench has no element `whatever`; ",
-        "MyArm.mo:3: error: Arm has no joint `elbo`; did you mean `elbow`?",
-        "MyArm.mo:3: error: RotationalDynamics has no field `dampin`; did you mean `damping`?",
+        "Bench/MyBench.mo:4: error: MyArm has no `laod`; did you mean `mine.load`?",
+        "Bench/MyBench.mo:4: error: Elbow has no `axs`; did you mean `robot.elbow.axis.tau`?",
+        "Bench/MyBench.mo:5: error: MyBench has no `whatever`; ",
+        "MyArm.mo:3: error: Arm has no `elbo`; did you mean `elbow`?",
+        "MyArm.mo:3: error: RotationalDynamics has no `dampin`; did you mean `damping`?",
         "MyArm.mo:4: error: there is no class `Arm.Links.Hnd`; did you mean `Arm.Links.Hand`?",
-        "MyArm.mo:7: error: MyArm has no joint `elbwo`; did you mean `elbow.axis`?",
+        "MyArm.mo:7: error: MyArm has no `elbwo`; did you mean `elbow.axis`?",
     ]
     assert result.failed
     assert len(result.compiled) == 3, "the package itself is right"
@@ -310,7 +310,7 @@ def test_the_package_is_not_compiled_if_names_in_it_mean_nothing(arm: Path, with
     replace(arm / "Arm.mo", "connect(shoulder.frame_b, ", "connect(sholder.frame_b, ")
     result = check()
     (line,) = lines(result)
-    assert "error: robot: Arm has no joint `sholder`; did you mean `shoulder.frame_b`?" in line
+    assert "error: robot: Arm has no `sholder`; did you mean `shoulder.frame_b`?" in line
     assert line.endswith("the file was edited by hand")
     assert result.gaps == ("nothing was compiled, since names in the package mean nothing",)
 
@@ -327,8 +327,7 @@ def test_a_frame_that_the_configuration_does_not_list_is_told_with_its_key(arm: 
     replace(Path("urdfsync.toml"), 'frames = ["arm"]\n', 'frames = ["base"]\n')
     rebuild()
     assert lines(check()) == [
-        f"Bench.mo:4: error: Arm has no connector `{name}`; "
-        '`frames = ["base", "arm"]` in the configuration brings it back'
+        f'Bench.mo:4: error: Arm has no `{name}`; `frames = ["base", "arm"]` in the configuration brings it back'
     ]
 
 
@@ -338,9 +337,9 @@ def test_a_frame_that_the_configuration_does_not_list_is_told_with_its_key(arm: 
         (  # joints extend classes of that library, so of their elements nothing can be said; the robot itself has icons
             {"MyArm.mo": BROKEN["MyArm.mo"]},
             [
-                "MyArm.mo:3: error: Arm has no joint `elbo`",
+                "MyArm.mo:3: error: Arm has no `elbo`",
                 "MyArm.mo:4: error: there is no class `Arm.Links.Hnd`",
-                "MyArm.mo:7: error: MyArm has no joint `elbwo`",
+                "MyArm.mo:7: error: MyArm has no `elbwo`",
             ],
         ),
         ({"Own.mo": "model Own\n  extends Arm.Joints.Elbow;\n  Real x = inherited.x;\nend Own;\n"}, []),

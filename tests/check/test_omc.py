@@ -17,7 +17,7 @@ from support import fake_omc
 from support.modelica import URDFSYNC
 
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers import omc, run_job
+from urdfsync.check.compilers import installed_version, omc, run_job
 from urdfsync.check.compilers.compiler import (
     CompileJob,
     CompilerError,
@@ -175,3 +175,18 @@ def test_a_real_omc_compiles_the_double_pendulum(modelica_library: Path, tmp_pat
     (result,) = run_job("omc", job, UserCache(tmp_path / "cache"))
     assert result.problem == ""
     assert result.unknowns > 0
+
+
+@needs_scripts
+def test_another_omc_is_another_version(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """So that what one of them found right is not taken from the cache for the other."""
+    program = tmp_path / "bin" / "omc"
+    program.parent.mkdir()
+    monkeypatch.setenv("OPENMODELICAHOME", str(tmp_path))
+    found = [installed_version("omc")]
+    for version in ("1.24", "1.25"):
+        program.write_text(f"#!/bin/sh\necho OpenModelica {version}\n")
+        program.chmod(0o755)
+        found.append(installed_version("omc"))
+        assert f"OpenModelica {version}" in found[-1]
+    assert len(set(found)) == 3

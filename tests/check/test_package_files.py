@@ -96,9 +96,9 @@ def test_what_is_no_regular_file_is_left_out(odd: Path) -> None:
 
 def test_and_is_told(odd: Path, plant: Config) -> None:
     expected = {"Linked", "Dangling.mo", "Circle.mo", *(["Pipe.mo"] if hasattr(os, "mkfifo") else [])}
-    assert {path.relative_to(odd).as_posix() for path in files.irregular_files(odd)} == expected
-    assert files.irregular_files(plant.root / "modelica" / "Plant") == []
-    assert files.irregular_files(plant.root / "absent") == []
+    assert {path.relative_to(odd).as_posix() for path in files.read_files(odd)[1]} == expected
+    assert files.read_files(plant.root / "modelica" / "Plant")[1] == []
+    assert files.read_files(plant.root / "absent") == ({}, [])
 
 
 @pytest.mark.parametrize("name", ["Plant/Control.mo", "Plant/Robots"])

@@ -136,7 +136,7 @@ def test_a_line_for_each_robot_and_what_is_behind_it(capsys: Capture) -> None:
         f"welder: incomplete: {size}; {agreement}; 12.4 s",
         "  what edits do was not measured: `robot.hand.body.m` is not declared",
         f"picker: differs: {size}; poses agree to 2.0e-16 (link hand); "
-        "torques differ by 3.2 % (joint mimic); masses agree to 1.1e-16; 12.4 s",
+        "torques differ (joint mimic); masses agree to 1.1e-16; 12.4 s",
         "  joint mimic: torque differs from Pinocchio 4.1.0 by 3.2 %, 0.4 N·m where up to 12.5 N·m are expected",
         "cart: failed: 1 error; 0.9 s",
         "  nothing was compiled, since the files are not in order",
@@ -185,19 +185,19 @@ def test_quiet_names_only_what_is_not_right(capsys: Capture) -> None:
 def test_verbose_lists_models_and_deviations(capsys: Capture) -> None:
     lines = shown(capsys, EDITED, verbose=True)
     assert lines[3:-1] == [
-        "    model    equations = unknowns  states",
-        "    Arm                         –       –",
-        "    ArmRun                  1,204      12",
-        "    ArmTest                 1,204       0",
-        "    element                                quantity          error   difference  of up to",
-        "    link hand                              position        2.0e-16   2.4e-13 mm     0.9 m",
-        "    link hand                              orientation     1.1e-16     6.3e-15°",
-        "    joint elbow                            torque          1.3e-15  8.4e-14 N·m    21 N·m",
-        "    joint left_front_finger_knuckle_joint  torque          6.7e-16  4.2e-14 N·m     2 N·m",
-        "    robot                                  mass                  0         0 kg     25 kg",
-        "    robot                                  centre of mass  1.1e-16   1.1e-13 mm     0.3 m",
-        "    since Joints/Elbow.mo  quantity    error  difference  of up to",
-        "    joint elbow            torque    1.1e-02   0.672 N·m    21 N·m",
+        "  model    equations = unknowns  states",
+        "  Arm                         –       –",
+        "  ArmRun                  1,204      12",
+        "  ArmTest                 1,204       0",
+        "  element                                quantity          error   difference  of up to",
+        "  link hand                              position        2.0e-16   2.4e-13 mm     0.9 m",
+        "  link hand                              orientation     1.1e-16     6.3e-15°",
+        "  joint elbow                            torque          1.3e-15  8.4e-14 N·m    21 N·m",
+        "  joint left_front_finger_knuckle_joint  torque          6.7e-16  4.2e-14 N·m     2 N·m",
+        "  robot                                  mass                  0         0 kg     25 kg",
+        "  robot                                  centre of mass  1.1e-16   1.1e-13 mm     0.3 m",
+        "  since Joints/Elbow.mo  quantity    error  difference  of up to",
+        "  joint elbow            torque    1.1e-02   0.672 N·m    21 N·m",
     ]
 
 
@@ -224,14 +224,13 @@ def test_a_wide_terminal_shows_a_table_as_on_the_page(capsys: Capture) -> None:
         "    your edits and what is new contradict each other; settle that with `urdfsync resolve`",
         "",
         "differs: picker as generated, whatever you edited; look at `templates` of your own if there are some, else",
-        "  please report it as a bug, with the source",
-        "errors: largest difference from Pinocchio 4.1.0 relative to the largest value of its kind and unit, or to",
-        "  1; up to 1e-10 agrees",
-        "not checked:",
-        "  limits (they change no motion), the models Run and Test (they are only compiled) and the record of the",
-        "  whole robot are not compared (arm, loader and 5 more)",
-        "for the comparison:",
-        "  inertias were made up for 3 links of the generated package only, because the file gives none (arm)",
+        "please report it as a bug, with the source",
+        "errors: largest difference from Pinocchio 4.1.0 relative to the largest value of its kind and unit, or to 1;",
+        "up to 1e-10 agrees",
+        "not checked: limits (they change no motion), the models Run and Test (they are only compiled) and the record",
+        "of the whole robot are not compared (arm, loader and 5 more)",
+        "for the comparison: inertias were made up for 3 links of the generated package only, because the file gives",
+        "none (arm)",
         "8 robots: 2 right, 1 incomplete, 2 out of step, 1 not built, 1 differs, 1 failed",
     ]
 
@@ -244,18 +243,17 @@ def test_a_narrow_terminal_shows_step_by_step(capsys: Capture, monkeypatch: pyte
         "    3 models compile",
         "    1,204 equations = unknowns and 12 states in the largest",
         "    poses agree to 2.0e-16 (link hand)",
-        "    torques differ by 3.2 % (joint mimic)",
+        "    torques differ (joint mimic)",
         "    masses agree to 1.1e-16",
-        "    joint mimic: torque differs from Pinocchio 4.1.0 by",
-        "    3.2 %, 0.4 N·m where up to 12.5 N·m are expected",
+        "    joint mimic: torque differs from Pinocchio 4.1.0 by 3.2",
+        "    %, 0.4 N·m where up to 12.5 N·m are expected",
         "",
         "differs: picker as generated, whatever you edited; look at",
-        "  `templates` of your own if there are some, else please",
-        "  report it as a bug, with the source",
-        "not checked:",
-        "  limits (they change no motion), the models Run and Test",
-        "  (they are only compiled) and the record of the whole robot",
-        "  are not compared",
+        "`templates` of your own if there are some, else please",
+        "report it as a bug, with the source",
+        "not checked: limits (they change no motion), the models Run",
+        "and Test (they are only compiled) and the record of the",
+        "whole robot are not compared",
     ]
 
 
@@ -353,67 +351,51 @@ L = [f"Links/L{number}.mo" for number in range(12)]
         (
             ["a.mo", "b.mo", "c.mo", "d.mo", "e.mo"],
             [SHOULDER, ELBOW, WRIST, ROLL],
-            "joint roll: torque differs by 2 % (joint wrist by 2 %, joint elbow by 3.2 %, and 1 more) "
-            "since a.mo, b.mo and 3 more were edited",
+            "joint roll: torque differs by 2 % (also joint wrist, joint elbow and joint shoulder) since "
+            "a.mo, b.mo and 3 more were edited",
         ),
         (
             ["Joints/Elbow.mo"],
             [HAND, TURNED, ELBOW, MASS],
-            "link hand: position differs by 12.3 mm and orientation by 3°; joint elbow: torque differs by 3.2 %; "
-            "robot: mass differs by 2 %, all since Joints/Elbow.mo was edited",
+            "link hand: position differs by 12.3 mm and orientation differs by 3°; joint elbow: torque differs by "
+            "3.2 %; robot: mass differs by 2 % since Joints/Elbow.mo was edited",
         ),
         (
             ["a.mo"],
             [BLIND, ELBOW],
-            "joint elbow: torque differs by 3.2 % (angular acceleration of link wheel not finite) since a.mo was "
-            "edited",
+            "joint elbow: torque differs by 3.2 % (also link wheel) since a.mo was edited",
         ),
         (
             L,
             [HAND, ELBOW],
-            "link hand: position differs by 12.3 mm; joint elbow: torque differs by 3.2 %, all because of 12 edited "
-            "files (Links/L0.mo, Links/L1.mo, …)",
+            "link hand: position differs by 12.3 mm; joint elbow: torque differs by 3.2 % since Links/L0.mo, "
+            "Links/L1.mo and 10 more were edited",
         ),
-        (L[:7], [], "7 edited files (Links/L0.mo, Links/L1.mo, …) change nothing that is compared"),
+        (L[:7], [], "Links/L0.mo, Links/L1.mo and 5 more were edited; nothing that is compared changed"),
     ],
 )
 def test_what_an_edit_does_is_one_sentence(files: list[str], deviations: list[Deviation], said: str) -> None:
     assert edit(*deviations, files=files) == said
 
 
-FINGER = msgspec.structs.replace(TURNED, element="link finger")
-ROOT = "reaction force of link base by 25 % and reaction torque by 1.4 %"
-
-
 @pytest.mark.parametrize(
     ("owners", "deviations", "said"),
     [
         # the link that was edited, not the first that is displaced
-        ((), [HAND, BENT], "link hand: position differs by 12.3 mm (link finger by 20 mm)"),
-        (("link finger",), [HAND, BENT], "link finger: position differs by 20 mm (link hand by 12.3 mm)"),
+        ((), [HAND, BENT], "link hand: position differs by 12.3 mm (also link finger)"),
+        (("link finger",), [HAND, BENT], "link finger: position differs by 20 mm (also link hand)"),
         # the joint that was edited, not the last one; all joints before what holds the root
         (
             (),
             [*REACTIONS, SHOULDER, ELBOW],
-            f"joint elbow: torque differs by 3.2 % (joint shoulder by 0.5 %, {ROOT})",
+            "joint elbow: torque differs by 3.2 % (also joint shoulder and link base)",
         ),
         (
             ("joint shoulder",),
             [*REACTIONS, SHOULDER, ELBOW],
-            f"joint shoulder: torque differs by 0.5 % (joint elbow by 3.2 %, {ROOT})",
+            "joint shoulder: torque differs by 0.5 % (also joint elbow and link base)",
         ),
-        # what differs is labelled where it is not the same as that of the first element
-        (
-            (),
-            [TURNED, BENT, FINGER],
-            "link hand: orientation differs by 3° (position of link finger by 20 mm and orientation by 3°)",
-        ),
-        (
-            (),
-            [HAND, TURNED, BENT, FINGER],
-            "link hand: position differs by 12.3 mm and orientation by 3° (link finger by 20 mm and 3°)",
-        ),
-        ((), [BLIND, *REACTIONS], f"link wheel: angular acceleration is not finite ({ROOT})"),
+        ((), [BLIND, *REACTIONS], "link wheel: angular acceleration is not finite (also link base)"),
     ],
 )
 def test_the_element_nearest_to_the_cause_comes_first(
@@ -427,26 +409,26 @@ def test_the_element_nearest_to_the_cause_comes_first(
     [
         (
             [HAND, SHOULDER, ELBOW],
-            "poses differ by 12.3 mm (link hand); torques differ by 3.2 % (joint elbow)",
+            "poses differ (link hand); torques differ (joint elbow)",
             [
                 "link hand: position differs from Pinocchio 4.1.0 by 12.3 mm",
                 "joint elbow: torque differs from Pinocchio 4.1.0 by 3.2 %, 0.4 N·m where up to 12.5 N·m are expected "
-                "(joint shoulder by 0.5 %)",
+                "(also joint shoulder)",
             ],
         ),
         (
             [*REACTIONS, MASS, CENTRE],
-            "torques differ by 25 % (reaction force of link base); mass differs by 2 % and centre of mass by 38.5 mm",
+            "torques differ (link base); masses differ",
             [
-                "link base: reaction force differs from Pinocchio 4.1.0 by 25 %, 7.5 N where up to 30 N are expected, "
-                "and reaction torque by 1.4 %, 0.168 N·m where up to 12 N·m are expected",
-                "robot: mass differs from Pinocchio 4.1.0 by 2 %, 0.5 kg where 25 kg are expected, and centre of mass "
-                "by 38.5 mm",
+                "link base: reaction force differs from Pinocchio 4.1.0 by 25 %, 7.5 N where up to 30 N are expected "
+                "and reaction torque differs from Pinocchio 4.1.0 by 1.4 %, 0.168 N·m where up to 12 N·m are expected",
+                "robot: mass differs from Pinocchio 4.1.0 by 2 %, 0.5 kg where up to 25 kg are expected and centre of "
+                "mass differs from Pinocchio 4.1.0 by 38.5 mm",
             ],
         ),
         (
             [BLIND],
-            "torques are not finite (link wheel)",
+            "torques differ (link wheel)",
             ["link wheel: angular acceleration is not finite"],
         ),
         ([msgspec.structs.replace(MASS, difference=0)], "masses agree exactly", []),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import subprocess
 import sys
@@ -38,11 +37,6 @@ def test_the_record_is_that_of_a_package(capsys: Capture) -> None:
     said = capsys.readouterr()
     assert said.out == GOLDEN.read_text(encoding="utf-8")
     assert "mimic-of-fixed" in said.err
-
-
-def test_nothing_else_is_left_behind(folder: Path) -> None:
-    assert record(TWIG, "-o", "TwigParameters.mo") == 0
-    assert [path.name for path in folder.iterdir()] == ["TwigParameters.mo"]
 
 
 def test_a_record_on_its_own_names_the_libraries_that_it_uses(capsys: Capture) -> None:
@@ -99,6 +93,7 @@ def test_the_class_is_called_as_asked_or_like_its_file(
 
 def test_a_file_is_written_once(folder: Path, capsys: Capture) -> None:
     assert record(TWIG, "-o", "Twig.mo") == 0
+    assert [path.name for path in folder.iterdir()] == ["Twig.mo"], "nothing else is left behind"
     assert record(TWIG, "-o", "Twig.mo") == 0
     assert capsys.readouterr().out.splitlines() == ["Twig.mo written: record Twig", "Twig.mo unchanged: record Twig"]
     (folder / "Twig.mo").write_bytes((folder / "Twig.mo").read_bytes().replace(b"\n", b"\r\n"))
@@ -189,15 +184,3 @@ def test_a_domain_without_a_record_says_so(rc_domain: None, capsys: Capture) -> 
     assert capsys.readouterr().err == (
         "error: the domain `rcnetwork` has no record of a whole model; use `urdfsync build` [no-record]\n"
     )
-
-
-def test_json(capsys: Capture) -> None:
-    assert record(TWIG, "--json") == 0
-    told = json.loads(capsys.readouterr().out)
-    assert (told["command"], told["exit"], told["class"], told["within"]) == ("record", 0, "TwigParameters", "")
-    assert told["text"].startswith("within ;\n")
-    assert [found["code"] for found in told["diagnostics"]] == ["mimic-of-fixed"]
-    for written in (True, False):
-        assert record(TWIG, "-o", "Twig.mo", "--json") == 0
-        told = json.loads(capsys.readouterr().out)
-        assert (told["file"], told["written"], "text" in told) == ("Twig.mo", written, False)

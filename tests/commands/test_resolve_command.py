@@ -6,9 +6,9 @@ import json
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
+from support.networks import edit
 
 from urdfsync import cli
 from urdfsync.engine.rules import sides_hash
@@ -23,12 +23,6 @@ MODEL = f"{LADDER}/Ladder.mo"
 SIGNAL = f"{LADDER}/Resources/step.txt"
 MINE = '"Element R2, 1 %"'
 FRESH = '"Element R3"'
-
-
-def edit(path: str | Path, old: str, new: str) -> None:
-    text = Path(path).read_text()
-    assert old in text
-    Path(path).write_text(text.replace(old, new))
 
 
 def more(name: str) -> None:
@@ -93,9 +87,14 @@ def test_take_replaces_the_edits(contradictory: Path, capsys: Capture) -> None:
 
 
 def test_keep_is_remembered_until_the_generated_text_changes_again(contradictory: Path, capsys: Capture) -> None:
-    mine = Path(MODEL).read_text()
+    mine, elements = Path(MODEL).read_text(), Path(LADDER) / "Elements"
     assert cli.main(["build"]) == 3
+    assert (elements / "R2.mo").exists()
+    assert not (elements / "R3.mo").exists()
     assert resolve(MODEL, "--keep") == 0
+    assert not (elements / "R2.mo").exists()
+    assert "R3" in (elements / "package.order").read_text().splitlines(), "what waited is written"
+    assert not list(Path(".urdfsync/conflicts").rglob("*.*"))
     capsys.readouterr()
     for arguments in (["build"], ["build", "--full"], ["build", "--check"]):
         assert cli.main(arguments) == 0
@@ -106,18 +105,6 @@ def test_keep_is_remembered_until_the_generated_text_changes_again(contradictory
     more("R4")
     assert cli.main(["build"]) == 3
     assert Path(MODEL).read_text() == mine
-
-
-def test_what_waited_is_written(contradictory: Path) -> None:
-    elements = Path(LADDER) / "Elements"
-    assert cli.main(["build"]) == 3
-    assert (elements / "R2.mo").exists()
-    assert not (elements / "R3.mo").exists()
-    assert resolve(MODEL, "--keep") == 0
-    assert not (elements / "R2.mo").exists()
-    assert (elements / "R3.mo").exists()
-    assert "R3" in (elements / "package.order").read_text().splitlines()
-    assert not list(Path(".urdfsync/conflicts").rglob("*.*"))
 
 
 def test_a_merge_that_is_not_offered_changes_nothing(
@@ -193,6 +180,9 @@ def test_all_that_can_be_merged_is_merged(several: Path, capsys: Capture) -> Non
     text = Path(MODEL).read_text()
     assert "parameter Real mine = 1;" in text
     assert FRESH in text
+    capsys.readouterr()
+    assert resolve("--all", "--take") == 0
+    assert capsys.readouterr().err == "note: nothing is in conflict [no-conflict]\n"
 
 
 def test_a_choice_that_waits_can_be_made_again(several: Path, capsys: Capture) -> None:
@@ -200,14 +190,6 @@ def test_a_choice_that_waits_can_be_made_again(several: Path, capsys: Capture) -
     assert resolve(MODEL, "--take") == 3
     assert resolve("--all", "--keep") == 0
     assert "parameter Real mine = 1;" not in Path(MODEL).read_text()
-
-
-def test_all_can_be_kept_or_taken(several: Path, capsys: Capture) -> None:
-    assert resolve("--all", "--keep") == 0
-    assert conflicts(capsys) == []
-    assert "#1 \n" in Path(SIGNAL).read_text()
-    assert resolve("--all", "--take") == 0
-    assert capsys.readouterr().err == "note: nothing is in conflict [no-conflict]\n"
 
 
 # Imported files
@@ -269,19 +251,12 @@ def test_a_choice_waits_for_what_nobody_has(unsourced: Path, capsys: Capture) ->
 
 
 @pytest.mark.parametrize(
-    "typed", ["Ladder.mo", "../Ladder/Ladder.mo", ".", "..", "{project}/modelica/Ladder/Ladder.mo"]
+    "typed", ["Ladder.mo", "../Ladder/Ladder.mo", ".", "{project}/modelica/Ladder/Ladder.mo", "../../link/Ladder.mo"]
 )
 def test_paths_count_from_the_working_folder(clean: Path, monkeypatch: pytest.MonkeyPatch, typed: str) -> None:
+    Path("link").symlink_to(LADDER, target_is_directory=True)
     monkeypatch.chdir(LADDER)
     assert resolve(typed.format(project=clean), "--merge") == 0
-
-
-def test_a_path_may_lead_through_links(clean: Path, tmp_path: Path) -> None:
-    try:
-        (tmp_path / "link").symlink_to(clean, target_is_directory=True)
-    except OSError:
-        pytest.skip("no symbolic links here")
-    assert resolve(str(tmp_path / "link" / MODEL), "--merge") == 0
 
 
 def test_a_path_that_is_no_conflict(clean: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
@@ -352,20 +327,17 @@ def test_an_orphan_that_is_kept_is_the_users_own(orphan: Path, capsys: Capture) 
     assert "Real mine;" in orphan.read_text()
 
 
-def test_an_orphan_that_is_not_wanted_is_deleted(orphan: Path) -> None:
-    assert resolve(str(orphan), "--take") == 0
-    assert not orphan.exists()
-    assert not orphan.with_name("R2Parameters.mo").exists()
-    assert cli.main(["build", "--check"]) == 0
-
-
-def test_an_orphan_has_to_be_named(orphan: Path, capsys: Capture) -> None:
+def test_an_orphan_has_to_be_named_to_be_deleted(orphan: Path, capsys: Capture) -> None:
     assert resolve("--all", "--take") == 0
     assert resolve(str(orphan.parent), "--take") == 2
     assert orphan.exists()
     capsys.readouterr()
     assert resolve(str(orphan), "--merge") == 2
     assert "it is no longer generated: there is nothing to merge" in capsys.readouterr().err
+    assert resolve(str(orphan), "--take") == 0
+    assert not orphan.exists()
+    assert not orphan.with_name("R2Parameters.mo").exists()
+    assert cli.main(["build", "--check"]) == 0
 
 
 # Elements with another name
@@ -441,41 +413,3 @@ def test_a_configuration_elsewhere(
     command = line.split()[1:]
     assert command == ["resolve", str(Path("project") / MODEL), "--merge", "--config", "project/urdfsync.toml"]
     assert cli.main(command) == 0
-
-
-def test_as_json(several: Path, capsys: Capture) -> None:
-    def document(*arguments: str) -> Any:
-        capsys.readouterr()
-        code = resolve(*arguments, "--json")
-        streams = capsys.readouterr()
-        loaded = json.loads(streams.out)
-        assert (streams.err, loaded["command"], loaded["exit"]) == ("", "resolve", code)
-        return loaded
-
-    left = document("--all", "--merge")
-    assert left["exit"] == 3
-    (robot,) = left["robots"]
-    record, table = robot["conflicts"]
-    assert record["merges"] is False
-    assert record["reason"] == "the changes contradict each other"
-    assert record["merge"] == ".urdfsync/conflicts/ladder/Elements/R1Parameters.merge.txt"
-    assert (table["path"], table["base"], table["generated"]) == (SIGNAL, None, None)
-    assert document("nothing.mo", "--keep")["diagnostics"][0]["code"] == "no-conflict"
-    assert document("--all", "--keep")["robots"][0]["conflicts"] == []
-    assert document("--all", "--keep") == {
-        "version": 2,
-        "command": "resolve",
-        "exit": 0,
-        "robots": [],
-        "diagnostics": [
-            {
-                "severity": "note",
-                "code": "no-conflict",
-                "message": "nothing is in conflict",
-                "file": "",
-                "line": 0,
-                "column": 0,
-                "hint": "",
-            }
-        ],
-    }

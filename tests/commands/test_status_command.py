@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+from support.networks import edit
 
-from urdfsync import cli, files
-from urdfsync.config import library_folder
+from urdfsync import cli
 from urdfsync.state.lock import build_lock
 
 Capture = pytest.CaptureFixture[str]
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
 
 PACKAGE = "modelica/Ladder"
-ARM = library_folder() / "UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
 
 
 @pytest.fixture
@@ -29,24 +25,6 @@ def built(project: Path, capsys: Capture) -> Path:
     cli.main(["build"])
     capsys.readouterr()
     return project
-
-
-@pytest.fixture
-def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> Path:
-    """The package of the six-axis arm without its meshes, built; the working folder is the project's."""
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "arm.urdf").write_bytes(ARM.read_bytes())
-    robot = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n'
-    (tmp_path / "urdfsync.toml").write_text(robot)
-    assert cli.main(["build", "--quiet"]) == 0
-    capsys.readouterr()
-    return tmp_path / "modelica/Arm"
-
-
-def edit(path: Path, old: str, new: str) -> None:
-    text = path.read_text()
-    assert text.count(old) == 1
-    path.write_text(text.replace(old, new))
 
 
 def shown(capsys: Capture, *arguments: str, code: int = 0) -> list[str]:
@@ -163,19 +141,6 @@ def test_a_build_that_is_writing_is_waited_for(built: Path, capsys: Capture) -> 
 
 
 # The process
-
-
-def test_nothing_heavy_is_imported_if_all_is_in_step(built: Path, rc_site: Path) -> None:
-    code = (
-        "import sys; from urdfsync.cli import main; main(['status']); "
-        "print([name for name in ('jinja2', 'rich', 'lxml', 'numpy', 'yourdfpy', 'deepdiff') if name in sys.modules])"
-    )
-    rc_folder = Path(sys.modules["rc_domain"].__file__ or "").parent
-    environment = os.environ | {
-        "PYTHONPATH": os.pathsep.join(map(str, (Path(files.__file__).parents[1], rc_site, rc_folder)))
-    }
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines() == ["ladder: in step, 14 files", "[]"]
 
 
 @pytest.mark.parametrize("arguments", [["--dry-run"], ["--wait", "soon"]])

@@ -116,38 +116,34 @@ def _with_other_leaves(value: Any, data: st.DataObject) -> Any:
     return data.draw(st.sampled_from([value, None, 1, 2.5, "c"]))
 
 
-def test_what_comes_and_goes_is_one_change(compared: list[tuple[Any, Any]]) -> None:
-    found = changes(shelf(a={"size": 1}, b={"size": 2}), shelf(b={"size": 2}, c={"size": 3}))
-    assert lines(found) == [("a", "removed", {"size": 1}, None), ("c", "added", None, {"size": 3})]
-    assert compared == []
-
-
-def test_vectors_are_compared_place_by_place() -> None:
-    found = changes(shelf(a={"size": [1.0, 2.0, 3.0]}), shelf(a={"size": [2.0, 3.0, 3.0, 4.0]}))
-    assert lines(found) == [
-        ("a / size / 0", "changed", 1.0, 2.0),
-        ("a / size / 1", "changed", 2.0, 3.0),
-        ("a / size / 3", "added", None, 4.0),
-    ]
-
-
-def test_small_numbers_are_not_equal() -> None:
-    assert lines(changes(shelf(a={"size": 1e-5}), shelf(a={"size": 2e-5}))) == [("a / size", "changed", 1e-5, 2e-5)]
-
-
-def test_a_number_of_another_type_beside_a_change_is_none() -> None:
-    found = changes(shelf(a={"size": 1, "pages": 2}), shelf(a={"size": 1.0, "pages": 3}))
-    assert lines(found) == [("a / pages", "changed", 2, 3)]
-
-
-def test_mappings_with_little_in_common_are_compared_key_by_key() -> None:
-    found = changes(shelf(a={"s": {"kind": "x", "p": 1}}), shelf(a={"s": {"kind": "y", "q": 1, "r": 1}}))
-    assert [line[0] for line in lines(found)] == ["a / s / kind", "a / s / p", "a / s / q", "a / s / r"]
-
-
-def test_parts_that_are_no_elements_are_compared_as_they_are() -> None:
-    found = changes(Version({"name": "shelf", "books": {}}), Version({"name": None, "books": {}}))
-    assert lines(found) == [("shelf", "changed", "shelf", None)]
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        pytest.param(
+            {"a": {"size": 1}, "b": {"size": 2}}, {"b": {"size": 2}, "c": {"size": 3}},
+            [("a", "removed", {"size": 1}, None), ("c", "added", None, {"size": 3})],
+            id="what comes and goes is one change",
+        ),
+        pytest.param(
+            {"a": {"size": [1.0, 2.0, 3.0]}}, {"a": {"size": [2.0, 3.0, 3.0, 4.0]}},
+            [("a / size / 0", "changed", 1.0, 2.0), ("a / size / 1", "changed", 2.0, 3.0),
+             ("a / size / 3", "added", None, 4.0)],
+            id="vectors are compared place by place",
+        ),
+        pytest.param(
+            {"a": {"size": 1e-5, "pages": 2}}, {"a": {"size": 2e-5, "pages": 2.0}},
+            [("a / size", "changed", 1e-5, 2e-5)],
+            id="small numbers differ, and types of numbers do not",
+        ),
+        pytest.param(
+            {"a": {"s": {"kind": "x", "p": 1}}}, {"a": {"s": {"kind": "y", "q": 1}}},
+            [("a / s / kind", "changed", "x", "y"), ("a / s / p", "removed", 1, None), ("a / s / q", "added", None, 1)],
+            id="mappings with little in common are compared key by key",
+        ),
+    ],
+)  # fmt: skip
+def test_differences(old: dict[str, Any], new: dict[str, Any], expected: list[tuple[str, str, Any, Any]]) -> None:
+    assert lines(changes(shelf(**old), shelf(**new))) == expected
 
 
 @given(st.dictionaries(st.text("ab", max_size=2), PLAIN, max_size=3), st.data())
@@ -221,8 +217,8 @@ def test_imports_that_nobody_looked_for_are_not_compared() -> None:
     assert changes(Version({"books": {}}), Version({"books": {}}, {"x": import_("1")})).changes == ()
 
 
-def change(old: Any, new: Any, unit: str = "") -> Change:
-    return Change(("joint elbow", "origin", "xyz[2]"), ChangeKind.CHANGED, ChangeClass.PARAMETER, old, new, unit)
+def change(old: Any, new: Any) -> Change:
+    return Change(("joint elbow", "origin", "xyz[2]"), ChangeKind.CHANGED, ChangeClass.PARAMETER, old, new, "")
 
 
 @pytest.mark.parametrize(
@@ -246,35 +242,21 @@ def test_noise_is_a_number_that_changed_by_a_millionth_or_less(old: Any, new: An
     assert not Changes((change(old, new), change(1.0, 2.0))).noise
 
 
-def test_a_change_reads_as_a_path_and_belongs_to_an_element() -> None:
-    one = change(1.0, 2.0)
-    assert str(one) == "joint elbow / origin / xyz[2]"
-    assert Changes((one, one)).by_element() == {"joint elbow": [one, one]}
+MODEL = Role.MODEL
+A, B, C = (f"link {name}" for name in "abc")
 
 
-RECORD, MODEL = Role.RECORD, Role.MODEL
-
-
-def test_files_move_with_the_element_that_they_belong_to() -> None:
-    old = {"A.mo": ("link a", MODEL), "AParameters.mo": ("link a", RECORD), "C.mo": ("link c", MODEL)}
-    new = {"B.mo": ("link b", MODEL), "BParameters.mo": ("link b", RECORD), "C.mo": ("link c", MODEL)}
-    assert moved_files(old, new, {("link", "a"): "b"}) == {"A.mo": "B.mo", "AParameters.mo": "BParameters.mo"}
-    assert moved_files(old, new, {}) == {}
-
-
-def test_files_move_when_another_element_takes_their_place() -> None:
-    old = {"Joints/Arm.mo": ("joint arm", MODEL)}
-    new = {"Joints/Arm_joint.mo": ("joint arm", MODEL), "Links/Arm.mo": ("link arm", MODEL)}
-    assert moved_files(old, new, {}) == {"Joints/Arm.mo": "Joints/Arm_joint.mo"}
-
-
-def test_files_can_change_places() -> None:
-    old = {"A.mo": ("link a", MODEL), "B.mo": ("link b", MODEL)}
-    new = {"B.mo": ("link a", MODEL), "C.mo": ("link b", MODEL)}
-    assert moved_files(old, new, {}) == {"A.mo": "B.mo", "B.mo": "C.mo"}
-
-
-def test_several_files_of_one_owner_and_role_are_not_guessed() -> None:
-    old = {"Arm.mo": ("robot", MODEL), "ArmRun.mo": ("robot", MODEL)}
-    new = {"Leg.mo": ("robot", MODEL), "LegRun.mo": ("robot", MODEL)}
-    assert moved_files(old, new, {}) == {}
+@pytest.mark.parametrize(
+    ("old", "new", "moved"),
+    [
+        pytest.param({"A.mo": A, "C.mo": C}, {"B.mo": B, "C.mo": C}, {"A.mo": "B.mo"}, id="with a renamed element"),
+        pytest.param({"A.mo": C}, {"A_2.mo": C, "A.mo": B}, {"A.mo": "A_2.mo"}, id="another takes its place"),
+        pytest.param({"A.mo": B, "B.mo": C}, {"B.mo": B, "C.mo": C}, {"A.mo": "B.mo", "B.mo": "C.mo"}, id="in a row"),
+        pytest.param({"A.mo": "robot", "ARun.mo": "robot"}, {"B.mo": "robot", "BRun.mo": "robot"}, {}, id="no guess"),
+    ],
+)
+def test_files_move_with_the_element_that_they_belong_to(
+    old: dict[str, str], new: dict[str, str], moved: dict[str, str]
+) -> None:
+    before, after = ({path: (owner, MODEL) for path, owner in files.items()} for files in (old, new))
+    assert moved_files(before, after, {("link", "a"): "b"}) == moved

@@ -49,14 +49,9 @@ def test_exit_code_of_one(found: Comparison, code: int) -> None:
     assert exit_code([found]) == code
 
 
-def test_a_generator_that_is_another_is_out_of_step() -> None:
-    result = Result("arm", "Arm", Path("Arm"), Path(), changes=Changes(generator=True))
-    assert exit_code([Comparison(result, "arm.urdf")]) == 1
-
-
-def test_the_worst_of_several_wins() -> None:
-    fine, changed = comparison(), comparison(ChangeClass.PARAMETER)
+def test_a_generator_that_is_another_is_out_of_step_and_the_worst_of_several_wins() -> None:
+    other = Comparison(Result("arm", "Arm", Path("Arm"), Path(), changes=Changes(generator=True)), "arm.urdf")
     broken, locked = comparison(failed=True), comparison(failed=True, locked=True)
-    assert exit_code([fine, changed]) == 1
-    assert exit_code([changed, locked]) == 4
-    assert exit_code([locked, broken, fine]) == 2
+    assert exit_code([comparison(), other]) == 1
+    assert exit_code([other, locked]) == 4
+    assert exit_code([locked, broken, comparison()]) == 2

@@ -44,7 +44,10 @@ def repository(template: Path, tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize(("name", "content"), [("HEAD", b"two\n"), ("v2", b"two\n"), ("main~1", b"one\r\n")])
-def test_a_file_is_read_as_it_was(repository: Path, name: str, content: bytes) -> None:
+def test_a_file_is_read_as_it_was_without_git(
+    repository: Path, name: str, content: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(repository))
     arm = repository / "cad/arm.urdf"
     assert Revision(arm.parent, name).read(arm) == content
 
@@ -81,22 +84,17 @@ def test_a_path_that_the_revision_does_not_have(repository: Path) -> None:
     assert caught.value.diagnostics[0].file.startswith("HEAD:")
 
 
-@pytest.mark.parametrize("name", ["nope", "HEAD~9", "HEAD:cad/arm.urdf", "v2^{tree}", "a b", "..", "^HEAD"])
-def test_a_name_that_is_no_revision(repository: Path, name: str) -> None:
-    with pytest.raises(SourceError, match=r"is neither a file nor a revision of the git repository .*HEAD~1"):
+NO_REVISIONS = dict.fromkeys(
+    ["nope", "HEAD~9", "HEAD:cad/arm.urdf", "v2^{tree}", "a b", "..", "^HEAD"],
+    "is neither a file nor a revision of the git repository .*HEAD~1",
+)
+UNSEEN = dict.fromkeys(["-x", "--output=stolen", "", " ", "HEAD\nmain", "a\0b"], "is neither a file nor a git revision")
+
+
+@pytest.mark.parametrize(("name", "message"), (NO_REVISIONS | UNSEEN).items())
+def test_a_name_that_is_no_revision(repository: Path, name: str, message: str) -> None:
+    with pytest.raises(SourceError, match=message):
         Revision(repository, name)
-
-
-@pytest.mark.parametrize("name", ["-x", "--output=stolen", "", " ", "HEAD\nmain", "a\0b"])
-def test_a_name_that_git_must_not_see(repository: Path, name: str) -> None:
-    with pytest.raises(SourceError, match="is neither a file nor a git revision"):
-        Revision(repository, name)
-
-
-def test_git_itself_is_not_needed(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PATH", str(repository))
-    arm = repository / "cad/arm.urdf"
-    assert Revision(arm.parent, "HEAD").read(arm) == b"two\n"
 
 
 def test_a_content_that_the_clone_lacks(repository: Path) -> None:

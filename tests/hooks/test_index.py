@@ -157,15 +157,6 @@ def test_a_mirror_has_what_is_staged_in_its_place(repo: Repository) -> None:
     assert Path("out/Arm/Links/new.mo").read_text() == "untracked"
 
 
-def test_links_in_the_repository_lead_to_what_is_staged(repo: Repository) -> None:
-    Path("latest.urdf").symlink_to("cad/arm.urdf")
-    repo.git("add", ".")
-    Path("cad/arm.urdf").write_text("later")
-    with index_checkout(Index(repo.folder)) as checkout:
-        checkout.add(["cad/arm.urdf"])
-        assert (checkout.place(repo.folder) / "latest.urdf").read_text() == "cad/arm.urdf, committed\n"
-
-
 CONTENTS = st.sampled_from([None, "one\n", "two\n"])
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from support.corpus import REPOSITORY
-from support.modelica import Run, Series, Task, compile_task, execute
+from support.modelica import Run, Series, Task, compile_task, execute, simulate
 
 pytestmark = pytest.mark.slow
 
@@ -99,11 +99,7 @@ def found(modelica_library: Path) -> Mapping[str, Series]:
         Task(HELD, "Held", [Run(2, 0.5)], ["elbow.axis.tau", "elbow.phi_elastic", "elbow.joint.revolute.w"]),
         Task(SPUN, "Spun", [Run(1, 0.25)], ["turret.axis.tau", "turret.tau_motor", "turret.rotor.w", *IMU]),
     ]
-    outcomes = execute(modelica_library, [], tasks)
-    assert [outcome.error for outcome in outcomes] == [""] * len(tasks)
-    series = {task.model: outcome.runs[0] for task, outcome in zip(tasks, outcomes, strict=True)}
-    assert {name: one.error for name, one in series.items()} == dict.fromkeys(series, "")
-    return series
+    return dict(zip(("Held", "Spun"), simulate(modelica_library, [], tasks), strict=True))
 
 
 def test_the_elastic_elbow_sags_until_its_spring_carries_the_load(found: Mapping[str, Series]) -> None:
@@ -134,25 +130,20 @@ def test_the_sensor_shows_what_it_feels_on_a_circle(found: Mapping[str, Series])
     assert np.array([series.values[name] for name in IMU]) == pytest.approx(np.array(expected), rel=1e-6, abs=1e-6)
 
 
-@pytest.mark.slow
 def test_the_whole_arm_holds_itself_and_its_payload(modelica_library: Path) -> None:
     """The torque is that of the plain robot, as Pinocchio has it, and that of the payload, by hand."""
     task = Task(OUTSTRETCHED, "Outstretched", [Run(0.08, 0.04, STIFF)], ["robot.elbowAxis.tau", "robot.imu.f[3]"])
-    (outcome,) = execute(modelica_library, [], [task])
-    assert [outcome.error, *(run.error for run in outcome.runs)] == ["", ""]
-    values = outcome.runs[0].values
+    (run,) = simulate(modelica_library, [], [task])
+    values = run.values
     expected = static_torque() - PAYLOAD * GRAVITY * PAYLOAD_LEVER
     assert values["robot.elbowAxis.tau"][0] == 0, "the spring is relaxed at the beginning"
     assert values["robot.elbowAxis.tau"][-1] == pytest.approx(expected, rel=1e-4)
     assert values["robot.imu.f[3]"][-1] == pytest.approx(GRAVITY, rel=1e-3)
 
 
-@pytest.mark.parametrize(
-    "model", ["MyArm.Test", pytest.param("UrdfSync.Examples.CustomArm.CustomArmTest", marks=pytest.mark.slow)]
-)
-def test_the_example_and_the_models_on_the_page_compile(modelica_library: Path, tmp_path: Path, model: str) -> None:
+def test_the_example_and_the_models_on_the_page_compile(modelica_library: Path, tmp_path: Path) -> None:
     """The page's first block is a package; its elbow has a brake, which the test model of the arm takes along."""
     (package, *_) = re.findall(r"```modelica\n(.*?)```", PAGE.read_text("utf-8"), re.DOTALL)
     (tmp_path / "MyArm.mo").write_text(package, encoding="utf-8")
-    (outcome,) = execute(modelica_library, [tmp_path / "MyArm.mo"], [compile_task(model)])
-    assert outcome.error == ""
+    tasks = [compile_task(model) for model in ("MyArm.Test", "UrdfSync.Examples.CustomArm.CustomArmTest")]
+    assert [one.error for one in execute(modelica_library, [tmp_path / "MyArm.mo"], tasks)] == ["", ""]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -20,7 +19,7 @@ from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Reference
-from urdfsync.urdf.robot import MOTION_KINDS, Motion
+from urdfsync.urdf.robot import MOTION_KINDS
 
 pytestmark = pytest.mark.slow
 
@@ -141,50 +140,30 @@ def test_joints_move_and_push_as_pinocchio_says(
         assert found == (robots is FREE)
 
 
-@dataclasses.dataclass(frozen=True)
-class Release:
-    """A model that begins at given positions and speeds and moves as the forces want; its accelerations at once."""
-
-    package: Package
-    task: Task
-    expected: Array
+NAMES = {"rotational": ("revolute", "phi", "w"), "translational": ("prismatic", "s", "v")}
 
 
-def release(package: Package, modifiers: str, values: Sequence[str], expected: Array, before: str = "") -> Release:
-    """A robot on the world, or on what `before` declares as `base`."""
-    carrier = "connect(world.frame_b, base.frame_a); connect(base.frame_b" if before else "connect(world.frame_b"
-    kind = f"{package.target.package}.{package.target.name}"
+def release(name: str, urdf: str) -> tuple[Package, Task, Array]:
+    """A robot that begins at given positions and speeds and moves as the forces want; its accelerations at once."""
+    package = generate(urdf.encode(), Target(name, name))
+    axes = motion.driven_axes(package.skeleton)
+    courses = [motion.axis_course(joint) for joint in axes]
+    starts, values = [], []
+    for each, course in zip(axes, courses, strict=True):
+        component, (inner, q, v) = package.skeleton.joint(each.name).component, NAMES[MOTION_KINDS[each.type]]
+        starts.append(f"{component}({q}_start = {course.position!r}, {v}_start = {course.speed!r})")
+        values.append(f"robot.{component}.{inner}.a")
     source = f"""model Check
   import Modelica;
   import UrdfSync;
   {WORLD};
-  {before}
-  {kind} robot({modifiers});
+  {name}.{name} robot({", ".join(starts)});
 equation
-  {carrier}, robot.frame_a);
+  connect(world.frame_b, robot.frame_a);
 end Check;
 """
-    return Release(package, Task(source, "Check", [Run(1e-6, 1e-6)], list(values)), expected)
-
-
-def release_of_axes(name: str, urdf: str) -> Release:
-    """All axes move freely."""
-    package = generate(urdf.encode(), Target(name, name))
-    axes = motion.driven_axes(package.skeleton)
-    courses = [motion.axis_course(joint) for joint in axes]
-    modifiers = [
-        start(package.skeleton.joint(joint.name).component, MOTION_KINDS[joint.type], course.position, course.speed)
-        for joint, course in zip(axes, courses, strict=True)
-    ]
-    inner = {"rotational": "revolute", "translational": "prismatic"}
-    values = [f"robot.{package.skeleton.joint(j.name).component}.{inner[MOTION_KINDS[j.type]]}.a" for j in axes]
-    return release(package, ", ".join(modifiers), values, accelerations(urdf, [j.name for j in axes], courses))
-
-
-def start(component: str, kind: Motion, position: float, speed: float) -> str:
-    """The modifier by which a joint begins there."""
-    q, v = ("phi", "w") if kind == "rotational" else ("s", "v")
-    return f"{component}({q}_start = {position!r}, {v}_start = {speed!r})"
+    task = Task(source, "Check", [Run(1e-6, 1e-6)], values)
+    return package, task, accelerations(urdf, [each.name for each in axes], courses)
 
 
 def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> Array:
@@ -199,23 +178,10 @@ def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> 
     return np.asarray(np.linalg.solve(b.T @ (upper + np.triu(upper, 1).T) @ b, -b.T @ load))
 
 
-CHOSEN = ("types", "gripper")
-"""All kinds of joints, and sliding and turning that follow each other; the others are released in the long run."""
-
-
-@pytest.mark.parametrize(
-    "names",
-    [CHOSEN, pytest.param([name for name in DRIVEN if name not in CHOSEN], marks=pytest.mark.slow)],
-    ids=["chosen", "others"],
-)
-def test_free_joints_accelerate_as_pinocchio_says(names: Sequence[str], modelica_library: Path, tmp_path: Path) -> None:
+def test_free_joints_accelerate_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
     """Without drives."""
-    released = {name: release_of_axes(name.capitalize(), DRIVEN[name]) for name in names}
-    folders = [one.package.write(tmp_path) for one in released.values()]
-    outcomes = modelica.execute(modelica_library, folders, [one.task for one in released.values()])
-    for (name, one), outcome in zip(released.items(), outcomes, strict=True):
-        assert not outcome.error, outcome.error
-        (series,) = outcome.runs
-        assert not series.error, series.error
-        found = np.array([series.values[value][0] for value in one.task.values])
-        assert found == pytest.approx(one.expected, rel=1e-9, abs=1e-9 * np.abs(one.expected).max()), name
+    packages, tasks, accelerations = zip(*(release(name.title(), urdf) for name, urdf in DRIVEN.items()), strict=True)
+    runs = modelica.simulate(modelica_library, [package.write(tmp_path) for package in packages], tasks)
+    for name, task, expected, series in zip(DRIVEN, tasks, accelerations, runs, strict=True):
+        found = np.array([series.values[value][0] for value in task.values])
+        assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max()), name

@@ -66,14 +66,7 @@ def test_enough_robots_are_compared(corpus: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "names",
-    [
-        pytest.param(["six_axis_arm"], marks=pytest.mark.slow),
-        ["wheeled_robot"],
-        pytest.param(["planar_platform", "floating_buoy"], marks=pytest.mark.slow),
-    ],
-)
+@pytest.mark.parametrize("names", [["six_axis_arm"], ["wheeled_robot"], ["planar_platform", "floating_buoy"]])
 def test_examples_move_as_pinocchio_says(names: Sequence[str], modelica_library: Path, tmp_path: Path) -> None:
     """A mobile robot, a planar and a floating joint among them."""
     cases = []

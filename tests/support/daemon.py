@@ -27,10 +27,32 @@ LIMIT = 60.0
 
 QUICK = Times(settle=0.02, sample=0.01, give_up_after=0.1, recheck_shrunk=0.05)
 
+RECORD = Path("modelica/Ladder/Elements/R2Parameters.mo")
+MODEL = Path("modelica/Ladder/Elements/R2.mo")
+
 Event = Mapping[str, Any]
 ENDED = (events.Built, events.Failed, events.Unchanged)
 ENDS = ("built", "failed", "calm")
 """What the way of a robot from its first event to its last ends with."""
+
+
+def ladder(ohm: float) -> str:
+    """The source of the RC network with another resistance."""
+    example = REPOSITORY / "tests/rcnetwork/examples/ladder.json"
+    return example.read_text().replace("220.5", f"{ohm:g}")
+
+
+def holds(ohm: float) -> bool:
+    """Whether the package is built with this resistance."""
+    return f"{ohm:g}" in RECORD.read_text()
+
+
+def until(condition: Callable[[], bool]) -> None:
+    """Wait for something that no event tells."""
+    deadline = time.monotonic() + LIMIT
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
 
 
 class Watch:

@@ -84,6 +84,15 @@ def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> li
     return [_outcome(result) for result in results]
 
 
+def simulate(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> list[Series]:
+    """Execute tasks that compile, and whose runs all come to their end; returns these runs."""
+    outcomes = execute(library, packages, todo)
+    assert [outcome.error for outcome in outcomes] == [""] * len(todo)
+    runs = [run for outcome in outcomes for run in outcome.runs]
+    assert [run.error for run in runs] == [""] * len(runs)
+    return runs
+
+
 def standard(library: Path) -> str:
     """The folder with the part of the standard library in the folder `library` that robots need."""
     found = modelica_libraries.find_standard_library(os.environ, library)

@@ -20,7 +20,6 @@ class Screen(io.StringIO):
         super().__init__()
         self.width, self.height = width, height
         self.rows = [""]
-        self.writes = 0
         self.has_cursor = True
         self._row = self._column = 0
 
@@ -29,7 +28,6 @@ class Screen(io.StringIO):
 
     def write(self, text: str) -> int:
         super().write(text)
-        self.writes += bool(text)
         for match in _PIECES.finditer(text):
             number, command, character = match.groups()
             if command:

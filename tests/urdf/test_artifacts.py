@@ -10,7 +10,7 @@ from __future__ import annotations
 import cProfile
 import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -140,18 +140,10 @@ def test_golden_files_are_modelica(variant: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "models",
-    [
-        ("Bolted.BoltedRun", "Free.FreeTest"),
-        pytest.param(("Bolted.Bolted", "Bolted.BoltedTest", "Free.Free", "Free.FreeRun"), marks=pytest.mark.slow),
-    ],
-    ids=["one-bench-each", "others"],
-)
-def test_one_of_everything_compiles(models: Sequence[str], tmp_path: Path, modelica_library: Path) -> None:
-    """A bench has the robot in it."""
+def test_one_of_everything_compiles(tmp_path: Path, modelica_library: Path) -> None:
     targets = {"fixed": Target("Bolted", "Bolted"), "floating": Target("Free", "Free")}
     folders = [menagerie(variant, target).write(tmp_path) for variant, target in targets.items()]
+    models = [f"{name}.{name}{bench}" for name in ("Bolted", "Free") for bench in ("", "Run", "Test")]
     outcomes = execute(modelica_library, folders, [compile_task(model) for model in models])
     errors = {model: outcome.error for model, outcome in zip(models, outcomes, strict=True) if outcome.error}
     assert errors == {}
@@ -226,15 +218,6 @@ def test_capsules_have_round_ends_with_visualization2(tmp_path: Path, modelica_l
     folders = [package.write(tmp_path / "robot"), library]
     (outcome,) = execute(modelica_library, folders, [compile_task("Own.OwnRun", "Visualization2")])
     assert outcome.error == ""
-
-
-@pytest.mark.parametrize("base", ["fixed", "floating"])
-def test_a_robot_of_one_link_has_no_joints_and_no_drives(base: str) -> None:
-    package = package_of(urdfs.link("stone", 1), base=base)
-    assert not any(path.startswith("Joints") for path in package.texts)
-    assert package.texts["package.order"].split()[-1] == "Links"
-    assert "connect(stone.frame_a, stoneFrame)" in package.texts["Own.mo"]
-    assert not re.search("Rotational|Translational", package.texts["Own.mo"] + package.texts["OwnRun.mo"])
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,6 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import Joint, Limit, Mimic
 
-PLAIN = Options()
 MIR = {f"{corner}_caster_{part}_joint" for corner in ("fl", "fr", "bl", "br") for part in ("rotation", "wheel")}
 TENDONS = {f"finger_{finger}_joint_{number}" for finger in ("1", "2", "middle") for number in (0, 1, 2)}
 PASSIVE = {"random-mir": MIR, "drake-robotiq_tendons": TENDONS}
@@ -60,32 +59,25 @@ CART = (
 DRIVEN = {"wheel", "mast", "lid", "lift", "spindle"}
 
 
-def test_a_continuous_joint_with_neither_drive_nor_limit_is_passive_if_others_have_a_drive() -> None:
-    assert driven_joints(CART, PLAIN) == DRIVEN
-    assert passive_joints(CART) == {"caster"}
-
-
-def test_a_robot_that_says_nothing_of_drives_keeps_all_of_them() -> None:
-    silent = [joint("wheel"), *CART[1:7], *CART[9:]]
-    assert driven_joints(silent, PLAIN) == {*DRIVEN, "caster"}
-    assert passive_joints(silent) == frozenset()
-
-
-def test_a_transmission_of_a_joint_that_can_not_move_says_something_too() -> None:
-    assert driven_joints([joint("weld", "fixed", actuated=True), joint("caster")], PLAIN) == frozenset()
+SILENT = [joint("wheel"), *CART[1:7], *CART[9:]]
+"""Without any drive."""
 
 
 @pytest.mark.parametrize(
-    ("names", "driven"),
+    ("joints", "names", "driven", "passive"),
     [
-        (["caster"], {"caster"}),
-        ([], set()),
-        (["caster", "caster", "mast"], {"caster", "mast"}),
-        (["mast", "slave", "weld", "glide", "fly", "gone"], {"mast"}),
+        pytest.param(CART, None, DRIVEN, {"caster"}, id="others have a drive"),
+        pytest.param(SILENT, None, {*DRIVEN, "caster"}, set(), id="nobody has one"),
+        pytest.param(CART, (), set(), {"caster"}, id="none is asked for"),
+        pytest.param(CART, ("caster", "caster", "mast"), {"caster", "mast"}, {"caster"}, id="two are asked for"),
+        pytest.param(CART, ("mast", "slave", "weld", "glide", "fly", "gone"), {"mast"}, {"caster"}, id="no axes"),
     ],
 )
-def test_the_option_says_exactly_which_are_driven(names: Sequence[str], driven: set[str]) -> None:
-    assert driven_joints(CART, Options(driven=tuple(names))) == driven
+def test_driven_and_passive_joints(
+    joints: Sequence[Joint], names: tuple[str, ...] | None, driven: set[str], passive: set[str]
+) -> None:
+    assert driven_joints(joints, Options(driven=names)) == driven
+    assert passive_joints(joints) == passive
 
 
 @given(st.lists(JOINTS, unique_by=lambda joint: joint.name), st.none() | st.lists(st.sampled_from("abcxyz")).map(tuple))

@@ -34,17 +34,36 @@ def found(urdf: str = CART, **options: Any) -> list[tuple[str, Severity, str]]:
     return [(option, said.severity, str(said).partition(": ")[2]) for option, said in checked]
 
 
+def of(option: str, *names: str) -> list[tuple[str, Severity, str]]:
+    """What is said of an option with these names."""
+    options: dict[str, Any] = {option: names}
+    return found(CART, **options)
+
+
 @pytest.mark.parametrize(
-    ("name", "words"),
+    ("option", "name", "words"),
     [
-        ("base_link", "but the robot has no such link; did you mean `base`? [frame-of-no-link]"),
-        ("xyz", "but the robot has no such link; correct its name, or take it out [frame-of-no-link]"),
-        ("lift", "which is a joint and no link; name the link behind it, `mast`, or its parent [frame-of-no-link]"),
+        ("frames", "base_link", "but the robot has no such link; did you mean `base`?"),
+        ("frames", "xyz", "but the robot has no such link; correct its name, or take it out"),
+        ("frames", "lift", "which is a joint and no link; name the link behind it, `mast`, or its parent"),
+        ("driven", "wheels", "but the robot has no such joint; did you mean `wheel`?"),
+        ("driven", "lifts", "but the robot has no such joint; correct its name, or take it out"),
+        ("driven", "lift", "which follows joint `wheel`; name `wheel`, or take it out"),
+        ("driven", "camera", "which is fixed; take it out"),
+        ("driven", "glide", "which is planar and has no single axis; take it out"),
+        ("driven", "fly", "which is floating and has no single axis; take it out"),
+        ("driven", "tyre", "which is a link and no joint; name the joint that moves it, `wheel`"),
+        ("driven", "base", "which is a link and no joint; name a joint"),
+        ("driven", "plate", "which is a link and no joint; name a joint"),
+        ("driven", "lid", "which is fixed; take it out"),
+        ("driven", "latch", "which follows joint `lift`; take it out"),
     ],
 )
-def test_a_frame_of_no_link(name: str, words: str) -> None:
-    problem = ("frames", Severity.ERROR, f"`frames` names `{name}`, {words}")
-    assert found(frames=("base", name, "mast")) == [problem]
+def test_a_name_that_an_option_can_not_have(option: str, name: str, words: str) -> None:
+    code = "frame-of-no-link" if option == "frames" else "drive-of-no-joint"
+    others = ("base", "mast") if option == "frames" else ("caster",)
+    problem = (option, Severity.ERROR, f"`{option}` names `{name}`, {words} [{code}]")
+    assert of(option, *others, name) == [problem]
 
 
 @pytest.mark.parametrize("option", ["frames", "driven"])
@@ -55,35 +74,10 @@ def test_a_name_that_stands_there_twice(option: str) -> None:
     two = (option, Severity.WARNING, f"`{option}` names `{twice}` twice; {words}")
     three = (option, Severity.WARNING, f"`{option}` names `{once}` 3 times; {words}")
 
-    def of(*names: str) -> list[tuple[str, Severity, str]]:
-        options: dict[str, Any] = {option: names}
-        return found(CART, **options)
-
-    assert of(twice, once, twice) == [two]
-    assert of(once, twice, once, twice, once) == [three, two]
-    wrong = of("gone", "gone")
+    assert of(option, twice, once, twice) == [two]
+    assert of(option, once, twice, once, twice, once) == [three, two]
+    wrong = of(option, "gone", "gone")
     assert [severity for _, severity, _ in wrong] == [Severity.WARNING, Severity.ERROR]
-
-
-@pytest.mark.parametrize(
-    ("name", "words"),
-    [
-        ("wheels", "but the robot has no such joint; did you mean `wheel`? [drive-of-no-joint]"),
-        ("lifts", "but the robot has no such joint; correct its name, or take it out [drive-of-no-joint]"),
-        ("lift", "which follows joint `wheel`; name `wheel`, or take it out [drive-of-no-joint]"),
-        ("camera", "which is fixed; take it out [drive-of-no-joint]"),
-        ("glide", "which is planar and has no single axis; take it out [drive-of-no-joint]"),
-        ("fly", "which is floating and has no single axis; take it out [drive-of-no-joint]"),
-        ("tyre", "which is a link and no joint; name the joint that moves it, `wheel` [drive-of-no-joint]"),
-        ("base", "which is a link and no joint; name a joint [drive-of-no-joint]"),
-        ("plate", "which is a link and no joint; name a joint [drive-of-no-joint]"),
-        ("lid", "which is fixed; take it out [drive-of-no-joint]"),
-        ("latch", "which follows joint `lift`; take it out [drive-of-no-joint]"),
-    ],
-)
-def test_a_drive_of_no_joint_that_can_be_driven(name: str, words: str) -> None:
-    problem = ("driven", Severity.ERROR, f"`driven` names `{name}`, {words}")
-    assert found(driven=("caster", name)) == [problem]
 
 
 @pytest.mark.parametrize(

@@ -62,68 +62,51 @@ def warnings(urdf: str, *approach: str) -> list[str]:
     return [str(one) for one in found if one.code in CODES]
 
 
-@pytest.mark.parametrize("approach", [("record",), ("package", "record")])
-def test_a_planar_joint_is_named_with_its_line_and_what_to_do(approach: tuple[str, ...]) -> None:
-    assert warnings(PLANAR, *approach) == [
-        "own.urdf:6: warning: the generic robot has no planar joints, so there are no tables for it: joint 'glide'; "
-        "write it as two prismatic joints and a continuous one, or use the package approach [planar-not-generic]"
-    ]
+RECORD, BOTH, PACKAGE = ("record",), ("package", "record"), ("package",)
+ROD = """<link name="rod"><inertial><origin xyz="0 0 0.2"/><mass value="2"/>
+<inertia ixx="0.1" iyy="0.1" izz="0" ixy="0" ixz="0" iyz="0"/></inertial></link>"""
+RODS = urdfs.robot(
+    urdfs.link("base", 1),
+    ROD,
+    urdfs.joint("spin", "continuous", "base", "rod", axis="0 0 1"),
+    urdfs.link("pivot"),
+    ROD.replace("rod", "other"),
+    urdfs.joint("swing", "continuous", "base", "pivot", axis="0 1 0"),
+    urdfs.joint("fasten", "fixed", "pivot", "other"),
+)
+"""All the mass is on an axis, as exporters write it; it turns about another one."""
+POSITION = "so the generic robot can move it by position only"
+WARNINGS = [
+    (PLANAR, RECORD, "6: warning: the generic robot has no planar joints, so there are no tables for it: joint "
+     "'glide'; write it as two prismatic joints and a continuous one, or use the package approach"),
+    (PLANAR, BOTH, "6: warning: the generic robot has no planar joints"),
+    (FREE_INSIDE, RECORD, "6: warning: the generic robot has no floating joints, so there are no tables for it: joint "
+     "'drift'; write it as three prismatic joints and three continuous ones"),
+    (FREE_ROOT, RECORD, "5: warning: the generic robot has no floating joints, so there are no tables for it: joint "
+     "'fly'; leave it out with its parent link and let the base float (`base = \"floating\"` in a project)"),
+    (LIGHT, RECORD, f"11: warning: joint 'twist' moves no mass, {POSITION}; "
+     "give a link behind it an <inertial>, or make it a fixed joint [moves-no-mass]"),
+    (RODS, RECORD, f"6: warning: joint 'spin' turns nothing that has an inertia about its axis, {POSITION}; "
+     "give a link behind it such an inertia, or make it a fixed joint [moves-no-mass]"),
+    (TWINS, RECORD, "6: warning: joint 'first' moves no mass where it starts if joints behind it undo its motion, as "
+     f"one about the same axis can, {POSITION}; give the link right behind it an <inertial>, or make it a fixed joint"),
+    (FEATHER, RECORD, "2: warning: no link has a mass, so the joints of the generic robot can be moved by position "
+     "only; give the links an <inertial> [moves-no-mass]"),
+]  # fmt: skip
 
 
-def test_a_floating_joint_at_the_root_is_what_a_floating_base_is_for() -> None:
-    (inside,) = warnings(FREE_INSIDE, "record")
-    assert "joint 'drift'; write it as three prismatic joints and three continuous ones" in inside
-    (warning,) = warnings(FREE_ROOT, "record")
-    assert warning.startswith("own.urdf:5: warning: the generic robot has no floating joints")
-    assert 'leave it out with its parent link and let the base float (`base = "floating"` in a project)' in warning
-
-
-def test_a_joint_that_moves_no_mass_is_named_with_its_line_and_what_to_do() -> None:
-    """It, and not those behind it; a joint that a mass follows can move freely, and a follower has no drive."""
-    assert warnings(LIGHT, "record") == [
-        "own.urdf:11: warning: joint 'twist' moves no mass, so the generic robot can move it by position only; "
-        "give a link behind it an <inertial>, or make it a fixed joint [moves-no-mass]"
-    ]
-
-
-def test_a_mass_that_is_all_on_the_axis_is_not_turned() -> None:
-    """A rod without thickness, as exporters write it."""
-    tensor = '<inertia ixx="0.1" iyy="0.1" izz="0" ixy="0" ixz="0" iyz="0"/>'
-    rod = f'<inertial><origin xyz="0 0 0.2"/><mass value="2"/>{tensor}</inertial>'
-    urdf = urdfs.robot(
-        urdfs.link("base", 1),
-        f'<link name="rod">{rod}</link>',
-        urdfs.joint("spin", "continuous", "base", "rod", axis="0 0 1"),
-        urdfs.link("pivot"),
-        f'<link name="other">{rod}</link>',
-        urdfs.joint("swing", "continuous", "base", "pivot", axis="0 1 0"),
-        urdfs.joint("fasten", "fixed", "pivot", "other"),
-    )
-    assert warnings(urdf, "record") == [
-        "own.urdf:5: warning: joint 'spin' turns nothing that has an inertia about its axis, so the generic robot can "
-        "move it by position only; give a link behind it such an inertia, or make it a fixed joint [moves-no-mass]"
-    ]
-
-
-def test_the_first_of_two_joints_on_one_axis_with_nothing_between_is_named() -> None:
-    """The one behind it takes the load alone; the two may point against each other."""
-    assert warnings(TWINS, "record") == [
-        "own.urdf:6: warning: joint 'first' moves no mass where it starts if joints behind it undo its motion, as one "
-        "about the same axis can, so the generic robot can move it by position only; give the link right behind it an "
-        "<inertial>, or make it a fixed joint [moves-no-mass]"
-    ]
-
-
-def test_a_robot_without_any_mass_says_so_once() -> None:
-    assert warnings(FEATHER, "record") == [
-        "own.urdf:2: warning: no link has a mass, so the joints of the generic robot can be moved by position only; "
-        "give the links an <inertial> [moves-no-mass]"
-    ]
+@pytest.mark.parametrize(("urdf", "approach", "words"), WARNINGS)
+def test_what_can_not_be_simulated_is_named_with_its_line_and_what_to_do(
+    urdf: str, approach: tuple[str, ...], words: str
+) -> None:
+    """Joints behind a massless one are not named; one that a mass follows can move freely, a follower has no drive."""
+    (found,) = warnings(urdf, *approach)
+    assert found.startswith(f"own.urdf:{words}")
 
 
 @pytest.mark.parametrize("urdf", [PLANAR, FREE_ROOT, FREE_INSIDE, STATUE, LIGHT, FEATHER, TWINS])
 def test_the_package_approach_has_no_reason_to_warn(urdf: str) -> None:
-    assert warnings(urdf, "package") == []
+    assert warnings(urdf, *PACKAGE) == []
 
 
 # Passive joints of the package
@@ -163,27 +146,20 @@ def test_a_caster_without_a_mass_is_named_with_its_line_and_what_to_do() -> None
 
 
 @pytest.mark.parametrize(
-    ("options", "names"),
+    ("urdf", "options", "names"),
     [
-        ({"driven": ("wheel", "caster")}, []),
-        ({"driven": ("caster",)}, []),
-        ({"driven": ("wheel",)}, ["caster"]),
-        ({"approach": ("record",)}, []),
-        ({"approach": ("package", "record")}, ["caster"]),
+        (CART, {"driven": ("wheel", "caster")}, []),
+        (CART, {"driven": ("caster",)}, []),
+        (CART, {"driven": ("wheel",)}, ["caster"]),
+        (CART, {"approach": RECORD}, []),
+        (CART, {"approach": BOTH}, ["caster"]),
+        (CLUTCH, {"driven": ()}, ["first"]),
+        (CLUTCH, {"driven": ("first",)}, []),
+        (CLUTCH, {"driven": ("second",)}, []),  # it does not undo the motion of the first one
     ],
 )
-def test_what_is_driven_counts_and_so_does_the_approach(options: dict[str, Any], names: list[str]) -> None:
-    assert [found.message.split("'")[1] for found in passive_warnings(CART, **options)] == names
-
-
-@pytest.mark.parametrize(
-    ("driven", "names"),
-    [((), ["first"]), (("second",), []), (("first",), []), (("first", "second"), [])],
-)
-def test_a_driven_joint_behind_a_passive_one_does_not_undo_its_motion(
-    driven: tuple[str, ...], names: list[str]
-) -> None:
-    assert [found.message.split("'")[1] for found in passive_warnings(CLUTCH, driven=driven)] == names
+def test_what_is_driven_counts_and_so_does_the_approach(urdf: str, options: dict[str, Any], names: list[str]) -> None:
+    assert [found.message.split("'")[1] for found in passive_warnings(urdf, **options)] == names
 
 
 def test_a_passive_leader_moves_what_its_followers_move() -> None:

@@ -129,15 +129,6 @@ def test_what_is_cut_off_still_counts() -> None:
     assert spell("a" * 100, "link") == "a" * 100
 
 
-def test_many_names_of_one_spelling_do_not_take_quadratic_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    calls = itertools.count()
-    is_free = names._is_free
-    monkeypatch.setattr(names, "_is_free", lambda *arguments: (next(calls), is_free(*arguments))[1])
-    keys = [("link", chr(0x4E00 + k)) for k in range(300)]
-    assert identify(keys)["link", chr(0x4E00 + 299)].component == "link__link_299"
-    assert next(calls) <= 3 * len(keys)
-
-
 @given(st.lists(st.text("0123aé٣ ", max_size=5), max_size=4, unique=True))
 def test_the_natural_order_is_total(names: list[str]) -> None:
     assert len({natural_key(name) for name in names}) == len(names)
@@ -166,7 +157,3 @@ def key_of(text: str) -> Key:
 def test_the_examples_for_users_are_true(names: str, identifiers: str) -> None:
     keys = [key_of(part) for part in names.split(", ")]
     assert [identify(keys, ["MyArm"])[key].component for key in keys] == re.findall("`(.*?)`", identifiers)
-
-
-def test_the_page_for_users_has_examples() -> None:
-    assert len(table_rows()) >= 12

@@ -107,19 +107,37 @@ def test_each_cycle_is_told_once() -> None:
     assert codes == ["cycle", "cycle"]
 
 
+AXIS, ORDER = ("warning", "axis-not-unit", "joint j / axis"), ("error", "limit-order", "joint j / limit")
+NEGATIVE, IDLE = (("warning", code, "joint j / dynamics") for code in ("negative-dynamics", "dynamics-without-effect"))
+SMALL = ("warning", "negative-limit", "joint j / limit")
+
+
 @pytest.mark.parametrize(
-    ("axis", "told"),
+    ("fields", "expected"),
     [
-        ((0.0, 0.0, 1.0000005), False),
-        ((0.57735, 0.57735, 0.57735), False),
-        ((0.5773, 0.5773, 0.5773), True),
-        ((1.0, 1.0, 0.0), True),
-        ((1e-200, 0.0, 0.0), True),
-        ((1e200, 1e200, 1e200), True),
+        ({"axis": (0.0, 0.0, 1.0000005)}, []),
+        ({"axis": (0.57735, 0.57735, 0.57735)}, []),
+        ({"axis": (0.5773, 0.5773, 0.5773)}, [AXIS]),
+        ({"axis": (1.0, 1.0, 0.0)}, [AXIS]),
+        ({"axis": (1e-200, 0.0, 0.0)}, [AXIS]),
+        ({"axis": (1e200, 1e200, 1e200)}, [AXIS]),
+        ({"limit": Limit(1.0, -1.0)}, [ORDER]),
+        ({"type": "prismatic", "limit": Limit(1.0, -1.0)}, [ORDER]),
+        ({"type": "continuous", "limit": Limit(1.0, -1.0)}, []),
+        ({"limit": Limit(1.0, 1.0)}, []),
+        ({"limit": Limit(0.0, 1.0, -1.0)}, [SMALL]),
+        ({"limit": Limit(0.0, 1.0, 1.0, -1.0)}, [SMALL]),
+        ({"limit": Limit(0.0, 1.0, 0.0, 0.0)}, []),
+        ({"dynamics": Dynamics(1.0, 1.0)}, []),
+        ({"dynamics": Dynamics(-1.0, -1.0)}, [NEGATIVE, NEGATIVE]),
+        ({"type": "planar", "dynamics": Dynamics(1.0, 0.0)}, []),
+        ({"type": "fixed", "dynamics": Dynamics(0.0, 0.0)}, []),
+        ({"type": "fixed", "dynamics": Dynamics(-1.0, 0.0)}, [IDLE]),
+        ({"type": "floating", "dynamics": Dynamics(0.0, 1.0)}, [IDLE]),
     ],
 )
-def test_axes_that_are_no_unit_vectors(axis: tuple[float, float, float], told: bool) -> None:
-    assert about_joint(axis=axis) == [("warning", "axis-not-unit", "joint j / axis")] * told
+def test_numbers_of_a_joint(fields: dict[str, object], expected: list[tuple[str, str, str]]) -> None:
+    assert about_joint(**fields) == expected
 
 
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
@@ -133,37 +151,6 @@ def test_normalising_gives_unit_vectors_and_once_is_enough(axis: tuple[float, fl
     assert normalise_axes(robot) == robot
     if any(axis):
         assert all(ours * theirs >= 0 for ours, theirs in zip(unit, axis, strict=True))
-
-
-@pytest.mark.parametrize(
-    ("kind", "limit", "expected"),
-    [
-        ("revolute", Limit(1.0, -1.0), [("error", "limit-order", "joint j / limit")]),
-        ("prismatic", Limit(1.0, -1.0), [("error", "limit-order", "joint j / limit")]),
-        ("continuous", Limit(1.0, -1.0), []),
-        ("revolute", Limit(1.0, 1.0), []),
-        ("revolute", Limit(0.0, 1.0, -1.0), [("warning", "negative-limit", "joint j / limit")]),
-        ("revolute", Limit(0.0, 1.0, 1.0, -1.0), [("warning", "negative-limit", "joint j / limit")]),
-        ("revolute", Limit(0.0, 1.0, 0.0, 0.0), []),
-    ],
-)
-def test_limits(kind: JointType, limit: Limit, expected: list[tuple[str, str, str]]) -> None:
-    assert about_joint(type=kind, limit=limit) == expected
-
-
-@pytest.mark.parametrize(
-    ("kind", "dynamics", "codes"),
-    [
-        ("revolute", Dynamics(1.0, 1.0), []),
-        ("revolute", Dynamics(-1.0, -1.0), ["negative-dynamics", "negative-dynamics"]),
-        ("planar", Dynamics(1.0, 0.0), []),
-        ("fixed", Dynamics(0.0, 0.0), []),
-        ("fixed", Dynamics(-1.0, 0.0), ["dynamics-without-effect"]),
-        ("floating", Dynamics(0.0, 1.0), ["dynamics-without-effect"]),
-    ],
-)
-def test_dynamics(kind: JointType, dynamics: Dynamics, codes: list[str]) -> None:
-    assert about_joint(type=kind, dynamics=dynamics) == [("warning", code, "joint j / dynamics") for code in codes]
 
 
 @pytest.mark.parametrize(

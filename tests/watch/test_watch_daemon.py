@@ -5,6 +5,7 @@ That nothing else was built shows when one more change has been built: its event
 
 from __future__ import annotations
 
+import dataclasses
 import errno
 import json
 import os
@@ -19,19 +20,17 @@ from typing import Any
 
 import pytest
 import watchdog.observers
-from support.daemon import LIMIT, REPOSITORY, Daemons
+from support.daemon import MODEL, RECORD, REPOSITORY, Daemons, holds, ladder, until
 from support.git import NEEDS_GIT, Repository
 
-from urdfsync import cli, dependencies, registry
+from urdfsync import cli, registry
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
-from urdfsync.watch import build, events, observer, precommit, robots
+from urdfsync.watch import build, events, observer, precommit
 from urdfsync.watch.daemon import Daemon
 from urdfsync.watch.debounce import Times
 
-RECORD = Path("modelica/Ladder/Elements/R2Parameters.mo")
-MODEL = Path("modelica/Ladder/Elements/R2.mo")
 CONFIG = '[robots.{0}]\nsource = "{1}"\npackage = "{2}"\ndomain = "rcnetwork"\n'
 BUILD = ["Settling", "Building", "Built"]
 NEVER = 100000.0
@@ -56,24 +55,14 @@ def start(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Start]:
         daemon.stop()
 
 
-def text(ohm: float) -> str:
-    """The source with another resistance."""
-    example = REPOSITORY / "tests/rcnetwork/examples/ladder.json"
-    return example.read_text().replace("220.5", f"{ohm:g}")
-
-
 def put(path: Path | str, ohm: float) -> Path:
     """Write a source, with its signal beside it."""
     place = Path(path)
     place.parent.mkdir(parents=True, exist_ok=True)
     if not (place.parent / "step.csv").is_file():
         shutil.copy(REPOSITORY / "tests/rcnetwork/examples/step.csv", place.parent)
-    place.write_text(text(ohm))
+    place.write_text(ladder(ohm))
     return place
-
-
-def holds(ohm: float) -> bool:
-    return f"{ohm:g}" in RECORD.read_text()
 
 
 def probe(daemon: Daemons, source: Path | str = "ladder.json", ohm: float = 999.0) -> None:
@@ -83,14 +72,6 @@ def probe(daemon: Daemons, source: Path | str = "ladder.json", ohm: float = 999.
     daemon.wait(events.Built, since, lambda event: bool(event.files))
     daemon.rest()
     assert holds(ohm)
-
-
-def until(condition: Callable[[], bool]) -> None:
-    """Wait for something that no event tells."""
-    deadline = time.monotonic() + LIMIT
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
 
 
 def await_rescans(monkeypatch: pytest.MonkeyPatch, number: int) -> None:
@@ -135,7 +116,7 @@ def test_an_editor_that_renames(start: Start) -> None:
 
 def test_a_slow_writer_is_one_build(start: Start) -> None:
     daemon = start(times=Times(settle=0.5, sample=0.1))
-    since, content = daemon.mark, text(330).encode()
+    since, content = daemon.mark, ladder(330).encode()
     with Path("ladder.json").open("r+b", buffering=0) as file:
         file.truncate(0)
         for begin in range(0, len(content), 40):
@@ -175,7 +156,7 @@ def test_a_source_that_is_never_valid_is_told_once_and_recovers(start: Start, mo
 
 def test_many_elements_that_vanish_are_looked_at_longer(start: Start) -> None:
     daemon = start(times=PATIENT)
-    whole = json.loads(text(330))
+    whole = json.loads(ladder(330))
     short = json.dumps({**whole, "elements": whole["elements"][:1]})
     Path("ladder.json").write_text(short)
     assert "3 of 4 elements are gone" in daemon.wait(events.Waiting).reason
@@ -317,7 +298,7 @@ def test_times_do_not_matter(start: Start, monkeypatch: pytest.MonkeyPatch) -> N
         assert holds(ohm)
     since, facts = daemon.mark, source.stat()
     with source.open("r+") as file:
-        file.write(text(333))
+        file.write(ladder(333))
     os.utime(source, ns=(facts.st_atime_ns, facts.st_mtime_ns))
     assert (source.stat().st_size, source.stat().st_mtime_ns) == (facts.st_size, facts.st_mtime_ns)
     daemon.wait(events.Built, since)
@@ -344,7 +325,7 @@ def test_what_a_user_edits_is_left_alone(start: Start, monkeypatch: pytest.Monke
     assert "1000" in RECORD.read_text()
     daemon.rest()
     since = daemon.mark
-    whole = json.loads(text(330))
+    whole = json.loads(ladder(330))
     kept = [element for element in whole["elements"] if element["name"] != "R2"]
     Path("ladder.json").write_text(json.dumps({**whole, "elements": kept}))
     orphans = daemon.wait(events.Built, since).result.actions
@@ -353,6 +334,14 @@ def test_what_a_user_edits_is_left_alone(start: Start, monkeypatch: pytest.Monke
     since = daemon.mark
     await_rescans(monkeypatch, 3)
     assert daemon.mark == since, "each is told once"
+
+
+@dataclasses.dataclass
+class Passes:
+    """Whether each build was dry, and what happens when one has ended, given how many have."""
+
+    dry: list[bool] = dataclasses.field(default_factory=list)
+    then: Callable[[int], None] = lambda _: None
 
 
 def _to_folder(path: Path) -> None:
@@ -411,65 +400,41 @@ def test_saves_right_after_the_build_has_looked(start: Start, monkeypatch: pytes
 
 
 @pytest.fixture
-def passes(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
-    """Grows by each build that ends: whether it was dry."""
-    real, ended = build.build_robots, list[bool]()
+def passes(monkeypatch: pytest.MonkeyPatch) -> Passes:
+    """Grows by each build that ends."""
+    real, passes = build.build_robots, Passes()
 
     def results(config: Any, robots: Any, options: BuildOptions) -> Iterator[Result]:
         yield from real(config, robots, options)
-        ended.append(options.dry)
+        passes.dry.append(options.dry)
+        passes.then(len(passes.dry))
 
     monkeypatch.setattr(build, "build_robots", results)
-    return ended
+    return passes
 
 
 @pytest.mark.parametrize("number", [1, 2])
-def test_an_edit_during_a_build_is_seen(start: Start, monkeypatch: pytest.MonkeyPatch, number: int) -> None:
+def test_an_edit_during_a_build_is_seen(
+    start: Start, monkeypatch: pytest.MonkeyPatch, passes: Passes, number: int
+) -> None:
     """Its event is not needed."""
-    monkeypatch.setattr(observer.Observer, "dispatch", lambda *_: None)
-    real, ended = build.build_robots, list[bool]()
 
-    def results(config: Any, robots: Any, options: BuildOptions) -> Iterator[Result]:
-        yield from real(config, robots, options)
-        ended.append(options.dry)
-        if len(ended) == number:
+    def edit(ended: int) -> None:
+        if ended == number:
             MODEL.write_text(MODEL.read_text() + "// mine\n")
 
-    monkeypatch.setattr(build, "build_robots", results)
+    monkeypatch.setattr(observer.Observer, "dispatch", lambda *_: None)
+    passes.then = edit
     result = start().wait(events.Built, 3).result
     assert [action.path for action in result.actions if action.kind is Kind.KEEP] == [str(MODEL)]
-    assert ended == [False, True, False, True]
+    assert passes.dry == [False, True, False, True]
 
 
-def test_a_change_is_built_once_and_confirmed_once(start: Start, passes: list[bool]) -> None:
+def test_a_change_is_built_once_and_confirmed_once(start: Start, passes: Passes) -> None:
     daemon = start(rescan=0.02)
     for ohm in (330, 331):
         probe(daemon, ohm=ohm)
-    assert passes == 3 * [False, True]
-
-
-def test_files_are_read_once_until_they_change(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Files that changed shortly before are hashed each time, since they may be racy: here an hour has gone by."""
-    real_clock, real_read, read = time.time_ns, dependencies.read_unrecorded, list[str]()
-
-    def note(path: str) -> bytes:
-        read.extend({path} - {os.path.abspath("urdfsync.toml")})  # noqa: PTH100
-        return real_read(path)
-
-    monkeypatch.setattr(time, "time_ns", lambda: real_clock() + 3600 * 10**9)
-    monkeypatch.setattr(robots, "read_unrecorded", note)
-    daemon = start(rescan=0.02)
-    probe(daemon)
-    await_rescans(monkeypatch, 2)
-    read.clear()
-    await_rescans(monkeypatch, 2)
-    assert read == []
-    MODEL.touch()
-    await_rescans(monkeypatch, 2)
-    assert set(read) == {str(MODEL.absolute())}
-    read.clear()
-    await_rescans(monkeypatch, 2)
-    assert read == []
+    assert passes.dry == 3 * [False, True]
 
 
 def test_the_state_folder_is_deleted(start: Start) -> None:
@@ -514,9 +479,7 @@ def test_it_pauses_while_pre_commit_has_stashed_changes(start: Start, project: P
     assert daemon.kinds(since) == ["Settling", "Paused", "Resumed", "Building", "Built"]
 
 
-def test_nothing_is_built_again_during_a_pause(
-    start: Start, monkeypatch: pytest.MonkeyPatch, passes: list[bool]
-) -> None:
+def test_nothing_is_built_again_during_a_pause(start: Start, monkeypatch: pytest.MonkeyPatch, passes: Passes) -> None:
     """Changes are stashed away while a robot is built: the next build would take what is left for the user's."""
     stashed = threading.Event()
     monkeypatch.setattr(precommit, "find_stash", lambda _: (Path("patch"), 1) if stashed.is_set() else None)
@@ -531,7 +494,7 @@ def test_nothing_is_built_again_during_a_pause(
     monkeypatch.setattr(Daemon, "_renew_paths", stash)
     daemon = start(rests=False)
     daemon.wait(events.Paused)
-    assert passes == [False, True]
+    assert passes.dry == [False, True]
     monkeypatch.setattr(Daemon, "_renew_paths", real)
     RECORD.unlink()
     stashed.clear()

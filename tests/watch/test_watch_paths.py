@@ -21,27 +21,18 @@ def names(project: Path, paths: frozenset[str]) -> set[str]:
     return {os.path.relpath(path, project) for path in paths}
 
 
-def bare(source: Path, package: Path, templates: Path | None = None, *outputs: Path) -> RobotPaths:
+def bare(source: Path, package: Path) -> RobotPaths:
     return RobotPaths(
         source=str(source),
         inputs=frozenset([str(source)]),
-        templates=str(templates) if templates else None,
-        outputs=frozenset(map(str, outputs)),
+        templates=None,
+        outputs=frozenset(),
         package=str(package),
     )
 
 
 def seen(project: Path, one: RobotPaths) -> WatchedPaths:
     return find_watched_paths(str(project), str(project / "urdfsync.toml"), {"arm": one})
-
-
-def test_after_a_build_dependencies_and_outputs_are_known(project: Path) -> None:
-    assert cli.main(["build", "--quiet"]) == 0
-    found = ladder(project)
-    assert names(project, found.inputs) == {"ladder.json", "step.csv"}
-    assert {"modelica/Ladder/Elements/R1.mo", "modelica/Ladder/package.order"} <= names(project, found.outputs)
-    assert len(found.built_hash) == 64
-    assert ("elements", "R1") in found.built_names
 
 
 def test_a_dependency_may_turn_up_wherever_it_is_looked_for(project: Path) -> None:
@@ -102,32 +93,7 @@ def test_the_root_is_never_watched(root: str) -> None:
     assert "/" not in found.by_path
 
 
-def test_links_and_where_they_lead_are_watched(tmp_path: Path) -> None:
-    project = tmp_path / "project"
-    (project / "v1/deep").mkdir(parents=True)
-    (project / "v1/deep/arm.urdf").write_text("")
-    (project / "latest").symlink_to("v1")
-    (project / "here").symlink_to("latest/deep")
-    found = seen(project, bare(project / "here/arm.urdf", project / "modelica/Arm"))
-    assert names(project, found.folders) == {".", "v1", "v1/deep"}
-    for name in ("here", "latest", "v1", "v1/deep", "v1/deep/arm.urdf"):
-        assert found.robots_for(str(project / name)) == {"arm"}
-    assert found.robots_for(str(project / "here/arm.urdf")) == set(), "no event has a link in its path"
-
-
 def test_links_without_end(tmp_path: Path) -> None:
     (tmp_path / "loop").symlink_to("loop/loop")
     found = seen(tmp_path, bare(tmp_path / "loop/arm.urdf", tmp_path / "modelica/Arm"))
     assert found.robots_for(str(tmp_path / "loop")) == {"arm"}
-
-
-def test_packages_and_templates_are_watched_as_a_whole(tmp_path: Path) -> None:
-    package, own = tmp_path / "modelica/Arm", tmp_path / "own"
-    package.mkdir(parents=True)
-    own.mkdir()
-    found = seen(tmp_path, bare(tmp_path / "arm.urdf", package, own, package / "Links/A.mo"))
-    assert found.trees == {str(package): set(), str(own): {"arm"}}
-    assert names(tmp_path, found.folders) == {".", "modelica"}
-    assert found.robots_for(str(package / "Links/A.mo")) == {"arm"}
-    assert found.robots_for(str(package / "Bench.mo")) == set()
-    assert found.robots_for(str(own / "link/new.jinja")) == {"arm"}

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.daemon import LIMIT, REPOSITORY, Daemons, Watch, stopped
+from support.daemon import LIMIT, REPOSITORY, Daemons, Watch, holds, ladder, stopped
 
 from urdfsync import cli, registry
 from urdfsync.commands import watch as command
@@ -24,23 +24,12 @@ from urdfsync.watch.report import JsonReport
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 
-RECORD = Path("modelica/Ladder/Elements/R2Parameters.mo")
 QUEUE = Path("/proc/sys/fs/inotify/max_queued_events")
 SETPRIV = "setpriv"
 ROBOT = '[robots.{0}]\nsource = "{1}"\npackage = "{0}"\ndomain = "rcnetwork"\n'
 
 Capture = pytest.CaptureFixture[str]
 Start = Callable[..., Watch]
-
-
-def text(ohm: float) -> str:
-    """The source with another resistance."""
-    example = REPOSITORY / "tests/rcnetwork/examples/ladder.json"
-    return example.read_text().replace("220.5", f"{ohm:g}")
-
-
-def holds(ohm: float) -> bool:
-    return f"{ohm:g}" in RECORD.read_text()
 
 
 def watch_until(
@@ -84,7 +73,7 @@ def test_signals_end_it(
 def test_a_signal_during_a_build_leaves_all_or_nothing(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A build that has begun to write is finished, another one is given up."""
     cli.main(["build", "--quiet"])
-    Path("ladder.json").write_text(text(330))
+    Path("ladder.json").write_text(ladder(330))
     assert watch_until(monkeypatch, events.Building, send(signal.SIGTERM)) == 0
     assert holds(220.5)
     real = Transactions.apply
@@ -188,7 +177,7 @@ def test_an_overflow_of_events_is_made_good(project: Path, start: Start) -> None
         for _ in range(int(QUEUE.read_text()) // 2 + 1000):  # a rename is two events
             one.rename(two)
             one, two = two, one
-        Path("ladder.json").write_text(text(330))  # its own events are lost
+        Path("ladder.json").write_text(ladder(330))  # its own events are lost
     watch.wait("built", since=since)
     assert holds(330)
     assert watch.stop() == 0
@@ -208,7 +197,7 @@ def test_a_full_disk_is_told_once_and_recovers(start: Start) -> None:
     watch = start("--rescan", "0.1")
     before = resource.prlimit(watch.process.pid, resource.RLIMIT_FSIZE)
     resource.prlimit(watch.process.pid, resource.RLIMIT_FSIZE, (1, before[1]))
-    Path("ladder.json").write_text(text(330))
+    Path("ladder.json").write_text(ladder(330))
     assert watch.wait("failed")["diagnostics"][0]["code"] == "output-not-writable"
     since = watch.mark
     await_rescans()
@@ -225,7 +214,7 @@ def test_a_folder_without_permission_is_told_once_and_recovers(start: Start) -> 
     folder = Path("cad")
     folder.mkdir()
     shutil.copy("step.csv", folder)
-    (folder / "ladder.json").write_text(text(220.5))
+    (folder / "ladder.json").write_text(ladder(220.5))
     Path("urdfsync.toml").write_text(ROBOT.format("Ladder", "cad/ladder.json"))
     powers = "-dac_override,-dac_read_search"
     before = [SETPRIV, f"--bounding-set={powers}", f"--inh-caps={powers}"] if os.geteuid() == 0 else []

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import datetime
 import io
-import json
 import re
 import sys
 from collections.abc import Callable, Sequence
@@ -23,7 +22,7 @@ from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.outcome import Result
 from urdfsync.output.console import Console
 from urdfsync.watch import events, report
-from urdfsync.watch.report import JsonReport, TextReport
+from urdfsync.watch.report import TextReport
 
 PAGE = (Path(__file__).parents[2] / "docs" / "watch.md").read_text(encoding="utf-8")
 BROKEN = Diagnostic(Severity.ERROR, "xml-syntax", "this is no XML", "arm.urdf", 12)
@@ -212,39 +211,9 @@ def test_a_pipe_has_lines_only_and_errors_go_their_way(capsys: pytest.CaptureFix
     assert streams.err.splitlines()[1] == "arm.urdf:12: error: this is no XML [xml-syntax]"
 
 
-def test_quiet_has_no_status(look: Look) -> None:
-    assert look(built("arm", Kind.UPDATE), FAILED, quiet=True) == [
-        "14:03:12  arm      1 error, nothing was changed",
-        "arm.urdf:12: error: this is no XML [xml-syntax]",
-    ]
-
-
 def test_an_error_stream_elsewhere_gets_the_errors(terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
     screen, elsewhere = terminal(), io.StringIO()
     monkeypatch.setattr(sys, "stderr", elsewhere)
     tell(TextReport(Console()), FAILED)
     assert screen.shown()[1:] == ["", "✗ arm  error: arm.urdf:12: this is no XML"]
     assert elsewhere.getvalue().splitlines()[1] == "arm.urdf:12: error: this is no XML [xml-syntax]"
-
-
-def test_programs_get_a_line_of_json_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    class Stream(io.StringIO):
-        flushed = ""
-
-        def flush(self) -> None:
-            self.flushed = self.getvalue()
-
-    stream = Stream()
-    monkeypatch.setattr(sys, "stdout", stream)
-    programs = JsonReport()
-    programs.show(events.Waiting("arm", "waiting for the exporter", (BROKEN,)))
-    programs.progress("reading", 1, 2)
-    (line,) = stream.flushed.splitlines()
-    programs.show(built("arm", Kind.UPDATE, Kind.UNCHANGED))
-    event = json.loads(line)
-    assert (event["version"], event["event"], event["robot"]) == (2, "waiting", "arm")
-    assert event["time"] == "2026-03-04T14:03:12+01:00"
-    assert event["diagnostics"][0]["message"] == "this is no XML"
-    event = json.loads(stream.flushed.splitlines()[1])
-    assert (event["robot"], event["summary"], event["files"]) == ("arm", "1 file written", ["x"])
-    assert [action["path"] for action in event["actions"]] == ["modelica/Arm/F0.mo"]

@@ -32,26 +32,6 @@ def write(found: StatusArea, lines: list[str], status: list[str] | None = None) 
     found.write([Text(line) for line in lines], None if status is None else [Text(line) for line in status])
 
 
-def test_lines_scroll_above_the_status() -> None:
-    screen = Screen()
-    found = area(screen)
-    write(found, ["one"], ["arm settling", "cart in step"])
-    write(found, ["two", "three"])
-    assert screen.shown() == ["one", "two", "three", "arm settling", "cart in step"]
-    write(found, [], ["arm in step"])
-    assert screen.shown() == ["one", "two", "three", "arm in step"]
-    found.close()
-    assert screen.shown() == ["one", "two", "three"]
-
-
-def test_each_change_is_written_at_once() -> None:
-    screen = Screen()
-    found = area(screen)
-    write(found, ["one", "two"], ["status"])
-    write(found, ["three", "four"], ["another"])
-    assert screen.writes == 2
-
-
 def test_the_cursor_stays_visible_and_what_the_terminal_echoes_goes() -> None:
     screen = Screen()
     found = area(screen)
@@ -82,10 +62,6 @@ def test_after_a_resize_nothing_is_erased_but_status(width: int) -> None:
     write(found, ["three"], ["c" * 39])
     assert [row for row in screen.shown() if row in ("one", "two", "three")] == ["one", "two", "three"]
     assert screen.shown()[-1][:29] == "c" * 29
-
-
-def test_on_a_lower_terminal_there_is_less_room() -> None:
-    assert [area(Screen(height=height)).room for height in (60, 24, 12, 9, 4, 2)] == [20, 8, 4, 4, 3, 1]
 
 
 def test_a_shell_that_has_the_terminal_finds_no_status_and_none_is_written(monkeypatch: pytest.MonkeyPatch) -> None:

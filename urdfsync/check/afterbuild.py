@@ -6,7 +6,6 @@ an arm. One that is wrong is checked again after each build: whoever builds twic
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Iterable, Iterator, Sequence
 
@@ -14,12 +13,12 @@ import msgspec
 
 from urdfsync import __version__
 from urdfsync.check import compilers, libraries, package, run
-from urdfsync.check.cache import UserCache
+from urdfsync.check.cache import UserCache, fingerprint
+from urdfsync.check.compilation import findings_of
 from urdfsync.check.results import CheckOptions, CheckResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, Progress
-from urdfsync.files import digest
 from urdfsync.outcome import Checked, Result
 
 _ABSENT = ("no-compiler", "no-standard-library", "standard-library-too-old", "broken-standard-library")
@@ -42,34 +41,26 @@ class BuildChecker:
         self._config, self._request, self._cache = config, request, UserCache.default()
 
     def key(self, robot: RobotConfig) -> str | None:
-        """SHA-256 (hex) over all that a check of a robot rests on; None if some of that can't be read."""
+        """Fingerprint of all that a check of a robot rests on; None if some of that can't be read."""
         try:
             texts = package.package_texts(robot.folder)
             around = package.files_around(self._config, robot, texts)
-            users = {path.as_posix(): text for path, text in package.users_files(self._config, robot).items()}
-            every = [*texts.values(), *around.values(), *users.values()]
+            users = package.users_files(self._config, robot)
             top = robot.target.package.partition(".")[0]
+            every = [*texts.values(), *around.values(), *users.values()]
             used = libraries.needed_libraries(every, top, libraries.search_path(robot), ())
+            absent = ""
             try:
-                standard = libraries.find_standard_library(os.environ, self._config.check.library)
-                used, absent = {**used, **standard.parts}, ""
+                used |= libraries.find_standard_library(os.environ, self._config.check.library).parts
             except libraries.LibraryError as error:
                 absent = str(error)
             states = [(name, str(path), libraries.library_state(path)) for name, path in used.items()]
         except (UrdfsyncError, OSError):
             return None
-        contents = [sorted((path, digest(text)) for path, text in found.items()) for found in (texts, around, users)]
-        facts = (
-            __version__,
-            compilers.installed_version("rumoca"),
-            robot.domain,
-            str(robot.folder),
-            robot.target,
-            states,
-            absent,
-            contents,
+        return fingerprint(
+            *(__version__, compilers.installed_version("rumoca"), robot.domain, robot.folder, robot.target),
+            *(states, absent, sorted(texts.items()), sorted(around.items()), sorted(users.items())),
         )
-        return hashlib.sha256(repr(facts).encode(errors="surrogateescape")).hexdigest()
 
     def known(self, key: str | None) -> BuildCheck | None:
         """An earlier check with this key; None if it has to be made."""
@@ -85,14 +76,10 @@ class BuildChecker:
         for robot, key in zip(robots, keys, strict=True):
             try:
                 found = trouble or _judged(next(results))
-            except UrdfsyncError as error:
-                diagnostics = _lenient(error.diagnostics)
+            except (UrdfsyncError, OSError) as error:
+                diagnostics = _lenient(findings_of(error))
                 lacking = all(one.severity is not Severity.ERROR for one in diagnostics)
                 found = trouble = BuildCheck(Checked.UNCHECKED if lacking else Checked.WRONG, diagnostics)
-            except OSError as error:
-                message = f"the packages can't be checked: {error.strerror or error}"
-                place = os.fsdecode(error.filename or "")
-                found = trouble = BuildCheck(Checked.WRONG, (Diagnostic(Severity.ERROR, "system", message, place),))
             if key is not None and key == self.key(robot):  # else somebody has saved meanwhile
                 kept = BuildCheck(found.checked, tuple(filter(is_general, found.diagnostics)))
                 is_right = found.checked in (Checked.RIGHT, Checked.INCOMPLETE)
@@ -108,34 +95,29 @@ def with_checks(config: Config, request: BuildOptions, results: Iterable[Result]
     checker = BuildChecker(config, request)
     robots = {robot.name: robot for robot in config.robots}
     said: set[Diagnostic] = set()
-
-    def checked(result: Result, found: BuildCheck) -> Result:
-        new = tuple(one for one in found.diagnostics if one not in said)
-        said.update(filter(is_general, new))  # what is about the machine is said once for all robots
-        return msgspec.structs.replace(result, diagnostics=(*result.diagnostics, *new), checked=found.checked)
-
-    def is_due(result: Result) -> bool:
-        return robots[result.robot].checking and not result.failed and not result.dry and result.checked is None
-
-    waiting: list[Result] = []
-    for result in results:
-        robot = robots[result.robot]
-        if is_due(result) and (found := checker.known(checker.key(robot))):
-            result = checked(result, found)
-        if waiting or is_due(result):
-            waiting.append(result)
-        else:
+    built: list[Result] = []
+    told = 0
+    try:
+        built.extend(results)
+        known: dict[str, BuildCheck | None] = {}  # None: it has to be checked
+        for result in built:
+            robot = robots[result.robot]
+            if robot.checking and not result.failed and not result.dry and result.checked is None:
+                known[robot.name] = checker.known(checker.key(robot))
+        due = [robots[name] for name, found in known.items() if found is None]
+        checks = checker.check(due, request.progress) if due else iter(())
+        for result in built:
+            if result.robot in known:
+                found = known[result.robot] or next(checks)
+                new = tuple(one for one in found.diagnostics if one not in said)
+                said.update(filter(is_general, new))  # what is about the machine is said once for all robots
+                diagnostics = (*result.diagnostics, *new)
+                result = msgspec.structs.replace(result, diagnostics=diagnostics, checked=found.checked)
+            told += 1
             yield result
-    due = [robots[result.robot] for result in waiting if is_due(result)]
-    checks = checker.check(due, request.progress) if due else iter(())
-    while waiting:
-        try:
-            done = checked(waiting[0], next(checks)) if is_due(waiting[0]) else waiting[0]
-        except KeyboardInterrupt:
-            yield from waiting  # they are built, whatever becomes of their checks
-            raise
-        waiting.pop(0)
-        yield done
+    except (KeyboardInterrupt, Exception):
+        yield from built[told:]  # they are built, whatever becomes of their checks
+        raise
 
 
 def is_general(found: Diagnostic) -> bool:

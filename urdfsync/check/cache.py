@@ -6,6 +6,7 @@ Everything in it can be made again. What was used longest ago goes first; what a
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import os
 import shutil
 import tempfile
@@ -47,6 +48,11 @@ class _Entry(NamedTuple):
     """Bytes on disk."""
 
 
+def fingerprint(*facts: object) -> str:
+    """SHA-256 (hex) over facts whose `repr` says all of them."""
+    return hashlib.sha256(repr(facts).encode(errors="surrogateescape")).hexdigest()
+
+
 class UserCache:
     """The cache in a folder, which need not exist; `UserCache.default` is the one of this user."""
 
@@ -72,13 +78,12 @@ class UserCache:
     def workspace(self) -> Iterator[Path]:
         """A folder to work in, deleted in the end. Its name tells which process uses it. Raises CacheError."""
         self.prepare()
-        with contextlib.ExitStack() as stack:
-            with cache_errors(self.folder):
-                self.workspaces.mkdir(exist_ok=True)
-                folder = tempfile.TemporaryDirectory(
-                    prefix=f"{os.getpid()}-", dir=self.workspaces, ignore_cleanup_errors=True
-                )
-            yield Path(stack.enter_context(folder))
+        with cache_errors(self.folder):
+            self.workspaces.mkdir(exist_ok=True)
+            prefix = f"{os.getpid()}-"
+            folder = tempfile.TemporaryDirectory(prefix=prefix, dir=self.workspaces, ignore_cleanup_errors=True)
+        with folder as name:
+            yield Path(name)
 
     def load(self, key: str, kind: type[T]) -> T | None:
         """What was saved with this key; None if nothing was, or if it can't be read."""
@@ -98,22 +103,17 @@ class UserCache:
             self.results.mkdir(mode=0o700, parents=True, exist_ok=True)
             put(self.results / f"{key}.json", to_text(value).encode())
 
-    def size(self) -> int:
-        """Bytes on disk."""
-        return sum(entry.size for entry in self._entries())
-
     def trim(self, limit: int = LIMIT) -> None:
         """Delete what was used longest ago, if the cache comes near the limit. What can't be deleted now stays."""
-        waiting = sorted(self._entries(), key=lambda entry: entry.used)
-        total = sum(entry.size for entry in waiting)
-        if total <= _FULL * limit:
-            return
+        entries = sorted(self._entries(), key=lambda entry: entry.used)
+        total = sum(entry.size for entry in entries)
+        surplus = total - _AFTER * limit if total > _FULL * limit else 0.0
         recent = time.time() - _GRACE
-        for entry in waiting:
+        for entry in entries:
             in_use = entry.used > recent and entry.path.parent in (self.libraries, self.workspaces)
-            if total > _AFTER * limit and not in_use:
+            if surplus > 0 and not in_use:
                 _delete(entry.path)
-                total -= entry.size
+                surplus -= entry.size
 
     def clear(self) -> int:
         """Delete everything that is ours, but for what running checks work with; the bytes that came free.
@@ -121,9 +121,8 @@ class UserCache:
         What the compiler remembers goes in any case: it makes again what it misses.
         """
         entries = list(self._entries())
-        work = [entry.path for entry in entries if entry.path.parent == self.workspaces]
-        users = [(path, path.name.partition("-")[0]) for path in work]
-        busy = {path for path, pid in users if pid.isdecimal() and psutil.pid_exists(int(pid))}
+        users = {entry.path: entry.path.name.partition("-")[0] for entry in entries}
+        busy = [path for path, pid in users.items() if path.parent == self.workspaces and _is_alive(pid)]
         kept = (*busy, *([self.libraries] if busy else []))
         for entry in entries:
             if entry.path not in kept and entry.path.parent not in kept:
@@ -137,19 +136,17 @@ class UserCache:
         return [folder for folder in folders if folder.is_dir() and not folder.is_symlink()]
 
     def _entries(self) -> Iterator[_Entry]:
-        """What is deleted as a whole: folders of ours with what is in them, and each file of the compiler."""
+        """What is deleted as a whole: what is in folders of ours, and each file of the compiler but for its locks."""
         for folder in self._folders():
-            if folder == self.compiler:
-                paths = [path for path in folder.rglob("*") if not path.name.startswith(".")]  # its locks
-                paths = [path for path in paths if path.is_symlink() or not path.is_dir()]
-            else:
-                paths = list(folder.iterdir())
-            for path in paths:
-                inside = path.rglob("*") if path.is_dir() and not path.is_symlink() else ()
-                states = [state for one in (path, *inside) if (state := _status(one))]
-                note = path.with_name(path.name.removesuffix(_ACCESS) + _ACCESS) if folder == self.compiler else path
-                used = max((state.st_mtime for one in (path, note) if (state := _status(one))), default=0.0)
-                yield _Entry(path, used, sum(max(one.st_size, getattr(one, "st_blocks", 0) * 512) for one in states))
+            for path in folder.rglob("*") if folder == self.compiler else folder.iterdir():
+                is_folder = path.is_dir() and not path.is_symlink()
+                if folder == self.compiler and (is_folder or path.name.startswith(".")):
+                    continue
+                with contextlib.suppress(OSError):  # it is gone: others trim too
+                    note = path.with_name(path.name.removesuffix(_ACCESS) + _ACCESS)
+                    used = max(one.lstat().st_mtime for one in (path, note) if os.path.lexists(one))
+                    inside = (path, *(path.rglob("*") if is_folder else ()))
+                    yield _Entry(path, used, sum(_size(one) for one in inside))
 
 
 @contextlib.contextmanager
@@ -163,10 +160,16 @@ def cache_errors(folder: Path) -> Iterator[None]:
         raise CacheError(Diagnostic(Severity.ERROR, "cache-not-writable", message, str(folder), hint=hint)) from error
 
 
-def _status(path: Path) -> os.stat_result | None:
-    with contextlib.suppress(OSError):  # it is gone: others trim too
-        return path.lstat()
-    return None
+def _size(path: Path) -> int:
+    """Bytes on disk; 0 for what has just gone."""
+    with contextlib.suppress(OSError):
+        status = path.lstat()
+        return max(status.st_size, getattr(status, "st_blocks", 0) * 512)
+    return 0
+
+
+def _is_alive(pid: str) -> bool:
+    return pid.isdecimal() and psutil.pid_exists(int(pid))
 
 
 def _delete(path: Path) -> None:

@@ -47,7 +47,8 @@ class CheckProgress:
     """Tells the steps of a check, also from several threads; `total` is how many there will be, as far as is known."""
 
     def __init__(self, result: CheckResult, tell: Callable[[CheckStep], None]) -> None:
-        self._result, self._tell, self._lock = result, tell, threading.Lock()
+        self._result, self._tell = result, tell
+        self._lock = threading.Lock()  # steps of several compilers must not mix
         self._begun, self.total = 0, 6
 
     def begin(self, what: str) -> None:
@@ -178,10 +179,8 @@ class Compilation:
                     what = task.title.removeprefix(f"{robot.target.package}.")
                     self._progress.begin(f"{'' if number else 'loading libraries, then '}compiling {what}")
                     outcome.results.append(next(results))
-        except UrdfsyncError as error:
-            outcome.diagnostics = error.diagnostics
-        except OSError as error:
-            outcome.diagnostics = (system_error(error),)
+        except (UrdfsyncError, OSError) as error:
+            outcome.diagnostics = findings_of(error)
         return outcome
 
     def _with_imports(self, task: CompileTask) -> CompileTask:
@@ -216,16 +215,16 @@ class Compilation:
         return run.values, []
 
     def _explain(self, problem: str, outcome: _Outcome, model: str) -> list[Diagnostic]:
-        said = () if model == "the comparison" else self._result.diagnostics
-        return errors.explain(
-            problem, self.compiler.complaints(problem), self._package.files, outcome.folders, said, model
-        )
+        complaints = self.compiler.complaints(problem)
+        return errors.explain(problem, complaints, self._package.files, outcome.folders, model)
 
 
-def system_error(error: OSError) -> Diagnostic:
-    """What the system says of a file, as a finding."""
+def findings_of(error: UrdfsyncError | OSError) -> tuple[Diagnostic, ...]:
+    """What an error says, that of the system included, as findings."""
+    if isinstance(error, UrdfsyncError):
+        return error.diagnostics
     place = os.fsdecode(error.filename or "")
-    return Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place)
+    return (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place),)
 
 
 def _readable(path: Path, folder: Path) -> str:

@@ -13,13 +13,13 @@ import msgspec
 
 from urdfsync.check.compilers.compiler import Complaint
 from urdfsync.check.package import PackageFiles
+from urdfsync.check.report import listed
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.output.phrases import counted
 
 _MOST_DIAGNOSTICS = 5
 _LONGEST_MESSAGE = 300
-_NAMED_FILES = 3
-_BY_HAND = "the file was edited by hand"
 _BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
 _NOISE = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
@@ -29,73 +29,58 @@ def explain(
     complaints: Sequence[Complaint],
     package: PackageFiles,
     folders: Mapping[Path, Path],
-    said: Sequence[Diagnostic] = (),
     model: str = "",
 ) -> list[Diagnostic]:
-    """Diagnostics for a compiler's text about `model`, a name below the package; at least one, unless it was `said`.
+    """Diagnostics for a compiler's text about `model`, a name below the package; at least one.
 
     `complaints` are what the text says; `folders` are those that the compiler reads, with those that people know.
     """
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
         equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
-        return _unbalanced(equations, unknowns, package, said, model)
-    missing = {one.missing: one.kind for one in complaints if one.kind == "component"}
-    classes = {one.missing: one.kind for one in complaints if one.kind == "class"}
-    classes |= {one.missing: one.kind for one in complaints if one.kind == "function"}
-    if missing or classes:  # if a class is missing, all components of that class are, too
+        lacking = abs(equations - unknowns)
+        # without the name of the model, since the models around it lack as many, which need not be said again
+        message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
+        message += "many" if equations > unknowns else "few"
+        path = f"{model.replace('.', '/')}.mo"
+        if path in package.texts and path not in package.owners:  # a model of the user's
+            return [package.diagnostic(Severity.ERROR, "unbalanced", message, path, hint=_look_at_edits(package))]
+        return [_somewhere("unbalanced", message, package)]
+    missing = {one.missing: one.kind for one in complaints if one.missing}
+    classes = {name: kind for name, kind in missing.items() if kind != "component"}
+    if missing:  # if a class is missing, all components of that class are, too
         found = [_missing_name(name, kind, package) for name, kind in (classes or missing).items()]
     else:
-        placed = [(one, _known_file(one.file, folders)) for one in complaints]
-        own = [(one, file) for one, file in placed if file and file.is_relative_to(package.folder)]
-        found = [_placed(one, file, package, folders) for one, file in own or placed]
+        known = [_with_known_folders(one, folders) for one in complaints]
+        own = [one for one in known if Path(one.file).is_relative_to(package.folder)]
+        found = [_placed(one, package) for one in own or known]
     found = list(dict.fromkeys(found))
     if (more := len(found) - _MOST_DIAGNOSTICS) > 0:
-        last = found[_MOST_DIAGNOSTICS - 1]
+        *found, last = found[:_MOST_DIAGNOSTICS]
         hint = "; ".join(filter(None, [last.hint, f"there {'is' if more == 1 else 'are'} {more} more"]))
-        found[_MOST_DIAGNOSTICS - 1 :] = [msgspec.structs.replace(last, hint=hint)]
+        found.append(msgspec.structs.replace(last, hint=hint))
     return found
 
 
-def _known_file(file: str, folders: Mapping[Path, Path]) -> Path | None:
-    """Where people find what a compiler read as `file`; None if the compiler names no file."""
-    path = Path(file)
-    for folder in sorted(folders, key=lambda folder: -len(folder.parts)):
-        if path.is_relative_to(folder):
-            return folders[folder] / path.relative_to(folder)
-    return path if path.is_absolute() else None
-
-
-def _placed(complaint: Complaint, file: Path | None, package: PackageFiles, folders: Mapping[Path, Path]) -> Diagnostic:
-    message = complaint.message
+def _with_known_folders(complaint: Complaint, folders: Mapping[Path, Path]) -> Complaint:
+    """A complaint with the folders that people know instead of those that the compiler read."""
+    message, file = complaint.message, complaint.file
     for folder in sorted(folders, key=lambda folder: -len(folder.parts)):
         message = message.replace(str(folder), shown(folders[folder]))
+        if Path(file).is_relative_to(folder):
+            file = str(folders[folder] / Path(file).relative_to(folder))
     message = message if len(message) <= _LONGEST_MESSAGE else f"{message[: _LONGEST_MESSAGE - 1]}…"
-    message, line, column = message.removesuffix("."), complaint.line, complaint.column
-    if file is None:
-        return _somewhere(complaint.code, message, package)
+    return msgspec.structs.replace(complaint, message=message.removesuffix("."), file=file)
+
+
+def _placed(complaint: Complaint, package: PackageFiles) -> Diagnostic:
+    file, facts = Path(complaint.file), (Severity.ERROR, complaint.code, complaint.message)
+    if not file.is_absolute():
+        return _somewhere(complaint.code, complaint.message, package)
+    place = complaint.line, complaint.column
     if file.is_relative_to(package.folder):
-        path = file.relative_to(package.folder).as_posix()
-        hint = _BY_HAND if path in package.edited else ""
-        path = "" if path == "." else path
-        return package.diagnostic(Severity.ERROR, complaint.code, message, path, line, column, hint)
-    return Diagnostic(Severity.ERROR, complaint.code, message, shown(file), line, column, _look_at_edits(package))
-
-
-def _unbalanced(
-    equations: int, unknowns: int, package: PackageFiles, said: Sequence[Diagnostic], model: str
-) -> list[Diagnostic]:
-    """Whether equations lack or abound, unless as many do in a model of which that is said already."""
-    for one in said:
-        known = _BALANCE.search(one.message) if (one.code, one.severity) == ("unbalanced", Severity.ERROR) else None
-        if known and int(known[1].replace(",", "")) - int(known[2].replace(",", "")) == equations - unknowns:
-            return []
-    balance = f"{equations:,} equation{'' if equations == 1 else 's'} for {unknowns:,} unknown"
-    balance += "" if unknowns == 1 else "s"
-    message = f"`{model}` has {balance}" if model else f"there are {balance}"
-    own = f"{model.replace('.', '/')}.mo"
-    if own in package.texts and own not in package.owners:
-        return [package.diagnostic(Severity.ERROR, "unbalanced", message, own, hint=_look_at_edits(package))]
-    return [_somewhere("unbalanced", message, package)]
+        path = file.relative_to(package.folder).as_posix().removeprefix(".")
+        return package.diagnostic(*facts, path, *place, package.by_hand(path))
+    return Diagnostic(*facts, shown(file), *place, _look_at_edits(package))
 
 
 def _missing_name(name: str, kind: str, package: PackageFiles) -> Diagnostic:
@@ -111,8 +96,8 @@ def _missing_name(name: str, kind: str, package: PackageFiles) -> Diagnostic:
     for path in sorted(paths, key=lambda path: (path not in package.edited, path)):
         code = _NOISE.sub(lambda noise: "\n" * noise[0].count("\n"), package.text(path))
         if found := mention.search(code):
-            line, hint = code.count("\n", 0, found.start()) + 1, _BY_HAND if path in package.edited else ""
-            return package.diagnostic(Severity.ERROR, "unresolved", message, path, line, hint=hint)
+            line = code.count("\n", 0, found.start()) + 1
+            return package.diagnostic(Severity.ERROR, "unresolved", message, path, line, hint=package.by_hand(path))
     if name.startswith(f"{package.name}."):
         path = name.removeprefix(f"{package.name}.").replace(".", "/") + ".mo"
         return package.diagnostic(Severity.ERROR, "unresolved", message, path, hint="it has to be declared there")
@@ -123,14 +108,12 @@ def _missing_name(name: str, kind: str, package: PackageFiles) -> Diagnostic:
 def _somewhere(code: str, message: str, package: PackageFiles) -> Diagnostic:
     """Something of which the compiler does not say where it is: perhaps in the edited file, if there is one."""
     if len(package.edited) == 1:
-        file = shown(package.folder / next(iter(package.edited)))
-        return Diagnostic(Severity.ERROR, code, message, file, hint=f"look here first: {_BY_HAND}")
+        (path,) = package.edited
+        hint = f"look here first: {package.by_hand(path)}"
+        return Diagnostic(Severity.ERROR, code, message, shown(package.folder / path), hint=hint)
     return Diagnostic(Severity.ERROR, code, message, shown(package.folder), hint=_look_at_edits(package))
 
 
 def _look_at_edits(package: PackageFiles) -> str:
     files = [shown(package.folder / path) for path in sorted(package.edited)]
-    if len(files) == 1:
-        return f"look at {files[0]}, which was edited"
-    more = f" and {len(files) - _NAMED_FILES} more" if len(files) > _NAMED_FILES else ""
-    return f"look at what was edited: {', '.join(files[:_NAMED_FILES])}{more}" if files else ""
+    return f"look at {listed(files)}, which {'was' if len(files) == 1 else 'were'} edited" if files else ""

@@ -52,7 +52,10 @@ def check_layout(package: PackageFiles) -> list[Diagnostic]:
         (folders[place.parent].misnamed if culprit else folders[place.parent].files).add(place.name)
         for folder in place.parents[:-1]:
             folders[folder.parent].folders.add(folder.name)
-    return [found for path in sorted(folders) for found in _check_folder(package, path, folders[path])]
+    layout = _Layout(package)
+    for folder in sorted(folders):
+        layout.check_folder(folder, folders[folder])
+    return layout.found
 
 
 def check_around(files: Mapping[Path, bytes]) -> list[Diagnostic]:
@@ -66,14 +69,14 @@ def check_around(files: Mapping[Path, bytes]) -> list[Diagnostic]:
         top = next((folder for folder in reversed(file.parents) if folder / _PACKAGE in files), None)
         folder = top or file.parent
         path = PurePosixPath(file.relative_to(folder).as_posix())
-        if not holds_class(path):
-            continue
-        parts = [*([top.name] if top else []), *path.with_suffix("").parts]
-        first, *others = parts[:-1] if top and path.name == _PACKAGE else parts
-        name = ".".join((first.partition(" ")[0], *others))  # a version may follow the name of a library
-        _, said = _read(PackageFiles(name, folder, {str(path): files[file]}), str(path), name)
-        ignored = ("repeated", "wrong-within") if _misnamed_part(path) else ("repeated",)
-        found += [one for one in said if one.code not in ignored]
+        if holds_class(path):
+            parts = [*([top.name] if top else []), *path.with_suffix("").parts]
+            first, *others = parts[:-1] if top and path.name == _PACKAGE else parts
+            name = ".".join((first.partition(" ")[0], *others))  # a version may follow the name of a library
+            layout = _Layout(PackageFiles(name, folder, {str(path): files[file]}))
+            layout.check_file(str(path), name)
+            ignored = {"repeated", "wrong-name", "second-class", *(["wrong-within"] if _misnamed_part(path) else [])}
+            found += [one for one in layout.found if one.code not in ignored]
     return found
 
 
@@ -84,151 +87,140 @@ def _misnamed_part(path: PurePosixPath) -> PurePosixPath | None:
     return next((part for part, name in names if not (is_identifier(name) or _QUOTED_NAME.fullmatch(name))), None)
 
 
-def _check_folder(package: PackageFiles, folder: PurePosixPath, there: _Folder) -> list[Diagnostic]:
-    found: list[Diagnostic] = []
+class _Layout:
+    """Collects what is wrong with the files of a package; paths are below it."""
 
-    def say(severity: Severity, code: str, message: str, name: str = "", line: int = 0, hint: str = "") -> None:
-        path = (folder / name).as_posix()
-        found.append(package.diagnostic(severity, code, message, "" if path == "." else path, line, hint=hint))
+    def __init__(self, package: PackageFiles) -> None:
+        self._package = package
+        self.found: list[Diagnostic] = []
 
-    if _PACKAGE not in there.files:
-        other = next((name for name in there.files if name.lower() == _PACKAGE), "")
-        hint = f"rename `{other}`" if other else "add one, or move the files elsewhere"
-        say(_ERROR, "no-package-file", f"the folder holds classes, but no {_PACKAGE}", hint=hint)
-    full_name = ".".join((package.name, *folder.parts))
-    stored: set[str] = set()  # classes that are whole files
-    inside: dict[str, int] = {}  # classes and constants in package.mo, with their lines
-    readable = _PACKAGE in there.files
-    for file in sorted(there.files):
-        whole = file == _PACKAGE
-        name = full_name if whole else f"{full_name}.{file.removesuffix(_SUFFIX)}"
-        text, said = _read(package, (folder / file).as_posix(), name)
-        found += said
-        broken = any(one.code in ("not-utf8", "syntax") and one.severity is _ERROR for one in said)
-        expected, place = name.rpartition(".")[2], "folder" if whole else "file"
-        main = next((one for one in text.classes if str(one.name) == expected), next(iter(text.classes), None))
-        if main and str(main.name) != expected:
+    def _say(
+        self, severity: Severity, code: str, message: str, path: str | PurePosixPath, hint: str, line: int = 0
+    ) -> None:
+        place = str(path).removeprefix(".")
+        self.found.append(self._package.diagnostic(severity, code, message, place, line, hint=hint))
+
+    def check_folder(self, folder: PurePosixPath, there: _Folder) -> None:
+        """Check the files in one folder, and what is in it against each other and its `package.order`."""
+        if _PACKAGE not in there.files:
+            other = next((name for name in there.files if name.lower() == _PACKAGE), "")
+            hint = f"rename `{other}`" if other else "add one, or move the files elsewhere"
+            self._say(_ERROR, "no-package-file", f"the folder holds classes, but no {_PACKAGE}", folder, hint)
+        name = ".".join((self._package.name, *folder.parts))
+        texts = {
+            file: self.check_file(str(folder / file), name if file == _PACKAGE else f"{name}.{_stem(file)}")
+            for file in sorted(there.files)
+        }
+        package = texts.pop(_PACKAGE, None)
+        inside = [*declared(package.classes)] if package else []
+        lines = {one.path[1]: one.line for one in reversed(inside) if len(one.path) == 2}
+        for file in sorted(there.misnamed):
+            is_file = str(folder / file) in self._package.texts
+            stem, kind, noun = (_stem(file), "class", "file") if is_file else (file, "package", "folder")
+            message, hint = f"`{stem}` can't be the name of a {kind}", f"rename the {noun}, or move it elsewhere"
+            self._say(_ERROR, "wrong-name", message, folder / file, hint)
+        stems = set(map(_stem, texts))
+        for stem in sorted(stems & there.folders):
+            message = f"`{stem}` is both a file and a folder"
+            self._say(_ERROR, "class-twice", message, folder / f"{stem}{_SUFFIX}", "keep one of them")
+        stored = stems | there.folders
+        for stem in sorted(lines.keys() & stored):
+            message = f"`{stem}` is declared here, and is a {'file' if stem in stems else 'folder'} as well"
+            self._say(_ERROR, "class-twice", message, folder / _PACKAGE, "keep one of them", lines[stem])
+        spellings: dict[str, str] = {}
+        for stem in sorted(stored):
+            first = spellings.setdefault(stem.casefold(), stem)
+            if first != stem:
+                message = f"`{stem}` and `{first}` differ only by case"
+                hint = "rename one: file systems that ignore case do not hold both"
+                file = f"{stem}{_SUFFIX}" if stem in stems else stem
+                self._say(_WARNING, "same-but-for-case", message, folder / file, hint)
+        if str(folder / _ORDER) in self._package.texts:
+            classes = {str(one.name) for text in texts.values() if text for one in text.classes}
+            tolerated = classes | there.misnamed | set(map(_stem, there.misnamed))
+            self._check_order(folder, stored | lines.keys(), tolerated if package else None)
+
+    def check_file(self, path: str, name: str) -> StoredText | None:
+        """Check one file; returns what it declares, None if it can't be read. `name` is the full name of its class."""
+        text = self._decode(path)
+        if text is None:
+            return None
+        if text.startswith(_BYTE_ORDER_MARK):
+            hint = "save it without: some compilers refuse it"
+            self._say(_WARNING, "byte-order-mark", "the file begins with a byte order mark", path, hint, 1)
+        found = parse(text)
+        if found.is_broken:  # only the first place is told, since others may follow from it
+            breaking = [fault for fault in found.faults if not fault.is_repetition]
+            reason, line, _ = next(iter(find_markers(text)), min(breaking, key=lambda fault: fault.line))
+            more = len(found.faults) - 1
+            places = f"{more} more place{'s' if more > 1 else ''}"
+            hint = f"correct it first: {places} in the file may look wrong because of it" if more else ""
+            self._say(_ERROR, "syntax", f"the file {reason}", path, hint, line)
+            return None
+        for reason, line, _ in found.faults:
+            severity, code = (_WARNING, "repeated") if reason.startswith(_ALLOWED_TWICE) else (_ERROR, "syntax")
+            self._say(severity, code, f"the file {reason}", path, "", line)
+        parent, _, expected = name.rpartition(".")
+        if not found.classes:
+            self._say(
+                _ERROR, "no-class", "the file holds no class", path, f"write the class `{expected}`, or delete the file"
+            )
+            return found
+        if (found.within or "") != parent:
+            message, hint = f"the file lacks `{within(name)}`", "put it into the first line"
+            if found.within is not None:
+                stated = f"within {found.within};" if found.within else "within;"
+                message = f"the file says `{stated}`, but stands in `{parent or 'no package'}`"
+                hint = f"write `{within(name)}`"
+            self._say(_ERROR, "wrong-within", message, path, hint, found.within_line or 1)
+        main = next((one for one in found.classes if str(one.name) == expected), found.classes[0])
+        if str(main.name) != expected:
+            place = "folder" if PurePosixPath(path).name == _PACKAGE else "file"
             message = f"the class is called `{main.name}`, but its {place} `{expected}`"
-            say(_ERROR, "wrong-name", message, file, main.name.line, f"give class and {place} the same name")
-        for other_class in () if broken else text.classes:
-            if main and other_class is not main:
-                message, hint = (
-                    f"the file holds `{other_class.name}` besides `{main.name}`",
-                    "a file in a package holds",
-                )
-                hint += " one class: give it one of its own"
-                say(_ERROR, "second-class", message, file, other_class.name.line, hint)
-        if whole:
-            readable &= not broken
-            inside = {one.path[1]: one.line for one in reversed([*declared(text.classes)]) if len(one.path) == 2}
-        else:
-            stored |= {one.name.parts[0] for one in text.classes}
-    for name in sorted(there.misnamed):
-        is_file = (folder / name).as_posix() in package.texts
-        stem, kind, noun = (name.removesuffix(_SUFFIX), "class", "file") if is_file else (name, "package", "folder")
-        hint = f"rename the {noun}, or move it elsewhere"
-        say(_ERROR, "wrong-name", f"`{stem}` can't be the name of a {kind}", name, hint=hint)
-    stems = {file.removesuffix(_SUFFIX) for file in there.files - {_PACKAGE}}
-    for name in sorted(stems & there.folders):
-        message = f"`{name}` is both a file and a folder"
-        say(_ERROR, "class-twice", message, f"{name}{_SUFFIX}", hint="keep one of them")
-    for name in sorted(inside.keys() & (stems | there.folders)):
-        message = f"`{name}` is declared here, and is a {'file' if name in stems else 'folder'} as well"
-        say(_ERROR, "class-twice", message, _PACKAGE, inside[name], "keep one of them")
-    spellings: dict[str, str] = {}
-    for name in sorted(stems | there.folders):
-        first = spellings.setdefault(name.casefold(), name)
-        if first != name:
-            message = f"`{name}` and `{first}` differ only by case"
-            hint = "rename one: file systems that ignore case do not hold both"
-            say(_WARNING, "same-but-for-case", message, f"{name}{_SUFFIX}" if name in stems else name, hint=hint)
-    order = (folder / _ORDER).as_posix()
-    if order in package.texts:
-        present = stems | there.folders | inside.keys()
-        known = {*stored, *there.misnamed, *(name.removesuffix(_SUFFIX) for name in there.misnamed)}
-        found += _check_order(package, order, present, known if readable else None)
-    return found
-
-
-def _read(package: PackageFiles, path: str, name: str) -> tuple[StoredText, list[Diagnostic]]:
-    """What a file declares, and what is wrong with its text; `name` is the full name that its class should have."""
-    content, said = package.texts[path], list[Diagnostic]()
-
-    def say(severity: Severity, code: str, message: str, line: int = 0, hint: str = "") -> None:
-        said.append(package.diagnostic(severity, code, message, path, line, hint=hint))
-
-    if line := _first_undecodable_line(content):
-        say(_ERROR, "not-utf8", "the file is not in UTF-8", line, "save it as UTF-8")
-        return StoredText(), said
-    text = normalised(content).decode()
-    if text.startswith(_BYTE_ORDER_MARK):
-        message, hint = "the file begins with a byte order mark", "save it without: some compilers refuse it"
-        say(_WARNING, "byte-order-mark", message, 1, hint)
-    found = parse(text)
-    breaking = [fault for fault in found.faults if not fault.reason.endswith(" twice")]
-    if breaking:  # only the first place, since others may follow from it
-        reason, line = next(iter(find_markers(text)), None) or min(breaking, key=lambda fault: fault.line)
-        more = len(found.faults) - 1
-        places = f"{more} more place{'s' if more > 1 else ''}"
-        hint = f"correct it first: {places} in the file may look wrong because of it" if more else ""
-        say(_ERROR, "syntax", f"the file {reason}", line, hint)
-    for fault in () if breaking else found.faults:
-        kind = (_WARNING, "repeated") if fault.reason.startswith(_ALLOWED_TWICE) else (_ERROR, "syntax")
-        say(*kind, f"the file {fault.reason}", fault.line)
-    parent = name.rpartition(".")[0]
-    if not found.classes and not found.faults:
-        hint = f"write the class `{name.rpartition('.')[2]}`, or delete the file"
-        say(_ERROR, "no-class", "the file holds no class", hint=hint)
-    elif found.classes and (found.within or "") != parent:
-        message, hint = f"the file lacks `{within(name)}`", "put it into the first line"
-        if found.within is not None:
-            stated = f"within {found.within};" if found.within else "within;"
-            message = f"the file says `{stated}`, but stands in `{parent or 'no package'}`"
-            hint = f"write `{within(name)}`"
-        say(_ERROR, "wrong-within", message, found.within_line or 1, hint)
-    return found, said
-
-
-def _check_order(package: PackageFiles, path: str, present: set[str], known: set[str] | None) -> list[Diagnostic]:
-    """Whether a `package.order` names what is `present` in the folder, each once.
-
-    It may name what is `known`, too; anything if that is None, since `package.mo` can't be read.
-    """
-    found: list[Diagnostic] = []
-
-    def say(severity: Severity, code: str, message: str, line: int, hint: str) -> None:
-        found.append(package.diagnostic(severity, code, message, path, line, hint=hint))
-
-    if line := _first_undecodable_line(package.texts[path]):
-        say(_ERROR, "not-utf8", "the file is not in UTF-8", line, "save it as UTF-8")
+            self._say(_ERROR, "wrong-name", message, path, f"give class and {place} the same name", main.name.line)
+        for other in found.classes:
+            if other is not main:
+                message = f"the file holds `{other.name}` besides `{main.name}`"
+                hint = "a file in a package holds one class: give it one of its own"
+                self._say(_ERROR, "second-class", message, path, hint, other.name.line)
         return found
-    names: defaultdict[str, list[int]] = defaultdict(list)
-    text = normalised(package.texts[path]).decode().removeprefix(_BYTE_ORDER_MARK)
-    for number, words in enumerate(text.split("\n"), start=1):
-        if words.strip():
-            names[words.strip()].append(number)
-    for name, numbers in names.items():
-        if known is not None and name not in present | known:
-            near = nearest(name, sorted(present - names.keys()))
-            message = f"`{name}` is named, but is no class and no constant of the package"
-            hint = f"did you mean `{near}`?" if near else "take the line out, or bring the class back"
-            say(_ERROR, "order-unknown", message, numbers[0], hint)
-        for number in numbers[1:]:
-            message = f"`{name}` is named twice, first in line {numbers[0]}"
-            say(_WARNING, "order-twice", message, number, "take one of the lines out")
-    folder = path.removesuffix(_ORDER)
-    for name in sorted(present - names.keys()):
-        generated = {f"{folder}{name}{_SUFFIX}", f"{folder}{name}/{_PACKAGE}"} & package.owners.keys()
-        is_ours = generated and f"{folder}{_PACKAGE}" in package.owners
-        hint = "`urdfsync build` adds it" if is_ours else "add it where it belongs: tools put it last, or warn"
-        say(_WARNING, "order-lacks", f"`{name}` is not named", 0, hint)
-    return sorted(found, key=lambda one: one.line)
+
+    def _check_order(self, folder: PurePosixPath, present: set[str], tolerated: set[str] | None) -> None:
+        """Check whether a `package.order` names what is `present` in the folder, each once.
+
+        It may name what is `tolerated`, too; anything if that is None, since `package.mo` can't be read.
+        """
+        path = str(folder / _ORDER)
+        text = self._decode(path)
+        if text is None:
+            return
+        names = [line.strip() for line in text.removeprefix(_BYTE_ORDER_MARK).split("\n")]
+        for name in sorted(present.difference(names)):
+            generated = {str(folder / f"{name}{_SUFFIX}"), str(folder / name / _PACKAGE)} & self._package.owners.keys()
+            is_ours = generated and str(folder / _PACKAGE) in self._package.owners
+            hint = "`urdfsync build` adds it" if is_ours else "add it where it belongs: tools put it last, or warn"
+            self._say(_WARNING, "order-lacks", f"`{name}` is not named", path, hint)
+        lines: dict[str, int] = {}
+        for number, name in enumerate(names, start=1):
+            first = lines.setdefault(name, number)
+            if name and first != number:
+                message, hint = f"`{name}` is named twice, first in line {first}", "take one of the lines out"
+                self._say(_WARNING, "order-twice", message, path, hint, number)
+            elif name and tolerated is not None and name not in present | tolerated:
+                near = nearest(name, sorted(present.difference(names)))
+                message = f"`{name}` is named, but is no class and no constant of the package"
+                hint = f"did you mean `{near}`?" if near else "take the line out, or bring the class back"
+                self._say(_ERROR, "order-unknown", message, path, hint, number)
+
+    def _decode(self, path: str) -> str | None:
+        """The text of a file; None, with a finding, if it is not UTF-8."""
+        try:
+            return normalised(self._package.texts[path]).decode()
+        except UnicodeDecodeError as error:
+            line = error.object.count(b"\n", 0, error.start) + 1
+            self._say(_ERROR, "not-utf8", "the file is not in UTF-8", path, "save it as UTF-8", line)
+            return None
 
 
-def _first_undecodable_line(content: bytes) -> int:
-    """The first line that is not UTF-8, from 1; 0 if there is none."""
-    try:
-        content.decode()
-    except UnicodeDecodeError as error:
-        return content.count(b"\n", 0, error.start) + 1
-    return 0
+def _stem(file: str) -> str:
+    return file.removesuffix(_SUFFIX)

@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.check.cache import UserCache, cache_errors
+from urdfsync.check.cache import UserCache, cache_errors, fingerprint
 from urdfsync.check.package import package_texts
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
@@ -41,7 +41,10 @@ _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d
 _NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 _STANDARD_NAME = re.compile(rb"\bModelica((?:\s*\.\s*[\w*{]+)+)")
 _STANDARD_ALIAS = re.compile(rb"=\s*Modelica\s*;")
-_HINT = "name the folder that holds it with `library` in the table `[check]`, or put it on MODELICAPATH"
+_HINT = (
+    "name the folder that holds `Modelica`, `ModelicaServices` and `Complex`, 4.1.0 or newer, with `library` in the "
+    "table `[check]`, or put it on MODELICAPATH"
+)
 
 
 class LibraryError(UrdfsyncError):
@@ -79,20 +82,16 @@ def find_standard_library(environment: Mapping[str, str], configured: Path | Non
     suitable = [library for library in found if library.version >= OLDEST]
     if suitable:
         return next((library for library in suitable if library.version < NEXT), suitable[0])
-    oldest = ".".join(map(str, OLDEST))
+    code, message = "no-standard-library", "there is no Modelica Standard Library"
     if found:
         place, number = found[0].parts["Modelica"].parent, ".".join(map(str, found[0].version)) or "of unknown version"
+        code, oldest = "standard-library-too-old", ".".join(map(str, OLDEST))
         message = f"the Modelica Standard Library in {place} is {number}; the compiler takes {oldest} and newer"
-        if not configured:
-            raise LibraryError("standard-library-too-old", message, f"install {oldest}; {_HINT}")
-        hint = f"install {oldest} or newer, or name another folder"
-        raise LibraryError("wrong-library-folder", f"{message}, which the configuration names", hint)
     if configured:
-        hint = "name the folder that holds `Modelica`, `ModelicaServices` and `Complex`"
+        code, message = "wrong-library-folder", f"{message}: `library` in the table `[check]` names {configured}"
         if (configured / "package.mo").is_file():
-            hint = f"name the folder around it: {configured.parent}"
-        raise LibraryError("wrong-library-folder", f"there is no Modelica Standard Library in {configured}", hint)
-    raise LibraryError("no-standard-library", "there is no Modelica Standard Library", _HINT)
+            raise LibraryError(code, message, f"name the folder around it: {configured.parent}")
+    raise LibraryError(code, message, _HINT)
 
 
 def library_folders(environment: Mapping[str, str]) -> list[Path]:
@@ -134,16 +133,15 @@ def needed_libraries(
         use = rb"\bimport\s+(?:\w+\s*=\s*)?\.?" + word + rb"\s*[.;]|(?<![\w.\])'])\.?\b" + word + rb"\s*\."
         patterns[name] = re.compile(use)
     found: dict[str, Path] = {}
-    waiting = [_NOISE.sub(b"", text) for text in (b"", *texts)]
-    new = patterns.keys() & {*wanted}
-    while waiting or new:
-        code = waiting.pop() if waiting else b""
-        for name in sorted(new | {name for name, pattern in patterns.items() if pattern.search(code)}):
+    named, waiting = patterns.keys() & {*wanted}, [_NOISE.sub(b"", text) for text in texts]
+    while named or waiting:
+        for name in sorted(named):
             del patterns[name]
             if path := find_library(name, places):
                 found[name] = path
                 waiting += [_NOISE.sub(b"", text) for text in library_texts(path).values()]
-        new = set()
+        code = waiting.pop() if waiting else b""
+        named = {name for name, pattern in patterns.items() if pattern.search(code)}
     return dict(sorted(found.items()))
 
 
@@ -182,8 +180,7 @@ def standard_library_copy(library: StandardLibrary, texts: Iterable[bytes], cach
         message = f"the Modelica Standard Library in {modelica} is broken: there is no {names}"
         raise LibraryError("broken-standard-library", message, f"install it anew, or take another one: {_HINT}")
     whole = not all(map(_is_in_copy, texts))
-    state = repr((_COPY_REVISION, sorted(library_state(path) for path in library.parts.values())))
-    key = hashlib.sha256(state.encode(errors="surrogateescape")).hexdigest()[:16]
+    key = fingerprint(_COPY_REVISION, sorted(map(library_state, library.parts.values())))[:16]
     target = cache.libraries / f"{'whole' if whole else 'part'}-{key}"
 
     def ignored(folder: str, names: list[str]) -> set[str]:

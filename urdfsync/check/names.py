@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from urdfsync.check import libraries
 from urdfsync.check.package import CheckedPackage
+from urdfsync.check.report import listed
 from urdfsync.config import library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.names import LIBRARY
-from urdfsync.modelica.scopes import Element, Node, Scopes
-from urdfsync.modelica.syntax import Component
-from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, first_type, unresolved
-
-_NAMED_LINES = 5
+from urdfsync.modelica.scopes import Node, Scopes
+from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
 
 def check_names(package: CheckedPackage) -> tuple[list[Diagnostic], list[Diagnostic]]:
@@ -37,27 +35,28 @@ def check_names(package: CheckedPackage) -> tuple[list[Diagnostic], list[Diagnos
             return None
 
     around = {robot.output / path: text for path, text in package.around.items() if path.endswith(".mo")}
-    others = {**around, **package.users_files}
-    sources = StoredClasses(robot.target.package, robot.folder, package.files.texts, others, find)
+    sources = StoredClasses(
+        robot.target.package, robot.folder, package.files.texts, {**around, **package.users_files}, find
+    )
     users = [name for name, one in sources.users.items() if Path(one.file) in package.users_files]
     message, hint = "this file can't be read as Modelica, so its names were not checked", "open it in a Modelica tool"
     unread = [path for path in sources.unread if path in package.users_files and path not in around]
     found = [Diagnostic(Severity.WARNING, "names-unread", message, shown(path), hint=hint) for path in unread]
-    scopes, told = Scopes(sources), []
-    for classes in (sources.own, users):
-        places: dict[tuple[str, UnresolvedKind, str, str], list[Unresolved]] = {}
-        for node in [node for name in sorted(classes) if isinstance(node := scopes.node(name), Node)]:
-            for one in unresolved(node, scopes):
-                places.setdefault((node.file, one.kind, one.owner, one.part), []).append(one)
-        said = [_diagnostic(package, Path(file), alike) for (file, *_), alike in places.items()]
-        told.append(sorted(said, key=lambda one: (one.file, one.line)))
-    return told[0], [*found, *told[1]]
+    scopes = Scopes(sources)
+    return _check_classes(package, scopes, sources.own), [*found, *_check_classes(package, scopes, users)]
+
+
+def _check_classes(package: CheckedPackage, scopes: Scopes, names: Iterable[tuple[str, ...]]) -> list[Diagnostic]:
+    """One finding for all places in a file that have the same fault."""
+    places: dict[tuple[str, UnresolvedKind, str, str], list[Unresolved]] = {}
+    for node in [node for name in sorted(names) if isinstance(node := scopes.node(name), Node)]:
+        for one in unresolved(node, scopes):
+            places.setdefault((node.file, one.kind, one.owner, one.part), []).append(one)
+    found = [_diagnostic(package, Path(file), alike) for (file, *_), alike in places.items()]
+    return sorted(found, key=lambda one: (one.file, one.line))
 
 
 def _diagnostic(package: CheckedPackage, file: Path, places: Sequence[Unresolved]) -> Diagnostic:
-    """One finding for all places in a file that have the same fault."""
-    folder = package.files.folder
-    owners = {folder / path: owner for path, owner in package.files.owners.items()}
     one = min(places, key=lambda place: place.line)
     severity, code, hint = Severity.WARNING, one.kind.value, ""
     if one.kind is UnresolvedKind.NESTED_REDECLARE:
@@ -71,41 +70,16 @@ def _diagnostic(package: CheckedPackage, file: Path, places: Sequence[Unresolved
         severity, code, hint = Severity.ERROR, "unresolved", f"did you mean `{one.meant}`?" if one.meant else ""
         message = f"there is no {one.kind.value} `{one.name}`"
         if one.kind is UnresolvedKind.ELEMENT:
-            noun = _noun(one.element, owners) if one.element else "part" if one.is_part else "element"
-            noun = "field" if one.is_field and noun != "attribute" else noun
+            message = f"{one.owner.rpartition('.')[2]} has no `{one.part}`"
             robot, snapshot = package.robot, package.rendering.snapshot
-            option = ""
             if one.owner == f"{robot.target.package}.{package.models[0]}":
                 option = package.domain.option_for_connector(one.part, snapshot, robot.target, robot.options)
-            if option:
-                noun, hint = "connector", f"`{option}` in the configuration brings it back"
-            message = f"{one.owner.rpartition('.')[2]} has no {noun} `{one.part}`"
+                hint = f"`{option}` in the configuration brings it back" if option else hint
     lines = sorted({place.line for place in places} - {one.line})
-    more = f" and {len(lines) - _NAMED_LINES} more" if len(lines) > _NAMED_LINES else ""
-    also = f"also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines[:_NAMED_LINES]))}{more}"
-    edited = "the file was edited by hand" if file in {folder / path for path in package.files.edited} else ""
-    owner = owners.get(file, "")
-    message, hint = (
-        f"{owner}: {message}" if owner else message,
-        "; ".join(filter(None, [hint, also if lines else "", edited])),
-    )
+    also = f"also in line{'s' if len(lines) > 1 else ''} {listed([*map(str, lines)])}" if lines else ""
+    files = package.files
+    path = file.relative_to(files.folder).as_posix() if file.is_relative_to(files.folder) else ""
+    hint = "; ".join(filter(None, (hint, also, files.by_hand(path))))
+    if path:
+        return files.diagnostic(severity, code, message, path, one.line, hint=hint)
     return Diagnostic(severity, code, message, shown(file), one.line, hint=hint)
-
-
-def _noun(near: Element, owners: Mapping[Path, str]) -> str:
-    """What people call an element of this kind."""
-    declaration, type_ = near.declaration, first_type(near)
-    if declaration is None:
-        return "attribute" if type_ is None else "literal"
-    if not isinstance(declaration, Component):
-        return "class"
-    for prefix in ("parameter", "constant"):
-        if prefix in declaration.prefixes:
-            return prefix
-    node = type_.node if type_ else None
-    if not isinstance(node, Node):
-        return "element" if node is None else "variable"
-    if node.definition.kind == "connector":
-        return "connector"
-    owner = owners.get(Path(node.file), "")
-    return owner.partition(" ")[0] if " " in owner else "part"

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import codecs
 import contextlib
-import itertools
 import os
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 import msgspec
@@ -23,12 +22,11 @@ from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
 from urdfsync.files import normalised
-from urdfsync.merge.tokens import is_trivia, tokens
 from urdfsync.modelica.files import files_that_use, has_word
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within
+from urdfsync.modelica.parser import parse
 
-_PREFIXES = frozenset({"final", "encapsulated", "partial"})
 _URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
 
 
@@ -52,16 +50,13 @@ class PackageFiles(msgspec.Struct, frozen=True):
 
     def models_not_in(self, generated: Collection[str]) -> list[str]:
         """The user's models and blocks that are files and not partial, by their full names below the package."""
-        found = []
-        for path in (PurePosixPath(path) for path in sorted(self.texts) if path not in generated):
-            if not holds_class(path) or path.name == "package.mo":
-                continue
-            words = [token.text for token in lex(self.text(str(path)))[0]]
-            rest = words[words.index(";") + 1 if words[0] == "within" and ";" in words else 0 :]
-            head = list(itertools.takewhile(lambda word: word in _PREFIXES or word in ("model", "block"), rest))
-            if {"model", "block"} & {*head} and "partial" not in head and rest[len(head)] == path.stem:
-                found.append(".".join(path.with_suffix("").parts))
-        return found
+        return [
+            ".".join(path.with_suffix("").parts)
+            for path in map(PurePosixPath, sorted(self.texts.keys() - {*generated}))
+            if holds_class(path) and path.name != "package.mo"
+            for one in parse(self.text(str(path))).classes
+            if one.kind in ("model", "block") and "partial" not in one.prefixes and str(one.name) == path.stem
+        ]
 
     def diagnostic(
         self, severity: Severity, code: str, message: str, path: str, line: int = 0, column: int = 0, hint: str = ""
@@ -70,6 +65,10 @@ class PackageFiles(msgspec.Struct, frozen=True):
         owner = self.owners.get(path, "")
         message = f"{owner}: {message}" if owner else message
         return Diagnostic(severity, code, message, shown(self.folder / path), line, column, hint)
+
+    def by_hand(self, path: str) -> str:
+        """A hint for a file that was edited; empty for others."""
+        return "the file was edited by hand" if path in self.edited else ""
 
 
 class CheckedPackage(msgspec.Struct):
@@ -83,6 +82,8 @@ class CheckedPackage(msgspec.Struct):
     """Errors that a build would report, and what a thorough reading of the source says beyond warnings."""
     on_disk: Mapping[str, bytes]
     """The Modelica files of the package on disk, by their path below it; none if there is no package."""
+    irregular: Sequence[Path]
+    """What looks like a part of the package on disk and is none; see `read_files`."""
     in_step: bool
     conflicting: bool
     """Whether it is out of step because edits and new texts contradict each other."""
@@ -115,7 +116,8 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
     reading = domain.read(rendering.content, shown(robot.source), robot.options, thorough=True)
     said = [one for one in built.diagnostics if one.severity is Severity.ERROR]
     said += [one for one in reading.diagnostics if one.severity is not Severity.WARNING]
-    on_disk, generated = package_texts(robot.folder), rendering.package(rendering.content)
+    files, irregular = read_files(robot.folder)
+    on_disk, generated = _below(robot.folder, files), rendering.package(rendering.content)
     texts, in_step = on_disk or generated, bool(on_disk) and built.in_step
     models = tuple(domain.models(rendering.snapshot, robot.target, robot.options))
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
@@ -128,6 +130,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
         rendering=rendering,
         source_diagnostics=tuple(dict.fromkeys(said)),
         on_disk=on_disk,
+        irregular=irregular,
         in_step=in_step,
         conflicting=bool(built.conflicts),
         generated=generated,
@@ -148,7 +151,7 @@ def edited_files(generated: Mapping[str, bytes], on_disk: Mapping[str, bytes]) -
 
 def _words(text: bytes) -> list[str]:
     """What a text says but for comments, blanks and ends of line."""
-    return [token for token in tokens(text.decode(errors="replace")) if not is_trivia(token)]
+    return [token.text for token in lex(text.decode(errors="replace"))[0]]
 
 
 def missing_resources(package: CheckedPackage) -> Iterator[Diagnostic]:
@@ -174,19 +177,8 @@ def holds_class(path: PurePosixPath) -> bool:
 
 
 def package_texts(folder: Path) -> dict[str, bytes]:
-    """The Modelica files below a package's folder, by their path below it; none if there is no such folder.
-
-    Only regular files count, and links to such; see `irregular_files`. Raises OutputError for one that can't be read.
-    """
-    return _read(folder, folder, frozenset())
-
-
-def irregular_files(folder: Path) -> list[Path]:
-    """What looks like a part of the package in `folder` and is left out, since it is no regular file or real folder.
-
-    Links that lead nowhere, pipes and the like, and links to folders of classes. Raises OutputError.
-    """
-    return [path for path, regular in _entries(folder, frozenset()) if not regular]
+    """The Modelica files below a package's folder, by their path below it; see `read_files`."""
+    return _below(folder, read_files(folder)[0])
 
 
 def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes]) -> dict[str, bytes]:
@@ -198,13 +190,13 @@ def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
     top = robot.output / robot.target.package.partition(".")[0]
     others = {other.folder: other.target.package.rpartition(".")[2].encode() for other in config.robots}
     others = {folder: name for folder, name in others.items() if top in folder.parents and folder != robot.folder}
-    found = _read(robot.output, top, frozenset({robot.folder, *others})) if top != robot.folder else {}
+    found = _below(robot.output, read_files(top, {robot.folder, *others})[0]) if top != robot.folder else {}
     waiting = [*texts.values(), *found.values()] if others else []
     while waiting:
         text = waiting.pop()
         for folder in [folder for folder, name in others.items() if has_word(text, name)]:
             del others[folder]
-            more = _read(robot.output, folder, frozenset(others))
+            more = _below(robot.output, read_files(folder, others)[0])
             found |= more
             waiting += more.values()
     parts = robot.target.package.split(".")
@@ -220,9 +212,9 @@ def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
 
     They mention the package, or the class in another such file. Raises OutputError for a file that can't be read.
     """
-    folders = frozenset(other.folder for other in config.robots)
-    read = _read(robot.output, robot.output, folders) if robot.output not in folders else {}
-    files = {robot.output / path: content for path, content in read.items() if path.endswith(".mo")}
+    folders = {other.folder for other in config.robots}
+    read = read_files(robot.output, folders)[0] if robot.output not in folders else {}
+    files = {path: content for path, content in read.items() if path.suffix == ".mo"}
     return files_that_use(files, [robot.target.package.rpartition(".")[2]])
 
 
@@ -236,43 +228,38 @@ def write_package(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], 
     return folder / robot.target.package.partition(".")[0]
 
 
-def _read(base: Path, folder: Path, without: frozenset[Path]) -> dict[str, bytes]:
-    """The files below `folder`, by their path below `base`."""
-    found = {}
-    for path, regular in _entries(folder, without):
-        if regular:
-            try:
-                with contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
-                    found[path.relative_to(base).as_posix()] = path.read_bytes()
-            except OSError as error:
-                raise _unreadable(error) from error
-    return found
+def read_files(folder: Path, without: Collection[Path] = ()) -> tuple[dict[Path, bytes], list[Path]]:
+    """The Modelica files of a package and of those in it, but for the folders in `without`; and what is no such file.
 
-
-def _entries(folder: Path, without: frozenset[Path]) -> Iterator[tuple[Path, bool]]:
-    """The Modelica files of a package and of those in it, but for the folders in `without`.
-
-    With each whether it is a regular file, or a link to one; a pipe, say, must not be opened.
+    Only regular files count, and links to such: a pipe must not be opened, links to folders may go in circles. Raises
+    OutputError for what can't be read.
     """
+    found: dict[Path, bytes] = {}
+    irregular = []
 
     def refuse(error: OSError) -> None:
         if not isinstance(error, FileNotFoundError | NotADirectoryError):
-            raise _unreadable(error) from error
+            raise error
 
-    for place, folders, files in os.walk(folder, onerror=refuse):
-        here = Path(place)
-        folders[:] = [
-            name
-            for name in sorted(folders)
-            if name != "Resources" and not name.startswith(".") and here / name not in without
-        ]
-        links = [here / name for name in folders if (here / name).is_symlink()]  # not followed: they may go in circles
-        yield from ((link, False) for link in links if (link / "package.mo").is_file())
-        own = (here / name for name in sorted(files) if not name.startswith("."))  # editors leave some that do
-        yield from ((path, path.is_file()) for path in own if path.suffix == ".mo" or path.name == "package.order")
+    try:
+        for place, folders, names in os.walk(folder, onerror=refuse):
+            here = Path(place)
+            visible = [name for name in sorted(folders) if name != "Resources" and not name.startswith(".")]
+            folders[:] = [name for name in visible if here / name not in without]
+            links = [here / name for name in folders if (here / name).is_symlink()]
+            irregular += [link for link in links if (link / "package.mo").is_file()]
+            for path in [here / name for name in sorted(names) if not name.startswith(".")]:  # editors leave some
+                if path.is_file() and (path.suffix == ".mo" or path.name == "package.order"):
+                    with contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
+                        found[path] = path.read_bytes()
+                elif not path.is_file() and path.suffix == ".mo":
+                    irregular.append(path)
+    except OSError as error:
+        message, hint = f"it can't be read: {error.strerror or error}", "check the permissions of it and of its folder"
+        file = shown(Path(os.fsdecode(error.filename))) if error.filename else ""
+        raise OutputError(Diagnostic(Severity.ERROR, "unreadable", message, file, hint=hint)) from error
+    return found, irregular
 
 
-def _unreadable(error: OSError) -> OutputError:
-    message, hint = f"it can't be read: {error.strerror or error}", "check the permissions of it and of its folder"
-    place = shown(Path(os.fsdecode(error.filename))) if error.filename else ""
-    return OutputError(Diagnostic(Severity.ERROR, "unreadable", message, place, hint=hint))
+def _below(folder: Path, files: Mapping[Path, bytes]) -> dict[str, bytes]:
+    return {path.relative_to(folder).as_posix(): content for path, content in files.items()}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import time
 from collections.abc import Callable, Mapping
@@ -12,9 +11,9 @@ import msgspec
 
 from urdfsync import __version__
 from urdfsync.check import compilers, layout, libraries, names
-from urdfsync.check.cache import UserCache
-from urdfsync.check.compilation import CheckProgress, Compilation, system_error
-from urdfsync.check.package import CheckedPackage, irregular_files, missing_resources, read_package
+from urdfsync.check.cache import UserCache, fingerprint
+from urdfsync.check.compilation import CheckProgress, Compilation, findings_of
+from urdfsync.check.package import CheckedPackage, missing_resources, read_package
 from urdfsync.check.report import listed
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStep
 from urdfsync.config import Config, RobotConfig, library_folder, shown
@@ -43,10 +42,8 @@ def check_robot(
             result.gaps = (f"nothing was compiled, since {reason}",)
         else:
             _check_models(package, options, result, progress, folder)
-    except UrdfsyncError as error:
-        result.add(error.diagnostics)
-    except OSError as error:
-        result.add([system_error(error)])
+    except (UrdfsyncError, OSError) as error:
+        result.add(findings_of(error))
     result.seconds = time.monotonic() - begin
     return result
 
@@ -56,11 +53,9 @@ def _check_texts(package: CheckedPackage, result: CheckResult) -> str:
     robot = package.robot
     found = layout.check_layout(package.files)
     found += layout.check_around({robot.output / path: content for path, content in package.around.items()})
-    if package.on_disk:
-        message, hint = "this is no regular file, so it was not looked at", "put the file itself here, or take it away"
-        for path in irregular_files(robot.folder):
-            found.append(Diagnostic(Severity.WARNING, "no-file", message, shown(path), hint=hint))
-        found += missing_resources(package)
+    message, hint = "this is no regular file, so it was not looked at", "put the file itself here, or take it away"
+    found += [Diagnostic(Severity.WARNING, "no-file", message, shown(path), hint=hint) for path in package.irregular]
+    found += missing_resources(package)
     result.add(found)
     if package.users_files:
         files = listed([shown(path) for path in sorted(package.users_files)])
@@ -120,11 +115,9 @@ def _check_models(
 def _result_key(package: CheckedPackage, options: CheckOptions, paths: Mapping[str, Path]) -> str:
     """SHA-256 (hex) over all that compiling and comparing a package rests on; `paths` are those of its libraries."""
     robot = package.robot
-    programs = (*compilers.COMPILERS[options.compiler].MODULES, "pin")
-    facts = (
-        *(__version__, list(map(compilers.installed_version, programs)), options.physics, options.compiler),
+    return fingerprint(
+        *(__version__, compilers.installed_version(options.compiler, "pin"), options.physics, options.compiler),
         *(robot.target, robot.options, package.in_step, package.models, package.rendering.content),
         [(name, str(path), libraries.library_state(path)) for name, path in sorted(paths.items())],
         *(sorted(texts.items()) for texts in (package.files.texts, package.generated, package.around)),
     )
-    return hashlib.sha256(repr(facts).encode(errors="surrogateescape")).hexdigest()

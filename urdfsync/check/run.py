@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import queue
 import subprocess
 import tempfile
 import threading
@@ -34,8 +33,8 @@ COMMAND = tuple(processes.python_module("urdfsync.check"))
 _EXPECTED_MEMORY = 1.5e9  # bytes that the check of a robot usually takes, at most
 _SHARE_OF_FREE_MEMORY = 0.9
 _PAUSE = 0.1  # s between two reports of progress
-_INTERVAL = 0.2  # s between two looks at memory and clock
-_PATIENCE = 10.0  # s for a process to end after its last answer
+_INTERVAL = 0.1  # s between two looks at memory and clock
+_PATIENCE = 10.0  # s to read what a process has told
 
 
 class RobotOrder(msgspec.Struct, frozen=True):
@@ -132,9 +131,8 @@ def _check(
     nothing that the process started is left.
     """
     name, limit = order.robot, order.options.timeout
-    step = steps[name] = CheckStep("", 0.0, CheckResult(name, order.package))
-    report, fault = "report it, with the source", None
-    deadline, lines = time.monotonic() + limit, queue.SimpleQueue[bytes]()
+    steps[name] = CheckStep("", 0.0, CheckResult(name, order.package))
+    fault, deadline = None, time.monotonic() + limit
     with tempfile.TemporaryFile() as errors, UserCache.default().workspace() as workspace:
         process = subprocess.Popen(  # noqa: S603 - a command of ours
             COMMAND,
@@ -145,47 +143,27 @@ def _check(
             start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends this process
         )
         stdin, stdout = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stdout)
-
-        def read() -> None:
-            for line in stdout:
-                lines.put(line)
-            lines.put(b"")
-
-        reader = threading.Thread(target=read, daemon=True)
+        reader = threading.Thread(target=_read_steps, args=(stdout, steps, order), daemon=True)
+        reader.start()
         try:
-            stdin.write(to_text(msgspec.structs.replace(order, workspace=str(workspace))).encode() + b"\n")
-            stdin.flush()
-            reader.start()
-            looked = 0.0
-            while fault is None:
-                with contextlib.suppress(queue.Empty):
-                    if not (line := lines.get(timeout=_INTERVAL)):
-                        process.wait(_PATIENCE)  # it has closed its stdout
-                        break
-                    step = steps[name] = from_text(line, CheckStep)
-                if stopped.is_set():
-                    return step.result
-                now = time.monotonic()
-                if now >= deadline:
+            with contextlib.suppress(OSError):  # it has ended, and its exit code says why
+                stdin.write(to_text(msgspec.structs.replace(order, workspace=str(workspace))).encode() + b"\n")
+                stdin.flush()
+            while fault is None and not stopped.is_set():
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    process.wait(_INTERVAL)
+                    break
+                used = sum(_memory(one) for one in _family(process))
+                if time.monotonic() >= deadline:
                     hint = "allow more with `urdfsync check --timeout`"
                     fault = _failure(order, "check-out-of-time", f"it was not done after {limit:g} s", hint)
-                elif now - looked >= _INTERVAL:
-                    looked = now
-                    used = 0
-                    for one in _family(process):
-                        with contextlib.suppress(psutil.Error):  # it has just ended
-                            used += one.memory_info().rss
-                    if used > memory:
-                        if not is_alone:
-                            steps[name] = CheckStep(f"{name}: waits for more memory", 0.0, step.result)
-                            return None
-                        message = f"it takes more than the {memory / 1e9:.2g} GB that it may"
-                        hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
-                        fault = _failure(order, "check-out-of-memory", message, hint)
-        except subprocess.TimeoutExpired:
-            pass  # it is killed now, and its exit code says so
-        except (ValueError, OSError) as error:
-            fault = _failure(order, "check-crashed", f"its process can't be used: {error!r}", report)
+                elif used > memory and not is_alone:
+                    steps[name] = CheckStep(f"{name}: waits for more memory", 0.0, CheckResult(name, order.package))
+                    return None
+                elif used > memory:
+                    message = f"it takes more than the {memory / 1e9:.2g} GB that it may"
+                    hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
+                    fault = _failure(order, "check-out-of-memory", message, hint)
         finally:
             family = _family(process)
             process.kill()
@@ -195,17 +173,30 @@ def _check(
             process.wait()
             with contextlib.suppress(OSError):  # what it did not read is lost
                 stdin.close()
-            if reader.ident:
-                reader.join(_PATIENCE)
-            stdout.close()
+            reader.join(_PATIENCE)
         errors.seek(0)
         words = errors.read().decode(errors="replace").strip().splitlines()[-1:]
-    if fault is None and (process.returncode or not step.is_last):
+    step = steps[name]
+    if fault is None and not stopped.is_set() and (process.returncode or not step.is_last):
         message = ": ".join([f"its process ended with {processes.exit_cause(process.returncode)}", *words])
-        fault = _failure(order, "check-crashed", message, report)
+        fault = _failure(order, "check-crashed", message, "report it, with the source")
     if fault:
         step.result.add([fault])
     return step.result
+
+
+def _read_steps(stdout: IO[bytes], steps: dict[str, CheckStep], order: RobotOrder) -> None:
+    """Take note of the steps that a process tells, up to its last one, or to what is none."""
+    with stdout, contextlib.suppress(ValueError):
+        for line in stdout:
+            steps[order.robot] = from_text(line, CheckStep)
+
+
+def _memory(process: psutil.Process) -> int:
+    """Resident bytes of a process; 0 if it has just ended."""
+    with contextlib.suppress(psutil.Error):
+        return int(process.memory_info().rss)
+    return 0
 
 
 def _family(process: subprocess.Popen[bytes]) -> list[psutil.Process]:

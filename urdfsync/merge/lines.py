@@ -53,13 +53,10 @@ def merge(base: str, mine: str, generated: str, *, is_modelica: bool = False) ->
     result: list[str] = []
     conflicts: list[ConflictingLines] = []
     for region in _retry_by_tokens(merge_lines(*texts), texts):
-        old, own, new = (
-            "".join(lines[part.start : part.stop]) for lines, part in zip(texts, region.parts, strict=True)
-        )
-        text = region.text
+        own, text = _texts_of(region, texts)[1], region.text
         if text is None:
             conflicts.append(ConflictingLines(*(range(part.start + 1, part.stop + 1) for part in region.parts)))
-            text = _with_markers(old, own, new)
+            text = _with_markers(*_texts_of(region, texts))
         if text != own:
             result += [*written[place : region.parts[1].start], text.replace(NEWLINE, ending)]
             place = region.parts[1].stop
@@ -104,17 +101,24 @@ def _retry_by_tokens(regions: Sequence[Region], texts: Sequence[Sequence[str]]) 
     has_conflict = any(region.text is None for region in regions)
     inner = [inner_lines("".join(lines)) if has_conflict else frozenset() for lines in texts]
     for region in regions:
-        is_long = any(len(part) > _MAX_LINES for part in region.parts)
+        places = region.parts
+        is_long = any(len(place) > _MAX_LINES for place in places)
         # tokens can't be told where a string or comment goes beyond the lines
-        is_cut = any(
-            not within.isdisjoint((part.start, part.stop)) for part, within in zip(region.parts, inner, strict=True)
-        )
+        is_cut = any(place.start in within or place.stop in within for place, within in zip(places, inner, strict=True))
         if region.text is not None or is_long or is_cut:
             yield region
             continue
-        base, mine, generated = ("".join(lines[p.start : p.stop]) for lines, p in zip(texts, region.parts, strict=True))
-        for found in merge_tokens(base, mine, generated):
-            yield found.moved(region.parts)
+        for parts, text in merge_tokens(*_texts_of(region, texts)):
+            old, own, new = (
+                range(place.start + part.start, place.start + part.stop)
+                for part, place in zip(parts, places, strict=True)
+            )
+            yield Region((old, own, new), text)
+
+
+def _texts_of(region: Region, texts: Sequence[Sequence[str]]) -> tuple[str, ...]:
+    """The lines of a region in base, mine and generated."""
+    return tuple("".join(lines[part.start : part.stop]) for lines, part in zip(texts, region.parts, strict=True))
 
 
 def _with_markers(base: str, mine: str, generated: str) -> str:
@@ -133,7 +137,7 @@ def find_flaw(text: str, sides: Sequence[str]) -> str:
     for side in sides if faults else ():
         known |= Counter(fault.reason for fault in (*find_markers(side), *parse(side).faults))
     seen: Counter[str] = Counter()
-    for reason, line in faults:
+    for reason, line, _ in faults:
         seen[reason] += 1
         if seen[reason] > known[reason]:
             return f"{reason} (line {line})"

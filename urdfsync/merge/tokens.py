@@ -72,14 +72,6 @@ class Region(NamedTuple):
     text: str | None
     """None if the sides are in conflict."""
 
-    def moved(self, places: tuple[range, range, range]) -> Region:
-        """Return this region of some lines as a region of the texts, in which these lines have `places`."""
-        old, own, new = (
-            range(place.start + part.start, place.start + part.stop)
-            for part, place in zip(self.parts, places, strict=True)
-        )
-        return Region((old, own, new), self.text)
-
 
 class _Edit(msgspec.Struct, frozen=True):
     """Base tokens `start` to `stop` (half open) replaced; from `low` to `high` are equal places for the same edit."""

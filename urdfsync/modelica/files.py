@@ -41,7 +41,6 @@ class StoredClasses:
         """
         self._package, self._folder, self._texts = tuple(package.split(".")), folder, texts
         self._find, self._gone = functools.cache(find), tuple(gone.split(".")) if gone else ()
-        self._read: dict[tuple[str, ...], Stored | Unknown | None] = {}
         self.users: dict[tuple[str, ...], Stored] = {}
         """The classes of the user's files, by their full names."""
         self.unread: list[Path] = []
@@ -50,7 +49,7 @@ class StoredClasses:
             found = _parsed(content)
             within = tuple(found.within.split(".")) if found.within else ()
             expected = _package_around(path, others)
-            if _is_broken(found) or (expected and within != expected):
+            if found.is_broken or (expected and within != expected):
                 self.unread.append(path)
                 continue
             for one in found.classes:
@@ -68,9 +67,23 @@ class StoredClasses:
 
     def stored(self, name: tuple[str, ...]) -> Stored | Unknown | None:
         """Return the class with this full name, see `Sources`."""
-        if name not in self._read:
-            self._read[name] = self._stored(name)
-        return self._read[name]
+        if name in self.users:
+            return self.users[name]
+        if self._is_own(name):
+            stem = "/".join(name[len(self._package) :])
+            for path in (f"{stem}/{_PACKAGE}".lstrip("/"), f"{stem}.mo"):
+                if path in self._texts:
+                    return _class_in(self._texts[path], name[-1], self._folder / path)
+            return None
+        if self._gone and name[: len(self._gone)] == self._gone:
+            return None
+        if name[-1] in map(_class_name, self.unread):
+            return UNKNOWN
+        file = self._file(name)
+        try:
+            return _class_in(file.read_bytes(), name[-1], file) if file else None
+        except OSError:
+            return UNKNOWN
 
     def names_in(self, name: tuple[str, ...]) -> Iterable[str]:
         """Return the names of the classes that are stored below a package, see `Sources`."""
@@ -81,25 +94,6 @@ class StoredClasses:
                 if (entry / _PACKAGE).is_file() or (entry.suffix == ".mo" and entry.name != _PACKAGE):
                     found.add(entry.name.removesuffix(".mo"))
         return found if name else found | {self._package[0]}
-
-    def _stored(self, name: tuple[str, ...]) -> Stored | Unknown | None:
-        if name in self.users:
-            return self.users[name]
-        if self._is_own(name):
-            stem = "/".join(name[len(self._package) :])
-            for path in (f"{stem}/{_PACKAGE}".lstrip("/"), f"{stem}.mo"):
-                if path in self._texts:
-                    return _class_in(_parsed(self._texts[path]), name[-1], self._folder / path)
-            return None
-        if self._gone and name[: len(self._gone)] == self._gone:
-            return None
-        if name[-1] in {path.parent.name if path.name == _PACKAGE else path.stem for path in self.unread}:
-            return UNKNOWN
-        file = self._file(name)
-        try:
-            return _class_in(_parsed(file.read_bytes()), name[-1], file) if file else None
-        except OSError:
-            return UNKNOWN
 
     def _is_own(self, name: tuple[str, ...]) -> bool:
         return name[: len(self._package)] == self._package
@@ -145,7 +139,7 @@ def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Pa
         word = unused.pop().encode()
         for path in [path for path, content in waiting.items() if has_word(content, word)]:
             found[path] = waiting.pop(path)
-            unused.append(path.parent.name if path.name == _PACKAGE else path.stem)
+            unused.append(_class_name(path))
     return dict(sorted(found.items()))
 
 
@@ -158,14 +152,15 @@ def _parsed(content: bytes) -> StoredText:
     return parse(content.decode(errors="replace").replace("\r\n", "\n"))
 
 
-def _class_in(found: StoredText, name: str, file: Path) -> Stored | Unknown:
+def _class_in(content: bytes, name: str, file: Path) -> Stored | Unknown:
+    found = _parsed(content)
     definition = next((one for one in found.classes if one.name.parts[0] == name), None)
-    return UNKNOWN if definition is None or _is_broken(found) else Stored(definition, str(file))
+    return UNKNOWN if definition is None or found.is_broken else Stored(definition, str(file))
 
 
-def _is_broken(found: StoredText) -> bool:
-    """Whether parts of a text could not be read."""
-    return any(not fault.reason.endswith(" twice") for fault in found.faults)
+def _class_name(path: Path) -> str:
+    """The name of the class that a file is for."""
+    return path.parent.name if path.name == _PACKAGE else path.stem
 
 
 def _package_around(path: Path, files: Mapping[Path, bytes]) -> tuple[str, ...]:

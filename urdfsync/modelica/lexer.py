@@ -28,6 +28,8 @@ class Fault(NamedTuple):
 
     reason: str
     line: int
+    is_repetition: bool = False
+    """Whether something is only there twice: the text could be read."""
 
 
 class Token(NamedTuple):
@@ -65,6 +67,6 @@ def find_markers(text: str) -> list[Fault]:
     ]
 
 
-def is_identifier(token: str) -> bool:
+def is_name(token: str) -> bool:
     """Whether a token can be the name of something, quoted names included."""
     return (token[:1].isalpha() or token[:1] == "_" or (token[:1] == "'" and len(token) > 1)) and token not in KEYWORDS

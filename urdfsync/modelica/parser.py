@@ -8,11 +8,13 @@ are read one by one, so that one that is no Modelica does not hide what is wrong
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
+from typing import Any
 
 import msgspec
 
-from urdfsync.modelica.lexer import Fault, is_identifier, lex
+from urdfsync.modelica.lexer import Fault, is_name, lex
 from urdfsync.modelica.syntax import Class, Component, Connection, Extends, Import, Modifier, Name, StoredText
 
 _DEEPEST = 50
@@ -42,7 +44,7 @@ def parse(text: str) -> StoredText:
     """Read a text that should be a file of Modelica; whatever can't be read of it is left out."""
     parser = _Parser(text)
     parser.document()
-    return StoredText(tuple(parser.faults), parser.within, parser.within_line, tuple(parser.body.classes))
+    return StoredText(tuple(parser.faults), parser.within, parser.within_line, tuple(parser.body["classes"]))
 
 
 class _FaultError(Exception):
@@ -51,17 +53,6 @@ class _FaultError(Exception):
     def __init__(self, reason: str, line: int) -> None:
         super().__init__(reason)
         self.fault = Fault(reason, line)
-
-
-class _Body(msgspec.Struct):
-    """The parts of a class that have been read so far: lists for the fields of `Class`."""
-
-    imports: list[Import] = msgspec.field(default_factory=list)
-    extends: list[Extends] = msgspec.field(default_factory=list)
-    classes: list[Class] = msgspec.field(default_factory=list)
-    components: list[Component] = msgspec.field(default_factory=list)
-    connections: list[Connection] = msgspec.field(default_factory=list)
-    uses: list[Name] = msgspec.field(default_factory=list)
 
 
 class _Parser:
@@ -76,8 +67,8 @@ class _Parser:
         self.at = 0
         self.within: str | None = None
         self.within_line = 0
-        self.body = _Body()
-        """Of the class around this place."""
+        self.body = defaultdict[str, list[Any]](list)
+        """What has been read of the class around this place, by the fields of `Class`."""
         self._open: tuple[str, ...] = ()
         """Names of the classes around this place."""
         self._uses: list[Name] = []
@@ -115,7 +106,7 @@ class _Parser:
             raise self._lack(f"`{word}`")
 
     def _identifier(self) -> str:
-        if not is_identifier(self.word):
+        if not is_name(self.word):
             raise self._lack("a name")
         return self._step()
 
@@ -126,7 +117,7 @@ class _Parser:
     def _once(self, seen: set[str], key: str, reason: str) -> None:
         """Note a fault if the key is in `seen`; else put it there."""
         if key in seen:
-            self.faults.append(Fault(reason, self.tokens[self.at - 1].line))
+            self.faults.append(Fault(reason, self.tokens[self.at - 1].line, is_repetition=True))
         seen.add(key)
 
     def _since(self, start: int) -> str:
@@ -180,7 +171,7 @@ class _Parser:
     def _name(self, *, has_subscripts: bool = False) -> Name:
         line, is_global = self.line, bool(self._accept("."))
         parts: list[str] = []
-        while not parts or (self.word == "." and is_identifier(self.following) and self._step()):
+        while not parts or (self.word == "." and is_name(self.following) and self._step()):
             parts.append(self._identifier())
             if has_subscripts:
                 self._subscripts()
@@ -239,7 +230,7 @@ class _Parser:
                 self._item()
         elif self._accept(*_CALLED):
             self._call()
-        elif is_identifier(word) or word == ".":
+        elif is_name(word) or word == ".":
             self._reference()
             if self.word == "(":
                 self._call()
@@ -248,15 +239,9 @@ class _Parser:
 
     def _group(self) -> None:
         """An expression in parentheses, or the outputs of a function, some of which may be left out."""
-        self._expect("(")
-        self._enter()
-        while self.word != ")":
-            if not self._accept(","):
+        for _ in self._list():
+            if self.word not in (",", ")"):
                 self._expression()
-                if self.word != ")":
-                    self._expect(",")
-        self._depth -= 1
-        self._expect(")")
         self._subscripts()
 
     def _item(self) -> None:
@@ -270,7 +255,7 @@ class _Parser:
         """The arguments of a function."""
         names: set[str] = set()
         for _ in self._list():
-            if is_identifier(self.word) and self.following == "=":
+            if is_name(self.word) and self.following == "=":
                 name = self._identifier()
                 self._once(names, name, f"sets `{name}` twice")
                 self._step()
@@ -316,7 +301,7 @@ class _Parser:
             raise _FaultError("has an `end` too many", self.line)
         if not self._is_class():
             raise self._lack("a class")
-        self.body.classes.append(self._class(names, prefixes))
+        self.body["classes"].append(self._class(names, prefixes))
 
     def _is_class(self) -> bool:
         return self.word in _CLASSES or any(self.word in prefixes for prefixes in _CLASS_PREFIXES)
@@ -339,18 +324,18 @@ class _Parser:
         found = Class(Name((text,), line), kind, frozenset(prefixes), is_extension=is_extension)
         if not is_extension and self._accept("="):
             return self._short_class(found)
-        arguments = self._class_modification() if is_extension else ()
+        arguments = self._arguments() if is_extension else ()
         self._description()
         around, self._open = self._open, (*self._open, text)
-        outer, self.body = self.body, _Body()
+        outer, self.body = self.body, defaultdict[str, list[Any]](list)
         self._composition()
-        is_other_end = is_identifier(self.following) and self.following not in self._open
+        is_other_end = is_name(self.following) and self.following not in self._open
         if self.word != "end" or not (is_other_end or self.following == text):
             raise self._lack(f"`end {text}`")
         self._step()
         if (end := self._step()) != text:
             self.faults.append(Fault(f"ends `{text}` with `end {end}`", self.tokens[self.at - 1].line))
-        parts = {field: tuple(values) for field, values in msgspec.structs.asdict(self.body).items()}
+        parts = {field: tuple(values) for field, values in self.body.items()}
         self._open, self.body = around, outer
         return msgspec.structs.replace(found, arguments=arguments, **parts)
 
@@ -372,7 +357,7 @@ class _Parser:
             start = len(self._uses)
             name, _ = self._type()
             del self._uses[start:]
-            found = msgspec.structs.replace(found, alias=Extends(name, self._class_modification()))
+            found = msgspec.structs.replace(found, alias=Extends(name, self._arguments()))
         self._comment()
         return found
 
@@ -391,7 +376,7 @@ class _Parser:
             else:
                 start = len(self._uses)
                 self._each(self._equation, equations if section == "equation" else None)
-                self.body.uses += self._taken(start)
+                self.body["uses"] += self._taken(start)
             if word == "annotation" and self.word not in ("end", ""):
                 self.faults.append(Fault(f"goes on after the annotation of `{self._open[-1]}`", self.line))
 
@@ -405,7 +390,7 @@ class _Parser:
         elif self._accept("extends"):
             parent = self._base()
             self._once(names, f"extends {parent.type}", f"extends `{parent.type}` twice")
-            self.body.extends.append(parent)
+            self.body["extends"].append(parent)
             self._annotation()
         elif self._accept("external"):
             self._external()
@@ -413,14 +398,14 @@ class _Parser:
             prefixes = self._prefixes(_ELEMENT_PREFIXES)
             if self._is_class():
                 found = self._class(names, prefixes)
-                self.body.classes.append(msgspec.structs.replace(found, constraint=self._constraint()))
+                self.body["classes"].append(msgspec.structs.replace(found, constraint=self._constraint()))
             else:
                 self._components(names, prefixes)
 
     def _base(self) -> Extends:
         """A class with its modifiers."""
         name = self._name()
-        return Extends(name, self._class_modification())
+        return Extends(name, self._arguments())
 
     def _import(self) -> None:
         alias = ""
@@ -439,7 +424,7 @@ class _Parser:
                 self._expect("*")
                 is_everything = True
         self._comment()
-        self.body.imports.append(Import(name, alias, tuple(members), is_everything))
+        self.body["imports"].append(Import(name, alias, tuple(members), is_everything))
 
     def _external(self) -> None:
         self._description()
@@ -449,7 +434,7 @@ class _Parser:
             if self._accept("="):
                 self._expression()
         # the function of the other language has a name of its own
-        self.body.uses += [name for name in self._taken(start) if not name.is_called]
+        self.body["uses"] += [name for name in self._taken(start) if not name.is_called]
         self._comment()
 
     def _components(self, names: set[str], prefixes: set[str]) -> None:
@@ -468,7 +453,7 @@ class _Parser:
             found.append(Component(Name((text,), line), kind, frozenset(prefixes | more), arguments, uses))
             self._comment()
         constraint = self._constraint()
-        self.body.components += [msgspec.structs.replace(one, constraint=constraint) for one in found]
+        self.body["components"] += [msgspec.structs.replace(one, constraint=constraint) for one in found]
 
     def _type(self) -> tuple[Name, set[str]]:
         """A type; returns it with its prefixes."""
@@ -509,18 +494,15 @@ class _Parser:
 
     def _modification(self) -> tuple[Modifier, ...]:
         """Modifiers in parentheses and a value, whose names are added to `_uses`; both may be missing."""
-        arguments = self._class_modification()
+        arguments = self._arguments()
         if self._accept("=", ":=") and not self._accept("break"):
             self._expression()
         return arguments
 
-    def _class_modification(self) -> tuple[Modifier, ...]:
-        """Modifiers in parentheses, if there are any."""
-        return self._arguments() if self.word == "(" else ()
-
     def _arguments(self) -> tuple[Modifier, ...]:
+        """Modifiers in parentheses, if there are any."""
         names: set[str] = set()
-        return tuple(found for _ in self._list() if (found := self._argument(names)))
+        return tuple(found for _ in self._list() if (found := self._argument(names))) if self.word == "(" else ()
 
     def _argument(self, names: set[str]) -> Modifier | None:
         """One modifier; None for a connection that is taken away."""
@@ -570,7 +552,7 @@ class _Parser:
             self._expression()
             if self._accept(sign):
                 self._expression()
-            elif not (is_identifier(word) or word in _CALLED or word == ".") or self.tokens[self.at - 1].text != ")":
+            elif not (is_name(word) or word in _CALLED or word == ".") or self.tokens[self.at - 1].text != ")":
                 raise self._lack(f"`{sign}`")
             if seen is not None:
                 text = self._since(start)
@@ -586,7 +568,7 @@ class _Parser:
             names.append(self._reference())
             texts.append(self._since(start))
         self._expect(")")
-        self.body.connections.append(Connection(*names))
+        self.body["connections"].append(Connection(*names))
         first, second = sorted(texts)
         self._once(seen, f"connect {first} {second}", f"connects `{first}` and `{second}` twice")
 

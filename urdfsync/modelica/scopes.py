@@ -171,17 +171,11 @@ class Scopes:
 
     def lookup(self, name: Name, scope: Node | None) -> Element | Missing | Unknown:
         """Return the meaning of a name that is used in a class; of None, in a file outside of all classes."""
-        if self._depth > _DEEPEST:
-            return UNKNOWN
-        self._depth += 1
-        try:
-            found = self._first(name.parts[0], None if name.is_global else scope)
-            for part in name.parts[1:]:
-                if not isinstance(found, Element):
-                    break
-                found = self.part(found.types, part)
-        finally:
-            self._depth -= 1
+        found = self._first(name.parts[0], None if name.is_global else scope)
+        for part in name.parts[1:]:
+            if not isinstance(found, Element):
+                break
+            found = self.part(found.types, part)
         return found
 
     def lookup_base(self, name: Name, node: Node) -> Element | Missing | Unknown:

@@ -125,6 +125,11 @@ class StoredText(msgspec.Struct, frozen=True):
     within_line: int = 0
     classes: tuple[Class, ...] = ()
 
+    @property
+    def is_broken(self) -> bool:
+        """Whether parts of the text could not be read."""
+        return not all(fault.is_repetition for fault in self.faults)
+
 
 class Declared(NamedTuple):
     """A class or component that a text declares."""

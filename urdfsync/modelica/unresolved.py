@@ -6,7 +6,7 @@ import enum
 from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
-from urdfsync.modelica.scopes import UNKNOWN, Element, Missing, Node, Scopes, Type, Types
+from urdfsync.modelica.scopes import UNKNOWN, Element, Missing, Node, Scopes, Types
 from urdfsync.modelica.syntax import Component, Extends, Modifier, Name
 from urdfsync.spelling import nearest
 
@@ -42,12 +42,6 @@ class Unresolved(NamedTuple):
     line: int
     near: str = ""
     """The known name that is most like the part; empty if none is."""
-    element: Element | None = None
-    """What that name means, if it can be told."""
-    is_field: bool = False
-    """Whether the owner is a record."""
-    is_part: bool = False
-    """Whether it can only be a component that is made of others, no parameter: it is redeclared, or connected."""
 
     @property
     def meant(self) -> str:
@@ -83,9 +77,8 @@ class _Walk:
             yield from self._missing(one.name, found, None, UnresolvedKind.CLASS)
         for component in definition.components:
             yield from self._component(component, node)
-        ends = {end for connection in definition.connections for end in connection}
         for name in definition.uses:
-            yield from self._use(name, node, is_part=name in ends)
+            yield from self._use(name, node)
         for inner in definition.classes:
             child = scopes.node((*node.name, inner.name.parts[0]))
             if isinstance(child, Node) and child.definition is inner:
@@ -96,16 +89,16 @@ class _Walk:
         yield from self._missing(used.type, self._scopes.lookup(used.type, scope), scope, UnresolvedKind.CLASS)
         yield from self._arguments(used.arguments, self._scopes.types_of(used, scope), scope)
 
-    def _use(self, name: Name, scope: Node | None, *, is_part: bool = False) -> Iterator[Unresolved]:
+    def _use(self, name: Name, scope: Node | None) -> Iterator[Unresolved]:
         kind = UnresolvedKind.FUNCTION if name.is_called else UnresolvedKind.ELEMENT
-        yield from self._missing(name, self._scopes.lookup(name, scope), scope, kind, is_part=is_part)
+        yield from self._missing(name, self._scopes.lookup(name, scope), scope, kind)
 
     def _component(self, component: Component, node: Node) -> Iterator[Unresolved]:
         yield from self._used(Extends(component.type), node)
         bases = self._scopes.bases(node)
         if "redeclare" in component.prefixes and bases:
             found = self._scopes.part(bases, component.name.parts[0])
-            yield from self._missing(component.name, found, None, UnresolvedKind.ELEMENT, is_part=True)
+            yield from self._missing(component.name, found, None, UnresolvedKind.ELEMENT)
         types = self._scopes.types_in(component, node)
         yield from self._arguments(component.arguments, () if self._is_foreign(component, types) else types, node)
         if component.constraint:
@@ -123,8 +116,8 @@ class _Walk:
             for part in one.name.parts:
                 found = self._scopes.part(inside or (UNKNOWN,), part)
                 if inside:
-                    name, is_part = Name((part,), one.name.line), one.is_redeclared or one.is_break
-                    yield from self._missing(name, found, scope, UnresolvedKind.ELEMENT, is_part=is_part)
+                    name = Name((part,), one.name.line)
+                    yield from self._missing(name, found, scope, UnresolvedKind.ELEMENT)
                 if not isinstance(found, Element):
                     break
                 inside = found.types
@@ -158,38 +151,20 @@ class _Walk:
                 return ()
         return name.parts[-1:]
 
-    def _missing(
-        self, name: Name, found: object, scope: Node | None, kind: UnresolvedKind, *, is_part: bool = False
-    ) -> Iterator[Unresolved]:
+    def _missing(self, name: Name, found: object, scope: Node | None, kind: UnresolvedKind) -> Iterator[Unresolved]:
         if found is UNKNOWN and not self._doubtful.isdisjoint(name.parts):
-            part = next((part for part in self._unclear(name, scope) if part in self._doubtful), "")
-            if part:
-                yield Unresolved(kind, str(name), part, "", name.line)
+            doubtful = [part for part in self._unclear(name, scope) if part in self._doubtful]
+            if doubtful:
+                yield Unresolved(kind, str(name), doubtful[0], "", name.line)
         if not isinstance(found, Missing):
             return
-        if found.types:
-            known = self._scopes.names_in(found.types)
-            type_ = next((type_ for type_ in found.types if type_ is not UNKNOWN), None)
-            owner = str(type_)
-            is_field = type_ is not None and isinstance(type_.node, Node) and type_.node.definition.kind == "record"
-        else:
-            known = self._scopes.names_around(scope)
-            owner, is_field = str(scope) if scope else "", False
         if kind is UnresolvedKind.FUNCTION and len(name.parts) > 1 and found.part != name.parts[-1]:
             kind = UnresolvedKind.ELEMENT  # a component on the way to the function
-        candidates = {key for key, is_class in known.items() if is_class or kind is not UnresolvedKind.CLASS} - {
-            found.part
-        }
+        owner = str(found.types[0] if found.types else scope or "")
+        known = self._scopes.names_in(found.types) if found.types else self._scopes.names_around(scope)
+        candidates = {key for key, is_class in known.items() if is_class or kind is not UnresolvedKind.CLASS}
         is_library = not found.types and len(name.parts) > 1 and found.part[:1].isupper()
-        near = nearest(found.part, sorted(candidates), _ALIKE if is_library else _RATHER_ALIKE)
-        meant = Name((near,), name.line)
-        like = self._scopes.part(found.types, near) if found.types else self._scopes.lookup(meant, scope)
-        element = like if near and isinstance(like, Element) else None
-        if is_library and not near and found.part not in self._doubtful:
-            return  # it may be a library that is not at hand: a compiler says so
-        yield Unresolved(kind, str(name), found.part, owner, name.line, near, element, is_field, is_part)
-
-
-def first_type(element: Element) -> Type | None:
-    """Return the first class that is known of an element."""
-    return next((one for one in element.types if one is not UNKNOWN), None)
+        least = _ALIKE if is_library else _RATHER_ALIKE
+        near = nearest(found.part, sorted(candidates - {found.part}), least)
+        if near or not is_library or found.part in self._doubtful:  # else a compiler tells whether there is a library
+            yield Unresolved(kind, str(name), found.part, owner, name.line, near)

@@ -14,7 +14,7 @@ from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 
 from urdfsync.dependencies import list_folder
-from urdfsync.files import failure, text_digest
+from urdfsync.files import TEMPORARY, failure, text_digest
 from urdfsync.state import file_operations
 
 _FAST = 1
@@ -52,19 +52,22 @@ class BaseStore:
     def add(self, texts: Mapping[str, str]) -> None:
         """Keep texts by their hashes. Raises OutputError.
 
-        Nothing is synced: what a crash or a power failure cuts short is no base, since its hash is wrong. Then the text
-        is rendered again, or its file conflicts.
+        Nothing is synced: what a power failure takes is rendered again, or its file conflicts.
         """
         new = {digest: text for digest, text in texts.items() if digest not in self}
         if not new:
             return
+        temporary = self._folder / f".{os.urandom(8).hex()}{TEMPORARY}"
         try:
             self._check_links()
             for folder in (self._folder.parent.parent, self._folder.parent, self._folder):
                 file_operations.make_folder(folder)
             for digest, text in new.items():
-                file_operations.write(self._folder / digest, zlib.compress(text.encode(), _FAST))
+                file_operations.write(temporary, zlib.compress(text.encode(), _FAST))
+                os.replace(temporary, f"{self._folder}{os.sep}{digest}")  # noqa: PTH105 - thousands
         except OSError as error:
+            with contextlib.suppress(OSError):
+                temporary.unlink()
             raise failure(error, self._shown(self._folder)) from None
         self._names = None
 

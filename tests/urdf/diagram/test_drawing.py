@@ -62,12 +62,6 @@ def test_elements_connectors_masses_and_ratios_can_be_read(root: etree._Element)
     assert "planar or floating joint" not in found, "the legend has the kinds that are there"
 
 
-def test_the_robots_class_decides_about_names_as_in_the_model() -> None:
-    robot = Robot("r", (Link("Arm"),), ())
-    assert "arm_link" in texts(etree.fromstring(draw(robot, TARGET, Options())))
-    assert "arm" in texts(etree.fromstring(draw(robot, Target("Plant.Machine", "Machine"), Options())))
-
-
 def test_components_stand_where_the_layout_puts_them_with_y_downwards(root: etree._Element, diagram: Diagram) -> None:
     moves = {element.get("transform") for element in root.iter(f"{SVG}g")}
     for name in ("palm", "left", "camera", "a_slide", "b_follow", "c_mount", "b_followMimic"):
@@ -88,17 +82,6 @@ def test_every_line_is_drawn_in_the_colour_of_its_kind(root: etree._Element, dia
     assert sorted(starts) == sorted(points[0] for _, points in diagram.lines.values())
 
 
-def test_dots_mark_where_a_net_branches(root: etree._Element, diagram: Diagram) -> None:
-    dots = {(dot.get("class"), int(dot.get("cx", "")), -int(dot.get("cy", ""))) for dot in root.iter(f"{SVG}circle")}
-    trunk = diagram.lines["palm.frame_a", "a_slide.frame_a"][1][1][0]
-    spines = [diagram.placements[joint].centre[1] for joint in ("a_slide", "b_follow", "c_mount")]
-    palm = diagram.placements["palm"].centre[1]
-    on_trunk = {dot for dot in dots if dot[1] == trunk}
-    assert on_trunk == {("dot-frame", trunk, y) for y in (spines[0], palm, spines[1])}, "the last branch is a bend"
-    axis = diagram.placements["a_slide"].centre[0]
-    assert [dot[1] for dot in dots if dot[0] == "dot-translational"] == [axis]
-
-
 def test_all_text_is_ten_pixels_high_or_more_at_its_natural_size() -> None:
     robot = chain(*(f"link_{'o' * length}" for length in range(0, 80, 8)))
     root = etree.fromstring(draw(robot, TARGET, Options()))
@@ -106,15 +89,6 @@ def test_all_text_is_ten_pixels_high_or_more_at_its_natural_size() -> None:
     scale = float(root.get("width", "")) / width
     assert float(root.get("height", "")) == scale * height
     assert min(scale * float(text.get("font-size", "")) for text in root.iter(f"{SVG}text")) >= 10
-
-
-def test_joints_names_keep_clear_of_their_neighbours_connectors() -> None:
-    robot = chain("a", "b", "c")
-    tree = KinematicTree.of(robot)
-    support = layout(tree, connector_names(tree, Options())).placements["forearm_roll_to_cSupport"]
-    root = etree.fromstring(draw(robot, TARGET, Options()))
-    (text,) = [element for element in root.iter(f"{SVG}text") if element.text == "forearm_roll_to_b"][1:]
-    assert -float(text.get("y", "")) > support.centre[1] + 4  # radius of its circle
 
 
 def test_it_needs_nothing_from_elsewhere_and_the_order_of_elements_makes_no_difference() -> None:

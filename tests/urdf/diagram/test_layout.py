@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.skeletons import skeleton
 
-from urdfsync.urdf.diagram.layout import Diagram, Path, Placement, Point, layout, tracks
+from urdfsync.urdf.diagram.layout import Diagram, Path, Placement, Point, layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.connectors import Connectors, connector_names
 from urdfsync.urdf.options import Options
@@ -31,11 +31,6 @@ PORTS = {
 TYPES: tuple[JointType, ...] = ("fixed", "revolute", "prismatic", "planar")
 
 Segment: TypeAlias = tuple[Point, Point]
-
-
-def draw(*joints: Joint, frames: tuple[str, ...] = ()) -> Diagram:
-    tree = skeleton(*joints)
-    return layout(tree, connector_names(tree, Options(frames=frames)))
 
 
 def random_robot(random_: random.Random, links: int, depth: int, mimics: float) -> tuple[KinematicTree, Connectors]:
@@ -172,7 +167,8 @@ def steps(tree: KinematicTree, names: Connectors) -> int:
 
 def test_one_joint_in_full() -> None:
     """frame_a at (-100, 0), base, shoulder, arm, its frame: joints on the spine, links below, connectors above."""
-    diagram = draw(Joint("shoulder", "revolute", "base", "arm"))
+    tree = skeleton(Joint("shoulder", "revolute", "base", "arm"))
+    diagram = layout(tree, connector_names(tree, Options()))
     assert diagram.extent == (-116, -44, 36, 34)
     assert diagram.placements == {
         "frame_a": Placement(-116, -16, -84, 16),
@@ -191,43 +187,6 @@ def test_one_joint_in_full() -> None:
         ("shoulder.axis", "shoulderAxis"): ("rotational", ((-46, 10), (-46, 20))),
         ("shoulder.support", "shoulderSupport"): ("rotational", ((-52, 10), (-52, 12), (-60, 12), (-60, 20))),
     }
-
-
-def test_an_inner_link_has_its_frame_below_it() -> None:
-    diagram = draw(Joint("mount", "fixed", "palm", "hand"), frames=("palm",))
-    palm, frame = diagram.placements["palm"], diagram.placements["palmFrame"]
-    assert frame.y2 < palm.y1
-    assert frame.centre[0] == palm.centre[0]
-
-
-def test_a_chain_is_one_row_from_left_to_right() -> None:
-    types: tuple[JointType, ...] = ("revolute", "fixed", "prismatic")
-    diagram = draw(*(Joint(f"j{n}", kind, f"l{n}", f"l{n + 1}") for n, kind in enumerate(types)))
-    order = ["frame_a", "l0", "j0", "l1", "j1", "l2", "j2", "l3", "l3Frame"]
-    assert sorted(order, key=lambda name: diagram.placements[name].centre) == order
-    heights = {name: diagram.placements[name].centre[1] for name in order}
-    assert {heights[name] for name in ("frame_a", "j0", "j1", "j2", "l3Frame")} == {0}
-    assert len({heights[f"l{number}"] for number in range(4)}) == 1
-
-
-def test_the_first_child_goes_on_and_the_next_ones_stand_below() -> None:
-    diagram = draw(*(Joint(name, "fixed", "trunk", f"{name}Foot") for name in ("a", "b", "c")))
-    x, heights = zip(*(diagram.placements[name].centre for name in ("a", "b", "c")), strict=True)
-    assert len(set(x)) == 1
-    assert list(heights) == sorted(heights, reverse=True)
-    assert heights[0] == diagram.placements["frame_a"].centre[1]
-
-
-def test_a_coupling_joins_leader_and_follower_in_the_kind_of_each() -> None:
-    right = Joint("right", "prismatic", "palm", "rightFinger", mimic=Mimic("left"))
-    stay = Joint("stay", "revolute", "camera", "lens", mimic=Mimic("mount"))
-    mount = Joint("mount", "fixed", "palm", "camera")
-    diagram = draw(Joint("left", "revolute", "palm", "leftFinger"), right, mount, stay)
-    assert diagram.lines["rightMimic.leader", "left.axis"][0] == "rotational"
-    assert diagram.lines["rightMimic.follower", "right.axis"][0] == "translational"
-    assert diagram.placements["rightMimic"].y1 > diagram.placements["right"].y2
-    held = [ends for ends in diagram.lines if ends[0].startswith("stayMimic")]
-    assert held == [("stayMimic.follower", "stay.axis")], "its leader never moves"
 
 
 @settings(deadline=None, max_examples=200)
@@ -266,13 +225,3 @@ def test_long_chains_wide_stars_and_large_trees_come_through() -> None:
         assert max(len(points) for _, points in diagram.lines.values()) <= 7
         small, large = (steps(*random_robot(random.Random(1), links, depth, 0.2)) for links in (100, 800))
         assert large < 10 * small
-
-
-@settings(deadline=None)
-@given(st.dictionaries(st.integers(), st.tuples(st.integers(0, 30), st.integers(0, 30)).map(sorted).map(tuple)))
-def test_intervals_on_one_track_never_touch_and_no_track_is_wasted(intervals: dict[int, tuple[int, int]]) -> None:
-    assigned = tracks(intervals)
-    for (a, (start, end)), (b, (low, high)) in itertools.combinations(intervals.items(), 2):
-        assert assigned[a] != assigned[b] or end < low or high < start
-    densest = max((sum(s <= x <= e for s, e in intervals.values()) for x in range(31)), default=0)
-    assert len(set(assigned.values())) == densest

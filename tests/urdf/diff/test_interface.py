@@ -49,43 +49,13 @@ def test_a_connector_keeps_its_name_whatever_comes_and_goes_beside_it() -> None:
     assert "joint jc / position in Run" not in changed(old, new, inputs="vector")  # one input for all joints
 
 
-def test_a_joint_that_becomes_passive_loses_its_variables_of_run_and_an_option_keeps_them() -> None:
-    wheel, caster = (joint(name, "continuous", "base", child) for name, child in (("wheel", "a"), ("caster", "b")))
+def test_a_joint_that_becomes_passive_loses_its_variables_of_run() -> None:
+    joints = [joint(name, "continuous", "base", child) for name, child in (("wheel", "a"), ("caster", "b"))]
     drive = '<transmission name="t"><joint name="wheel"/></transmission>'
-    old, new = version(*STAR[:3], wheel, caster), version(*STAR[:3], wheel, caster, drive)
-    gone = {
-        "joint caster / position in Run": ("caster_phi", None),
-        "joint caster / effort in Run": ("caster_tau", None),
-    }
-    assert changed(old, new) == gone
-    hints = {one.hint for one in interface(old, new, {}, TARGET, Options())}
-    assert hints == {'list "caster" in `driven`, with all others that are driven, to keep it'}
-    assert changed(old, new, driven=("wheel", "caster")) == {}
-    assert changed(new, old) == {path: (None, name) for path, (name, _) in gone.items()}
-
-
-def test_a_leaf_that_is_none_any_more_loses_its_frame_and_an_option_keeps_it() -> None:
-    old = version(*STAR[:2], joint("turn", "continuous", "base", "a"))
-    new = version(*STAR[:3], joint("turn", "continuous", "base", "a"), joint("tip", "fixed", "a", "b"))
-    assert changed(old, new) == {"link a / frame": ("aFrame", None)}
-    (found,) = interface(old, new, {}, TARGET, Options())
-    assert found.hint == 'list "a" in `frames` to keep it'
-    assert changed(old, new, frames=("a",)) == {}
-    assert changed(new, old) == {"link a / frame": (None, "aFrame")}
-
-
-def test_a_joint_that_follows_or_stops_loses_its_axis_and_its_support() -> None:
-    first, follower = joint("first", "continuous", "base", "a"), joint("second", "continuous", "base", "b")
-    mimics = joint("second", "continuous", "base", "b", '<mimic joint="first"/>')
-    gone = {
-        "joint second / axis": ("secondAxis", None),
-        "joint second / support": ("secondSupport", None),
-        "joint second / position in Run": ("second_phi", None),
-        "joint second / effort in Run": ("second_tau", None),
-    }
-    assert changed(version(*STAR[:3], first, follower), version(*STAR[:3], first, mimics)) == gone
-    stopped = joint("second", "fixed", "base", "b")
-    assert changed(version(*STAR[:3], first, follower), version(*STAR[:3], first, stopped)) == gone
+    old, new = version(*STAR[:3], *joints), version(*STAR[:3], *joints, drive)
+    gone = {"joint caster / position in Run": "caster_phi", "joint caster / effort in Run": "caster_tau"}
+    assert changed(old, new) == {path: (name, None) for path, name in gone.items()}
+    assert changed(new, old) == {path: (None, name) for path, name in gone.items()}
 
 
 def test_a_connector_that_gives_way_to_a_new_element_is_named() -> None:
@@ -106,11 +76,6 @@ def test_a_renamed_joint_shows_its_new_connectors() -> None:
         "joint w / position in Run": ("v_phi", "w_phi"),
         "joint w / effort in Run": ("v_tau", "w_tau"),
     }
-
-
-def test_what_is_gone_altogether_is_no_change_of_a_connector() -> None:
-    one, other = joint("one", "continuous", "base", "a"), joint("other", "continuous", "base", "b")
-    assert changed(version(*STAR[:3], one, other), version(*STAR[:2], one)) == {}
 
 
 def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:

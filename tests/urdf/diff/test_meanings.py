@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
@@ -19,7 +20,7 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Mesh
 
 NONE, UNMODELLED, PARAMETER, STRUCTURAL = list(ChangeClass)[:4]
-ADDED, REMOVED, CHANGED, RENAMED = list(ChangeKind)
+ADDED, REMOVED, CHANGED = list(ChangeKind)[:3]
 FIXED, FLOATING = Options(), Options(base="floating")
 MESH = lookup.key(Mesh("arm.stl"))
 Data = dict[str, Any]
@@ -67,99 +68,94 @@ def changes(edit: Callable[[Data], object], options: Options = FIXED) -> list[Ch
     return list(compare(version(found=found), version(edit, found), DOMAIN, options).changes)
 
 
-def put(*path: str | int, value: Any) -> Callable[[Data], object]:
-    """Set the value at a path of the snapshot."""
+def at(path: str) -> list[str | int]:
+    """Where the snapshot has what a path in the words of URDF names."""
+    element, *inside = path.split(" / ")
+    kind, _, name = element.partition(" ")
+    found: list[str | int] = [f"{kind}s", name] if name else []
+    for word in inside:
+        shape, index = re.fullmatch(r"(visual|collision) (\d+)", word), re.fullmatch(r"(\w+)\[(\d)\]", word)
+        found += [f"{shape[1]}s", int(shape[2]) - 1] if shape else [index[1], int(index[2])] if index else [word]
+    return found
+
+
+def put(path: str, value: Any) -> Callable[[Data], object]:
+    """Set the value at a path; without a value, remove it."""
 
     def edit(data: Any) -> None:
-        for key in path[:-1]:
+        *keys, last = at(path)
+        for key in keys:
             data = data[key]
-        data[path[-1]] = value
+        if value is None:
+            del data[last]
+        else:
+            data[last] = value
 
     return edit
 
 
-def drop(*path: str | int) -> Callable[[Data], object]:
-    """Remove the value at a path of the snapshot."""
-
-    def edit(data: Any) -> None:
-        for key in path[:-1]:
-            data = data[key]
-        del data[path[-1]]
-
-    return edit
-
-
-BASE = ("links", "base")
-DYNAMICS, LIMIT = {"damping": 0.0, "friction": 0.0}, {"lower": 0.0, "upper": 0.0}
-
-CASES = [
-    (put("name", value="other"), "robot / name", CHANGED, "", PARAMETER),
-    (put(*BASE, "inertial", "mass", value=3.0), "link base / inertial / mass", CHANGED, "kg", PARAMETER),
-    (put(*BASE, "inertial", "inertia", "ixy", value=0.1), "link base / inertial / inertia / ixy", CHANGED, "kg·m²",
-     PARAMETER),
-    (drop(*BASE, "inertial"), "link base / inertial", REMOVED, "", PARAMETER),
-    (put(*BASE, "visuals", 0, "origin", "rpy", 2, value=1.0), "link base / visual 1 / origin / rpy[2]", CHANGED, "rad",
-     PARAMETER),
-    (put(*BASE, "visuals", 0, "geometry", "size", 0, value=9.0), "link base / visual 1 / geometry / size[0]", CHANGED,
-     "m", PARAMETER),
-    (put(*BASE, "visuals", 0, "material", "rgba", 1, value=0.5), "link base / visual 1 / material / rgba[1]", CHANGED,
-     "", PARAMETER),
-    (drop(*BASE, "visuals", 0, "material"), "link base / visual 1 / material", REMOVED, "", PARAMETER),
-    (put(*BASE, "visuals", 0, "material", "name", value="blue"), "link base / visual 1 / material / name", CHANGED, "",
-     UNMODELLED),
-    (put(*BASE, "visuals", 0, "material", "texture", value="a.png"), "link base / visual 1 / material / texture", ADDED,
-     "", UNMODELLED),
-    (put(*BASE, "visuals", 1, "material", value={"name": "red"}), "link base / visual 2 / material", ADDED, "",
-     UNMODELLED),
-    (put(*BASE, "visuals", 0, "name", value="lid"), "link base / visual 1 / name", CHANGED, "", PARAMETER),
-    (drop(*BASE, "visuals", 1), "link base / visual 2", REMOVED, "", STRUCTURAL),
-    (drop(*BASE, "collisions", 1), "link base / collision 2", REMOVED, "", STRUCTURAL),
-    (put(*BASE, "collisions", 0, "geometry", "radius", value=0.2), "link base / collision 1 / geometry / radius",
-     CHANGED, "m", PARAMETER),
-    (put("joints", "weld", "type", value="floating"), "joint weld / type", CHANGED, "", STRUCTURAL),
-    (put("joints", "weld", "parent", value="one"), "joint weld / parent", CHANGED, "", STRUCTURAL),
-    (put("joints", "weld", "origin", "xyz", 2, value=1.0), "joint weld / origin / xyz[2]", CHANGED, "m", PARAMETER),
-    (put("joints", "weld", "axis", value=[0.0, 0.0, 0.5]), "joint weld / axis[0]", CHANGED, "", UNMODELLED),
-    (put("joints", "weld", "dynamics", value=DYNAMICS), "joint weld / dynamics", ADDED, "", UNMODELLED),
-    (put("joints", "weld", "limit", value=LIMIT), "joint weld / limit", ADDED, "", UNMODELLED),
-    (put("joints", "turn", "axis", 2, value=0.5), "joint turn / axis[2]", CHANGED, "", PARAMETER),
-    (put("joints", "turn", "limit", "upper", value=2.0), "joint turn / limit / upper", CHANGED, "rad", PARAMETER),
-    (put("joints", "turn", "limit", "velocity", value=3.0), "joint turn / limit / velocity", CHANGED, "rad/s",
-     PARAMETER),
-    (drop("joints", "turn", "limit", "effort"), "joint turn / limit / effort", REMOVED, "N·m", PARAMETER),
-    (drop("joints", "turn", "limit"), "joint turn / limit", REMOVED, "", PARAMETER),
-    (put("joints", "turn", "dynamics", "damping", value=0.0), "joint turn / dynamics / damping", CHANGED, "N·m·s/rad",
-     PARAMETER),
-    (drop("joints", "turn", "dynamics"), "joint turn / dynamics", REMOVED, "", STRUCTURAL),
-    (drop("joints", "turn", "calibration"), "joint turn / calibration", REMOVED, "", PARAMETER),
-    (put("joints", "turn", "safety_controller", "k_position", value=1.0), "joint turn / safety_controller / k_position",
-     CHANGED, "1/s", PARAMETER),
-    (put("joints", "spin", "limit", "lower", value=1.0), "joint spin / limit / lower", CHANGED, "rad", UNMODELLED),
-    (put("joints", "spin", "limit", "effort", value=1.0), "joint spin / limit / effort", CHANGED, "N·m", PARAMETER),
-    (put("joints", "slide", "limit", "effort", value=1.0), "joint slide / limit / effort", CHANGED, "N", PARAMETER),
-    (put("joints", "slide", "dynamics", "friction", value=1.0), "joint slide / dynamics / friction", CHANGED, "N",
-     PARAMETER),
-    (put("joints", "slide", "mimic", "multiplier", value=1.0), "joint slide / mimic / multiplier", CHANGED, "m/rad",
-     PARAMETER),
-    (put("joints", "slide", "mimic", "offset", value=1.0), "joint slide / mimic / offset", CHANGED, "m", PARAMETER),
-    (put("joints", "slide", "mimic", "joint", value="spin"), "joint slide / mimic / joint", CHANGED, "", STRUCTURAL),
-    (drop("joints", "slide", "mimic"), "joint slide / mimic", REMOVED, "", STRUCTURAL),
-    (put("joints", "glide", "axis", 0, value=0.5), "joint glide / axis[0]", CHANGED, "", PARAMETER),
-    (put("joints", "glide", "dynamics", "damping", value=1.0), "joint glide / dynamics / damping", CHANGED, "",
-     PARAMETER),
-    (drop("joints", "glide", "dynamics"), "joint glide / dynamics", REMOVED, "", STRUCTURAL),
-    (put("extensions", "", "gazebo", 0, value='<gazebo reference="one"/>'), "robot / gazebo one", CHANGED, "",
-     UNMODELLED),
-    (put("extensions", "link one", value={"sensor": ["<sensor/>"]}), "link one / extensions", ADDED, "", UNMODELLED),
-]  # fmt: skip
+CASES = """
+    robot / name = "other"                                  changed parameter
+    link base / inertial / mass = 3.0                       changed kg parameter
+    link base / inertial / inertia / ixy = 0.1              changed kg·m² parameter
+    link base / inertial                                    removed parameter
+    link base / visual 1 / origin / rpy[2] = 1.0            changed rad parameter
+    link base / visual 1 / geometry / size[0] = 9.0         changed m parameter
+    link base / visual 1 / material / rgba[1] = 0.5         changed parameter
+    link base / visual 1 / material                         removed parameter
+    link base / visual 1 / material / name = "blue"         changed unmodelled
+    link base / visual 1 / material / texture = "a.png"     added unmodelled
+    link base / visual 2 / material = {"name": "red"}       added unmodelled
+    link base / visual 1 / name = "lid"                     changed parameter
+    link base / visual 2                                    removed structural
+    link base / collision 2                                 removed structural
+    link base / collision 1 / geometry / radius = 0.2       changed m parameter
+    joint weld / type = "floating"                          changed structural
+    joint weld / parent = "one"                             changed structural
+    joint weld / origin / xyz[2] = 1.0                      changed m parameter
+    joint weld / axis[0] = 0.5                              changed unmodelled
+    joint weld / dynamics = {"damping": 0, "friction": 0}   added unmodelled
+    joint weld / limit = {"lower": 0, "upper": 0}           added unmodelled
+    joint turn / axis[2] = 0.5                              changed parameter
+    joint turn / limit / upper = 2.0                        changed rad parameter
+    joint turn / limit / velocity = 3.0                     changed rad/s parameter
+    joint turn / limit / effort                             removed N·m parameter
+    joint turn / limit                                      removed parameter
+    joint turn / dynamics / damping = 0.0                   changed N·m·s/rad parameter
+    joint turn / dynamics                                   removed structural
+    joint turn / calibration                                removed parameter
+    joint turn / safety_controller / k_position = 1.0       changed 1/s parameter
+    joint spin / limit / lower = 1.0                        changed rad unmodelled
+    joint spin / limit / effort = 1.0                       changed N·m parameter
+    joint slide / limit / effort = 1.0                      changed N parameter
+    joint slide / dynamics / friction = 1.0                 changed N parameter
+    joint slide / mimic / multiplier = 1.0                  changed m/rad parameter
+    joint slide / mimic / offset = 1.0                      changed m parameter
+    joint slide / mimic / joint = "spin"                    changed structural
+    joint slide / mimic                                     removed structural
+    joint glide / axis[0] = 0.5                             changed parameter
+    joint glide / dynamics / damping = 1.0                  changed parameter
+    joint glide / dynamics                                  removed structural
+"""
+"""What is edited, and the kind, unit and class of the change. What gets no value is removed."""
 
 
-@pytest.mark.parametrize(("edit", "path", "kind", "unit", "reach"), CASES, ids=[case[1] for case in CASES])
-def test_an_edit_is_one_change_in_the_words_of_urdf(
-    edit: Callable[[Data], object], path: str, kind: ChangeKind, unit: str, reach: ChangeClass
-) -> None:
-    found = [change for change in changes(edit) if str(change) == path]
-    assert [(change.kind, change.unit, change.change_class) for change in found] == [(kind, unit, reach)]
+@pytest.mark.parametrize("case", CASES.strip().splitlines(), ids=str.strip)
+def test_an_edit_is_one_change_in_the_words_of_urdf(case: str) -> None:
+    edited, said = re.split(r"\s{2,}", case.strip())
+    path, _, value = edited.partition(" = ")
+    found = [change for change in changes(put(path, json.loads(value or "null"))) if str(change) == path]
+    assert [" ".join(f"{one.kind} {one.unit} {one.change_class}".split()) for one in found] == [said]
+
+
+def test_an_extension_is_named_by_what_it_is_about() -> None:
+    def edit(data: Data) -> None:
+        data["extensions"] = {"": {"gazebo": ['<gazebo reference="one"/>']}, "link one": {"sensor": ["<sensor/>"]}}
+
+    assert [(str(change), change.kind, change.change_class) for change in changes(edit)] == [
+        ("robot / gazebo one", CHANGED, UNMODELLED),
+        ("link one / extensions", ADDED, UNMODELLED),
+    ]
 
 
 def test_what_is_named_by_its_element_alone_came_or_went() -> None:
@@ -172,7 +168,7 @@ def test_what_is_named_by_its_element_alone_came_or_went() -> None:
 
 
 def test_another_kind_of_geometry_is_structural() -> None:
-    edit = put(*BASE, "visuals", 0, "geometry", value={"kind": "sphere", "radius": 1.0})
+    edit = put("link base / visual 1 / geometry", {"kind": "sphere", "radius": 1.0})
     assert {(str(change), change.change_class) for change in changes(edit)} == {
         (f"link base / visual 1 / geometry / {field}", STRUCTURAL) for field in ("kind", "radius", "size")
     }
@@ -187,14 +183,9 @@ def test_units_of_a_joint_that_turned_into_a_slide() -> None:
     assert units["joint turn / limit / velocity"] == "rad/s"
 
 
-def test_collisions_that_are_not_wanted_are_not_modelled() -> None:
-    edit = drop(*BASE, "collisions", 0)
-    hidden = [change.change_class for change in changes(edit, Options(collisions=False))]
-    assert set(hidden) == {UNMODELLED}
-
-
-def test_a_mobile_robot_stands_on_collisions_even_if_they_are_not_wanted() -> None:
-    edit = put(*BASE, "collisions", 0, "geometry", "radius", value=0.2)
+def test_collisions_that_are_not_wanted_are_not_modelled_unless_the_robot_stands_on_them() -> None:
+    edit = put("link base / collision 1 / geometry / radius", 0.2)
+    assert [change.change_class for change in changes(edit, Options(collisions=False))] == [UNMODELLED]
     assert [change.change_class for change in changes(edit, Options(base="floating", collisions=False))] == [PARAMETER]
 
 
@@ -205,13 +196,18 @@ def mesh_change(
         yield str(change), change.kind, change.change_class
 
 
-def test_the_content_of_a_mesh_is_a_parameter() -> None:
-    assert list(mesh_change(import_("a"), import_("b"))) == [("mesh arm.stl / content", CHANGED, PARAMETER)]
-
-
-@pytest.mark.parametrize(("old", "new", "kind"), [(None, import_("a"), ADDED), (import_("a"), None, REMOVED)])
-def test_a_mesh_that_is_found_or_lost_is_structural(old: Import | None, new: Import | None, kind: ChangeKind) -> None:
-    assert list(mesh_change(old, new)) == [("mesh arm.stl / content", kind, STRUCTURAL)]
+@pytest.mark.parametrize(
+    ("old", "new", "kind", "reach"),
+    [
+        (import_("a"), import_("b"), CHANGED, PARAMETER),
+        (None, import_("a"), ADDED, STRUCTURAL),
+        (import_("a"), None, REMOVED, STRUCTURAL),
+    ],
+)
+def test_the_content_of_a_mesh_is_a_parameter_its_presence_structure(
+    old: Import | None, new: Import | None, kind: ChangeKind, reach: ChangeClass
+) -> None:
+    assert list(mesh_change(old, new)) == [("mesh arm.stl / content", kind, reach)]
 
 
 def test_a_mesh_that_can_no_longer_touch_the_ground_is_structural_for_mobile_robots() -> None:
@@ -222,7 +218,7 @@ def test_a_mesh_that_can_no_longer_touch_the_ground_is_structural_for_mobile_rob
 
 @pytest.mark.parametrize(("meshes", "reach"), [({MESH: import_("a")}, STRUCTURAL), ({}, UNMODELLED), (None, PARAMETER)])
 def test_another_mesh_file_matters_as_far_as_it_is_found(meshes: dict[str, Import] | None, reach: ChangeClass) -> None:
-    edit = put(*BASE, "visuals", 1, "geometry", "filename", value="other.stl")
+    edit = put("link base / visual 2 / geometry / filename", "other.stl")
     old, new = (msgspec.structs.replace(version(e), imports=meshes) for e in (lambda _: None, edit))
     found = compare(old, new, DOMAIN, FIXED).changes
     assert [(str(c), c.change_class) for c in found] == [("link base / visual 2 / geometry / filename", reach)]
@@ -242,87 +238,89 @@ CASTERS = (
     '<joint name="caster" type="continuous"><parent link="base"/><child link="two"/></joint>',
     '<joint name="mast" type="revolute"><parent link="base"/><child link="three"/><limit upper="1"/></joint>',
 )
-WHEEL, CASTER, MAST = (
-    f'<transmission name="{name} drive"><joint name="{name}"/></transmission>' for name in ("wheel", "caster", "mast")
-)
-LIMITED = CASTERS[5].replace("</joint>", '<limit effort="1" velocity="1"/></joint>')
+WHEEL, MAST = (f'<transmission name="{name} drive"><joint name="{name}"/></transmission>' for name in ("wheel", "mast"))
 
-
-def drives(old: Sequence[str], new: Sequence[str], options: Options = FIXED) -> dict[str, tuple[Any, Any, ChangeClass]]:
-    """The changes from one robot to another: old value and new one where a drive changed, and the class."""
-    one, two = (read(urdfs.robot(*elements).encode()).snapshot for elements in (old, new))
-    assert one is not None
-    assert two is not None
-    found = compare(Version(one, {}), Version(two, {}), DOMAIN, options).changes
-    return {
-        str(c): (c.old, c.new, c.change_class) if c.path[-1] == "drive" else (None, None, c.change_class) for c in found
-    }
-
-
-TEXT = (None, None, UNMODELLED)
-PASSIVE, DRIVEN = ("driven", "passive", STRUCTURAL), ("passive", "driven", STRUCTURAL)
-
-
-def test_the_first_drive_makes_casters_passive() -> None:
-    found = drives(CASTERS, (*CASTERS, WHEEL))
-    assert found == {"joint caster / drive": PASSIVE, "robot / extensions": TEXT}
-
-
-def test_drives_of_joints_that_are_driven_anyway_are_not_modelled() -> None:
-    assert set(drives((*CASTERS, WHEEL), (*CASTERS, WHEEL, MAST)).values()) == {TEXT}
-    other = WHEEL.replace("</transmission>", "<actuator name='m'/></transmission>")
-    assert drives((*CASTERS, WHEEL), (*CASTERS, other)) == {"robot / transmission wheel drive": TEXT}
-
-
-@pytest.mark.parametrize("options", [Options(driven=("wheel",)), Options(approach=("record",))])
-def test_where_the_source_does_not_decide_drives_are_text(options: Options) -> None:
-    assert set(drives(CASTERS, (*CASTERS, WHEEL), options).values()) == {TEXT}
-
-
-def test_a_joint_that_can_not_be_driven_any_more_has_another_type_and_no_more_to_say() -> None:
-    fixed = [element.replace('"caster" type="continuous"', '"caster" type="fixed"') for element in CASTERS]
-    assert drives((*CASTERS, WHEEL), (*fixed, WHEEL)) == {"joint caster / type": (None, None, STRUCTURAL)}
-    following = [element.replace('"two"/>', '"two"/><mimic joint="wheel"/>') for element in CASTERS[5:6]]
-    mimics = (*CASTERS[:5], *following, *CASTERS[6:])
-    assert drives((*CASTERS, WHEEL), (*mimics, WHEEL)) == {"joint caster / mimic": (None, None, STRUCTURAL)}
-
-
-def test_a_rename_that_the_transmission_has_missed_is_one_still() -> None:
-    renamed = [element.replace('"wheel"', '"tyre"') for element in CASTERS]
-    assert drives((*CASTERS, WHEEL), (*renamed, WHEEL)) == {
-        "joint wheel": (None, None, STRUCTURAL),
-        "joint caster / drive": DRIVEN,
-    }
-
-
-# --- names and extensions -----------------------------------------------------------------------------------------
 
 PAIR = (
     '<link name="a"/><link name="b"/>',
     '<joint name="a" type="fixed"><parent link="a"/><child link="b"/></joint>',
 )
+EYE = '<link name="b"><sensor name="camera"/></link>'
 
 
-def between(old: Sequence[str], new: Sequence[str]) -> list[str]:
-    """The changes from one robot of these elements to another."""
+def with_caster(old: str, new: str) -> tuple[str, ...]:
+    """The robot with the drive of its wheel, and another text about its caster."""
+    return (*CASTERS[:5], CASTERS[5].replace(old, new), *CASTERS[6:], WHEEL)
+
+
+def tags(*links: str) -> list[str]:
+    return [f'<gazebo reference="{link}"><mu1>1</mu1></gazebo>' for link in links]
+
+
+def said(old: Sequence[str], new: Sequence[str], options: Options = FIXED) -> set[str]:
+    """The changes from one robot to another: with both values where a drive changed."""
     one, two = (read(urdfs.robot(*elements).encode()).snapshot for elements in (old, new))
     assert one is not None
     assert two is not None
-    return [f"{change}: {change.kind}" for change in compare(Version(one), Version(two), DOMAIN, FIXED).changes]
+    found = compare(Version(one, {}), Version(two, {}), DOMAIN, options).changes
+    return {
+        f"{each}: {f'{each.old} → {each.new}' if each.path[-1] == 'drive' else each.kind}, {each.change_class}"
+        for each in found
+    }
 
 
-def test_extensions_are_told_apart_by_what_they_are_about() -> None:
-    def tags(*links: str) -> list[str]:
-        return [f'<gazebo reference="{link}"><mu1>1</mu1></gazebo>' for link in links]
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        pytest.param(
+            CASTERS, (*CASTERS, WHEEL),
+            {"joint caster / drive: driven → passive, structural", "robot / extensions: added, unmodelled"},
+            id="the first drive makes casters passive",
+        ),
+        pytest.param(
+            (*CASTERS, WHEEL), (*CASTERS, WHEEL, MAST), {"robot / transmission mast drive: added, unmodelled"},
+            id="a joint that is driven anyway",
+        ),
+        pytest.param(
+            (*CASTERS, WHEEL), (*CASTERS, WHEEL.replace("</trans", "<actuator name='m'/></trans")),
+            {"robot / transmission wheel drive: changed, unmodelled"},
+            id="another text about a drive",
+        ),
+        pytest.param(
+            (*CASTERS, WHEEL), with_caster("continuous", "fixed"), {"joint caster / type: changed, structural"},
+            id="a caster that is fixed has no drive to speak of",
+        ),
+        pytest.param(
+            (*CASTERS, WHEEL), with_caster('"two"/>', '"two"/><mimic joint="wheel"/>'),
+            {"joint caster / mimic: added, structural"},
+            id="nor has one that follows",
+        ),
+        pytest.param(
+            (*CASTERS, WHEEL), (*(element.replace('"wheel"', '"tyre"') for element in CASTERS), WHEEL),
+            {"joint wheel: renamed, structural", "joint caster / drive: passive → driven, structural"},
+            id="a rename that the transmission has missed",
+        ),
+        pytest.param(
+            (*PAIR, *tags("b")), (*PAIR, *tags("a", "b")), {"robot / gazebo a: added, unmodelled"},
+            id="extensions are told apart by what they are about",
+        ),
+        pytest.param(
+            (*PAIR, "<gazebo><a/></gazebo>"), (*PAIR, "<gazebo><a/></gazebo>", "<gazebo><b/></gazebo>"),
+            {"robot / gazebo (2): added, unmodelled"},
+            id="or by their number",
+        ),
+        pytest.param(
+            ('<link name="a"/>', EYE, PAIR[1]),
+            ('<link name="a"/>', EYE.replace('"b"', '"head"'), PAIR[1].replace('"b"', '"head"')),
+            {"link b: renamed, structural"},
+            id="and go with their element",
+        ),
+    ],
+)  # fmt: skip
+def test_drives_and_extensions(old: Sequence[str], new: Sequence[str], expected: set[str]) -> None:
+    assert said(old, new) == expected
 
-    assert between((*PAIR, *tags("b")), (*PAIR, *tags("a", "b"))) == ["robot / gazebo a: added"]
-    assert between((*PAIR, "<gazebo><a/></gazebo>"), (*PAIR, "<gazebo><a/></gazebo>", "<gazebo><b/></gazebo>")) == [
-        "robot / gazebo (2): added"
-    ]
 
-
-def test_extensions_of_a_renamed_element_go_with_it() -> None:
-    eye = '<link name="b"><sensor name="camera"/></link>'
-    old = ('<link name="a"/>', eye, PAIR[1])
-    new = (old[0], eye.replace('"b"', '"head"'), PAIR[1].replace('"b"', '"head"'))
-    assert between(old, new) == ["link b: renamed"]
+@pytest.mark.parametrize("options", [Options(driven=("wheel",)), Options(approach=("record",))])
+def test_where_the_source_does_not_decide_drives_are_text(options: Options) -> None:
+    assert said(CASTERS, (*CASTERS, WHEEL), options) == {"robot / extensions: added, unmodelled"}

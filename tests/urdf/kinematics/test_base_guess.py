@@ -38,43 +38,35 @@ def robot(*children: str, root: str = "base", kind: JointType = "revolute", join
     return Robot("r", tuple(Link(name) for name in (root, *children)), arms)
 
 
-@pytest.mark.parametrize(
-    "links",
-    [
-        ("wheel_left", "wheel_right"),
-        ("FrontLeftWheel", "FrontRightWheel"),
-        ("left_track", "right_track"),
-        ("caster_1", "caster_2", "drive"),
-        ("l_foot", "r_foot"),
-        ("LF_HIP", "RF_HIP"),
-        ("leftUpperLeg", "rightUpperLeg"),
-        ("fl_lowerleg", "fr_lowerleg"),
-        ("leg1", "leg2", "leg3"),
-        ("MP_ANKLE1_L", "MP_ANKLE1_R"),
-    ],
-)
-def test_robots_on_wheels_and_legs_move_freely(links: tuple[str, ...]) -> None:
-    assert guess_base(robot(*links)).value == "floating"
+MOVING = [
+    ("wheel_left", "wheel_right"),
+    ("FrontLeftWheel", "FrontRightWheel"),
+    ("left_track", "right_track"),
+    ("caster_1", "caster_2", "drive"),
+    ("l_foot", "r_foot"),
+    ("LF_HIP", "RF_HIP"),
+    ("leftUpperLeg", "rightUpperLeg"),
+    ("fl_lowerleg", "fr_lowerleg"),
+    ("leg1", "leg2", "leg3"),
+    ("MP_ANKLE1_L", "MP_ANKLE1_R"),
+]
+BOLTED = [
+    ("upper_arm", "lower_arm"),
+    ("tracker_left", "tracker_right"),
+    ("chip_1", "ship_2"),
+    ("elegant", "legacy"),
+    ("toehold", "football"),
+    ("sensor_wheel", "arm"),
+    (),
+]
 
 
 @pytest.mark.parametrize(
-    "links",
-    [
-        ("upper_arm", "lower_arm"),
-        ("tracker_left", "tracker_right"),
-        ("chip_1", "ship_2"),
-        ("elegant", "legacy"),
-        ("toehold", "football"),
-        ("sensor_wheel", "arm"),
-        (),
-    ],
+    ("links", "base"), [*((one, "floating") for one in MOVING), *((one, "fixed") for one in BOLTED)]
 )
-def test_robots_with_other_links_are_bolted_down(links: tuple[str, ...]) -> None:
-    assert guess_base(robot(*links)).value == "fixed"
-
-
-def test_a_wheel_that_does_not_turn_is_a_picture_of_one() -> None:
-    assert guess_base(robot("wheel_left", "wheel_right", kind="fixed")).value == "fixed"
+def test_robots_on_wheels_and_legs_move_freely_and_others_are_bolted_down(links: tuple[str, ...], base: str) -> None:
+    assert guess_base(robot(*links)).value == base
+    assert guess_base(robot(*links, kind="fixed")).value == "fixed", "a wheel that does not turn is a picture of one"
 
 
 def test_names_of_joints_count_as_well() -> None:

@@ -30,12 +30,6 @@ def is_singular(urdf: str) -> bool:
     return bool((np.linalg.eigvalsh(matrix / np.outer(sizes, sizes)) < 1e-10).any())
 
 
-def rod(name: str) -> str:
-    """A link whose mass is all on its z axis, as exporters write it."""
-    tensor = '<inertia ixx="0.1" iyy="0.1" izz="0" ixy="0" ixz="0" iyz="0"/>'
-    return f'<link name="{name}"><inertial><origin xyz="0 0 0.2"/><mass value="2"/>{tensor}</inertial></link>'
-
-
 # What two joints in series, with a ring of some mass between them, are and where the second is.
 PAIRS = {
     "coaxial": ("continuous", "0 0 1", "0 0 0.4", "continuous", "0 0 1", None, {"first": Massless.UNDONE}),
@@ -69,18 +63,6 @@ def test_joints_on_one_axis(
     assert found(urdf, free={"first"}) == found(urdf, free={"second"}) == {}
 
 
-def test_the_first_and_last_axis_of_a_straight_wrist() -> None:
-    at = {"xyz": "0 0 0.1", "rpy": "0 0 0"}
-    urdf = urdfs.robot(
-        *(urdfs.link(name, one) for name, one in {"arm": 5, "roll": None, "pitch": None, "hand": 1}.items()),
-        urdfs.joint("first", "continuous", "arm", "roll", axis="0 0 1", **at),
-        urdfs.joint("across", "continuous", "roll", "pitch", axis="0 1 0", **at),
-        urdfs.joint("last", "continuous", "pitch", "hand", axis="0 0 1", **at),
-    )
-    assert found(urdf) == {"first": Massless.UNDONE}
-    assert is_singular(urdf)
-
-
 def test_a_joint_that_others_follow_moves_their_masses() -> None:
     urdf = urdfs.robot(
         *(urdfs.link(name, mass) for name, mass in {"base": 5, "ring": None, "tool": 1, "other": 1}.items()),
@@ -91,21 +73,6 @@ def test_a_joint_that_others_follow_moves_their_masses() -> None:
     assert found(urdf) == {}
     assert found(urdf.replace(urdfs.mimic("first"), urdfs.mimic("first", 0.0))) == {}
     assert found(urdf.replace(urdfs.mimic("first"), "")) == {"first": Massless.UNDONE}
-
-
-def test_what_is_on_the_axis_is_not_turned_even_far_from_the_root() -> None:
-    urdf = urdfs.robot(
-        *(urdfs.link("base", 1), rod("rod"), urdfs.link("end"), urdfs.link("tip")),
-        urdfs.joint("spin", "continuous", "base", "rod", axis="0 0 1", xyz="70 -30 20"),
-        urdfs.joint("slide", "prismatic", "base", "end", axis="0 0 1", inside=[urdfs.limit()]),
-        urdfs.joint("turn", "continuous", "end", "tip", axis="0 0 1"),
-    )
-    assert found(urdf) == {
-        "spin": Massless.ON_AXIS,
-        "slide": Massless.NOTHING_BEHIND,
-        "turn": Massless.NOTHING_BEHIND,
-    }
-    assert found(urdf.replace("0 0 0.2", "0.001 0 0.2")).keys() == {"slide", "turn"}
 
 
 JOINTS = st.tuples(

@@ -15,12 +15,9 @@ from numpy.typing import NDArray
 from support.trees import NUMBERS, SCALAR, robots
 
 from urdfsync.urdf.kinematics.poses import (
-    IDENTITY,
     Pose,
     link_poses,
-    motion,
     own_range,
-    pose,
     start_positions,
 )
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -30,7 +27,6 @@ from urdfsync.urdf.robot import (
     Limit,
     Link,
     Mimic,
-    Origin,
     Robot,
     Vector,
 )
@@ -92,17 +88,6 @@ def test_link_poses_are_those_of_pinocchio(robot: Robot, values: list[float]) ->
         assert np.abs(homogeneous(found) - expected).max() < 1e-12 * max(1, np.abs(expected).max()), link
 
 
-def test_rpy_turns_about_fixed_axes_x_first() -> None:
-    rotation = homogeneous(pose(Origin(rpy=(math.pi / 2, 0, math.pi / 2))))[:3, :3]
-    assert rotation @ [0, 1, 0] == pytest.approx([0, 0, 1], abs=1e-15)
-    assert rotation @ [1, 0, 0] == pytest.approx([0, 1, 0], abs=1e-15)
-
-
-@pytest.mark.parametrize("kind", ["fixed", "planar", "floating"])
-def test_joints_without_a_position_stay_where_they_are(kind: str) -> None:
-    assert motion(Joint("j", kind, "a", "b"), 1.0) == IDENTITY  # type: ignore[arg-type]
-
-
 def followed(robot: Robot, leader: str) -> Iterator[tuple[Joint, float, float]]:
     """Every joint that moves with a leader, and factor and offset of its position."""
     waiting = [(leader, 1.0, 0.0)]
@@ -141,13 +126,6 @@ def test_start_positions_respect_all_ranges_and_are_as_close_to_zero_as_these_al
 
 def chain(*joints: Joint) -> KinematicTree:
     return KinematicTree.of(Robot("r", (Link("l0"), *(Link(joint.child) for joint in joints)), joints))
-
-
-def test_a_leader_starts_where_the_last_of_its_followers_can_be() -> None:
-    first = Joint("a", "continuous", "l0", "l1")
-    second = Joint("b", "revolute", "l1", "l2", limit=Limit(-9, 9), mimic=Mimic("a", -2, 0))
-    third = Joint("c", "prismatic", "l2", "l3", limit=Limit(3, 5), mimic=Mimic("b", 0.5, 1))
-    assert start_positions(chain(first, second, third)) == {"a": -2, "b": 4, "c": 3}
 
 
 def test_joints_that_follow_a_fixed_one_are_held_at_their_offsets() -> None:

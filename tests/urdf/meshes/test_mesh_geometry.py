@@ -53,16 +53,6 @@ def test_points_inside_do_not_matter_in_a_large_mesh() -> None:
     assert 100 <= len(hull) <= 122
 
 
-def test_far_from_the_origin_small_things_keep_their_shape() -> None:
-    hull = np.array(support_points(np.add(_rims(0.1, 0.04, 72), (100.0, 0.0, 0.0))))
-    assert len(hull) == 2 * 36 + 2 * 4
-
-
-@pytest.mark.parametrize("count", [1, 3, 40_000])
-def test_a_single_place_is_one_point(count: int) -> None:
-    assert support_points(np.tile([0.1, -0.0, 2.0], (count, 1))) == [[0.1, 0.0, 2.0]]
-
-
 def test_points_are_rounded_to_a_micrometre() -> None:
     assert support_points(np.array([[0.12345678, 0.0, -1e-9]])) == [[0.123457, 0.0, 0.0]]
 

@@ -6,13 +6,13 @@ from typing import Literal
 
 import pytest
 from hypothesis import given
-from support.skeletons import GRIPPER, skeleton
+from support.skeletons import skeleton
 from support.trees import robots
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint, JointType, Mimic, Robot
+from urdfsync.urdf.robot import Joint, Mimic, Robot
 
 HAND = skeleton(
     Joint("j2", "fixed", "palm", "thumb"),
@@ -35,19 +35,6 @@ def test_frames_are_those_of_leaves_and_what_is_asked_for_in_canonical_order(
     frames: Literal["leaves", "all"] | tuple[str, ...], names: list[str]
 ) -> None:
     assert [*connector_names(HAND, Options(frames=frames)).frames] == names
-
-
-def test_only_joints_that_follow_nothing_have_an_axis() -> None:
-    names = connector_names(GRIPPER, Options())
-    assert names.axes == {"turn": "turnAxis", "slide": "slideAxis"}
-    assert names.supports == {"turn": "turnSupport", "slide": "slideSupport"}
-    assert names.couplings == {"lock": "lockMimic", "other": "otherMimic", "pinion": "pinionMimic"}
-    assert names.frames == {"lens": "lensFrame", "right": "rightFrame", "gear": "gearFrame"}
-
-
-@pytest.mark.parametrize("kind", ["fixed", "planar", "floating"])
-def test_joints_without_one_axis_have_no_flanges(kind: JointType) -> None:
-    assert connector_names(skeleton(Joint("j", kind, "a", "b")), Options()).axes == {}
 
 
 def test_a_connector_gives_way_to_an_element_which_keeps_its_file() -> None:

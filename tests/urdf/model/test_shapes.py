@@ -17,7 +17,7 @@ from support.trees import ORIGINS
 from urdfsync.domain import Import
 from urdfsync.urdf.kinematics.poses import pose
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.shapes import GREY, PINK, contacts, link_shapes, standing_height, structure
+from urdfsync.urdf.model.shapes import GREY, contacts, link_shapes, standing_height
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,
@@ -71,33 +71,6 @@ def test_colours_are_integers_that_tools_take(
     assert (visual["color"], visual["opacity"], visual["title"]) == (color, opacity, 'Visual 1: "a "b""')
 
 
-def test_shapes_keep_their_numbers_when_a_mesh_is_not_found() -> None:
-    visuals, collisions = shapes_of(Sphere(1), MESH, Sphere(2))
-    assert [(shape["component"], shape["y"]) for shape in visuals] == [("visual1", 30), ("visual3", 60)]
-    assert [(shape["component"], shape["y"]) for shape in collisions] == [("collision1", -30), ("collision3", -60)]
-    assert collisions[0]["color"] == PINK
-
-
-def test_a_mesh_has_a_modelica_uri_and_its_bounds_and_a_hull_only_to_stand_on() -> None:
-    (visual,), (collision,) = shapes_of(MESH, imports=imported(POINTS))
-    assert visual["uri"] == "modelica://Plant.Arm/Resources/a_12345678.stl"
-    assert visual["bounds"] == [[0, 0, -1], [1, 0.5, 0]]
-    assert collision["hull"] == ()
-    (visual,), (collision,) = shapes_of(MESH, imports=imported(POINTS), base="floating")
-    assert (visual["hull"], collision["hull"]) == ((), POINTS)
-
-
-def test_collisions_can_be_left_out() -> None:
-    visuals, collisions = shapes_of(Sphere(1), collisions=False)
-    assert (len(visuals), len(collisions)) == (1, 0)
-
-
-def test_models_have_no_numbers_of_shapes() -> None:
-    (shape,), _ = shapes_of(Sphere(0.123456))
-    assert "123456" in repr(shape)
-    assert "123456" not in repr(structure([shape]))
-
-
 @pytest.mark.parametrize(("base", "points", "names"), [
     ("floating", POINTS, ["contact1 Box", "contact2 Points", "contact3 Sphere"]),
     ("floating", [], ["contact1 Box", "contact3 Sphere"]),
@@ -112,15 +85,6 @@ def test_every_collision_touches_the_ground_but_a_mesh_without_points(
 
 def body(name: str, *shapes: Geometry) -> Link:
     return Link(name, collisions=tuple(map(Collision, shapes)))
-
-
-@pytest.mark.parametrize(
-    ("shape", "height"),
-    [(Sphere(0.3), 0.3), (Box((1, 1, 0.5)), 0.25), (Cylinder(0.2, 0.6), 0.3), (Capsule(0.2, 0.6), 0.5), (MESH, 1)],
-)
-def test_a_body_stands_on_its_lowest_shape(shape: Geometry, height: float) -> None:
-    tree = skeleton(links=(body("a", Sphere(0.1), shape),))
-    assert standing_height(tree, imported(POINTS)) == pytest.approx(height, abs=1e-12)
 
 
 def circle(radius: float, height: float) -> Array:

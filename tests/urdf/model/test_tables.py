@@ -4,39 +4,25 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from types import SimpleNamespace
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.records import record_components, record_tables
+from support.skeletons import GRIPPER, skeleton
 from support.trees import SCALAR, robots
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.tables import Tables, has_tables, obstacles, tables
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Robot
+from urdfsync.urdf.model.tables import has_tables, tables
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Mimic, Robot
 
 TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: has_tables(robot.joints))
 few = settings(max_examples=30)  # trees are small, and take their time to be drawn
 FIELD = re.compile(r"(\w+) = (\{[^{}]*\})")
 """A field of an array of records."""
 REFERENCE = re.compile(r"\b[a-z]\w*(?:\.[a-zA-Z_]\w*)+")
-
-GRIPPER = (
-    Joint("turn", "continuous", "base", "palm"),
-    Joint("mount", "fixed", "palm", "camera"),
-    Joint("lock", "revolute", "camera", "lens", mimic=Mimic("mount", 1, 0.5)),
-    Joint("slide", "prismatic", "palm", "left"),
-    Joint("other", "prismatic", "palm", "right", mimic=Mimic("slide", -1)),
-    Joint("pinion", "continuous", "left", "gear", mimic=Mimic("other", 80)),
-)
-"""In canonical order: turn, mount, lock, other, slide, pinion."""
-
-
-def skeleton(*joints: Joint) -> KinematicTree:
-    names = {joint.parent: None for joint in joints} | {joint.child: None for joint in joints}
-    return KinematicTree.of(Robot("r", tuple(map(Link, names)), joints))
 
 
 def texts_of(of: KinematicTree) -> Mapping[str, str]:
@@ -61,27 +47,8 @@ def moving(of: KinematicTree) -> list[Joint]:
     return [joint for joint in of.joints if joint.type in MOTION_KINDS]
 
 
-def carried(found: Tables, body: int) -> Iterator[int]:
-    """The joints of a body, as the tables chain them."""
-    number = found.first_joints[body - 1]
-    while number <= len(found.joint_tree):
-        yield number
-        number = found.next_joints[number - 1]
-
-
-def test_a_gripper() -> None:
-    found = tables(skeleton(*GRIPPER))
-    assert found.link_bodies == [1, 2, 2, 3, 4, 5, 6]
-    assert found.joint_tree == [(1, 1), (2, 1), (2, 2), (2, 2), (5, 1)]
-    assert found.first_joints == [1, 2, 6, 6, 5, 6]
-    assert found.next_joints == [6, 3, 4, 6, 6]
-    assert found.axes == {"rotational": [1], "translational": [4]}
-    assert found.moving == {"rotational": [1, 2, 5], "translational": [3, 4]}
-    assert found.followers == [(2, 0), (3, 4), (5, 3)]
-
-
 def test_the_text_of_a_gripper() -> None:
-    found = texts_of(skeleton(*GRIPPER))
+    found = texts_of(GRIPPER)
     assert found["movingJoints"] == "5"
     assert found["jointTree"] == "{{1, 1}, {2, 1}, {2, 2}, {2, 2}, {5, 1}}"
     assert found["turning"] == "{1, 2, 5}"
@@ -111,13 +78,6 @@ def test_the_text_of_a_chain_of_mimic_joints_grows_with_its_length() -> None:
     assert large - middle == pytest.approx(2 * (middle - small), rel=0.01)
 
 
-@pytest.mark.parametrize("kind", ["planar", "floating"])
-def test_planar_and_floating_joints_have_no_place(kind: str) -> None:
-    joint = Joint("j", kind, "a", "b")  # type: ignore[arg-type]
-    assert list(obstacles([joint])) == [joint]
-    assert not has_tables([Joint("i", "revolute", "b", "c"), joint])
-
-
 def test_a_robot_that_does_not_move_is_one_body() -> None:
     assert has_tables([])
     found = tables(skeleton(Joint("j", "fixed", "a", "b")))
@@ -125,6 +85,13 @@ def test_a_robot_that_does_not_move_is_one_body() -> None:
     text = texts_of(skeleton(Joint("j", "fixed", "a", "b")))
     assert text["linkBodies"] == "{1, 1}"
     assert not {"movingJoints", "jointTree", "nextJoints", "jointAxes"} & text.keys()
+
+
+def iterate(number: int, following: Sequence[int]) -> Iterator[int]:
+    """A number, the one that follows it, and so on."""
+    while True:
+        yield number
+        number = following[number - 1]
 
 
 @few
@@ -143,36 +110,12 @@ def test_every_link_is_part_of_one_body_and_every_body_has_links(robot: Robot) -
             assert bodies[joint.child] == number + 1
             turns = 1 if MOTION_KINDS[joint.type] == "rotational" else 2
             assert found.joint_tree[number - 1] == (bodies[joint.parent], turns)
-
-
-@few
-@given(TREES)
-def test_what_carries_a_joint_comes_before_what_it_moves(robot: Robot) -> None:
-    found = tables(KinematicTree.of(robot))
-    assert all(body <= number for number, (body, _) in enumerate(found.joint_tree, 1))
-    for body in range(1, len(found.joint_tree) + 2):
-        assert list(carried(found, body)) == [
-            n for n, (carrier, _) in enumerate(found.joint_tree, 1) if carrier == body
-        ]
-
-
-@few
-@given(TREES)
-def test_sums_over_bodies_are_sums_over_links(robot: Robot) -> None:
-    of = KinematicTree.of(robot)
-    found = tables(of)
-    mass = {link.name: 2.0**k for k, link in enumerate(of.links)}  # sums of these are exact, and no two are equal
-    bodies = [0.0] * (len(found.joint_tree) + 1)
-    for link, body in zip(of.links, found.link_bodies, strict=True):
-        bodies[body - 1] += mass[link.name]
-    for number, (carrier, _) in reversed(list(enumerate(found.joint_tree, 1))):
-        bodies[carrier - 1] += bodies[number]
-    children = of.children()
-
-    def behind(link: str) -> float:
-        return mass[link] + sum(behind(joint.child) for joint in children.get(link, ()))
-
-    assert bodies == [behind(of.links[0].name), *(behind(joint.child) for joint in moving(of))]
+            assert bodies[joint.parent] <= number, "what carries a joint comes before what it moves"
+    for body in set(found.link_bodies):
+        chain = itertools.takewhile(
+            lambda number: number <= len(numbers), iterate(found.first_joints[body - 1], found.next_joints)
+        )
+        assert list(chain) == [n for n, (carrier, _) in enumerate(found.joint_tree, 1) if carrier == body]
 
 
 @few

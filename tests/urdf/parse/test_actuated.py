@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import pytest
 from support import urdfs
 
@@ -18,8 +16,8 @@ BASE = (
 COMMAND, STATE = '<command_interface name="velocity"/>', '<state_interface name="velocity"/>'
 
 
-def read(*elements: str, base: Sequence[str] = BASE) -> RobotReading:
-    return read_robot(urdfs.robot(*base, *elements).encode(), "own.urdf", cross_check=False)
+def read(*elements: str) -> RobotReading:
+    return read_robot(urdfs.robot(*BASE, *elements).encode(), "own.urdf", cross_check=False)
 
 
 def actuated(reading: RobotReading) -> list[str]:

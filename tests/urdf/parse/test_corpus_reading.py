@@ -5,21 +5,19 @@ The corpus stands beside the repository, or where URDFSYNC_CORPUS says; without 
 
 from __future__ import annotations
 
-import os
 import random
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from lxml import etree
+from support.corpus import FOLDER as CORPUS
 
 from urdfsync.diagnostics import Severity
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.robot import Box, Collision, Cylinder, Geometry, Inertia, Joint, Link, Mesh, Origin, Sphere, Visual
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
-CORPUS = Path(os.environ.get("URDFSYNC_CORPUS", Path(__file__).parents[4] / "shared" / "corpus"))
 FILES = sorted(path.relative_to(CORPUS).as_posix() for path in CORPUS.rglob("*.urdf") if path.is_file())
 ROBOTS = [file for file in FILES if file.startswith("robots/")]
 

@@ -149,12 +149,6 @@ def test_the_line_is_where_a_start_tag_begins_even_in_long_files() -> None:
     assert [(d.code, d.line) for d in reading.diagnostics] == [("duplicate-link", 70_003)]
 
 
-def test_the_first_of_two_elements_that_are_called_the_same_has_the_line() -> None:
-    inertial = '<inertial>\n<mass value="1"/>\n<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
-    reading = read(f'<robot name="r">\n<link name="a">\n{inertial}</link>\n<link name="a / inertial"/></robot>')
-    assert reading.lines["link a / inertial"] == 3
-
-
 def test_elements_are_counted_without_those_that_are_left_out() -> None:
     inside = '<parent link="a"/><child link="a"/><axis xyz="0 0 2"/>'
     joints = f'<joint name="j" type="fixed"/><joint name="j" type="continuous">{inside}</joint>'
@@ -173,38 +167,23 @@ def test_encodings_and_line_ends(encoding: str, line_end: str) -> None:
     assert reading.lines == read(ARM).lines
 
 
-def test_a_declared_latin_1_is_read() -> None:
-    text = '<?xml version="1.0" encoding="iso-8859-1"?><robot name="ä"><link name="ö"/></robot>'
-    reading = read_robot(text.encode("latin-1"), "a.urdf")
-    assert reading.robot == Robot("ä", (Link("ö"),))
-
-
-def test_utf_8_that_calls_itself_utf_16() -> None:
-    reading = read('<?xml version="1.0" encoding="utf-16"?><robot name="ä"><link name="a"/></robot>')
-    assert reading.robot == Robot("ä", (Link("a"),))
-    assert [(str(d.severity), d.code) for d in reading.diagnostics] == [("warning", "xml-declaration")]
-
-
-def test_a_wrong_xml_version_is_tolerated() -> None:
-    reading = read(ARM.replace('version="1.0"', 'version="0.0"'))
-    assert reading.robot == robot_of(ARM)
-    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [("warning", "xml-version", 1)]
-
-
 @pytest.mark.parametrize(
-    "declaration",
+    ("declaration", "code"),
     [
-        "<?xml version=1.0?>",
-        "<?XML version='1.0'?>",
-        "<?xml encoding='utf-8' version='1.0'?>",
-        "<?xml version='1.0'encoding='utf-8'?>",
-        "<?xml verison='1.0'\r\n?>",
+        ("<?xml version='0.0'?>", "xml-version"),
+        (" <?xml version='1.0'?>", "xml-declaration"),
+        ("<?xml version=1.0?>", "xml-declaration"),
+        ("<?XML version='1.0'?>", "xml-declaration"),
+        ("<?xml encoding='utf-8' version='1.0'?>", "xml-declaration"),
+        ("<?xml version='1.0'encoding='utf-8'?>", "xml-declaration"),
+        ("<?xml verison='1.0'\r\n?>", "xml-declaration"),
+        ('<?xml version="1.0" encoding="utf-16"?>', "xml-declaration"),
     ],
 )
-def test_a_declaration_that_is_not_well_formed_is_tolerated(declaration: str) -> None:
-    reading = read(f"{declaration}<robot name='cart'>\r\n<link name='body'/></robot>")
-    assert reading.robot == Robot("cart", (Link("body"),))
-    assert [(d.severity, d.code, d.line) for d in reading.diagnostics] == [(Severity.WARNING, "xml-declaration", 1)]
+def test_a_wrong_declaration_is_tolerated(declaration: str, code: str) -> None:
+    reading = read(f"{declaration}<robot name='cart'>\r\n<link name='bödy'/></robot>")
+    assert reading.robot == Robot("cart", (Link("bödy"),))
+    assert [(d.severity, d.code, d.line) for d in reading.diagnostics] == [(Severity.WARNING, code, 1)]
 
 
 def test_only_a_declaration_without_faults_names_the_encoding() -> None:
@@ -234,17 +213,6 @@ def test_a_default_namespace_does_not_hide_the_elements() -> None:
     assert robot_of('<robot name="r" xmlns="http://www.ros.org"><link name="a"/></robot>').links == (Link("a"),)
 
 
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
-def test_every_truncation_is_one_error(encoding: str) -> None:
-    content = ARM.rstrip().replace("utf-8", encoding).encode(encoding)
-    for end in range(len(content)):
-        reading = read_robot(content[:end], "a.urdf")
-        assert reading.robot is None, end
-        assert [d.severity for d in reading.diagnostics] == [Severity.ERROR], end
-        assert reading.diagnostics[0].line > 0, end
-    assert read_robot(content + b"", "a.urdf", cross_check=False).robot is not None
-
-
 DEEP = b"<origin>" * 254, b"</origin>" * 254
 LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
 
@@ -253,18 +221,11 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
     ("content", "code", "line"),
     [
         (b"", "file-empty", 1),
-        (b"\xef\xbb\xbf", "file-empty", 1),
-        (b" \r\n\n", "file-empty", 1),
         (b"\0" * 512, "file-empty", 1),
         (b"<robot/>\n<robot/>", "xml-syntax", 2),
         (b"<robot>\n<link>\n</robot>", "xml-syntax", 3),
-        (b"<robot>\n<link name='a' name='b'/></robot>", "xml-syntax", 2),
-        (b"<robot>\n<link name=a/></robot>", "xml-syntax", 2),
         (b"<robot>\n<x:y></robot>", "xml-syntax", 2),
-        (b"<robot>\n&nbsp;</robot>", "xml-syntax", 2),
         (b"<!DOCTYPE robot SYSTEM 'a.dtd'>\n<robot>\n&e;</robot>", "xml-entity", 1),
-        (b"<robot name='\x01'/>", "xml-syntax", 1),
-        (b"<a>" * 300 + b"</a>" * 300, "xml-syntax", 1),
         (b"<robot name='r'>\n<link name='a'><visual>%b%b</visual></link></robot>" % DEEP, "xml-syntax", 2),
         (b"robot: yes", "xml-syntax", 1),
         (b"<robot>\n\n  <link name='\xe4'/></robot>", "file-encoding", 3),
@@ -284,8 +245,6 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "lfs-pointer", 1),
         (b"<sdf version='1.9'/>", "not-urdf", 1),
         (b"<!-- a -->\n<mujoco model='m'/>", "not-urdf", 2),
-        (b"<html><body/></html>", "not-urdf", 1),
-        (b"<Robot name='r'/>", "not-urdf", 1),
         (b"<robot name='r' xmlns:xacro='x'>\n<xacro:macro name='m'/>\n<link name='a'/></robot>", "xacro-source", 2),
         (b"<robot name='r'>\n<xacro:leg side='left'/></robot>", "xacro-source", 2),
         (b"<robot name='r'>\n<link name='a'><visual>\n<origin xyz='${h}'/></visual></link></robot>", "xacro-source", 3),
@@ -298,11 +257,6 @@ def test_a_file_that_is_no_urdf_is_one_error(content: bytes, code: str, line: in
         (d.severity, d.code, d.file, d.line) for d in reading.diagnostics if d.severity is not Severity.WARNING
     ] == [(Severity.ERROR, code, "a.urdf", line)]
     assert all(d.hint for d in reading.diagnostics)
-
-
-def test_a_syntax_error_has_its_column() -> None:
-    (diagnostic,) = read("<robot>\n  <link name=a/></robot>").diagnostics
-    assert (diagnostic.line, diagnostic.column) == (2, 14)
 
 
 @pytest.mark.parametrize(
@@ -323,7 +277,7 @@ def test_a_syntax_error_has_its_column() -> None:
 )
 def test_what_is_often_wrong_in_xml_is_said_with_what_to_do(text: str, message: str, hint: str) -> None:
     (found,) = read(f"<robot name='r'>\n{text}</robot>").diagnostics
-    assert (found.code, found.line) == ("xml-syntax", 2)
+    assert (found.code, found.line, found.column > 0) == ("xml-syntax", 2, "deep" not in message)
     assert found.message.startswith(f"this is not well-formed XML: {message}")
     assert hint in found.hint
     assert found.hint.endswith(", or wait until the export is complete")
@@ -338,86 +292,73 @@ def test_what_looks_like_a_fault_in_a_comment_is_none() -> None:
 INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
 
 
-@pytest.mark.parametrize(
-    ("text", "code", "line"),
-    [
-        ('<robot name="r">\n</robot>', "no-link", 1),
-        ('<robot name="r">\n<link/></robot>', "missing-attribute", 2),
-        ('<robot name="r">\n<link name=" "/></robot>', "empty-attribute", 2),
-        (with_joint("", "fixed").replace(' name="j"', ""), "missing-attribute", 3),
-        (with_joint("", "fixed").replace(' type="fixed"', ""), "missing-attribute", 3),
-        (with_joint("", "fixed").replace('<parent link="a"/>', ""), "missing-element", 3),
-        (with_joint("", "fixed").replace('<child link="b"/>', "\n<child/>"), "missing-attribute", 4),
-        (with_joint("", "revolut"), "unknown-joint-type", 3),
-        (with_joint("", "Fixed"), "unknown-joint-type", 3),
-        (with_joint('<axis xyz="0 0"/>', "continuous"), "bad-number", 4),
-        (with_joint('<axis xyz="0 0 0"/>', "continuous"), "zero-axis", 4),
-        (with_joint('<limit lower="1" upper="-1" effort="1" velocity="1"/>'), "limit-order", 4),
-        (with_joint('<limit lower="" upper="1" effort="1" velocity="1"/>'), "empty-attribute", 4),
-        (with_joint('<mimic/>', "continuous"), "missing-attribute", 4),
-        (with_joint('<mimic joint=""/>', "continuous"), "empty-attribute", 4),
-        (with_joint('<mimic joint="k"/>', "continuous"), "unknown-mimic", 4),
-        (with_joint('<mimic joint="j"/>', "continuous"), "mimic-cycle", 4),
-        (with_joint('<dynamics damping="1 2"/>', "continuous"), "bad-number", 4),
-        (with_joint('<origin xyz="nan 0 0"/>', "fixed"), "bad-number", 4),
-        (with_joint('<origin rpy=""/>', "fixed"), "empty-attribute", 4),
-        (with_joint('<origin quat_xyzw="0 0 0 1"/>', "fixed"), "unsupported-attribute", 4),
-        (in_link(f'<inertial>\n<mass value="-1"/>{INERTIA}</inertial>'), "negative-mass", 4),
-        (in_visual('\n<geometry><box/></geometry>'), "missing-attribute", 4),
-        (in_visual('\n<geometry><cylinder length="1"/></geometry>'), "missing-attribute", 4),
-        (in_visual('\n<geometry><capsule radius="1"/></geometry>'), "missing-attribute", 4),
-        (in_visual('\n<geometry><sphere/></geometry>'), "missing-attribute", 4),
-        (in_visual('\n<geometry><mesh/></geometry>'), "missing-attribute", 4),
-        (in_visual('\n<geometry><mesh filename=""/></geometry>'), "empty-attribute", 4),
-        (in_visual('\n<geometry><mesh filename="a.stl" scale="0.001"/></geometry>'), "bad-number", 4),
-    ],
-)  # fmt: skip
-def test_a_fault_of_the_model_is_one_error(text: str, code: str, line: int) -> None:
-    reading = read(text)
-    assert reading.robot is None
-    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [("error", code, line)]
-    assert all(d.hint for d in reading.diagnostics)
+FAULTS = [
+    ('<robot name="r">\n</robot>', "no-link", 1),
+    ('<robot name="r">\n<link/></robot>', "missing-attribute", 2),
+    ('<robot name="r">\n<link name=" "/></robot>', "empty-attribute", 2),
+    (with_joint("", "fixed").replace(' type="fixed"', ""), "missing-attribute", 3),
+    (with_joint("", "fixed").replace('<parent link="a"/>', ""), "missing-element", 3),
+    (with_joint("", "fixed").replace('<child link="b"/>', "\n<child/>"), "missing-attribute", 4),
+    (with_joint("", "revolut"), "unknown-joint-type", 3),
+    (with_joint('<axis xyz="0 0"/>', "continuous"), "bad-number", 4),
+    (with_joint('<axis xyz="0 0 0"/>', "continuous"), "zero-axis", 4),
+    (with_joint('<limit lower="1" upper="-1" effort="1" velocity="1"/>'), "limit-order", 4),
+    (with_joint('<limit lower="" upper="1" effort="1" velocity="1"/>'), "empty-attribute", 4),
+    (with_joint('<mimic/>', "continuous"), "missing-attribute", 4),
+    (with_joint('<mimic joint="k"/>', "continuous"), "unknown-mimic", 4),
+    (with_joint('<mimic joint="j"/>', "continuous"), "mimic-cycle", 4),
+    (with_joint('<dynamics damping="1 2"/>', "continuous"), "bad-number", 4),
+    (with_joint('<origin xyz="nan 0 0"/>', "fixed"), "bad-number", 4),
+    (with_joint('<origin quat_xyzw="0 0 0 1"/>', "fixed"), "unsupported-attribute", 4),
+    (in_link(f'<inertial>\n<mass value="-1"/>{INERTIA}</inertial>'), "negative-mass", 4),
+    (in_visual('\n<geometry><cylinder length="1"/></geometry>'), "missing-attribute", 4),
+    (in_visual('\n<geometry><mesh/></geometry>'), "missing-attribute", 4),
+    (in_visual('\n<geometry><mesh filename="a.stl" scale="0.001"/></geometry>'), "bad-number", 4),
+]  # fmt: skip
+ODDITIES = [
+    ('<robot>\n<link name="a"/></robot>', "missing-name", 1),
+    (in_link("<visual nme='v'><geometry><sphere radius='1'/></geometry></visual>"), "unknown-attribute", 3),
+    (with_joint(""), "missing-limit", 3),
+    (with_joint('<limit effort="1" velocity="1"/>'), "missing-limit-value", 4),
+    (with_joint('<limit velocity="1"/>', "continuous"), "missing-limit-value", 4),
+    (with_joint('<limit lower="0" upper="1" effort="1" velocity="-1"/>'), "negative-limit", 4),
+    (with_joint('<limit lower="0" upper="1" effort="1" velocity="1"/><axis xyz="0 0 2"/>'), "axis-not-unit", 4),
+    (with_joint('<limit lower="0" upper="1" effort="1" velcoity="1" velocity="1"/>\n<dynamics dampin="1"/>'),
+     "unknown-attribute", 5),
+    (with_joint("<dynamic/>", "continuous"), "unknown-element", 4),
+    (with_joint('<dynamics damping="-1"/>', "continuous"), "negative-dynamics", 4),
+    (with_joint('<dynamics friction="1"/>', "fixed"), "dynamics-without-effect", 4),
+    (with_joint('<safety_controller k_position="1"/>', "continuous"), "missing-gain", 4),
+    (with_joint('<origin/>\n<origin xyz="1 0 0"/>', "fixed"), "duplicate-element", 5),
+    (in_link(f"<inertial>{INERTIA}</inertial>"), "missing-mass", 3),
+    (in_link('<inertial><mass value="1"/></inertial>'), "missing-inertia", 3),
+    (in_link('<inertial><mass value="1"/>\n<inertia ixx="1" iyy="1" izz="1"/></inertial>'), "missing-inertia", 4),
+    (in_link("<visual/>"), "unknown-geometry", 3),
+    (in_visual("<geometry/>"), "unknown-geometry", 3),
+    (in_visual("<geometry><plane/></geometry>"), "unknown-geometry", 3),
+    (in_visual('<geometry><sphere radius="1"/><sphere radius="2"/></geometry>'), "duplicate-element", 3),
+    (in_visual('\n<geometry><sphere radius="-1"/></geometry>'), "shape-size", 4),
+    (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name="m"/>'), "unknown-material", 4),
+    (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color/></material>'), "bad-color", 4),
+    (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color rgba="1 1 1"/></material>'),
+     "bad-color", 4),
+    (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color rgba="255 0 0 1"/></material>'),
+     "color-range", 4),
+    ('<robot name="r">\n<xacro:arg name="b" xmlns:xacro="x"/>\n<link name="a"/></robot>', "xacro-leftover", 2),
+    ('<robot name="r">\n<link name="${n}a"/></robot>', "xacro-leftover", 2),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(
-    ("text", "code", "line"),
-    [
-        ('<robot>\n<link name="a"/></robot>', "missing-name", 1),
-        (in_link("<visual nme='v'><geometry><sphere radius='1'/></geometry></visual>"), "unknown-attribute", 3),
-        (with_joint(""), "missing-limit", 3),
-        (with_joint('<limit effort="1" velocity="1"/>'), "missing-limit-value", 4),
-        (with_joint('<limit velocity="1"/>', "continuous"), "missing-limit-value", 4),
-        (with_joint('<limit lower="0" upper="1" effort="1" velocity="-1"/>'), "negative-limit", 4),
-        (with_joint('<limit lower="0" upper="1" effort="1" velocity="1"/><axis xyz="0 0 2"/>'), "axis-not-unit", 4),
-        (with_joint('<limit lower="0" upper="1" effort="1" velcoity="1" velocity="1"/>\n<dynamics dampin="1"/>'),
-         "unknown-attribute", 5),
-        (with_joint("<dynamic/>", "continuous"), "unknown-element", 4),
-        (with_joint('<dynamics damping="-1"/>', "continuous"), "negative-dynamics", 4),
-        (with_joint('<dynamics friction="1"/>', "fixed"), "dynamics-without-effect", 4),
-        (with_joint('<safety_controller k_position="1"/>', "continuous"), "missing-gain", 4),
-        (with_joint('<origin/>\n<origin xyz="1 0 0"/>', "fixed"), "duplicate-element", 5),
-        (in_link(f"<inertial>{INERTIA}</inertial>"), "missing-mass", 3),
-        (in_link('<inertial><mass value="1"/></inertial>'), "missing-inertia", 3),
-        (in_link('<inertial><mass value="1"/>\n<inertia ixx="1" iyy="1" izz="1"/></inertial>'), "missing-inertia", 4),
-        (in_link("<visual/>"), "unknown-geometry", 3),
-        (in_visual("<geometry/>"), "unknown-geometry", 3),
-        (in_visual("<geometry><plane/></geometry>"), "unknown-geometry", 3),
-        (in_visual('<geometry><sphere radius="1"/><sphere radius="2"/></geometry>'), "duplicate-element", 3),
-        (in_visual('\n<geometry><sphere radius="-1"/></geometry>'), "shape-size", 4),
-        (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name="m"/>'), "unknown-material", 4),
-        (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color/></material>'), "bad-color", 4),
-        (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color rgba="1 1 1"/></material>'),
-         "bad-color", 4),
-        (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color rgba="255 0 0 1"/></material>'),
-         "color-range", 4),
-        ('<robot name="r">\n<xacro:arg name="b" xmlns:xacro="x"/>\n<link name="a"/></robot>', "xacro-leftover", 2),
-        ('<robot name="r">\n<link name="${n}a"/></robot>', "xacro-leftover", 2),
-    ],
-)  # fmt: skip
-def test_an_oddity_of_the_model_is_one_warning(text: str, code: str, line: int) -> None:
+    ("severity", "text", "code", "line"),
+    [*(("error", *fault) for fault in FAULTS), *(("warning", *oddity) for oddity in ODDITIES)],
+)
+def test_a_fault_of_the_model_is_one_error_and_an_oddity_one_warning(
+    severity: str, text: str, code: str, line: int
+) -> None:
     reading = read(text)
-    assert reading.robot is not None
-    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [("warning", code, line)]
+    assert (reading.robot is None) == (severity == "error")
+    assert [(str(d.severity), d.code, d.line) for d in reading.diagnostics] == [(severity, code, line)]
     assert all(d.hint for d in reading.diagnostics)
 
 
@@ -445,29 +386,23 @@ def test_many_warnings_of_a_kind_are_told_once() -> None:
     assert diagnostic.message.endswith("(and 11 more like it: lines 5, 6, 7, 8, 9, 10, 11, 12, …)")
 
 
+LEADER = '<link name="c"/><joint name="k" type="continuous"><parent link="b"/><child link="c"/></joint></robot>'
+
+
 @pytest.mark.parametrize(
     ("inner", "expected"),
     [
-        ("", None),
-        ("<limit/>", Limit(0.0, 0.0, None, None)),
-        ('<limit upper="2" effort="0"/>', Limit(0.0, 2.0, 0.0, None)),
+        ("<origin/><axis/>", Joint("j", "continuous", "a", "b")),
+        ("<limit/>", Joint("j", "continuous", "a", "b", limit=Limit(0.0, 0.0, None, None))),
+        ('<limit upper="2" effort="0"/>', Joint("j", "continuous", "a", "b", limit=Limit(0.0, 2.0, 0.0, None))),
+        ("<dynamics/>", Joint("j", "continuous", "a", "b", dynamics=Dynamics(0.0, 0.0))),
+        ('<mimic joint="k"/>', Joint("j", "continuous", "a", "b", mimic=Mimic("k", 1.0, 0.0))),
     ],
 )
-def test_limits_that_are_absent(inner: str, expected: Limit | None) -> None:
-    robot = read(with_joint(inner)).robot
+def test_defaults_of_a_joint(inner: str, expected: Joint) -> None:
+    robot = read(with_joint(inner, "continuous").replace("</robot>", LEADER)).robot
     assert robot is not None
-    assert robot.joints[0].limit == expected
-
-
-def test_defaults_of_a_joint() -> None:
-    assert only_joint("<origin/><axis/>", "continuous") == Joint("j", "continuous", "a", "b")
-
-
-def test_dynamics_and_mimic_count_by_their_presence() -> None:
-    assert only_joint("<dynamics/>", "continuous").dynamics == Dynamics(0.0, 0.0)
-    text = with_joint('<mimic joint="k"/>', "continuous").replace("</robot>", "")
-    text += '<link name="c"/><joint name="k" type="continuous"><parent link="b"/><child link="c"/></joint></robot>'
-    assert robot_of(text).joints[0].mimic == Mimic("k", 1.0, 0.0)
+    assert robot.joints[0] == expected
 
 
 def test_axes_are_unit_vectors_and_exact_ones_stay_exact() -> None:
@@ -600,15 +535,3 @@ def test_no_input_raises(noise: bytes, position: int, removed: int) -> None:
     assert (reading.robot is None) == bool(errors)
     assert all(d.line > 0 and d.hint for d in reading.diagnostics)
     assert all(re.fullmatch("[a-z]+(-[a-z]+)*", d.code) for d in reading.diagnostics)
-
-
-ATTRIBUTE = st.text(st.characters(exclude_characters='<&"', exclude_categories=["Cs", "Cc"]), max_size=8)
-
-
-@settings(deadline=None)
-@given(ATTRIBUTE)
-def test_any_name_is_a_name(name: str) -> None:
-    reading = read(f'<robot name="r"><link name="{name}"/></robot>')
-    assert all(d.code in ("empty-attribute", "xml-syntax", "xacro-leftover") for d in reading.diagnostics)
-    if reading.robot:
-        assert reading.robot.links[0].name.strip() == name.strip()

@@ -54,10 +54,6 @@ def test_what_pinocchio_asks_for_is_added(added: str, urdf: str) -> None:
     assert completed_for_pinocchio(content) == (content, ())
 
 
-def test_a_good_file_stays_as_it_is() -> None:
-    assert completed_for_pinocchio(GOOD.encode()) == (GOOD.encode(), ())
-
-
 def test_another_encoding_becomes_utf_8() -> None:
     content, notes = completed_for_pinocchio(
         f'<?xml version="1.0" encoding="utf-16"?>{GOOD}'.replace("arm", "Älm").encode("utf-16")
@@ -65,15 +61,6 @@ def test_another_encoding_becomes_utf_8() -> None:
     assert notes == ()
     assert [one.name for one in robot_of(content).links] == ["base", "Älm"]
     assert read(content, "robot.urdf").model.existFrame("Älm")
-
-
-def test_all_links_of_a_robot_without_mass_get_some() -> None:
-    urdf = robot(link("base"), link("arm"), joint("elbow", "continuous", "base", "arm")).encode()
-    content, notes = with_inertias(urdf, KinematicTree.of(robot_of(urdf)))
-    assert notes == (
-        "inertias were made up for 2 links of the generated package only, because the file gives no mass at all",
-    )
-    assert min(masses(content).values()) > 0
 
 
 TREE = robot(

@@ -62,10 +62,3 @@ def test_only_mobile_robots_have_a_ground_and_it_is_far_below() -> None:
     mobile = probe(skeleton(), ARM, Options(base="floating")).source
     (height,) = re.findall(r"inner UrdfSync\.Contacts\.Ground ground\(height = (\S+)\);", mobile)
     assert float(height) < -1e6
-
-
-def test_ballast_hangs_on_links_without_children() -> None:
-    source = probe(skeleton(), ARM, Options(), ballast=True).source
-    assert source.count("Modelica.Mechanics.MultiBody.Parts.Body ballast") == 2
-    assert "connect(ballast1.frame_a, robot.handFrame);" in source
-    assert "connect(ballast2.frame_a, robot.droneFrame);" in source

@@ -8,29 +8,13 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from support.urdfs import dynamics, joint, limit, link, mimic, robot
+from support.urdfs import dynamics, joint, link, robot
 
 from urdfsync.diagnostics import SourceError
 from urdfsync.urdf.physics.free_joints import directions
-from urdfsync.urdf.physics.reading import Follower, read
+from urdfsync.urdf.physics.reading import read
 
 NORMALS = arrays(np.float64, 3, elements=st.floats(-100, 100))
-
-
-def test_the_root_link_moves_and_no_joint_clashes_with_that() -> None:
-    urdf = robot(link("base", 2.0), link("arm"), joint("root_joint", "continuous", "base", "arm"))
-    model = read(urdf.encode(), "robot.urdf").model
-    assert (model.nv, model.inertias[1].mass) == (7, 2.0)
-    assert "root_joint" in model.names
-
-
-def test_mimic_is_read_from_the_file() -> None:
-    parts = [link(name) for name in ("base", "left", "right")]
-    joints = [
-        joint("lead", "continuous", "base", "left"),
-        joint("follow", "revolute", "base", "right", inside=[limit(), mimic("lead", -2.0, 0.1)]),
-    ]
-    assert read(robot(*parts, *joints).encode(), "robot.urdf").followers == {"follow": Follower("lead", -2.0, 0.1)}
 
 
 def test_a_planar_joint_is_two_slides_and_a_turn_with_losses_each() -> None:

@@ -9,6 +9,7 @@ import os
 import subprocess
 import tempfile
 from collections.abc import Generator, Mapping
+from pathlib import Path
 from typing import IO, cast
 
 import msgspec
@@ -28,17 +29,25 @@ MISSING = 3
 def require(name: str) -> None:
     """Raise CompilerError, with what to install, if anything is missing that a check with this compiler needs."""
     compiler = COMPILERS[name]
-    absent = next((module for module in compiler.MODULES if importlib.util.find_spec(module) is None), "")
-    if reason := f"{absent} is not installed" if absent else compiler.missing_program():
-        raise _missing(compiler, reason)
+    for module in compiler.MODULES:
+        if importlib.util.find_spec(module) is None:
+            raise _missing(compiler, f"{module} is not installed")
+    if compiler.program() is None:
+        raise _missing(compiler, f"`{name}` is not on the PATH")
 
 
-def installed_version(distribution: str) -> str:
-    """The version of an installed program; empty if it is not there."""
-    try:
-        return importlib.metadata.version(distribution)
-    except importlib.metadata.PackageNotFoundError:
-        return ""
+def installed_version(name: str, *others: str) -> str:
+    """The versions of a compiler and of other distributions, for the keys of results; empty for what is not there."""
+    compiler, found = COMPILERS[name], []
+    for distribution in (*compiler.MODULES, *others):
+        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
+            found.append(f"{distribution} {importlib.metadata.version(distribution)}")
+    if program := compiler.program():
+        with contextlib.suppress(OSError, subprocess.SubprocessError):
+            found.append(f"{program} {Path(program).resolve()} {Path(program).stat().st_mtime_ns}")
+            asked = subprocess.run([program, "--version"], capture_output=True, timeout=30, check=False)  # noqa: S603 - the compiler that the user wants
+            found.append(asked.stdout.decode(errors="replace"))
+    return "; ".join(found)
 
 
 def run_job(name: str, job: CompileJob, cache: UserCache) -> Generator[CompileResult, None, None]:

@@ -96,8 +96,8 @@ class Compiler(Protocol):
     """What to do when the compiler crashes, as a hint."""
     SIMULATES: bool
 
-    def missing_program(self) -> str:
-        """Return why the compiler can't run although its modules are installed; empty if it can."""
+    def program(self) -> str | None:
+        """Return the path of the program that the modules start, empty if they need none; None if it is missing."""
         ...
 
     def environment(self, cache: str, folder: str) -> dict[str, str]:

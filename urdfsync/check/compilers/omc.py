@@ -35,10 +35,10 @@ _MESSAGE = re.compile(
 )
 
 
-def missing_program() -> str:
-    """See `Compiler`."""
-    is_there = shutil.which("omc") or os.environ.get("OPENMODELICAHOME")
-    return "" if is_there else "`omc` is not on the PATH"
+def program() -> str | None:
+    """See `Compiler`. The client library prefers the variable to the PATH."""
+    home = os.environ.get("OPENMODELICAHOME")
+    return str(Path(home, "bin", "omc")) if home else shutil.which("omc")
 
 
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`

@@ -43,7 +43,6 @@ _SPAN = re.compile(r" @ Span \{.*?\) \}")
 _SHADOW = "variability violation: "
 """rumoca 0.10.2 says this of sound models of the Modelica Standard Library as soon as something else is wrong."""
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m")
-_UNPARSED = re.compile(r"Failed to load source root '([^']*)': parse source-root files")
 _LAYOUT = re.compile(r"invalid Modelica package layout under '[^']*': (.*)", re.DOTALL)
 _LAYOUT_FILE = re.compile(r"\b(file|directory) '([^']*)'")
 _FRAMED = re.compile(r"×(?P<words>[^╭]*?)\n\s*╭─+\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)\]")
@@ -58,7 +57,7 @@ _MISSING = re.compile(
 )
 
 
-def missing_program() -> str:
+def program() -> str:
     """See `Compiler`: all of it is in the module."""
     return ""
 
@@ -71,9 +70,6 @@ def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - se
 def complaints(problem: str) -> list[Complaint]:
     """See `Compiler`. A complaint that only follows from another one is left out."""
     text = _COLOURS.sub("", problem).strip()
-    if unparsed := _UNPARSED.search(text):
-        message = "the compiler can't read one of the files, and does not say which"
-        return [Complaint(message, "syntax", unparsed[1])]
     if layout := _LAYOUT.search(text):
         found = []
         for rule in re.split(r";\s+(?=PKG-\d+)", layout[1]):
@@ -81,19 +77,13 @@ def complaints(problem: str) -> list[Complaint]:
             words = _LAYOUT_FILE.sub(r"the \1", re.sub(r"PKG-\d+ ", "", rule, count=1), count=1)
             found.append(Complaint(one_line(words), "layout", file[2] if file else ""))
         return found
-    found = [
-        Complaint(
-            one_line(one["words"].replace("│", " ")), file=one["file"], line=int(one["line"]), column=int(one["column"])
-        )
-        for one in _FRAMED.finditer(text)
-    ]
+    found = [_placed(one["words"].replace("│", " "), one) for one in _FRAMED.finditer(text)]
     for piece in () if found else _PIECES.split(text):
         words = _PREFIXES.sub("", piece.strip())
         if not words or words[-1] == ":":  # a heading
             continue
         if place := _PLACE.search(words):
-            line, column = int(place["line"]), int(place["column"])
-            found.append(Complaint(one_line(words[: place.start()]), file=place["file"], line=line, column=column))
+            found.append(_placed(words[: place.start()], place))
         elif named := _MISSING.match(words):
             kind = {"component reference": "component", "function call": "function"}.get(named["kind"] or "", "class")
             found.append(Complaint(one_line(words), missing=named["name"] or named["base"], kind=kind))
@@ -102,6 +92,10 @@ def complaints(problem: str) -> list[Complaint]:
     if not found and text:
         found.append(Complaint(one_line(text)))
     return [one for one in found if not one.message.startswith(_SHADOW)] or found[:1]
+
+
+def _placed(words: str, place: re.Match[str]) -> Complaint:
+    return Complaint(one_line(words), file=place["file"], line=int(place["line"]), column=int(place["column"]))
 
 
 def work(job: CompileJob) -> Iterator[CompileResult]:

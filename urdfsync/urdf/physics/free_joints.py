@@ -22,8 +22,8 @@ from urdfsync.urdf.robot import Joint, Vector
 
 Array = NDArray[np.float64]
 
-_PARTS = {"planar": ("prismatic", "prismatic", "continuous")}
-"""Types of the joints that stand for one of a type that Pinocchio's reader leaves out."""
+_PARTS = ("prismatic", "prismatic", "continuous")
+"""Types of the joints that stand for a planar one."""
 NOT_SPLIT = np.zeros((0, 3))
 """The axes of a joint that Pinocchio has as it is."""
 _CLOSE_TO_X = 0.9  # cosine of the angle to x from which on a normal counts as close to it
@@ -97,15 +97,6 @@ def free_start(joint: Joint) -> Start:
 # --- as Pinocchio has them ----------------------------------------------------------------------------------------
 
 
-def split_joint(joint: Element, unused: str) -> SplitJoint | None:
-    """What stands for a joint of a URDF; None if Pinocchio's reader knows it. No name in the file contains `unused`."""
-    name, kinds = joint.get("name", ""), _PARTS.get(joint.get("type", ""))
-    if kinds is None:
-        return None
-    normal = np.array([float(number) for number in attribute(joint, "axis", "xyz", "1 0 0").split()])
-    return SplitJoint((name, *(f"{name}{unused}{number}" for number in range(2, len(kinds) + 1))), directions(normal))
-
-
 def directions(normal: Array) -> Array:
     """The axes of a planar joint as rows: two in the plane, and the unit vector along `normal`."""
     axis = normal / np.linalg.norm(normal)
@@ -115,11 +106,14 @@ def directions(normal: Array) -> Array:
     return np.array([first, np.cross(axis, first), axis])
 
 
-def replace(root: Element, joint: Element, split: SplitJoint) -> None:
-    """Replace a joint by those that stand for it, with massless links between them."""
+def split_planar(root: Element, joint: Element, unused: str) -> SplitJoint:
+    """Replace a planar joint of a URDF by several, with massless links between them. No name contains `unused`."""
+    name = joint.get("name", "")
+    normal = np.array([float(number) for number in attribute(joint, "axis", "xyz", "1 0 0").split()])
+    split = SplitJoint((name, f"{name}{unused}2", f"{name}{unused}3"), directions(normal))
     ends = [attribute(joint, "parent", "link"), *split.parts[1:], attribute(joint, "child", "link")]
-    for k, (name, kind) in enumerate(zip(split.parts, _PARTS[joint.get("type", "")], strict=True)):
-        part = etree.SubElement(root, "joint", name=name, type=kind)
+    for k, kind in enumerate(_PARTS):
+        part = etree.SubElement(root, "joint", name=split.parts[k], type=kind)
         part.extend(copy.deepcopy(list(children(joint, "dynamics"))))
         if k == 0:
             part.extend(copy.deepcopy(list(children(joint, "origin"))))
@@ -130,6 +124,7 @@ def replace(root: Element, joint: Element, split: SplitJoint) -> None:
         etree.SubElement(part, "axis", xyz=" ".join(repr(float(number)) for number in split.axes[k]))
         etree.SubElement(part, "limit", lower="-1000", upper="1000", effort="1000", velocity="1000")
     root.remove(joint)
+    return split
 
 
 def start_state(pin: Any, start: Start, split_axes: Array) -> FreeJointState:

@@ -43,12 +43,6 @@ TURN = Course(0.7, 0.9, -1.4)
 TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)
 """At an angle to all axes of the world, so that gravity and centrifugal forces act along all axes of the root link."""
 
-BALLAST_MASS = 1.5
-"""In kg: a body on each link without children, where free joints could not be simulated for lack of inertia."""
-BALLAST_CENTRE: Vector = (0.1, -0.2, 0.3)
-BALLAST_INERTIA: Vector = (0.03, 0.02, 0.04)
-"""Diagonal of its tensor about the centre, in kg·m²."""
-
 
 def axis_course(joint: Joint) -> Course:
     """The course of a driven axis: it begins near the middle of its range, if that is finite and sensible."""

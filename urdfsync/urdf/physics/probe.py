@@ -68,8 +68,6 @@ class RobotVariables(msgspec.Struct, frozen=True):
     """By link: the nine elements of the axes of its frame in the world, one axis after the other."""
     flanges: Mapping[str, str]
     """By joint that can be driven: the connector of its axis."""
-    frames: Mapping[str, str]
-    """By link without children: its connector."""
     bodies: Mapping[str, str]
     """By link: its body, which tells velocities; empty where links have no components of their own."""
 
@@ -105,7 +103,6 @@ def _package_variables(tree: KinematicTree, target: Target, options: Options) ->
         places={name: tuple(f"{link}.frame_a.r_0[{i}]" for i in (1, 2, 3)) for name, link in links.items()},
         axes={name: tuple(f"{link}.frame_a.R.T[{i},{j}]" for i, j in nine) for name, link in links.items()},
         flanges={name: f"robot.{axis}" for name, axis in connectors.axes.items()},
-        frames={name: f"robot.{frame}" for name, frame in connectors.frames.items()},
         bodies={name: f"{link}.body" for name, link in links.items()},
     )
 
@@ -130,16 +127,12 @@ def _record_variables(tree: KinematicTree, target: Target, options: Options) -> 
             for motion in motions
             for number, joint in enumerate(tree.axes(motion), 1)
         },
-        frames={link.name: f"robot.frame_b[{number}]" for number, link in enumerate(tree.leaves(), 1)},
         bodies={},
     )
 
 
-def probe(tree: KinematicTree, target: Target, options: Options, ballast: bool = False) -> Probe:
-    """A model in which every axis of the robot moves, and the values to compare.
-
-    With `ballast`, a body hangs on each link without children.
-    """
+def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
+    """A model in which every axis of the robot moves, and the values to compare."""
     names = robot_variables(tree, target, options)
     axes, free = motion.driven_axes(tree), free_joints.free_joints(tree)
     libraries = [name for name, _ in options.uses]
@@ -159,11 +152,6 @@ def probe(tree: KinematicTree, target: Target, options: Options, ballast: bool =
         course = ", ".join(f"a{power} = {value!r}" for power, value in enumerate(motion.axis_course(joint)))
         declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Drive drive{k}({course})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
-    tensor = ", ".join(f"I_{i}{i} = {value!r}" for i, value in enumerate(motion.BALLAST_INERTIA, 1))
-    body = f"animation = false, m = {motion.BALLAST_MASS!r}, r_CM = {vector(motion.BALLAST_CENTRE)}, {tensor}"
-    for k, leaf in enumerate(tree.leaves() if ballast else (), 1):
-        declarations.append(f"Modelica.Mechanics.MultiBody.Parts.Body ballast{k}({body})")
-        connections.append(f"ballast{k}.frame_a, {names.frames[leaf.name]}")
     declarations += ["Real mass = robot.m", f"Real moment[3] = {names.moment}"]
     *path, turn = (f"{q!r} + ({v!r})*time + ({a!r})*time^2/2" for q, v, a in (*motion.PATH, motion.TURN))
     lines = [

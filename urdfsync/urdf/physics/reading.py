@@ -16,7 +16,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.extras import install_command
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics.completion import children
-from urdfsync.urdf.physics.free_joints import SplitJoint, replace, split_joint
+from urdfsync.urdf.physics.free_joints import SplitJoint, split_planar
 
 
 class Follower(NamedTuple):
@@ -43,17 +43,15 @@ def read(content: bytes, file: str) -> PinocchioRobot:
     pin = pinocchio()
     root = xml.parse_tree(content)
     unused = "_" * (1 + max(len(element.get("name", "")) for element in root.iter("{*}link", "{*}joint")))
-    joints = {joint.get("name", ""): joint for joint in children(root, "joint")}
     followers: dict[str, Follower] = {}
     split_joints: dict[str, SplitJoint] = {}
-    for name, joint in joints.items():
+    for joint in list(children(root, "joint")):
+        name = joint.get("name", "")
         for mimic in children(joint, "mimic"):
             multiplier, offset = float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0"))
             followers[name] = Follower(mimic.get("joint", ""), multiplier, offset)
-        if split := split_joint(joint, unused):
-            split_joints[name] = split
-    for name, split in split_joints.items():
-        replace(root, joints[name], split)
+        if joint.get("type") == "planar":
+            split_joints[name] = split_planar(root, joint, unused)
     text = etree.tostring(root, encoding="unicode") if split_joints else content.decode("utf-8-sig")
     try:
         model = pin.buildModelFromXML(text, pin.JointModelFreeFlyer(), unused)

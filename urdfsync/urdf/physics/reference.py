@@ -9,7 +9,7 @@ of the driven axes, so that the efforts of these are Bᵀ·tau.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -63,10 +63,11 @@ class Reference:
         loose = [np.arange(part.idx_v, part.idx_v + part.nv) for name in free for part in self._parts(name)]
         self.loose = np.concatenate([np.zeros(0, dtype=int), *loose])
         """Where free joints are in Pinocchio's velocity."""
-        self.steepness = self._steepness()
-        """Of the dry friction, for each coordinate of Pinocchio's velocity."""
-        self.bodies = [self.pin.Inertia(inertia) for inertia in self.model.inertias]
-        """The robot's own, per joint of Pinocchio."""
+        self.steepness = np.full(self.model.nv, float(TURNING_STEEPNESS))
+        """Of the dry friction, for each coordinate of Pinocchio's velocity; in s/rad or s/m, as in the records."""
+        for joint in self.model.joints:
+            if joint.shortname().startswith(_SLIDING_JOINTS):
+                self.steepness[joint.idx_v] = SLIDING_STEEPNESS
 
     def start(self, name: str, start: Start) -> FreeJointState:
         """The state of a free joint from its start values."""
@@ -110,14 +111,6 @@ class Reference:
         values = np.linalg.eigvalsh(self.free_inertia(state))
         return bool(values.size and values[0] <= _SINGULAR * values[-1])
 
-    def hang_ballast(self, links: Iterable[str]) -> None:
-        """Load links with the bodies that the probe hangs on them; they are no part of the robot's own mass."""
-        tensor = np.diag(motion.BALLAST_INERTIA)
-        body = self.pin.Inertia(motion.BALLAST_MASS, np.array(motion.BALLAST_CENTRE), tensor)
-        for link in links:
-            frame = self.model.frames[self.model.getFrameId(link, self.pin.BODY)]
-            self.model.appendBodyToJoint(frame.parentJoint, body, frame.placement)
-
     def free_inertia(self, state: Configuration) -> Array:
         """The part of the inertia matrix H that belongs to the free joints."""
         upper = np.triu(self.pin.crba(self.model, self.model.createData(), state.q))
@@ -127,14 +120,6 @@ class Reference:
     def _load(self, data: Any, q: Array, v: Array, a: Array) -> Array:
         """Efforts in all joints, losses included."""
         return np.asarray(self.pin.rnea(self.model, data, q, v, a) + self.losses(v))
-
-    def _steepness(self) -> Array:
-        """In s/rad or s/m, as the default of the records."""
-        steepness = np.full(self.model.nv, float(TURNING_STEEPNESS))
-        for joint in self.model.joints:
-            if joint.shortname().startswith(_SLIDING_JOINTS):
-                steepness[joint.idx_v] = SLIDING_STEEPNESS
-        return steepness
 
     def _mimic(self, robot: PinocchioRobot) -> tuple[Array, Array]:
         """B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per driven axis."""
@@ -208,7 +193,7 @@ class Instant(msgspec.Struct, frozen=True):
 
     def mass_and_centre(self) -> tuple[float, Array]:
         """Mass of the whole robot and its centre in the world; zero without any mass."""
-        bodies = list(zip(self.reference.bodies, self.data.oMi, strict=True))
+        bodies = list(zip(self.reference.model.inertias, self.data.oMi, strict=True))
         mass = sum(inertia.mass for inertia, _ in bodies)
         moment = sum((inertia.mass * place.act(inertia.lever) for inertia, place in bodies), np.zeros(3))
         return mass, moment / mass if mass else moment
