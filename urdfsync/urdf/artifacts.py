@@ -28,7 +28,7 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
     tree = _tree(robot, target)
     files = list(_package(tree, target, options))
     if "package" in options.approach:
-        files += _robot(tree, target, options)
+        files += _robot(robot, tree, target, options)
         for link in robot.links:
             files += _link(link, tree, imports, target, options)
         for joint in robot.joints:
@@ -129,9 +129,9 @@ def _package(tree: KinematicTree, target: Target, options: Options) -> Iterator[
         yield Order(f"{folder}/package.order", tuple(n for i in identifiers for n in (i.type, i.record)))
 
 
-def _robot(tree: KinematicTree, target: Target, options: Options) -> Iterator[Artifact]:
+def _robot(robot: Robot, tree: KinematicTree, target: Target, options: Options) -> Iterator[Artifact]:
     name, benches = target.name, bench_data(tree, target, options)
-    yield _of_robot(f"{name}.mo", Role.MODEL, "robot", robot_data(tree, target, options))
+    yield _of_robot(f"{name}.mo", Role.MODEL, "robot", robot_data(robot, target, options))
     yield _of_robot(f"{name}Run.mo", Role.MODEL, "run", benches)
     yield _of_robot(f"{name}Test.mo", Role.MODEL, "test", benches)
 

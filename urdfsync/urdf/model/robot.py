@@ -5,6 +5,8 @@ They depend on the structure of the robot alone, on no number of the URDF.
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Mapping
 from typing import Any
 
 from urdfsync.domain import Target
@@ -14,15 +16,28 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model import notes
 from urdfsync.urdf.model.connectors import Connectors, connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Robot
 
 _ROW = 20  # height of a row of connectors on the icon: an axis, and its support 10 below
 _PICTURE = 100  # where the picture on the icon ends, and the rows begin
 _FRAME_Y = -50  # where the benches of the library have the frame that the robot is connected to
 
 
-def robot_data(tree: KinematicTree, target: Target, options: Options) -> dict[str, Any]:
+def robot_data(robot: Robot, target: Target, options: Options) -> Mapping[str, Any]:
     """Return the data of the robot model."""
+    links = tuple(Link(link.name) for link in robot.links)
+    joints = tuple(
+        Joint(
+            joint.name, joint.type, joint.parent, joint.child, mimic=Mimic(joint.mimic.joint) if joint.mimic else None
+        )
+        for joint in robot.joints
+    )
+    return _of_structure(Robot("", links, joints), target, options)
+
+
+@functools.lru_cache(maxsize=4)  # serves "one mass changed in the daemon": a third of all data of a package is this
+def _of_structure(robot: Robot, target: Target, options: Options) -> Mapping[str, Any]:
+    tree = KinematicTree.of(robot, taken=(target.name,))
     names = connector_names(tree, options)
     top = _icon_top(names)
     kinds = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}

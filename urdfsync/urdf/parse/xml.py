@@ -147,9 +147,7 @@ def parse(content: bytes) -> XmlNode:
         node = XmlNode(tag, attributes, line, [], document, parser.CurrentByteIndex)
         above[-1].children.append(node)
         above.append(node)
-        for name in (tag, *attributes):
-            if ":" not in name and name != "xmlns":
-                continue
+        for name in [name for name in (tag, *attributes) if ":" in name or name == "xmlns"]:
             prefix, colon, rest = name.partition(":")
             if prefix == "xmlns" and attributes.get(name) and (rest or not colon) and rest not in ("xml", "xmlns"):
                 document.namespaces.setdefault(rest, attributes[name])
