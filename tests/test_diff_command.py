@@ -171,7 +171,7 @@ def test_two_files_without_a_configuration(arm: Path, capsys: Capture, snapshot_
         [
             "new.urdf: 2 parameter changes since arm.urdf",
             "  link tip",
-            "    inertial / mass  2 → 3 kg  +50 %",
+            "    inertial / mass  2 → 3 kg     +50 %",
             "  joint elbow",
             "    limit / effort   54 → 60 N·m  +11.1 %",
             "",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -136,26 +136,30 @@ def _lines(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
     """Yield the lines below the first one. Of many changes, effects and files the first are shown."""
     changes, effects = found.result.changes, effect_rows(found.effects)
     elements = outline(changes, everything=verbose) if changes else {}
-    width = min(max((len(row.label) for rows in elements.values() for row in rows), default=0), _WIDEST)
+    widths = _widths([row for rows in elements.values() for row in rows])
     lines = [line((f"  {generator_change(changes)}", ""))] if changes and changes.generator else []
     for title, rows in elements.items():
         itself = [(f"  {row.value}", _STYLES.get(row.kind, "")) for row in rows if not row.label]
         lines.append(line((f"  {title}", "dim" if all(row.is_quiet for row in rows) else "bold"), *itself))
-        lines += [_row_line(row, width) for row in rows if row.label]
+        lines += [_row_line(row, *widths) for row in rows if row.label]
     yield from first_lines(lines, _CHANGES, "line", verbose=verbose)
     if effects:
-        width = min(max(len(row.label) for row in effects[:_EFFECTS]), _WIDEST)
-        lines = [_row_line(row, width) for row in effects]
+        lines = [_row_line(row, *_widths(effects[:_EFFECTS])) for row in effects]
         yield from (line(("", "")), line(("Effects", "bold")))
         yield from first_lines(lines, _EFFECTS, "effect", verbose=verbose)
     yield from _files(found, verbose)
 
 
-def _row_line(row: OutlineRow, width: int) -> StyledLine:
+def _widths(rows: Sequence[OutlineRow]) -> tuple[int, int]:
+    """Return how wide the columns of labels and of values with a relation are."""
+    labels, values = ([len(row.label) for row in rows], [len(row.value) for row in rows if row.relation])
+    return min(max(labels, default=0), _WIDEST), min(max(values, default=0), _WIDEST)
+
+
+def _row_line(row: OutlineRow, label: int, value: int) -> StyledLine:
     quiet = "dim" if row.is_quiet else ""
-    relation = f"  {row.relation}" if row.relation else ""
-    label = f"    {row.label:<{width}}  "
-    return line((label, quiet), (row.value, quiet or _STYLES.get(row.kind, "")), (relation, "dim"))
+    style, text = quiet or _STYLES.get(row.kind, ""), f"{row.value:<{value}}  " if row.relation else row.value
+    return line((f"    {row.label:<{label}}  ", quiet), (text, style), (row.relation, "dim"))
 
 
 def _files(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
