@@ -34,6 +34,10 @@ def test_a_text_is_rendered(tmp_path: Path, text: str, expected: str) -> None:
     assert rendered(tmp_path, text, x=0.5, v=(1.0, 2.0), s='a"b', d={"items": 1}) == expected
 
 
+def test_what_comes_after_many_empty_pieces_is_there(tmp_path: Path) -> None:
+    assert rendered(tmp_path, "<% for one in range(5000) %><< nothing >><% endfor %>end", nothing="") == "end"
+
+
 def test_what_is_not_there_is_an_error_and_not_an_empty_text(tmp_path: Path) -> None:
     with pytest.raises(jinja2.UndefinedError, match="mass"):
         rendered(tmp_path, "<< mass >>")

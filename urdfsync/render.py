@@ -243,8 +243,8 @@ class Renderer:
         environment.deadline = time.monotonic() + MAX_SECONDS
         with _last_resort(), _limited_memory():
             pieces, text = environment.get_template(template).generate(data), ""
-            while piece := "".join(itertools.islice(pieces, _PIECES)):
-                text += piece
+            while some := list(itertools.islice(pieces, _PIECES)):  # which may all be empty
+                text += "".join(some)
                 if len(text) > MAX_OUTPUT:
                     raise SecurityError(f"the text has more than {MAX_OUTPUT:,} characters")
             return text
