@@ -52,7 +52,7 @@ class Inputs:
     """Bytes of the source."""
     generator: Generator
 
-    @property
+    @cached_property
     def recorded(self) -> Manifest | None:
         """The manifest of the last build; None if there was none."""
         return self.state.manifest if self.state else None
@@ -62,7 +62,7 @@ class Inputs:
         """Key of the package's folder."""
         return self.files.key(self.robot.folder)
 
-    @property
+    @cached_property
     def old_folder(self) -> str:
         """Key of the package's folder in the last build."""
         return self.recorded.folder if self.recorded else self.folder

@@ -38,6 +38,7 @@ class PackageFiles:
         self.root, self._output = config.root, robot.output
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
         self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
+        self._tree_of: dict[str, Tree | None] = {}  # by folder
         self._known = known or {}
         self.states: dict[str, FileState | None] = {}
         """State of each file that was looked at, by absolute path."""
@@ -52,7 +53,7 @@ class PackageFiles:
 
     def is_inside(self, key: str) -> bool:
         """Return whether urdfsync may touch the file: it is below the output folder or the configuration's."""
-        return self._tree(self._place(key)) is not None
+        return self._tree(self._place(key).rpartition(os.sep)[0]) is not None
 
     def read(self, key: str) -> bytes | None:
         """Return a file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
@@ -60,7 +61,7 @@ class PackageFiles:
 
     def read_path(self, path: Path) -> bytes | None:
         """Return a file's content by its absolute path, see `read`."""
-        tree = self._tree(str(path))
+        tree = self._tree(str(path.parent))
         return tree.read(path) if tree else None
 
     def text(self, key: str) -> str | None:
@@ -83,8 +84,9 @@ class PackageFiles:
         """Return the state of the file at an absolute path, None if there is none. Raises OutputError as `read`."""
         if path in self.states:
             return self.states[path]
-        tree, state = self._tree(path), None
-        if tree and tree.check_folder(path.rpartition(os.sep)[0]) and (status := tree.status(path)):
+        folder = path.rpartition(os.sep)[0]
+        tree, state = self._tree(folder), None
+        if tree and tree.check_folder(folder) and (status := tree.status(path)):
             stat, state = dependencies.stat_of(status), self._known.get(path)
             if state is None or state.stat != stat:
                 content = tree.content(path)
@@ -146,16 +148,21 @@ class PackageFiles:
         if not key.endswith(".mo") or key.endswith("/package.mo"):
             return False
         path = self._place(key)
-        tree = self._tree(path)
-        if tree is not None and not tree.check_folder(path.rpartition(os.sep)[0]):
+        folder = path.rpartition(os.sep)[0]
+        tree = self._tree(folder)
+        if tree is not None and not tree.check_folder(folder):
             return False
         return dependencies.is_file(f"{path.removesuffix('.mo')}{os.sep}package.mo")
 
     def _place(self, key: str) -> str:
         return placed(self._prefix, key)
 
-    def _tree(self, path: str) -> Tree | None:
-        return next((tree for tree in self._trees if tree.covers(path)), None)
+    def _tree(self, folder: str) -> Tree | None:
+        """Return the tree that a folder's files are in."""
+        if folder not in self._tree_of:
+            file = os.path.join(folder, "")  # noqa: PTH118 - strings: there are thousands
+            self._tree_of[folder] = next((tree for tree in self._trees if tree.covers(file)), None)
+        return self._tree_of[folder]
 
 
 def key_of(path: Path, root: Path) -> str:

@@ -127,19 +127,24 @@ def support_points(points: Array) -> list[list[float]]:
     size = float(np.ptp(points, axis=0).max())
     chosen = []
     for number, near in enumerate(_nearly_extreme(points, _DIRECTIONS, size)):
+        if (near == near[0]).all():  # as for most directions: one corner
+            chosen.append(near[:1])
+            continue
         heights = _products(near, _DIRECTIONS[number : number + 1])[:, 0]
         chosen.append(_corners(near[heights >= heights.max() - _TIE * size], number, size))
     rounded = np.round(np.concatenate(chosen), _DIGITS) + 0.0  # -0.0 becomes 0.0
-    return [_plain(point) for point in np.unique(rounded, axis=0)]
+    return [list(point) for point in sorted(set(map(tuple, rounded.tolist())))]
 
 
 def _directions() -> Array:
     """Unit vectors (122 × 3), rounded so that they are the same on every machine."""
     angles = [2 * math.pi * step / _STEPS for step in range(_STEPS)]
-    circles = [np.roll((math.cos(angle), math.sin(angle), 0.0), axis) for axis in range(3) for angle in angles]
-    cube = [np.array(corner) / math.hypot(*corner) for corner in itertools.product((-1, 0, 1), repeat=3) if any(corner)]
-    unique: Array = np.unique(np.round(circles + cube, 12) + 0.0, axis=0)
-    return unique
+    circle = [(math.cos(angle), math.sin(angle), 0.0) for angle in angles]
+    circles = [(*one[3 - axis :], *one[: 3 - axis]) for axis in range(3) for one in circle]
+    corners = [one for one in itertools.product((-1, 0, 1), repeat=3) if any(one)]
+    cube = [tuple(coordinate / math.hypot(*one) for coordinate in one) for one in corners]
+    rounded = np.round(circles + cube, 12) + 0.0
+    return np.array(sorted(set(map(tuple, rounded.tolist()))))
 
 
 _DIRECTIONS = _directions()
@@ -163,7 +168,7 @@ def _nearly_extreme(points: Array, directions: Array, size: float) -> list[Array
         near = heights >= highest - np.float32(_MARGIN)
         if np.count_nonzero(near) > _MANY * len(heights):  # as where many points are one
             near &= _is_first(part)[:, np.newaxis]
-        rows, columns = np.nonzero(near)
+        rows, columns = np.divmod(np.flatnonzero(near), near.shape[1])  # ten times as fast as `near.nonzero()`
         found.append((columns, rows + start, heights[rows, columns]))
     columns, rows, values = map(np.concatenate, zip(*found, strict=True))
     extreme = values >= highest[columns] - np.float32(_MARGIN)
