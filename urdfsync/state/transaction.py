@@ -93,9 +93,10 @@ class Transactions:
         made = self._missing_folders(change.path.parent for change in changes if change.content is not None)
         journal = Journal(robot, os.urandom(8).hex(), tuple(steps), tuple(made), tuple(map(self._key, emptied)))
         self._check(journal)
+        files = self._files(journal)
         try:
-            self._prepare(journal, [change.content for change in changes])
-            applied = self._finish(journal)
+            self._prepare(journal, files, [change.content for change in changes])
+            applied = self._finish(journal, files)
         except UnfinishedError:
             raise
         except BaseException as error:
@@ -103,9 +104,9 @@ class Transactions:
             if self._journals.phase() in (Phase.APPLY, Phase.DONE):  # durable: only forward
                 if known:
                     raise UnfinishedError(*known) from error
-                self._finish(journal)  # Ctrl-C: it takes some milliseconds
+                self._finish(journal, files)  # Ctrl-C: it takes some milliseconds
             else:
-                self._discard(journal, known)
+                self._discard(journal, files, known)
             raise
         profiling.count("written", len(changes) - len(applied.not_done))
         return applied
@@ -125,14 +126,15 @@ class Transactions:
             if not repair or {found.code for found in error.diagnostics} != {"broken-journal"}:
                 raise
             return (self._set_aside(),)
+        files = self._files(journal)
         if self._journals.phase() is Phase.PREPARE:
-            self._discard(journal)
+            self._discard(journal, files)
             return ()
-        applied = self._finish(journal)
+        applied = self._finish(journal, files)
         message = f"the last build of robot `{journal.robot}` was interrupted; it is finished"
         return Diagnostic(Severity.NOTE, "recovered", message), *applied.diagnostics
 
-    def _prepare(self, journal: Journal, contents: Sequence[bytes | None]) -> None:
+    def _prepare(self, journal: Journal, files: Sequence[_File], contents: Sequence[bytes | None]) -> None:
         """Write all new files, and make the intent durable. Raises OutputError."""
         written, place = [], self._folder
         try:
@@ -143,10 +145,10 @@ class Transactions:
             self._journals.save(journal)  # before the first temporary file, or nobody would know of that
             for place in map(self._path, journal.made):
                 file_operations.make_folder(place)
-            for file, content in zip(self._files(journal), contents, strict=True):
+            for file, content in zip(files, contents, strict=True):
                 if content is not None:
                     place = file.path
-                    file_operations.write(file.temporary, content, file.path)
+                    file_operations.write(file.temporary, content, None if file.old is None else file.path)
                     written.append(file.temporary)
             place = self._folder
             file_operations.sync(written)
@@ -155,10 +157,10 @@ class Transactions:
         except OSError as error:
             raise failure(error, self._shown(place)) from None
 
-    def _discard(self, journal: Journal, known: Sequence[Diagnostic] = ()) -> None:
+    def _discard(self, journal: Journal, files: Sequence[_File], known: Sequence[Diagnostic] = ()) -> None:
         """Remove all traces of a transaction of which no target has changed; `known` is why. Raises UnfinishedError."""
         try:
-            for file in self._files(journal):
+            for file in files:
                 file_operations.remove(file.temporary)
             for path in reversed(journal.made):
                 file_operations.remove_folder(self._path(path))
@@ -166,17 +168,17 @@ class Transactions:
         except OSError as error:
             self._refuse_to_finish(error, known)
 
-    def _finish(self, journal: Journal) -> Applied:
+    def _finish(self, journal: Journal, files: Sequence[_File]) -> Applied:
         """Change all targets that have not changed yet, and remove all traces. Raises UnfinishedError."""
-        files = self._files(journal)
+        folders = sorted({file.folder for file in files})
         not_done: list[Path] = []
         try:
             if self._journals.phase() is not Phase.DONE:
                 not_done = self._change(files)
-                file_operations.sync(sorted({file.path.parent for file in files if file.path.parent.is_dir()}))
+                file_operations.sync([folder for folder in map(Path, folders) if folder.is_dir()])
                 self._journals.enter(Phase.DONE)
-            left = {path for folder in {str(file.path.parent) for file in files} for path in _files_in(folder)}
-            saved = [(file, name) for file in files for name in file.clear(left)]
+            left = {path for folder in folders for path in _temporary_files(folder)}
+            saved = [(file, name) for file in files for name in file.clear(left)] if left else []
             for path in journal.emptied:
                 file_operations.remove_folder(self._path(path))
             self._journals.remove()
@@ -193,8 +195,9 @@ class Transactions:
 
     def _change(self, files: Sequence[_File]) -> list[Path]:
         """Change all targets, the recorded state last. Returns those that are not as planned."""
-        state = [file for file in files if file.path.parent == self._folder / "robots"]
-        others = [file for file in files if file not in state]
+        state_folder = str(self._folder / "robots")
+        state = [file for file in files if file.folder == state_folder]
+        others = [file for file in files if file.folder != state_folder]
         changed = [file.change() for file in others]
         # again, since somebody may have written to an old file through a handle that was opened before
         again = [done if file.old is None else file.change() for file, done in zip(others, changed, strict=True)]
@@ -258,7 +261,7 @@ class Transactions:
         for number, step in enumerate(journal.steps):
             folder, name = os.path.split(placed(self._prefix, step.path))
             temporary = f"{folder}{os.sep}.{journal.token}-{number}{TEMPORARY}"
-            found.append(_File(Path(folder, name), Path(temporary), step.old, step.new, step.is_moved))
+            found.append(_File(folder, Path(folder, name), Path(temporary), step.old, step.new, step.is_moved))
         return found
 
     def _missing_folders(self, folders: Iterable[Path]) -> list[str]:
@@ -284,6 +287,7 @@ class Transactions:
 class _File(msgspec.Struct, frozen=True):
     """One target; `old` and `new` are hashes as in `Step`."""
 
+    folder: str
     path: Path
     temporary: Path
     """Holds the new file before the change, and the old one after it."""
@@ -306,8 +310,7 @@ class _File(msgspec.Struct, frozen=True):
     def clear(self, left: Collection[str]) -> Iterator[Path]:
         """Remove what is left under temporary names. What nobody planned with is kept; yields under which name.
 
-        So is a text of the user's that was to move here. `left` are all paths that exist: nearly all temporary files
-        are gone.
+        So is a text of the user's that was to move here. `left` are the paths of all temporary files.
         """
         for path in (self.temporary, file_operations.spare(self.temporary)):
             if str(path) not in left:
@@ -373,8 +376,9 @@ def hash_of(path: Path) -> str | None:
     return None if content is None else digest(content)
 
 
-def _files_in(folder: str) -> list[str]:
+def _temporary_files(folder: str) -> list[str]:
+    """The paths of temporary files in a folder, with those that stand there in an exchange of three renames."""
     try:
-        return [f"{folder}{os.sep}{name}" for name in os.listdir(folder)]  # noqa: PTH208
+        return [f"{folder}{os.sep}{name}" for name in os.listdir(folder) if TEMPORARY in name]  # noqa: PTH208
     except (FileNotFoundError, NotADirectoryError):
         return []
