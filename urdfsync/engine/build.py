@@ -82,6 +82,7 @@ class _Builder:
             found = (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), shown(place)),)
             return msgspec.structs.replace(result, diagnostics=found, failed=True)
         warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
+        state_folder = self._state_folder / "robots"
         return msgspec.structs.replace(
             result,
             actions=plan.actions,
@@ -89,7 +90,7 @@ class _Builder:
             changes=plan.changes,
             conflict_texts=plan.conflicts,
             drawing=plan.drawing,
-            renews_state=any(change.path.parent == self._state_folder / "robots" for change in plan.writes),
+            renews_state=any(change.path.parent == state_folder for change in reversed(plan.writes)),
         )
 
     def _plan_and_write(self, robot: RobotConfig) -> Plan:

@@ -31,6 +31,7 @@ class Package:
         self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in found if isinstance(a, Order)}
         self._templates = templates
         self._texts: dict[str, bytes] = {}
+        self._hashes: dict[str, str] = {}
         self._keys: dict[str, bytes] = {}
 
     def content(self, path: str) -> bytes:
@@ -41,7 +42,9 @@ class Package:
 
     def hash(self, path: str) -> str:
         """Return the text hash of one file."""
-        return text_digest(self.content(path))
+        if path not in self._hashes:
+            self._hashes[path] = text_digest(self.content(path))
+        return self._hashes[path]
 
     def data_key(self, path: str) -> bytes:
         """Return what the text of a file follows from, as bytes: in JSON 0.0 and -0.0 differ, as in the text."""

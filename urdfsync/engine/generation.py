@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 import msgspec
@@ -30,8 +29,7 @@ _AS_GENERATED = (RecordState.GENERATED, RecordState.EDITED)
 """States of files whose base is what the last build generated."""
 
 
-@dataclass(frozen=True)
-class Generation:
+class Generation(msgspec.Struct, frozen=True, dict=True):
     """What one build generates; files are named by their keys."""
 
     inputs: Inputs

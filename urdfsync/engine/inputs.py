@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -30,8 +29,7 @@ NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
 """Errors that a domain raises for a recorded snapshot that is none of its own."""
 
 
-@dataclass(frozen=True)
-class Inputs:
+class Inputs(msgspec.Struct, frozen=True, dict=True):
     """Everything that is known of a robot before its source is parsed."""
 
     config: Config

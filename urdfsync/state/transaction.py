@@ -148,7 +148,7 @@ class Transactions:
             for file, content in zip(files, contents, strict=True):
                 if content is not None:
                     place = file.path
-                    file_operations.write(file.temporary, content, None if file.old is None else file.path)
+                    file_operations.write(file.temporary, content, file.path)
                     written.append(file.temporary)
             place = self._folder
             file_operations.sync(written)
@@ -259,9 +259,10 @@ class Transactions:
     def _files(self, journal: Journal) -> list[_File]:
         found = []
         for number, step in enumerate(journal.steps):
-            folder, name = os.path.split(placed(self._prefix, step.path))
+            path = placed(self._prefix, step.path)
+            folder = path.rpartition(os.sep)[0]
             temporary = f"{folder}{os.sep}.{journal.token}-{number}{TEMPORARY}"
-            found.append(_File(folder, Path(folder, name), Path(temporary), step.old, step.new, step.is_moved))
+            found.append(_File(folder, Path(path), Path(temporary), step.old, step.new, step.is_moved))
         return found
 
     def _missing_folders(self, folders: Iterable[Path]) -> list[str]:
