@@ -121,17 +121,18 @@ def dumps(manifest: Manifest) -> str:
     document["orders"] = dict(sorted(orders.items()))
     optional = ("names", "dependencies", "orders", "files")
     kept = {key: value for key, value in document.items() if value is not None and (value or key not in optional)}
-    tables = [_file_table(path[below:], record, below) for path, record in manifest.files.items()]
-    return "\n".join([_HEADER + tomli_w.dumps(kept), *tables])
+    plain = {key: value for key, value in kept.items() if not isinstance(value, dict)}
+    tables: list[Mapping[str, Any]] = [{key: value} for key, value in kept.items() if key not in plain]
+    for path, record in manifest.files.items():
+        entry = msgspec.structs.replace(record, origin=record.origin[below:]) if record.origin else record
+        tables.append({"files": {path[below:]: entry}})
+    return "\n".join([_HEADER + tomli_w.dumps(plain), *(_table(msgspec.json.encode(table)) for table in tables)])
 
 
-@functools.lru_cache(maxsize=20_000)  # serves "one mass changed in the daemon": nearly all files are as they were
-def _file_table(path: str, record: FileRecord, below: int) -> str:
-    """The table of one file, by its path below the package; `below` characters of its origin are the package's path."""
-    entry = msgspec.to_builtins(record)
-    if record.origin:
-        entry["origin"] = record.origin[below:]
-    return tomli_w.dumps({"files": {path: entry}})
+@functools.lru_cache(maxsize=20_000)  # serves "one mass changed in the daemon": nearly all tables are as they were
+def _table(data: bytes) -> str:
+    """A table as TOML, from JSON."""
+    return tomli_w.dumps(msgspec.json.decode(data))
 
 
 def loads(text: str, file: str) -> Manifest:
