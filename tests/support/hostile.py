@@ -11,7 +11,6 @@ import json
 import os
 import shutil
 import sys
-import zlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
@@ -249,7 +248,7 @@ def _base_not_text(project: Path, outside: Path) -> None:
     lines[changed] = f'base = "{_digest(text)}"\n'
     (project / MANIFEST).write_text("".join(lines))
     (project / ".urdfsync/base/arm").mkdir(parents=True, exist_ok=True)
-    (project / ".urdfsync/base/arm" / _digest(text)).write_bytes(zlib.compress(text))
+    (project / ".urdfsync/base/arm" / _digest(text)).write_bytes(text)
 
 
 def _entities(project: Path, outside: Path) -> None:

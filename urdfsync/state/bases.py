@@ -1,7 +1,7 @@
 """The texts that urdfsync wrote last, by their hash: kept to merge with, and safe to lose.
 
-Like git's loose objects: `base/<robot>/<hash>` in the state folder, each text compressed by itself. A text counts only
-if its hash is right.
+Like git's loose objects, but as plain text: `base/<robot>/<hash>` in the state folder. A text counts only if its hash
+is right. Most have less than a block of the disk, so that compressing them would save nothing.
 """
 
 from __future__ import annotations
@@ -9,17 +9,13 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-import zlib
+import stat
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 
-from urdfsync.dependencies import list_folder
+from urdfsync.dependencies import list_folder, read_unrecorded
 from urdfsync.files import TEMPORARY, failure, text_digest
 from urdfsync.state import file_operations
-
-_FAST = 1
-_LARGEST = 200_000_000
-"""Bytes of a text that are read: as many as a template may give. A file of 1 MB may hold a thousand times as much."""
 
 
 class BaseStore:
@@ -42,11 +38,11 @@ class BaseStore:
         """The text with this hash (see `text_digest`), None if it is not kept."""
         if digest not in self:
             return None
+        path = self._folder / digest
         try:  # it may be a stranger's, who has committed it
-            stream = zlib.decompressobj()
-            content = stream.decompress(file_operations.read(self._folder / digest) or b"", _LARGEST)
-            return content.decode() if stream.eof and text_digest(content) == digest else None
-        except (OSError, zlib.error, UnicodeDecodeError):
+            content = read_unrecorded(path) if stat.S_ISREG(path.lstat().st_mode) else b""
+            return content.decode() if text_digest(content) == digest else None
+        except (OSError, UnicodeDecodeError):
             return None
 
     def add(self, texts: Mapping[str, str]) -> None:
@@ -63,7 +59,7 @@ class BaseStore:
             for folder in (self._folder.parent.parent, self._folder.parent, self._folder):
                 file_operations.make_folder(folder)
             for digest, text in new.items():
-                file_operations.write(temporary, zlib.compress(text.encode(), _FAST))
+                file_operations.write(temporary, text.encode())
                 os.replace(temporary, f"{self._folder}{os.sep}{digest}")  # noqa: PTH105 - thousands
         except OSError as error:
             with contextlib.suppress(OSError):
