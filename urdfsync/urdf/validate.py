@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
 import msgspec
@@ -61,9 +61,9 @@ def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
     yield from _check_names("link", (link.name for link in robot.links))
     yield from _check_names("joint", (joint.name for joint in robot.joints))
     yield from _check_tree(robot, complete)
-    for path, link in numbered("link", robot.links):
+    for path, link in _numbered("link", robot.links):
         yield from _check_link(path, link)
-    for path, joint in numbered("joint", robot.joints):
+    for path, joint in _numbered("joint", robot.joints):
         yield from _check_joint(path, joint)
     yield from _check_mimics(robot)
 
@@ -86,13 +86,19 @@ def nearest(name: str, names: Collection[str], likeness: float = 0.7) -> str:
     return spelling.nearest(name, names, likeness) if len(names) <= _COMPARED else ""
 
 
-def numbered(kind: str, elements: Iterable[_Element]) -> Iterator[tuple[str, _Element]]:
-    """Yield each element with its path: `joint elbow`, and `joint elbow #2` for the second of that name."""
+def element_paths(kind: str, names: Iterable[str]) -> list[str]:
+    """Return the path of each element: `joint elbow`, `joint elbow #2` for the second of that name."""
     seen: Counter[str] = Counter()
-    for element in elements:
-        seen[element.name] += 1
-        count = seen[element.name]
-        yield f"{kind} {element.name}" + (f" #{count}" if count > 1 else ""), element
+    paths = []
+    for number, name in enumerate(names, start=1):
+        seen[name] += 1
+        path = f"{kind} {name}" if name.strip() else f"{kind} number {number}"
+        paths.append(path if seen[name] == 1 else f"{path} #{seen[name]}")
+    return paths
+
+
+def _numbered(kind: str, elements: Sequence[_Element]) -> Iterator[tuple[str, _Element]]:
+    return zip(element_paths(kind, (element.name for element in elements)), elements, strict=True)
 
 
 def normalise_axes(robot: Robot) -> Robot:
@@ -135,7 +141,7 @@ def _check_tree(robot: Robot, complete: bool) -> Iterator[Finding]:
             yield Finding(_ERROR, "no-link", "robot", "the robot has no link", "check that the export is complete")
         return
     parents: dict[str, Joint] = {}
-    for path, joint in numbered("joint", robot.joints):
+    for path, joint in _numbered("joint", robot.joints):
         for end, name in (("parent", joint.parent), ("child", joint.child)):
             if name not in links:
                 complete = False
@@ -285,7 +291,7 @@ def _check_mimics(robot: Robot) -> Iterator[Finding]:
     leaders: dict[str, str] = {}
     for joint in robot.joints:
         joints.setdefault(joint.name, joint)
-    for path, joint in numbered("joint", robot.joints):
+    for path, joint in _numbered("joint", robot.joints):
         if joint.mimic is not None:
             leaders.setdefault(joint.name, joint.mimic.joint)
             yield from _check_mimic(f"{path} / mimic", joint, joint.mimic.joint, joints)

@@ -1,4 +1,4 @@
-"""Nodes are what lxml reads of any text: tags, attributes, and the lines where start tags begin."""
+"""Elements are what lxml reads of any text: tags, attributes, and the lines where start tags begin."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from lxml import etree
 
 from urdfsync.urdf.parse import xml
 
@@ -33,19 +34,22 @@ TREES = st.recursive(
 
 @settings(deadline=None)
 @given(st.lists(TREES, max_size=3).map("".join))
-def test_nodes_are_the_elements_of_the_tree(inside: str) -> None:
+def test_elements_are_those_that_lxml_reads(inside: str) -> None:
     before = '<!DOCTYPE r [<!-- <e> --><!ATTLIST e a NMTOKENS #IMPLIED b CDATA "default">]>\n<r xmlns:p="u">'
     text = f"{before}{inside}</r><!-- </r> -->".encode()
-    root = xml.parse(text)
-    assert root.document.warnings == []
+    document = xml.parse(text)
+    assert document.warnings == []
+    other = etree.fromstring(text, etree.XMLParser(resolve_entities=False))
     wanted = [
         (str(one.tag).replace("{u}", "p:"), {name.replace("{u}", "p:"): value for name, value in one.items()})
-        for one in xml.parse_tree(text).iter("*")
+        for one in other.iter("*")
     ]
-    found = [(node.tag, {k: v for k, v in node.attributes.items() if k != "xmlns:p"}) for node in root.walk()]
+    found = [(one.tag, {k: v for k, v in one.items() if k != "xmlns:p"}) for one in document.root.iter()]
     assert found == wanted
+    assert "".join(document.root.itertext()) == "".join(other.itertext("*", with_tail=True))
 
 
 def test_lines_are_those_of_the_start_tags() -> None:
-    root = xml.parse(b'<r>\n<a\n b="1"\n><b/>\n\n<c/></a><!--\n--><d/></r>')
-    assert [(node.tag, node.line) for node in root.walk()] == [("r", 1), ("a", 2), ("b", 4), ("c", 6), ("d", 7)]
+    document = xml.parse(b'<r>\n<a\n b="1"\n><b/>\n\n<c/></a><!--\n--><d/></r>')
+    found = [(element.tag, line) for element, line in document.lines.items()]
+    assert found == [("r", 1), ("a", 2), ("b", 4), ("c", 6), ("d", 7)]

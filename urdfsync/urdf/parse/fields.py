@@ -1,7 +1,7 @@
 """Typed access to the attributes and children of URDF elements; every fault becomes a diagnostic with its line.
 
 Numbers are decimals as ROS's urdfdom accepts them: no `nan`, `inf`, hexadecimals, underscores or decimal commas. A
-value that can't be read is an error, and a default takes its place, so that reading goes on and finds the next fault.
+value that can't be read is an error, and another takes its place, so that reading goes on and finds the next fault.
 """
 
 from __future__ import annotations
@@ -9,21 +9,22 @@ from __future__ import annotations
 import functools
 import math
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any, TypeVar
+from xml.etree.ElementTree import Element
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.urdf.parse.xml import XmlNode
-from urdfsync.urdf.robot import Extension, Vector
+from urdfsync.urdf.parse.xml import canonical
+from urdfsync.urdf.robot import Extension
 from urdfsync.urdf.validate import Finding, nearest
 
-Missing = TypeVar("Missing", float, None)
-Numbers = TypeVar("Numbers", bound=msgspec.Struct)
+Values = TypeVar("Values", bound=msgspec.Struct)
 
 _DECIMAL = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _BLANKS = re.compile(r"[ \t\r\n\f\v]+")
+_REPEATED = ("visual", "collision")
 # Elements of URDF: in a place where they mean nothing they are no misspelt other element.
 _ELEMENTS = frozenset("link joint material inertial inertia visual collision origin geometry mass axis".split())
 _SHOWN_ALONE = 3
@@ -31,161 +32,133 @@ _LINES_SHOWN = 8
 _TEXT_SHOWN = 60
 
 
-class Findings:
-    """Collects the diagnostics of one file, and the line of each element by its path (see `RobotReading.lines`)."""
+class Reader:
+    """Reads elements of one file, each with its path in the robot, such as `joint elbow / limit`."""
 
-    def __init__(self, file: str) -> None:
-        self.file = file
+    def __init__(self, lines: Mapping[Element, int]) -> None:
+        self._lines_of_elements = lines
         self.lines: dict[str, int] = {}
-        self._diagnostics: list[Diagnostic] = []
+        """By path: see `RobotReading`."""
+        self.diagnostics: list[Diagnostic] = []
+        """Without the name of the file."""
+        self.extensions: list[Extension] = []
 
     @property
     def failed(self) -> bool:
         """Whether an error was found."""
-        return any(diagnostic.severity is Severity.ERROR for diagnostic in self._diagnostics)
+        return any(found.severity is Severity.ERROR for found in self.diagnostics)
 
-    def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
-        """Add diagnostics that do not have the file's name yet."""
-        self._diagnostics += (msgspec.structs.replace(found, file=self.file) for found in diagnostics)
+    def error(self, element: Element, code: str, message: str, hint: str) -> None:
+        """Add an error about an element."""
+        line = self._lines_of_elements[element]
+        self.diagnostics.append(Diagnostic(Severity.ERROR, code, message, line=line, hint=hint))
 
-    def extend_checks(self, findings: Iterable[Finding]) -> None:
-        """Add what checks say about elements, at the lines of these."""
-        for found in findings:
-            self.add(found.severity, found.code, self.line(found.path), found.message, found.hint)
+    def warn(self, element: Element, code: str, message: str, hint: str) -> None:
+        """Add a warning about an element."""
+        line = self._lines_of_elements[element]
+        self.diagnostics.append(Diagnostic(Severity.WARNING, code, message, line=line, hint=hint))
 
-    def add(self, severity: Severity, code: str, line: int, message: str, hint: str) -> None:
-        """Add a diagnostic about a line of the file."""
-        self._diagnostics.append(Diagnostic(severity, code, message, self.file, line, hint=hint))
+    def extend(self, findings: Iterable[Finding]) -> None:
+        """Add what checks say about elements, at the lines of these or of the nearest ones that contain them."""
+        for severity, code, path, message, hint in findings:
+            place = path
+            while place not in self.lines and " / " in place:
+                place = place.rpartition(" / ")[0]
+            line = self.lines.get(place, self.lines["robot"])
+            self.diagnostics.append(Diagnostic(severity, code, message, line=line, hint=hint))
 
-    def warn(self, code: str, line: int, message: str, hint: str) -> None:
-        """Add a warning about a line of the file."""
-        self.add(Severity.WARNING, code, line, message, hint)
+    def place(self, element: Element, path: str) -> str:
+        """Remember the line of an element; return its path."""
+        self.lines.setdefault(path, self._lines_of_elements[element])
+        return path
 
-    def line(self, path: str) -> int:
-        """Return the line of the element, or of the nearest one that contains it; 0 if unknown."""
-        while path not in self.lines:
-            path, separator, _ = path.rpartition(" / ")
-            if not separator:
-                return self.lines.get("robot", 0)
-        return self.lines[path]
-
-    def result(self) -> tuple[Diagnostic, ...]:
-        """Return all diagnostics by line; more than three warnings of one code become one."""
-        by_code: dict[tuple[Severity, str], list[Diagnostic]] = {}
-        for diagnostic in sorted(self._diagnostics, key=lambda found: (found.line, found.column)):
-            by_code.setdefault((diagnostic.severity, diagnostic.code), []).append(diagnostic)
-        shown: list[Diagnostic] = []
-        for (severity, _), group in by_code.items():
-            if severity is Severity.ERROR or len(group) <= _SHOWN_ALONE:
-                shown += group
+    def children(
+        self, element: Element, path: str, tags: Collection[str], owner: str | None = None
+    ) -> dict[str, Element]:
+        """Return the first child of each tag, visuals and collisions aside; others become extensions of `owner`."""
+        found: dict[str, Element] = {}
+        for child in element:
+            tag = child.tag
+            if tag not in tags:
+                if owner is not None:
+                    self.extension(child, path, tags, owner)
+            elif tag in _REPEATED:
                 continue
-            lines = list(dict.fromkeys(str(diagnostic.line) for diagnostic in group[1:]))
-            listed = ", ".join(lines[:_LINES_SHOWN]) + (", …" if len(lines) > _LINES_SHOWN else "")
-            more = f"(and {len(group) - 1} more like it: line{'s' * (len(lines) > 1)} {listed})"
-            shown.append(msgspec.structs.replace(group[0], message=f"{group[0].message} {more}"))
-        return tuple(sorted(shown, key=lambda found: (found.line, found.column)))
+            elif tag not in found:
+                found[tag] = child
+                self.place(child, f"{path} / {tag}")
+            else:
+                message = f"{path} has another <{tag}>, and the first counts"
+                self.warn(child, "duplicate-element", message, "remove the others")
+        return found
 
+    def extension(self, child: Element, path: str, tags: Collection[str], owner: str) -> None:
+        """Keep an element that has none of `tags`; warn about one that looks like a misspelt one."""
+        if child.tag not in _ELEMENTS and ":" not in child.tag and (meant := nearest(child.tag, tags, 0.8)):
+            message = f"{path}: the element <{child.tag}> is unknown, and has no effect"
+            self.warn(child, "unknown-element", message, f"perhaps <{meant}> is meant")
+        self.extensions.append(Extension(owner, child.tag, canonical(child)))
 
-class UrdfElement(msgspec.Struct, frozen=True, eq=False, gc=False):
-    """An element of the URDF with its place in the robot, for example `joint elbow / limit`."""
-
-    node: XmlNode
-    path: str
-    findings: Findings
-
-    def __post_init__(self) -> None:
-        self.findings.lines.setdefault(self.path, self.node.line)
-
-    def error(self, code: str, message: str, hint: str) -> None:
-        """Add an error about this element."""
-        self.findings.add(Severity.ERROR, code, self.node.line, message, hint)
-
-    def warn(self, code: str, message: str, hint: str) -> None:
-        """Add a warning about this element."""
-        self.findings.warn(code, self.node.line, message, hint)
-
-    def child(self, tag: str, *attributes: str) -> UrdfElement | None:
-        """Return the first child with this tag; `attributes` are those that URDF knows, to find misspelt ones."""
-        found = [node for node in self.node.children if node.tag == tag]
-        if not found:
-            return None
-        element = UrdfElement(found[0], f"{self.path} / {tag}", self.findings)
-        if len(found) > 1:
-            message = f"{self.path} has {len(found)} <{tag}> elements, of which the first counts"
-            extra = UrdfElement(found[1], f"{element.path} #2", self.findings)
-            extra.warn("duplicate-element", message, "remove the others")
-        element.expect(attributes)
-        return element
-
-    def expect(self, attributes: Collection[str]) -> None:
+    def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
         """Warn about attributes that look like misspelt ones of `attributes`."""
-        given = self.node.attributes
-        for name in given:
+        for name in element.keys():  # noqa: SIM118 - an element is no mapping
             if name in attributes or ":" in name:
                 continue
-            if meant := nearest(name, [known for known in attributes if known not in given]):
-                message = f"{self.path}: the attribute {name!r} is unknown, and has no effect"
-                self.warn("unknown-attribute", message, f"perhaps {meant!r} is meant")
+            if meant := nearest(name, [known for known in attributes if known not in element.attrib]):
+                message = f"{path}: the attribute {name!r} is unknown, and has no effect"
+                self.warn(element, "unknown-attribute", message, f"perhaps {meant!r} is meant")
 
-    def extensions(self, owner: str, tags: Collection[str]) -> Iterator[Extension]:
-        """Yield the children that have none of `tags`; warn about those that look like a misspelt one."""
-        for node in self.node.children:
-            if node.tag in tags:
-                continue
-            if node.tag not in _ELEMENTS and ":" not in node.tag and (meant := nearest(node.tag, tags, 0.8)):
-                message = f"{self.path}: the element <{node.tag}> is unknown, and has no effect"
-                self.findings.warn("unknown-element", node.line, message, f"perhaps <{meant}> is meant")
-            yield Extension(owner, node.tag, node.canonical())
+    def read(self, element: Element, path: str, kind: type[Values]) -> Values:
+        """Return a struct whose fields are the attributes, by their names, types and defaults.
 
-    def text(self, name: str) -> str:
-        """Return a text that must be there; an empty one, after an error, if it is not."""
-        self._require(name)
-        value = self.node.attributes.get(name, "")
-        if name in self.node.attributes and not value.strip():
-            self.error("empty-attribute", f"{self.path}: the attribute {name!r} is empty", "fill it in")
-        return value if value.strip() else ""
+        An attribute without a default is required.
+        """
+        self.expect(element, path, kind.__struct_fields__)
+        return kind(*[self._value(element, path, *field) for field in _fields(kind)])
 
-    def number(self, name: str, missing: Missing) -> float | Missing:
-        """Return a number, or `missing` if the attribute is absent."""
-        values = self._numbers(name, 1)
-        return missing if values is None else values[0]
+    def _value(self, element: Element, path: str, name: str, count: int, default: Any) -> Any:
+        if default is msgspec.NODEFAULT:
+            if count == 0:
+                return self.text(element, path, name)
+            if name not in element.attrib:
+                self._missing(element, path, name)
+            default = 1.0 if count == 1 else (1.0,) * count
+        numbers = self.numbers(element, path, name, count)
+        if numbers is None:
+            return default
+        return numbers[0] if count == 1 else numbers
 
-    def numbers(self, kind: type[Numbers]) -> Numbers:
-        """Return a struct of numbers; its fields have the names of the attributes, and their defaults."""
-        defaults: tuple[Any, ...] = kind.__struct_defaults__
-        return kind(*map(self.number, kind.__struct_fields__, defaults))
-
-    def vector(self, name: str, missing: Vector) -> Vector:
-        """Return three numbers, or `missing` if the attribute is absent."""
-        values = self._numbers(name, 3)
-        return missing if values is None else (values[0], values[1], values[2])
-
-    def required(self, name: str) -> float:
-        """Return a number that must be there; 1, after an error, if it is not."""
-        self._require(name)
-        return self.number(name, 1.0)
-
-    def required_vector(self, name: str) -> Vector:
-        """Return three numbers that must be there; ones, after an error, if they are not."""
-        self._require(name)
-        return self.vector(name, (1.0, 1.0, 1.0))
-
-    def _require(self, name: str) -> None:
-        if name not in self.node.attributes:
-            self.error("missing-attribute", f"{self.path} has no attribute {name!r}", f"add {name}=…")
-
-    def _numbers(self, name: str, count: int) -> tuple[float, ...] | None:
+    def numbers(self, element: Element, path: str, name: str, count: int) -> tuple[float, ...] | None:
         """Return the numbers of an attribute; None if it is absent, or after an error."""
-        text = self.node.attributes.get(name)
+        text = element.get(name)
         if text is None:
             return None
         try:
             return parse_numbers(text, count)
         except ValueError as error:
             code = "bad-number" if text.strip() else "empty-attribute"
-            message = f"{self.path}: {name}={quoted(text)} {error}"
-            self.error(code, message, "write decimal numbers such as -0.5 or 1e-3")
+            message = f"{path}: {name}={quoted(text)} {error}"
+            self.error(element, code, message, "write decimal numbers such as -0.5 or 1e-3")
             return None
+
+    def text(self, element: Element, path: str, name: str) -> str:
+        """Return a text that must be there; an empty one, after an error, if it is not."""
+        text = element.get(name)
+        if text is None:
+            self._missing(element, path, name)
+        elif not text.strip():
+            self.error(element, "empty-attribute", f"{path}: the attribute {name!r} is empty", "fill it in")
+        return text if text and text.strip() else ""
+
+    def _missing(self, element: Element, path: str, name: str) -> None:
+        self.error(element, "missing-attribute", f"{path} has no attribute {name!r}", f"add {name}=…")
+
+
+@functools.cache
+def _fields(kind: type[msgspec.Struct]) -> Sequence[tuple[str, int, Any]]:
+    """Return name, count of numbers (0 for a text) and default of each field."""
+    counts = {str: 0, float: 1, float | None: 1}
+    return [(field.name, counts.get(field.type, 3), field.default) for field in msgspec.structs.fields(kind)]
 
 
 # Many attributes of a robot have the same text, such as `xyz="0 0 0"`: this saves a third of reading 1,000 links.
@@ -210,3 +183,20 @@ def parse_numbers(text: str, count: int) -> tuple[float, ...]:
 def quoted(text: str) -> str:
     """Return the text in quotes, cut off if it is long."""
     return repr(text if len(text) <= _TEXT_SHOWN else text[:_TEXT_SHOWN] + "…")
+
+
+def summary(diagnostics: Iterable[Diagnostic], file: str) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of a file by line; more than three warnings of one code become one."""
+    by_code: dict[tuple[Severity, str], list[Diagnostic]] = {}
+    for found in sorted(diagnostics, key=lambda found: (found.line, found.column)):
+        by_code.setdefault((found.severity, found.code), []).append(msgspec.structs.replace(found, file=file))
+    shown: list[Diagnostic] = []
+    for (severity, _), group in by_code.items():
+        if severity is Severity.ERROR or len(group) <= _SHOWN_ALONE:
+            shown += group
+            continue
+        lines = list(dict.fromkeys(str(found.line) for found in group[1:]))
+        listed = ", ".join(lines[:_LINES_SHOWN]) + (", …" if len(lines) > _LINES_SHOWN else "")
+        more = f"(and {len(group) - 1} more like it: line{'s' * (len(lines) > 1)} {listed})"
+        shown.append(msgspec.structs.replace(group[0], message=f"{group[0].message} {more}"))
+    return tuple(sorted(shown, key=lambda found: (found.line, found.column)))

@@ -6,21 +6,20 @@ Where a robot can be read in one sensible way although something is amiss, that 
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from typing import NamedTuple
+from xml.etree.ElementTree import Element
 
 import msgspec
 
 from urdfsync import profiling
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf import validate
 from urdfsync.urdf.parse import xml
-from urdfsync.urdf.parse.fields import Findings, UrdfElement
+from urdfsync.urdf.parse.fields import Reader, summary
 from urdfsync.urdf.parse.joint import read_actuated, read_joint
 from urdfsync.urdf.parse.link import read_link, read_material, resolve_materials
-from urdfsync.urdf.parse.xml import ParseError, XmlNode
-from urdfsync.urdf.robot import Joint, Robot
+from urdfsync.urdf.robot import Robot
 
 _MODELLED = ("link", "joint", "material")
 _OTHER_ROOTS = {
@@ -56,103 +55,89 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = False) -> Robot
     All faults of the model are reported, not only the first; a fault of the XML is one error. With `cross_check`,
     yourdfpy reads a robot without errors too, and the two readings are compared.
     """
-    findings = Findings(file)
     try:
-        root = xml.parse(content)
-    except ParseError as error:
-        findings.extend([error.diagnostic])
-        return RobotReading(None, findings.result(), {})
-    findings.extend(root.document.warnings)
-    robot = _read_robot(root, findings) if _is_urdf(root, findings) else None
-    if cross_check and robot is not None and not findings.failed:
-        _cross_check(content, robot, findings)
-    return RobotReading(None if findings.failed else robot, findings.result(), findings.lines)
+        document = xml.parse(content)
+    except xml.ParseError as error:
+        return RobotReading(None, summary([error.diagnostic], file), {})
+    reader = Reader(document.lines)
+    robot = _read(reader, document.root) if _is_urdf(reader, document) else None
+    if cross_check and robot is not None and not reader.failed:
+        _cross_check(content, robot, reader)
+    diagnostics = summary([*document.warnings, *reader.diagnostics], file)
+    return RobotReading(None if reader.failed else robot, diagnostics, reader.lines)
 
 
 @profiling.stage("cross-check")
-def _cross_check(content: bytes, robot: Robot, findings: Findings) -> None:
+def _cross_check(content: bytes, robot: Robot, reader: Reader) -> None:
     # Late, since yourdfpy takes most of a second to load, and a plain build does without it.
     from urdfsync.urdf.parse.second_reader import compare_readers
 
-    findings.extend_checks(compare_readers(content, robot))
+    reader.extend(compare_readers(content, robot))
 
 
-def _is_urdf(root: XmlNode, findings: Findings) -> bool:
+def _is_urdf(reader: Reader, document: xml.Document) -> bool:
     """Return whether this is a URDF that xacro has expanded; if not, add one error that says what it is."""
+    root = document.root
     if root.tag != "robot":
         kind, _, hint = _OTHER_ROOTS.get(root.tag, "no URDF; name the URDF file instead").partition("; ")
         message = f"the root element is <{root.tag}> and not <robot>: this is {kind}"
-        findings.add(Severity.ERROR, "not-urdf", root.line, message, hint)
+        reader.error(root, "not-urdf", message, hint)
         return False
-    # One of these is in each text with something of xacro, since `&` may stand for any character. Most have none.
-    if not any(sign in root.document.content for sign in (b"xacro:", b"$", b"&")):
+    if "$" not in document.text and "xacro:" not in document.text:
         return True
-    has_links = any(child.tag == "link" for child in root.children)
-    tags: list[XmlNode] = []
-    expressions: list[XmlNode] = []
-    unexpanded: list[XmlNode] = []
-    for child in root.children:
-        for node in child.walk():
-            if node.tag.startswith("xacro:"):
-                tags.append(node)
-            for name, value in node.attributes.items() if child.tag in _MODELLED else ():
-                if "${" in value or "$(" in value:
-                    (expressions if name in _TEXTS else unexpanded).append(node)
-    unexpanded += [node for node in tags if node.tag in _XACRO_LOGIC or not has_links]
-    if unexpanded:
-        message = f"this is a xacro file that is not expanded: <{unexpanded[0].tag}>"
-        hint = "run `xacro FILE.xacro > FILE.urdf`, and name the result"
-        findings.add(Severity.ERROR, "xacro-source", unexpanded[0].line, message, hint)
-        return False
-    for node in [*tags, *expressions][:1]:
+    has_links = root.find("link") is not None
+    leftovers: list[Element] = []
+    for child in root:
+        for element in child.iter():
+            names = [name for name, text in element.items() if "${" in text or "$(" in text]
+            if child.tag not in _MODELLED:
+                names = []
+            is_xacro = element.tag.startswith("xacro:")
+            if (is_xacro and (element.tag in _XACRO_LOGIC or not has_links)) or not set(names).issubset(_TEXTS):
+                message = f"this is a xacro file that is not expanded: <{element.tag}>"
+                hint = "run `xacro FILE.xacro > FILE.urdf`, and name the result"
+                reader.error(element, "xacro-source", message, hint)
+                return False
+            if is_xacro or names:
+                leftovers.append(element)
+    if leftovers:
         message = "the file has leftovers of xacro, which are taken literally or ignored"
         hint = "expand the source with xacro, if this file is not the result of it"
-        findings.warn("xacro-leftover", node.line, message, hint)
+        reader.warn(leftovers[0], "xacro-leftover", message, hint)
     return True
 
 
-def _read_robot(root: XmlNode, findings: Findings) -> Robot:
+def _read(reader: Reader, root: Element) -> Robot:
     """Return the robot; it is of use only if no diagnostic is an error."""
-    top = UrdfElement(root, "robot", findings)
-    top.expect(("name",))
-    name = root.attributes.get("name", "")
+    reader.place(root, "robot")
+    reader.expect(root, "robot", ("name",))
+    name = root.get("name", "")
     if not name.strip():
-        top.warn("missing-name", "the robot has no name", 'write <robot name="…">')
-    children = _children_by_tag(root)
-    extensions = list(top.extensions("", _MODELLED))
+        reader.warn(root, "missing-name", "the robot has no name", 'write <robot name="…">')
+    for child in root:
+        if child.tag not in _MODELLED:
+            reader.extension(child, "robot", _MODELLED, "")
 
-    def elements(*tags: str) -> Iterator[UrdfElement]:
-        return (UrdfElement(node, path, findings) for tag in tags for path, node in children[tag])
+    def elements(tag: str) -> list[tuple[Element, str]]:
+        found = root.findall(tag)
+        paths = validate.element_paths(tag, [element.get("name", "") for element in found])
+        return [(element, reader.place(element, path)) for element, path in zip(found, paths, strict=True)]
 
-    actuated = [named for element in elements("transmission", "ros2_control") for named in read_actuated(element)]
-    materials = [(element.path, read_material(element)) for element in elements("material")]
-    links = [link for element in elements("link") if (link := read_link(element, extensions)).name]
-    joints = [joint for element in elements("joint") if (joint := read_joint(element, extensions)) and joint.name]
-    complete = len(links) == len(children["link"]) and len(joints) == len(children["joint"])
-    robot = Robot(
-        name,
-        resolve_materials(dict(validate.numbered("link", links)), materials, findings),
-        _mark_actuated(joints, {joint for _, joint in actuated}),
-        tuple(extensions),
-    )
-    findings.extend_checks(validate.check(robot, complete=complete))
+    driving = [*elements("transmission"), *elements("ros2_control")]
+    actuated = [found for element, path in driving for found in read_actuated(reader, element, path)]
+    actuated_names = {name for _, name in actuated}
+    materials = {path: read_material(reader, element, path) for element, path in elements("material")}
+    links = [link for element, path in elements("link") if (link := read_link(reader, element, path)).name]
+    joints = [
+        msgspec.structs.replace(joint, actuated=True) if joint.name in actuated_names else joint
+        for element, path in elements("joint")
+        if (joint := read_joint(reader, element, path)) and joint.name
+    ]
+    complete = len(links) == len(root.findall("link")) and len(joints) == len(root.findall("joint"))
+    by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
+    links_with_materials = resolve_materials(reader, by_path, materials)
+    robot = Robot(name, links_with_materials, tuple(joints), tuple(reader.extensions))
+    reader.extend(validate.check(robot, complete=complete))
     if complete:  # else the joint that a transmission names may be one of those left out
-        findings.extend_checks(validate.check_actuated(actuated, {joint.name for joint in joints}))
+        reader.extend(validate.check_actuated(actuated, {joint.name for joint in joints}))
     return validate.normalise_axes(robot)
-
-
-def _children_by_tag(root: XmlNode) -> Mapping[str, Sequence[tuple[str, XmlNode]]]:
-    """Return the children of the root by tag, with their paths; those that share a name are told apart by numbers."""
-    names: Counter[tuple[str, str]] = Counter()
-    children: defaultdict[str, list[tuple[str, XmlNode]]] = defaultdict(list)
-    for node in root.children:
-        name, others = node.attributes.get("name", ""), children[node.tag]
-        path = f"{node.tag} {name}" if name.strip() else f"{node.tag} number {len(others) + 1}"
-        names[node.tag, name] += 1
-        count = names[node.tag, name]
-        others.append((path if count == 1 else f"{path} #{count}", node))
-    return children
-
-
-def _mark_actuated(joints: Sequence[Joint], names: set[str]) -> tuple[Joint, ...]:
-    return tuple(msgspec.structs.replace(joint, actuated=True) if joint.name in names else joint for joint in joints)
