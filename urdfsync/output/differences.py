@@ -107,7 +107,8 @@ def _block_lines(texts: Texts, block: Block, has_base: bool) -> Iterator[Line]:
     if len(found) == 2 and found["mine"] == found["generated"]:
         found = {"both": found["mine"]}
     found = {"base": parts["base"], **found} if has_base else found
-    shared = [len(os.path.commonprefix(lines)) for lines in zip_longest(*found.values(), fillvalue="")]
+    in_place = zip_longest(*found.values(), fillvalue="")
+    shared = [len(os.path.commonprefix(lines)) for lines in in_place]  # noqa: RUF071 - of texts
     for name, lines in found.items():
         start = block["mine" if name == "both" else name].start
         yield from (Line(name, start + index + 1, line, shared[index]) for index, line in enumerate(lines))
@@ -143,7 +144,7 @@ def _title(hunk: Hunk, conflict: Conflict, console: Console) -> Text:
     first, last = min(numbers, default=0), max(numbers, default=0)
     where = f"lines {first} to {last}" if last > first else f"line {first}" if first else "empty"
     sides = {line.version for line in hunk.lines} - {"", "base"}
-    what = {("mine",): "your edit", ("generated",): "new"}.get(tuple(sides), "your edit and what is new")
+    what = "your edit" if sides == {"mine"} else "new" if sides == {"generated"} else "your edit and what is new"
     if hunk.clash or conflict.base is None:
         what = "the sides contradict each other" if hunk.clash else "not the same"
     rule = "──" if has_marks(console.file) else "--"
@@ -162,8 +163,7 @@ def _rows(line: Line, console: Console, digits: int) -> Iterator[Text]:
         words = f"{'…' if start else ''}{words[start:]}"
         words = words if len(words) <= most else f"{words[: most - 1]}…"
     for begin in range(0, max(len(words), 1), room):
-        row = text((f"{gutter}{words[begin : begin + room]}".rstrip(), _COLOURS[line.version]))
-        yield row
+        yield text((f"{gutter}{words[begin : begin + room]}".rstrip(), _COLOURS[line.version]))
         gutter = " " * len(gutter)
 
 
