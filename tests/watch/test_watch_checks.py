@@ -167,6 +167,7 @@ def test_one_package_is_checked_at_a_time_in_the_order_of_builds(project: Path, 
     assert len(compiler.saw) == 1
     MODEL.write_text(MODEL.read_text().replace("end R2;", "  Foo foo;\nend R2;"))  # takes the place of the first
     until(lambda: daemon.kinds().count("Built") == 3)
+    daemon.rest()
     compiler.free.set()
     until(lambda: daemon.kinds().count("CheckDone") == 2)
     found = [event for event in daemon.events if isinstance(event, events.CheckDone)]

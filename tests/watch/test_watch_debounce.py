@@ -2,51 +2,13 @@
 
 from __future__ import annotations
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.watch.debounce import Debouncer, Phase, Times
+from urdfsync.watch.debounce import Debouncer, Times
 
-TIMES = Times(settle=0.3, sample=0.2, give_up_after=30.0, recheck_shrunk=2.0)
+TIMES = Times(settle=0.3, sample=0.2)
 SMALLEST = 1e-6
-
-
-def touched(now: float = 0.0) -> Debouncer:
-    debouncer = Debouncer(TIMES)
-    debouncer.touch(now)
-    return debouncer
-
-
-def settled(now: float = 0.0) -> Debouncer:
-    debouncer = touched(now)
-    debouncer.add_sample("a", now + 0.3)
-    assert debouncer.add_sample("a", now + 0.5) is Phase.SETTLED
-    return debouncer
-
-
-def test_an_invalid_source_is_given_up_after_a_time() -> None:
-    debouncer = settled(0.0)
-    assert debouncer.wait_for_valid(0.5) is Phase.INVALID
-    assert debouncer.add_sample("a", 1.5) is Phase.INVALID
-    assert debouncer.add_sample("a", 30.4) is Phase.INVALID
-    assert debouncer.deadline == pytest.approx(30.5)
-    assert debouncer.add_sample("a", 30.5) is Phase.IDLE
-    assert debouncer.is_idle
-
-
-def test_the_time_counts_from_the_first_invalid_sample() -> None:
-    debouncer = settled(0.0)
-    debouncer.wait_for_valid(0.5)
-    debouncer.touch(29.0)
-    debouncer.add_sample("b", 29.3)
-    assert debouncer.add_sample("b", 29.5) is Phase.SETTLED
-    assert debouncer.wait_for_valid(29.5) is Phase.INVALID
-    debouncer.touch(31.0)
-    debouncer.add_sample("c", 31.3)
-    assert debouncer.add_sample("c", 31.5) is Phase.SETTLED
-    assert debouncer.wait_for_valid(31.5) is Phase.IDLE
-
 
 steps = st.lists(
     st.tuples(st.sampled_from(["event", "write", "silent write", "wait"]), st.floats(0.0, 3.0)), max_size=40
@@ -67,9 +29,10 @@ def test_nothing_is_built_that_has_just_changed(steps: list[tuple[str, float]]) 
             debouncer.touch(now)
             event = now
         end = now + pause
-        while debouncer.deadline is not None and debouncer.deadline <= end:
-            now = max(debouncer.deadline, now)
-            if debouncer.add_sample(content, now) is Phase.SETTLED:
+        while debouncer.due is not None and debouncer.due <= end:
+            now = max(debouncer.due, now)
+            assert debouncer.is_due(now)
+            if debouncer.add_sample(content, now):
                 assert now - changed >= TIMES.sample - SMALLEST or changed == -10.0
                 assert now - event >= TIMES.settle + TIMES.sample - SMALLEST
                 debouncer.rest()
@@ -84,5 +47,10 @@ def test_a_steady_writer_is_never_sampled(pauses: list[float]) -> None:
     for pause in pauses:
         debouncer.touch(now)
         now += pause
-        assert debouncer.deadline is not None
-        assert debouncer.deadline > now
+        assert not debouncer.is_due(now)
+
+
+def test_one_sample_may_be_enough() -> None:
+    debouncer = Debouncer(Times(settle=0.3, sample=0.0))
+    debouncer.touch(0.0)
+    assert debouncer.add_sample("a", 0.3)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
@@ -17,22 +18,16 @@ def ladder(project: Path) -> RobotPaths:
     return find_robot_paths(loaded, loaded.robots[0], (), Cache())
 
 
-def names(project: Path, paths: frozenset[str]) -> set[str]:
+def names(project: Path, paths: Iterable[str]) -> set[str]:
     return {os.path.relpath(path, project) for path in paths}
 
 
-def bare(source: Path, package: Path) -> RobotPaths:
-    return RobotPaths(
-        source=str(source),
-        inputs=frozenset([str(source)]),
-        templates=None,
-        outputs=frozenset(),
-        package=str(package),
-    )
-
-
-def seen(project: Path, one: RobotPaths) -> WatchedPaths:
-    return find_watched_paths(str(project), str(project / "urdfsync.toml"), {"arm": one})
+def seen(project: Path, source: str, output: str = "modelica") -> WatchedPaths:
+    """Where a configuration in this folder has its robot `arm` watched that was never built."""
+    text = f'[robots.arm]\nsource = "{source}"\npackage = "Arm"\noutput = "{output}"\n'
+    loaded = config.parse(text, project / "urdfsync.toml", "urdfsync.toml")
+    paths = RobotPaths(frozenset([str(loaded.robots[0].source)]), frozenset())
+    return find_watched_paths(loaded, {"arm": paths})
 
 
 def test_a_dependency_may_turn_up_wherever_it_is_looked_for(project: Path) -> None:
@@ -55,16 +50,16 @@ def test_parents_and_templates_matter(project: Path) -> None:
         '[robots.ladder]\nsource = "ladder.json"\npackage = "Plant.Ladder"\ndomain = "rcnetwork"\ntemplates = "own"\n'
     )
     (project / "own/sub").mkdir(parents=True)
-    (project / "own/sub/x.jinja").write_text("")
     found = ladder(project)
     assert {"modelica/Plant/package.mo", "modelica/Plant/package.order"} <= names(project, found.outputs)
-    assert str(project / "own/sub/x.jinja") in set(found.input_files())
+    watched = find_watched_paths(config.load(project / "urdfsync.toml"), {"ladder": found})
+    assert watched.robots_for(str(project / "own/sub/x.jinja")) == {"ladder"}
 
 
 def test_folders_up_to_that_of_the_configuration_are_watched(tmp_path: Path) -> None:
     project = tmp_path / "project"
     (project / "cad/export").mkdir(parents=True)
-    found = seen(project, bare(project / "cad/export/arm.urdf", project / "modelica/Arm"))
+    found = seen(project, "cad/export/arm.urdf")
     assert names(project, found.folders) == {".", "cad", "cad/export"}
     for name in ("cad", "cad/export", "cad/export/arm.urdf", "modelica", "modelica/Arm"):
         assert found.robots_for(str(project / name)) == {"arm"}
@@ -77,23 +72,19 @@ def test_elsewhere_folders_are_watched_up_to_the_nearest_common_one(tmp_path: Pa
     project.mkdir(parents=True)
     cad.mkdir(parents=True)
     (cad / "arm.urdf").write_text("")
-    found = seen(project, bare(cad / "arm.urdf", project / "modelica/Arm"))
+    found = seen(project, str(cad / "arm.urdf"))
     assert found.folders == {str(folder) for folder in (project, tmp_path, tmp_path / "cad", cad)}
     assert found.robots_for(str(tmp_path / "a")) == set()
 
 
 @pytest.mark.parametrize("root", ["/", "/project"])
 def test_the_root_is_never_watched(root: str) -> None:
-    found = find_watched_paths(
-        root,
-        f"{root}/urdfsync.toml",
-        {"arm": RobotPaths("/etc/hostname", frozenset(["/etc/hostname"]), None, frozenset(), "/usr")},
-    )
+    found = seen(Path(root), "/etc/hostname", "/usr")
     assert "/" not in found.folders
     assert "/" not in found.by_path
 
 
 def test_links_without_end(tmp_path: Path) -> None:
     (tmp_path / "loop").symlink_to("loop/loop")
-    found = seen(tmp_path, bare(tmp_path / "loop/arm.urdf", tmp_path / "modelica/Arm"))
+    found = seen(tmp_path, "loop/arm.urdf")
     assert found.robots_for(str(tmp_path / "loop")) == {"arm"}

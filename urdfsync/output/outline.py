@@ -1,4 +1,4 @@
-"""Changes of a model in words: the rows of each element, numbers with the digits that tell them apart.
+"""Changes of a model in words: the rows of each element.
 
 What belongs together is one row: the components of a vector, all rounding, all that is not modelled. Elements with the
 same rows share them.
@@ -30,8 +30,6 @@ _WIDTH = 40
 """Characters of a text that are shown."""
 _CONTEXT = 12
 """Characters of a long text before the place where it differs."""
-_DIGITS = 6
-"""Numbers with so many characters are not rounded."""
 _HASH = re.compile(r"[0-9a-f]{64}")
 
 
@@ -121,10 +119,10 @@ def change_row(components: Sequence[Change], *, exact: bool = False) -> OutlineR
         relation = _ROUNDING
     elif first.unit == "rad" and is_number(first.old) and is_number(first.new):
         degrees = [list(map(math.degrees, one)) if isinstance(one, list) else math.degrees(one) for one in (old, new)]
-        relation = " → ".join(_pair(*degrees, mark="°"))
+        relation = _pair(*degrees, mark="°")
     else:
         relation = _percent(old, new) or relation
-    value = f"{' → '.join(_pair(old, new, exact=exact))} {first.unit}".rstrip()
+    value = f"{_pair(old, new, exact=exact)} {first.unit}".rstrip()
     return OutlineRow(label, first.kind, value, relation, is_quiet or first.noise)
 
 
@@ -132,57 +130,54 @@ def effect_rows(effects: Sequence[Effect]) -> list[OutlineRow]:
     """Return properties of the whole model as rows, without those that differ by rounding at most."""
     rows = []
     for effect in effects:
-        label, old, new, relation = " ".join(effect.path), effect.old, effect.new, effect.hint
-        kind, is_same = ChangeKind.CHANGED, old == new
+        old, new, kind = effect.old, effect.new, ChangeKind.CHANGED
+        value, relation, is_same = _pair(old, new), effect.hint or _percent(old, new), old == new
         if old is None or new is None:
             kind = ChangeKind.REMOVED if new is None else ChangeKind.ADDED
-            value = f"was {_value(old)}" if new is None else f"now {_value(new)}"
+            value, relation = f"was {_value(old)}" if new is None else f"now {_value(new)}", effect.hint
         elif _is_vector(old) and _is_vector(new) and len(old) == len(new):
             is_same = math.dist(old, new) <= _SAME * max(map(abs, (*old, *new)))
-            value, relation = " → ".join(_pair(old, new)), f"by {math.dist(old, new):.3g} {effect.unit}".rstrip()
-        else:
-            is_same = math.isclose(old, new, rel_tol=_SAME) if is_number(old) and is_number(new) else is_same
-            value, relation = " → ".join(_pair(old, new)), relation or _percent(old, new)
+            relation = f"by {math.dist(old, new):.3g} {effect.unit}".rstrip()
+        elif is_number(old) and is_number(new):
+            is_same = math.isclose(old, new, rel_tol=_SAME)
         if not is_same:
-            rows.append(OutlineRow(label, kind, f"{value} {effect.unit}".rstrip(), relation))
+            rows.append(OutlineRow(" ".join(effect.path), kind, f"{value} {effect.unit}".rstrip(), relation))
     return rows
 
 
 # --- values in few characters -------------------------------------------------------------------------------------
 
 
-def _pair(old: Any, new: Any, *, mark: str = "", exact: bool = False) -> tuple[str, str]:
-    """Return two values; numbers have as many digits as it takes to see the difference, and `mark` behind them.
+def _pair(old: Any, new: Any, *, mark: str = "", exact: bool = False) -> str:
+    """Return two values, numbers with `mark` behind them; with all their digits if they look the same otherwise.
 
-    Components of two vectors have the same decimals. Of long texts only a part is left, unless `exact`.
+    Of long texts only a part is left, unless `exact`.
     """
-    if is_number(old) and is_number(new):
-        if exact:
-            return repr(old), repr(new)
-        decimals = max(_decimals(abs(new - old), 2), _decimals(abs(old), 3), _decimals(abs(new), 3))
-        return f"{_number(old, decimals)}{mark}", f"{_number(new, decimals)}{mark}"
-    if _is_vector(old) and _is_vector(new) and len(old) == len(new):
-        decimals = max(_decimals(math.dist(old, new), 2), _decimals(max(map(abs, (*old, *new))), 3))
-        before, after = (", ".join(f"{_number(value, decimals)}{mark}" for value in vector) for vector in (old, new))
-        return f"({before})", f"({after})"
-    if not (isinstance(old, str) and isinstance(new, str)):
-        return _value(old), _value(new)
-    if _HASH.fullmatch(old) and _HASH.fullmatch(new):
-        return old[:8], new[:8]
-    if exact or max(len(old), len(new)) <= _WIDTH:
-        return old or '""', new or '""'
-    same = next((k for k, (a, b) in enumerate(zip(old, new, strict=False)) if a != b), min(len(old), len(new)))
-    begin = max(0, same - _CONTEXT)
-    before, after = (("…" if begin else "") + " ".join(text[begin:].split()) for text in (old, new))
-    return _cut(before), _cut(after)
+    if isinstance(old, str) and isinstance(new, str):
+        shown = old or '""', new or '""'
+        if _HASH.fullmatch(old) and _HASH.fullmatch(new):
+            shown = old[:8], new[:8]
+        elif not exact and max(len(old), len(new)) > _WIDTH:
+            same = next((k for k, (a, b) in enumerate(zip(old, new, strict=False)) if a != b), min(len(old), len(new)))
+            begin = max(0, same - _CONTEXT)
+            shown = _cut(_excerpt(old, begin)), _cut(_excerpt(new, begin))
+    else:
+        shown = _value(old, mark=mark, exact=exact), _value(new, mark=mark, exact=exact)
+        if shown[0] == shown[1]:
+            shown = _value(old, mark=mark, exact=True), _value(new, mark=mark, exact=True)
+    return " → ".join(shown)
 
 
-def _value(value: Any) -> str:
+def _excerpt(text: str, begin: int) -> str:
+    return ("…" if begin else "") + " ".join(text[begin:].split())
+
+
+def _value(value: Any, *, mark: str = "", exact: bool = False) -> str:
     """Return one value."""
     if is_number(value):
-        return _number(value, _decimals(abs(value), 3))
+        return f"{repr(value) if exact else format(value, '.6g')}{mark}"
     if _is_vector(value):
-        return f"({', '.join(map(_value, value))})"
+        return f"({', '.join(_value(number, mark=mark, exact=exact) for number in value)})"
     return _cut(value if isinstance(value, str) else json.dumps(value, ensure_ascii=False))
 
 
@@ -203,30 +198,11 @@ def _percent(old: Any, new: Any) -> str:
     if not (is_number(old) and is_number(new)) or old == 0 or new / old < 0:
         return ""
     percent = 100 * (new - old) / abs(old)
-    if abs(percent) >= 1000:
-        return f"× {new / old:.3g}"
-    if 0 < abs(percent) < 0.001:
-        return "< 0.001 %"
-    digits = max(0, 2 - math.floor(math.log10(abs(percent)))) if percent else 0
-    text = f"{percent:+.{digits}f}"
-    return f"{text.rstrip('0').rstrip('.') if '.' in text else text} %"
+    return f"{percent:+.3g} %" if abs(percent) < 999 else f"× {new / old:.3g}"
 
 
 def _is_vector(value: object) -> bool:
     return isinstance(value, list | tuple) and bool(value) and all(map(is_number, value))
-
-
-def _decimals(size: float, digits: int) -> int:
-    """Return how many decimals show a number of this size with so many digits after its first one."""
-    return max(0, digits - math.floor(math.log10(size))) if 0 < size < math.inf else 0
-
-
-def _number(value: float, decimals: int) -> str:
-    """Return a number with so many decimals, but with no digit more than it has, or than ten; with all if few."""
-    exact = f"{value:.10g}"
-    if len(exact.lstrip("-")) <= _DIGITS or not math.isfinite(value):
-        return exact
-    return f"{round(value, decimals) + 0.0:.10g}"
 
 
 def _cut(text: str, width: int = _WIDTH) -> str:

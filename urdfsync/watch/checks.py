@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Sequence
 from queue import SimpleQueue
 from types import TracebackType
 from typing import Self
@@ -42,18 +43,18 @@ class CancelledError(Exception):
 
 
 class CheckQueue:
-    """The checks that run and wait; cancelled at the end of its context. Methods return the events to show.
+    """The newest check of each robot, in their order; cancelled at the end of its context. Methods return events.
 
-    A robot's newer check takes the place of its older one: the files of that are not on disk any more. Only the check
-    itself runs in the thread; its end comes through the daemon's queue, as `CheckEnded`.
+    Only the check itself runs in a thread; its end comes through the daemon's queue, as `CheckEnded`.
     """
 
     def __init__(self, queue: SimpleQueue[object], options: BuildOptions) -> None:
         self._queue, self._options = queue, options
         self._checker: BuildChecker
-        self._waiting: dict[str, CheckJob] = {}
-        self._running: CheckJob | None = None
+        self._jobs: dict[str, CheckJob] = {}
+        """By robot; the first one may run."""
         self._thread: threading.Thread | None = None
+        """The check that runs, cancelled or not."""
         self._last: dict[str, Checked] = {}
         self._told: set[Diagnostic] = set()
 
@@ -63,58 +64,53 @@ class CheckQueue:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._cancel_all()
+        for name in [*self._jobs]:
+            self._cancel(name)
         if self._thread is not None:
             self._thread.join(_PATIENCE)
 
     def use(self, config: Config) -> None:
         """Check by this configuration from now on, whatever was found before."""
         self._checker = BuildChecker(config, self._options)
-        self._cancel_all()
+        for name in [*self._jobs]:
+            self._cancel(name)
         self._last.clear()
 
-    def check(self, robot: RobotConfig) -> list[events.Event]:
+    def check(self, robot: RobotConfig) -> Sequence[events.Event]:
         """Check the package of a robot as it is now, unless such a check runs, or found it right."""
         if not robot.checking:
-            return []
-        key = self._checker.key(robot)
-        pending, running = self._waiting.get(robot.name), self._running
-        if pending is None and running and running.robot.name == robot.name and not running.is_cancelled:
-            pending = running
-        if pending is not None:
-            if key is not None and pending.key == key:
-                return []
-            pending.is_cancelled = True
-            self._waiting.pop(robot.name, None)
-        if found := self._checker.known(key):
-            was_right = pending is None and self._last.get(robot.name, Checked.RIGHT) is Checked.RIGHT
-            event = self._note(robot, found)
-            return [] if was_right and found.checked is Checked.RIGHT else [event]
-        self._waiting[robot.name] = CheckJob(robot, key)
-        return self._start_next()
+            return ()
+        key, job = self._checker.key(robot), self._jobs.get(robot.name)
+        if job is not None and key is not None and job.key == key:
+            return ()
+        self._cancel(robot.name)  # the files of an older check are not on disk any more
+        found = self._checker.known(key)
+        if found is None:
+            self._jobs[robot.name] = CheckJob(robot, key)
+            return self._start_next()
+        was_right = job is None and self._last.get(robot.name, Checked.RIGHT) is Checked.RIGHT
+        event = self._note(robot, found)
+        return () if was_right and found.checked is Checked.RIGHT else (event,)
 
-    def finish(self, ended: CheckEnded) -> list[events.Event]:
+    def finish(self, ended: CheckEnded) -> Sequence[events.Event]:
         """Take note of the end of a check, and start the next."""
-        self._running = None
+        self._thread = None
         if ended.found is None or ended.job.is_cancelled:
             return self._start_next()
-        return [self._note(ended.job.robot, ended.found), *self._start_next()]
+        del self._jobs[ended.job.robot.name]
+        return self._note(ended.job.robot, ended.found), *self._start_next()
 
-    def _cancel_all(self) -> None:
-        for job in (*self._waiting.values(), *([self._running] if self._running else [])):
+    def _cancel(self, name: str) -> None:
+        if job := self._jobs.pop(name, None):
             job.is_cancelled = True
-        self._waiting.clear()
 
-    def _start_next(self) -> list[events.Event]:
-        if self._running is not None or not self._waiting:
-            return []
-        name = next(iter(self._waiting))
-        job = self._running = self._waiting.pop(name)
-        self._thread = threading.Thread(
-            target=self._run, args=(job, self._checker), name=f"check of {name}", daemon=True
-        )
+    def _start_next(self) -> Sequence[events.Event]:
+        if self._thread is not None or not self._jobs:
+            return ()
+        name, job = next(iter(self._jobs.items()))
+        self._thread = threading.Thread(target=self._run, args=(job, self._checker), daemon=True)
         self._thread.start()
-        return [events.Checking(name)]
+        return (events.Checking(name),)
 
     def _run(self, job: CheckJob, checker: BuildChecker) -> None:
         def cancel_here(what: str, done: int, total: int) -> None:  # noqa: ARG001 - the signature of `Progress`

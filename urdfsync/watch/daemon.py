@@ -3,8 +3,8 @@
 An event only says where to look. What is built is decided by the files on disk, so an event too many or too few costs
 time and nothing else.
 
-A build is followed by a dry one, which finds nothing to do unless somebody else was writing. So the daemon need not
-know what it wrote itself: any file that differs from what the dry build saw was changed by others.
+A robot is built until a build leaves all files as they were before it. So the daemon need not know what it wrote
+itself: after a build that wrote something, or during which somebody else did, the files settle, and are built again.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
 from urdfsync.watch import build, events, precommit
 from urdfsync.watch.checks import CheckEnded, CheckQueue
-from urdfsync.watch.debounce import Debouncer, Phase, Times
+from urdfsync.watch.debounce import Debouncer, Times
 from urdfsync.watch.exec import CommandEnded, CommandRunner
 from urdfsync.watch.observer import Observer
 from urdfsync.watch.paths import CONFIG, WatchedPaths, find_robot_paths, find_watched_paths
-from urdfsync.watch.robots import WatchedRobot, find_changes, read_state
-from urdfsync.watch.single_instance import SingleInstance
+from urdfsync.watch.robot import WatchedRobot, read_state
+from urdfsync.watch.single_instance import InstanceLock
 
 _PAUSE = 0.25
 """Seconds between two looks whether pre-commit has ended."""
 _POLL = 1.0
-"""Seconds between two reads of all inputs, where there are no events."""
+"""Seconds between two reads of all inputs, where there are no events; and of a source that is invalid."""
 
 
 class WatchOptions(msgspec.Struct, frozen=True):
@@ -61,7 +61,6 @@ class Daemon:
 
     def __init__(self, options: WatchOptions, listener: events.Listener) -> None:
         self._options, self._listener = options, listener
-        self._file = str(options.file.absolute())
         self._cache = Cache()
         self._build_options = msgspec.structs.replace(options.build, progress=self._progress, cache=self._cache)
         self._queue: SimpleQueue[object] = SimpleQueue()
@@ -71,7 +70,8 @@ class Daemon:
         self._checks = CheckQueue(self._queue, options.build)
         self._commands = CommandRunner(self._queue, options.command, options.file.absolute().parent)
         self._config: Config
-        self._config_hash = read_state(self._file).sha256
+        self._config_file = str(options.file.absolute())
+        self._config_hash = read_state(self._config_file).sha256
         self._config_debouncer = Debouncer(options.times)
         self._config_errors: tuple[Diagnostic, ...] = ()
         self._watched = WatchedPaths()
@@ -92,14 +92,15 @@ class Daemon:
         """
         loaded = config.load(self._options.file)
         try:
-            with SingleInstance(loaded) as instance, contextlib.closing(self._observer), self._checks:
+            with InstanceLock(loaded) as lock, contextlib.closing(self._observer), self._checks:
+                lock.hold()
                 self._use(loaded)
                 self._next_rescan = time.monotonic() + self._options.rescan
                 while not self._stop_signal:
                     self._receive()
                     if time.monotonic() >= self._next_rescan:
                         with contextlib.suppress(OutputError):  # where this daemon can't write the lock, no other can
-                            instance.renew()
+                            lock.hold()
                         self._rescan()
                     elif self._is_polling and time.monotonic() >= self._next_poll:
                         self._poll()
@@ -108,15 +109,11 @@ class Daemon:
         except KeyboardInterrupt:
             if not self._stop_signal:
                 raise
-        self._show(events.Stopping(self._stop_signal))
-
-    def _show(self, *found: events.Event) -> None:
-        for event in found:
-            self._listener.show(event)
+        self._listener.show(events.Stopping(self._stop_signal))
 
     def _note(self, diagnostics: tuple[Diagnostic, ...]) -> None:
         if diagnostics:
-            self._show(events.Noted(diagnostics))
+            self._listener.show(events.Noted(diagnostics))
 
     def _progress(self, what: str, done: int, total: int) -> None:
         """Show a step of the build under way, which is a place at which it can be given up."""
@@ -136,15 +133,15 @@ class Daemon:
             paths = find_robot_paths(loaded, robot, self._options.build.package_paths, self._cache)
             watched = before.get(robot.name) or WatchedRobot(robot, paths, Debouncer(self._options.times))
             watched.robot, watched.paths, watched.built, watched.is_announced = robot, paths, None, True
+            watched.debouncer.touch(time.monotonic())
             self._robots[robot.name] = watched
         self._cache.forget_others(self._robots)
-        self._show(events.Started(loaded.file, tuple(robot.name for robot in robots), again))
+        self._listener.show(events.Started(loaded.file, tuple(self._robots), again))
         self._note(tuple(warnings.find_warnings(loaded, robots)))
         self._watch_folders()
-        self._touch(*self._robots.values())
 
     def _look_at_config(self) -> None:
-        if self._config_debouncer.is_idle and read_state(self._file).sha256 != self._config_hash:
+        if self._config_debouncer.is_idle and read_state(self._config_file).sha256 != self._config_hash:
             self._config_debouncer.touch(time.monotonic())
 
     def _settle_config(self) -> None:
@@ -152,8 +149,8 @@ class Daemon:
         debouncer, now = self._config_debouncer, time.monotonic()
         if not debouncer.is_due(now):
             return
-        found = read_state(self._file).sha256
-        if debouncer.add_sample(found, now) is not Phase.SETTLED:
+        found = read_state(self._config_file).sha256
+        if not debouncer.add_sample(found, now):
             return
         debouncer.rest()
         if found == self._config_hash:
@@ -178,27 +175,28 @@ class Daemon:
                     case str():
                         paths.add(message)
                     case CommandEnded():
-                        self._show(events.Ran(message.robot, message.code))
+                        self._listener.show(events.Ran(message.robot, message.code))
                         self._note(self._commands.finish(message))
                     case CheckEnded():
-                        self._show(*self._checks.finish(message))
+                        self._show_all(self._checks.finish(message))
                 message = self._queue.get_nowait()
         if paths:
             self._receive_paths(paths)
 
+    def _show_all(self, found: Sequence[events.Event]) -> None:
+        for event in found:
+            self._listener.show(event)
+
     def _seconds_until_due(self) -> float:
         now = time.monotonic()
-        deadlines = [
-            self._config_debouncer.deadline,
-            *(watched.debouncer.deadline for watched in self._robots.values()),
-        ]
-        due = [deadline for deadline in deadlines if deadline is not None]
-        if self._is_paused:
-            due = [max(deadline, now + _PAUSE) for deadline in due]
-        elif not due and not self._is_warm:
+        debouncers = [self._config_debouncer, *(watched.debouncer for watched in self._robots.values())]
+        due = [debouncer.due for debouncer in debouncers if debouncer.due is not None]
+        if not due and not self._is_warm:
             return 0.0
-        reads = [self._next_rescan, self._next_poll] if self._is_polling else [self._next_rescan]
-        return max(min([*due, *reads]) - now, 0.0)
+        due.append(self._next_rescan)
+        due += [self._next_poll] if self._is_polling else []
+        due += [now + _PAUSE] if self._is_paused else []
+        return max(min(due) - now, 0.0)
 
     def _receive_paths(self, paths: set[str]) -> None:
         """Let settle what has changed at some of these paths."""
@@ -208,23 +206,19 @@ class Daemon:
                 by_robot.setdefault(name, set()).add(path)
         if CONFIG in by_robot:
             self._look_at_config()
-        affected = [self._robots[name] for name in by_robot if name in self._robots]
-        if not all(watched.has_only_files(by_robot[watched.name]) for watched in affected):
+        affected = [watched for name, watched in self._robots.items() if name in by_robot]
+        known = (path in one.files or path in one.paths.outputs for one in affected for path in by_robot[one.name])
+        if not all(known):
             self._watch_folders()  # a folder or a link may have been replaced
-        changed = [
-            watched
-            for watched in affected
-            if not watched.debouncer.is_idle or watched.has_changed_at(by_robot[watched.name])
-        ]
-        self._touch(*changed)
+        self._touch([one for one in affected if one.is_announced or one.has_changed(by_robot[one.name])])
 
-    def _touch(self, *robots: WatchedRobot) -> None:
+    def _touch(self, robots: Sequence[WatchedRobot]) -> None:
         """Let robots settle, since something changed; all from the same moment, so that they are built together."""
         now = time.monotonic()
         for watched in robots:
             if not watched.is_announced:
-                self._show(events.Settling(watched.name))
-                watched.is_announced = True
+                self._listener.show(events.Settling(watched.name))
+            watched.is_announced, watched.source_errors = True, ()
             watched.debouncer.touch(now)
 
     # Looks without an event
@@ -237,13 +231,12 @@ class Daemon:
     def _watch_folders(self) -> None:
         if self._options.poll:
             return
-        robots = {name: watched.paths for name, watched in self._robots.items()}
-        self._watched = find_watched_paths(str(self._config.root), self._file, robots)
+        self._watched = find_watched_paths(self._config, {name: one.paths for name, one in self._robots.items()})
         found = self._observer.watch_folders(self._watched)
         known = {diagnostic.hint for diagnostic in self._unwatched}
         self._note(tuple(diagnostic for diagnostic in found if diagnostic.hint not in known))
         if self._unwatched and not found:
-            self._show(events.Recovered("all folders are watched again"))
+            self._listener.show(events.Recovered("all folders are watched again"))
         self._unwatched = found
 
     def _rescan(self) -> None:
@@ -252,13 +245,10 @@ class Daemon:
         self._next_rescan, self._next_poll = now + self._options.rescan, now + _POLL
         self._watch_folders()
         self._look_at_config()
-        for watched in self._robots.values():
-            if not watched.debouncer.is_idle:
-                continue
-            watched.read_files()
-            if not watched.is_as_built():
-                self._touch(watched)
-            elif watched.failure is not None:
+        idle = [watched for watched in self._robots.values() if watched.debouncer.is_idle]
+        self._touch([watched for watched in idle if watched.has_changed()])
+        for watched in idle:
+            if watched.failure is not None and watched.debouncer.is_idle:
                 watched.debouncer.touch(now)
 
     def _poll(self) -> None:
@@ -266,106 +256,95 @@ class Daemon:
         self._next_poll = time.monotonic() + _POLL
         self._look_at_config()
         idle = [watched for watched in self._robots.values() if watched.debouncer.is_idle]
-        self._touch(*(watched for watched in idle if watched.has_changed_at({*watched.paths.input_files()})))
+        self._touch([watched for watched in idle if watched.has_changed(watched.files.keys() - watched.paths.outputs)])
 
     def _update_pause(self) -> bool:
-        """Return whether nothing must be built now. What was paused has to settle again."""
+        """Return whether nothing must be built now, since pre-commit has stashed changes away."""
         stash = precommit.find_stash(self._config.root)
         if stash and not self._is_paused:
-            self._show(events.Paused(f"pre-commit (process {stash[1]}) has stashed unstaged changes away"))
-        has_resumed = stash is None and self._is_paused
-        if has_resumed:
-            self._show(events.Resumed())
-            self._touch(*(watched for watched in self._robots.values() if not watched.debouncer.is_idle))
+            reason = f"pre-commit (process {stash[1]}) has stashed unstaged changes away"
+            self._listener.show(events.Paused(reason))
+        elif self._is_paused and not stash:
+            self._listener.show(events.Resumed())
         self._is_paused = stash is not None
-        return self._is_paused or has_resumed
+        return self._is_paused
 
     # Builds
 
     def _build_settled(self) -> None:
         """Build the robots whose files have settled; while there is nothing to do, get ready for the first change."""
-        now = time.monotonic()
-        due = [watched for watched in self._robots.values() if watched.debouncer.is_due(now)]
-        if due and self._update_pause():
-            return
-        ready = [watched for watched in due if self._settle(watched, now)]
-        if ready and self._update_pause():  # reading may have taken a while
-            self._touch(*ready)
+        now, robots = time.monotonic(), self._robots.values()
+        if self._is_paused:
+            self._update_pause()
+        ready = [watched for watched in robots if watched.debouncer.is_due(now) and self._has_settled(watched, now)]
+        if ready and self._update_pause():
+            for watched in ready:
+                watched.debouncer.touch(now + _PAUSE)
         elif ready:
             self._build(ready)
-        elif not self._is_warm and all(watched.debouncer.is_idle for watched in self._robots.values()):
+        elif not self._is_warm and all(watched.debouncer.is_idle for watched in robots):
             self._is_warm = True
-            build.warm_up(self._config, [watched.robot for watched in self._robots.values()])
+            build.warm_up(self._config, [watched.robot for watched in robots])
 
-    def _settle(self, watched: WatchedRobot, now: float) -> bool:
+    def _has_settled(self, watched: WatchedRobot, now: float) -> bool:
         """Take the sample of a robot that is due. Returns whether the robot is to be built now."""
-        debouncer, files = watched.debouncer, watched.read_files()
-        phase = debouncer.add_sample({path: state.sha256 for path, state in files.items()}, now)
-        if phase is Phase.IDLE:
-            self._give_up(watched)
-        if phase is not Phase.SETTLED:
+        hashes = watched.read_files()
+        if not watched.debouncer.add_sample(hashes, now):
             return False
-        if watched.failure is None and watched.is_as_built():
-            watched.source_errors = ()
-            debouncer.note_valid()
+        if watched.failure is None and hashes == watched.built:
             if watched.is_announced:
-                self._show(events.Unchanged(watched.name))
-            watched.rest()
+                self._listener.show(events.Unchanged(watched.name))
+            watched.invalid_since = None
+            self._rest(watched)
             return False
-        is_built_source = files[watched.paths.source].text_sha256 == watched.paths.built_hash
-        return is_built_source or self._is_source_ready(watched)
-
-    def _is_source_ready(self, watched: WatchedRobot) -> bool:
-        """Return whether a settled source is valid and can be believed; if not, wait for it."""
-        found = build.read_source(self._config, watched.robot, watched.paths, self._cache)
-        if found.sha256 and found.sha256 != watched.files[watched.paths.source].sha256:
-            self._touch(watched)  # written between the sample and this
+        is_built = watched.source.text_sha256 == watched.paths.built_hash
+        errors, lost = build.judge_source(self._config, watched, self._cache) if not is_built else ((), 0)
+        if errors:
+            self._wait_for_valid(watched, errors, now)
             return False
-        if found.errors:
-            is_new, watched.source_errors = found.errors != watched.source_errors, found.errors
-            if watched.debouncer.wait_for_valid(time.monotonic()) is Phase.IDLE:
-                self._give_up(watched)
-            elif is_new or watched.is_announced:
-                self._show(events.Waiting(watched.name, "waiting for the exporter", found.errors))
-            return False
-        watched.debouncer.note_valid()
-        if found.lost and not watched.debouncer.is_rechecked:
-            of_all = f"{found.lost} of {len(watched.paths.built_names)} elements are gone"
-            self._show(events.Waiting(watched.name, f"{of_all}, so it is watched a little longer"))
-            watched.debouncer.recheck_shrunk(time.monotonic())
+        watched.invalid_since, watched.source_errors = None, ()
+        if lost and watched.rechecked != watched.source.sha256:
+            watched.rechecked = watched.source.sha256
+            reason = f"{lost} of {len(watched.paths.built_names)} elements are gone, so it is watched a little longer"
+            self._listener.show(events.Waiting(watched.name, reason))
+            watched.debouncer.due = now + self._options.times.recheck_shrunk
             return False
         return True
 
+    def _wait_for_valid(self, watched: WatchedRobot, errors: tuple[Diagnostic, ...], now: float) -> None:
+        """Look again at a source that is invalid; after some time that is an error."""
+        watched.invalid_since = now if watched.invalid_since is None else watched.invalid_since
+        end = watched.invalid_since + self._options.times.give_up_after
+        if now >= end:
+            self._take_failure(watched, build.failed_result(self._config, watched.robot, errors))
+            self._rest(watched)
+        else:
+            if errors != watched.source_errors:
+                self._listener.show(events.Waiting(watched.name, "waiting for the exporter", errors))
+            watched.source_errors, watched.debouncer.due = errors, min(now + _POLL, end)
+
     def _build(self, robots: Sequence[WatchedRobot]) -> None:
-        """Build robots. One for which another build would write something has to settle: somebody else was writing."""
-        self._show(*(events.Building(watched.name) for watched in robots if watched.is_announced))
-        by_name, settled = {w.name: w for w in robots}, {w.name: w.files for w in robots}
-        for result in build.build_robots(self._config, [watched.robot for watched in robots], self._build_options):
-            watched = by_name[result.robot]
-            watched.read_files()
+        """Build robots. One of which a file is other than before has to settle again."""
+        told = [watched for watched in robots if watched.is_announced]
+        self._show_all([events.Building(watched.name) for watched in told])
+        # processes of a pool would leave the cache empty; a build that nobody waits for fills it
+        options = self._build_options if told else msgspec.structs.replace(self._build_options, jobs=1)
+        before = {watched.name: watched.hashes() for watched in robots}
+        for result in build.build_robots(self._config, [watched.robot for watched in robots], options):
+            watched = self._robots[result.robot]
             if not result.failed:
                 self._take_result(watched, result)
-            elif not watched.changed_inputs(settled[watched.name]):
+            elif watched.read_files() == before[watched.name]:
                 self._take_failure(watched, result)
         self._renew_paths(robots)
-        before = {watched.name: watched.read_files() for watched in robots}
-        # what workers see does not get into the cache
-        dry = msgspec.structs.replace(self._build_options, dry=True, compares_state=True, jobs=1)
-        built = [watched.robot for watched in robots if watched.failure is None]
-        results = {result.robot: result for result in build.build_robots(self._config, built, dry)}
         for watched in robots:
-            # a file that changed in between may have been looked at before or after that
-            is_same = not find_changes(before[watched.name], watched.read_files())
-            is_done = watched.failure is not None or (is_same and self._is_confirmed(watched, results[watched.name]))
-            if is_done and not watched.changed_inputs(settled[watched.name]):
+            old, now = before[watched.name], watched.read_files()
+            if now == old:
                 self._rest(watched)
+            elif any(path in old and old[path] != now[path] for path in watched.paths.inputs):
+                self._touch([watched])
             else:
-                self._touch(watched)
-
-    def _is_confirmed(self, watched: WatchedRobot, dry: Result) -> bool:
-        """Return whether another build would find all as the last one left it."""
-        has_work = dry.failed or dry.renews_state or any(action.writes for action in dry.actions.decided)
-        return not has_work and build.left_alone(dry) == watched.left_alone
+                watched.debouncer.touch(time.monotonic())
 
     def _renew_paths(self, robots: Sequence[WatchedRobot]) -> None:
         """Find the paths of some robots again, after a build."""
@@ -377,28 +356,24 @@ class Daemon:
             self._watch_folders()
 
     def _rest(self, watched: WatchedRobot) -> None:
-        watched.rest()
+        """Leave a robot alone until something changes; check its package, unless it could not be built."""
+        watched.built, watched.is_announced = watched.hashes(), False
+        watched.debouncer.rest()
         if watched.failure is None:
-            self._show(*self._checks.check(watched.robot))
-
-    def _give_up(self, watched: WatchedRobot) -> None:
-        """Tell that a source is invalid, and leave the robot alone until something changes."""
-        self._take_failure(watched, build.failed_result(self._config, watched.robot, watched.source_errors))
-        self._rest(watched)
+            self._show_all(self._checks.check(watched.robot))
 
     def _take_failure(self, watched: WatchedRobot, result: Result) -> None:
         again = watched.failure == result.diagnostics
         if watched.is_announced or not again:
-            self._show(events.Failed(result, again))
+            self._listener.show(events.Failed(result, again))
         watched.failure, watched.is_announced = result.diagnostics, False
 
     def _take_result(self, watched: WatchedRobot, result: Result) -> None:
         recovered, decided = watched.failure is not None, result.actions.decided
         files = tuple(Path(os.path.normpath(result.root / action.path)) for action in decided if action.writes)
-        left_alone = build.left_alone(result)
+        left_alone = frozenset((action.path, str(action.kind)) for action in decided if not action.writes)
         if watched.is_announced or files or recovered or left_alone != watched.left_alone:
-            self._show(events.Built(result, files, recovered))
+            self._listener.show(events.Built(result, files, recovered))
         watched.failure, watched.is_announced, watched.left_alone = None, False, left_alone
-        watched.source_errors = ()
         if files:
             self._note(self._commands.run(watched.robot, files))

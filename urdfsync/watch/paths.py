@@ -22,8 +22,8 @@ from urdfsync.engine.imports import find_dependencies
 from urdfsync.files import placed
 from urdfsync.state.store import State, Store
 
-_MAX_LINKS = 40
-"""Symbolic links that one path may lead through, as for the system."""
+_MAX_STEPS = 1000
+"""Folders and links on the way to a file: links may lead in a circle."""
 CONFIG = ""
 """Stands for the configuration where a robot's name is expected."""
 
@@ -31,49 +31,30 @@ CONFIG = ""
 class RobotPaths(msgspec.Struct, frozen=True):
     """The files of one robot, absolute, and what the last build recorded of its source."""
 
-    source: str
     inputs: frozenset[str]
     """Source and dependencies, wherever they may be found, as the configuration and the source name them."""
-    templates: str | None
-    """Folder of which every file matters, those in folders below included."""
     outputs: frozenset[str]
     """Files of the package, of the packages around it, and of the recorded state."""
-    package: str
-    """The package's folder."""
     built_hash: str = ""
     """Text hash of the source in the last build; empty if there was none."""
     built_names: frozenset[tuple[str, str]] = frozenset()
     """Kind and name of each element in the last build."""
 
-    def input_files(self) -> Iterator[str]:
-        """Yield all files that the robot is built from, those in the template folder included."""
-        yield from self.inputs
-        for folder, _, names in os.walk(self.templates) if self.templates else ():
-            yield from (os.path.join(folder, name) for name in names)  # noqa: PTH118
-
 
 def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path], cache: Cache) -> RobotPaths:
     """Return the paths of a robot as far as the last build recorded them."""
     store, state = Store(config.root, shown), None
-    outputs = {*parents.files(robot), *map(str, store.paths(robot.name))}
-    inputs, names = {str(robot.source)}, set[tuple[str, str]]()
+    outputs, inputs = {*parents.files(robot), *map(str, store.paths(robot.name))}, {str(robot.source)}
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
         # a build has just recorded it; loading it again takes a fifth of the time of a changed mass in 1,000 links
         state = cache.get("state", store.texts(robot.name), lambda: store.load(robot.name))
-    if state:
-        prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
-        outputs.update(placed(prefix, key) for key in (*state.manifest.files, *state.manifest.orders))
-        inputs.update(_dependencies(robot, state, package_paths))
-        names = {(kind, name) for kind, found in state.manifest.names.items() for name in found}
-    return RobotPaths(
-        source=str(robot.source),
-        inputs=frozenset(inputs),
-        templates=str(robot.templates) if robot.templates else None,
-        outputs=frozenset(outputs),
-        package=str(robot.folder),
-        built_hash=state.manifest.source.hash if state else "",
-        built_names=frozenset(names),
-    )
+    if state is None:
+        return RobotPaths(frozenset(inputs), frozenset(outputs))
+    prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
+    outputs.update(placed(prefix, key) for key in (*state.manifest.files, *state.manifest.orders))
+    inputs.update(_dependencies(robot, state, package_paths))
+    names = frozenset((kind, name) for kind, found in state.manifest.names.items() for name in found)
+    return RobotPaths(frozenset(inputs), frozenset(outputs), state.manifest.source.hash, names)
 
 
 def _dependencies(robot: RobotConfig, state: State, package_paths: Sequence[Path]) -> Iterator[str]:
@@ -111,36 +92,36 @@ class WatchedPaths(msgspec.Struct, frozen=True):
         return found
 
 
-def find_watched_paths(root: str, config_file: str, robots: Mapping[str, RobotPaths]) -> WatchedPaths:
-    """Return where to look for changes of the configuration and of robots, by their names.
+def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> WatchedPaths:
+    """Return where to look for changes of the configuration and of robots; `paths` are by the names of these.
 
-    `root` is the configuration's folder. Folders above it are not watched, but for the one nearest to a file that is
-    found outside.
+    Folders above the configuration's are not watched, but for the one nearest to a file that is found outside.
     """
-    known: dict[str, tuple[str, tuple[str, ...]]] = {}
-    root = _follow_links(root, known)[0]
+    root = _real(str(config.root))
     above = {root, *map(str, Path(root).parents)}
     by_path: dict[str, set[str]] = {}
     trees: dict[str, set[str]] = {}
 
-    def add(path: str, robot: str) -> str:
-        real, names = _follow_links(path, known)
-        for name in names:
-            if name not in above:
-                by_path.setdefault(name, set()).add(robot)
-        return real
+    def add(path: str, name: str) -> str:
+        way = _way_to(path)
+        for place in way:
+            if place not in above:
+                by_path.setdefault(place, set()).add(name)
+        return way[-1] if way else path
 
-    add(config_file, CONFIG)
-    for name, robot in robots.items():
-        for path in robot.inputs:
-            add(path, name)
-        folders = {folder: add(folder, name) for folder in {os.path.dirname(path) for path in robot.outputs}}  # noqa: PTH120
-        for path in robot.outputs:  # thousands, and no links: a build refuses those
-            folder, _, file = path.rpartition(os.sep)
-            by_path.setdefault(f"{folders[folder]}{os.sep}{file}", set()).add(name)
-        trees.setdefault(add(robot.package, name), set())
-        if robot.templates:
-            trees.setdefault(add(robot.templates, name), set()).add(name)
+    add(str(config.file), CONFIG)
+    for robot in config.robots:
+        if robot.name in paths:
+            outputs = paths[robot.name].outputs
+            for path in paths[robot.name].inputs:
+                add(path, robot.name)
+            folders = {folder: add(folder, robot.name) for folder in {os.path.dirname(path) for path in outputs}}  # noqa: PTH120
+            for path in outputs:  # thousands, and no links: a build refuses those
+                folder, _, file = path.rpartition(os.sep)
+                by_path.setdefault(f"{folders[folder]}{os.sep}{file}", set()).add(robot.name)
+            trees.setdefault(add(str(robot.folder), robot.name), set())
+            if robot.templates:
+                trees.setdefault(add(str(robot.templates), robot.name), set()).add(robot.name)
     trees = {folder: names for folder, names in trees.items() if os.path.isdir(folder)}  # noqa: PTH112
     inside = tuple(f"{tree}{os.sep}" for tree in trees)
     above.remove(root)
@@ -155,27 +136,21 @@ def find_watched_paths(root: str, config_file: str, robots: Mapping[str, RobotPa
     return WatchedPaths(by_path, frozenset(watched), trees)
 
 
-def _follow_links(
-    path: str, known: dict[str, tuple[str, tuple[str, ...]]], depth: int = 0
-) -> tuple[str, tuple[str, ...]]:
-    """Return a path without links, and everything on the way: folders, links, their targets, and the path itself.
+def _real(path: str) -> str:
+    way = _way_to(path)
+    return way[-1] if way else path
 
-    `known` keeps each folder that was followed.
-    """
-    if path in known:
-        return known[path]
-    parent, name = os.path.split(path)
-    if not name or depth > _MAX_LINKS:
-        return path, ()
-    folder, names = _follow_links(parent, known, depth)
-    place = os.path.join(folder, name)  # noqa: PTH118
-    result = place, (*names, place)
-    try:
-        target = os.readlink(place)  # noqa: PTH115
-    except OSError:
-        pass  # no link, or nothing at all
-    else:
-        real, more = _follow_links(os.path.normpath(os.path.join(folder, target)), known, depth + 1)  # noqa: PTH118
-        result = real, (*result[1], *more)
-    known[path] = result
-    return result
+
+def _way_to(path: str) -> list[str]:
+    """Return each folder and link on the way to a path, with the targets of links; at last the path without links."""
+    way: list[str] = []
+    parts = [*reversed(Path(path).parts)]
+    place = parts.pop()
+    while parts and len(way) < _MAX_STEPS:
+        folder, place = place, os.path.join(place, parts.pop())  # noqa: PTH118
+        way.append(place)
+        with contextlib.suppress(OSError):  # no link, or nothing at all
+            target = os.path.normpath(os.path.join(folder, os.readlink(place)))  # noqa: PTH115, PTH118
+            parts += reversed(Path(target).parts)
+            place = parts.pop()
+    return way

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from types import TracebackType
-from typing import Self
+import contextlib
+import os
 
 from urdfsync.config import STATE_FOLDER, Config, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
@@ -16,35 +16,27 @@ class AlreadyWatchedError(UrdfsyncError):
     is_locked = True
 
 
-class SingleInstance:
-    """Holds the lock within its context."""
+class InstanceLock(Lock):
+    """Released at the end of its context."""
 
     def __init__(self, config: Config) -> None:
-        self._file = config.file
-        self._path = config.root / STATE_FOLDER / "watch.lock"
-        self._lock = Lock(self._path, 0, shown)
-        self._inode = 0
+        super().__init__(config.root / STATE_FOLDER / "watch.lock", 0, shown)
+        self._config_file = config.file
 
-    def __enter__(self) -> Self:
-        """Take the lock. Raises AlreadyWatchedError, or OutputError if the file can't be used."""
+    def hold(self) -> None:
+        """Take the lock; also when it was taken, but its file was deleted: another daemon could not see it.
+
+        Raises AlreadyWatchedError, or OutputError if the file can't be used.
+        """
+        with contextlib.suppress(OSError):
+            if self._descriptor is not None and os.path.samestat(os.fstat(self._descriptor), self._path.stat()):
+                return
+        self.release()
         try:
-            self._lock.acquire()
+            self.acquire()
         except LockedError:
             holder = self._path.read_text(errors="replace").strip()
             who = f"process {holder}" if holder.isdecimal() else "another process"
             message, hint = f"{who} watches this configuration already", "leave the work to it, or end it first"
-            found = Diagnostic(Severity.ERROR, "watched", message, shown(self._file), hint=hint)
+            found = Diagnostic(Severity.ERROR, "watched", message, shown(self._config_file), hint=hint)
             raise AlreadyWatchedError(found) from None
-        self._inode = self._path.stat().st_ino
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self._lock.release()
-
-    def renew(self) -> None:
-        """Take the lock again if its file was deleted: another daemon could not see it. Raises as `__enter__`."""
-        if not self._path.exists() or self._path.stat().st_ino != self._inode:
-            self._lock.release()
-            self.__enter__()

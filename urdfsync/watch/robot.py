@@ -1,0 +1,101 @@
+"""A robot that the daemon watches: its files, as they are and as the last build left them."""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+import time
+from collections.abc import Collection
+
+import msgspec
+
+from urdfsync.config import RobotConfig
+from urdfsync.dependencies import NO_STAT, read_unrecorded, stat_of
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.engine.package_files import FileState, state_of
+from urdfsync.watch.debounce import Debouncer
+from urdfsync.watch.paths import RobotPaths
+
+_COARSE_TICK = 2_000_000_000
+"""No clock of a file system is coarser (ns): that of FAT."""
+
+
+def read_state(path: str, known: FileState | None = None, *, follow: bool = True) -> FileState:
+    """Return the state of a path; an error is a state, too: its hashes are a word. So is a link that is not followed.
+
+    The file is hashed unless `known` has its stat values. A racy state has none, so it is hashed again next time.
+    """
+    try:
+        status = os.stat(path, follow_symlinks=follow)  # noqa: PTH116 - many, and often
+        if not stat.S_ISREG(status.st_mode):
+            word = "folder" if stat.S_ISDIR(status.st_mode) else "other"
+            return FileState(NO_STAT, word, word)
+        facts = stat_of(status)
+        if known is not None and known.stat == facts:
+            return known
+        content = read_unrecorded(path)
+    except OSError as error:
+        word = "missing" if error.errno in (errno.ENOENT, errno.ENOTDIR) else f"error {error.errno}"
+        return FileState(NO_STAT, word, word)
+    is_racy = max(facts[-2:]) > time.time_ns() - _COARSE_TICK
+    return state_of(NO_STAT if is_racy else facts, content)
+
+
+class WatchedRobot(msgspec.Struct):
+    """One robot, as long as the configuration has one of its name."""
+
+    robot: RobotConfig
+    paths: RobotPaths
+    debouncer: Debouncer
+    files: dict[str, FileState] = msgspec.field(default_factory=dict)
+    """Inputs and outputs by absolute path, when they were last read."""
+    built: dict[str, str] | None = None
+    """Hashes of all files before and after the last build, which changed none; None if the robot has to be built."""
+    is_announced: bool = False
+    """Whether the user was told that something is going on."""
+    source_errors: tuple[Diagnostic, ...] = ()
+    """What the user was told of an invalid source that is waited for."""
+    invalid_since: float | None = None
+    """When the source was found to be invalid."""
+    rechecked: str = ""
+    """Hash of the last source that had lost many elements, and was looked at longer."""
+    failure: tuple[Diagnostic, ...] | None = None
+    """Why the last build failed; None if it did not."""
+    left_alone: frozenset[tuple[str, str]] = frozenset()
+    """Files that the last build did not write although they differ, each with the kind of its action."""
+
+    @property
+    def name(self) -> str:
+        """As in the configuration."""
+        return self.robot.name
+
+    @property
+    def source(self) -> FileState:
+        """The source when it was last read."""
+        return self.files[str(self.robot.source)]
+
+    def read_files(self) -> dict[str, str]:
+        """Read all inputs and outputs, those in the template folder included. Returns their hashes by path."""
+        outputs, templates = self.paths.outputs, self.robot.templates
+        paths = {*self.paths.inputs, *outputs}
+        for folder, _, names in os.walk(templates) if templates else ():
+            paths.update(os.path.join(folder, name) for name in names)  # noqa: PTH118
+        self.files = {path: read_state(path, self.files.get(path), follow=path not in outputs) for path in paths}
+        return self.hashes()
+
+    def hashes(self) -> dict[str, str]:
+        """Return the hashes of all files, when they were last read."""
+        return {path: state.sha256 for path, state in self.files.items()}
+
+    def has_changed(self, paths: Collection[str] = ()) -> bool:
+        """Return whether files have changed since they were last read; with `paths`, at these alone.
+
+        If one of them is no file of the robot, but a folder or a link on the way to one, all are read.
+        """
+        if not paths or not self.files.keys() >= set(paths):
+            before = self.hashes()
+            return self.read_files() != before
+        outputs = self.paths.outputs
+        states = ((self.files[path], read_state(path, self.files[path], follow=path not in outputs)) for path in paths)
+        return any(before.sha256 != now.sha256 for before, now in states)
